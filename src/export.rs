@@ -4,7 +4,7 @@
 //! Nothing is lost: [`crate::import`] turns the text and its companion files into a scene that is packed
 //! to the same bytes, and exporting that scene gives the same text. Numbers are written in the fewest
 //! digits that preserve all bits. Angles, scales and corners replace a matrix if they give exactly that
-//! matrix. Not preserved are [`Scene::skipped`], the grouping of tracks, unused images, and missing or
+//! matrix. Deforming meshes stay in their pose at time 0. Not preserved are [`Scene::skipped`], the grouping of tracks, unused images, and missing or
 //! duplicate names, which are replaced by generated ones.
 //!
 //! This module does not access the disk: the caller writes the files, companion files first.
@@ -89,6 +89,14 @@ pub fn native(
     stem: &str,
     is_taken: &dyn Fn(&str, &[u8]) -> bool,
 ) -> Result<Export, ExportError> {
+    let still;
+    let scene = match scene.deformations.is_empty() {
+        true => scene,
+        false => {
+            still = scene.at_rest();
+            &still
+        }
+    };
     let mut writer = Writer {
         scene,
         names: Names::of(scene),

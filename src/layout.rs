@@ -119,8 +119,10 @@ packed! {
         id: u32,
         /// Row of the matrix from object to render space.
         linear_z: [f32; 3],
-        #[doc(hidden)]
-        _pad: u32,
+        /// Deforming meshes: what must be added to the index of a triangle, modulo 2³², for that of the same
+        /// triangle at the second key; those of later keys follow. 0 if it keeps its shape while the shutter
+        /// is open.
+        next_key: u32,
         /// Affine row from object space to the space of solid textures.
         pattern_x: [f32; 4],
         /// The same for y.
@@ -306,6 +308,14 @@ packed! {
         first_triangle: u32,
         /// The first row of the shapes in the triangles array.
         shape_row: u32,
+        /// Keys of deforming meshes, evenly spaced over the shutter interval; more than 1 if one deforms.
+        deformation_key_count: u32,
+        #[doc(hidden)]
+        _pad0: u32,
+        #[doc(hidden)]
+        _pad1: u32,
+        #[doc(hidden)]
+        _pad2: u32,
     }
     /// The parameters of one dispatch: which workgroups of which film tile, which samples. `counters` is its
     /// result.

@@ -2,6 +2,7 @@
 //! gives the same bytes.
 
 mod blas;
+mod deform;
 mod frame;
 mod geometry;
 mod instance;
@@ -35,6 +36,7 @@ use crate::{
     scene::{Geometry, Scene, Shadows},
 };
 use bytemuck::cast_slice;
+use deform::DeformingMesh;
 use geometry::Flat;
 use glam::DVec3;
 use instance::{Instance, InstancedBlas, Plan, TransformSource};
@@ -88,6 +90,8 @@ pub struct PackedScene {
     volumes: Vec<media::Volume>,
     meshes: Vec<Arc<CachedMesh>>,
     trees: Trees,
+    /// The meshes that deform.
+    deforming: Arc<[DeformingMesh]>,
     tlas_source: Arc<TlasSource>,
     packed_pictures: Vec<PackedPicture>,
     /// The scene's materials if visible lights or a track may change some.
@@ -226,7 +230,7 @@ fn pack(
     let rest = scene.frame(0.0);
     let origin = scene.render_origin_at(&rest);
     let meshes = mesh::cached(previous.map_or(&[], |previous| &previous.meshes), scene);
-    let plan = Plan::new(scene, &rest, most_baked)?;
+    let plan = Plan::new(scene, (&rest, origin), most_baked)?;
 
     let start = Instant::now();
     let before = previous.map(|previous| &previous.trees);
@@ -305,6 +309,7 @@ fn pack(
         volumes: media::volumes(scene, &meshes),
         origins: Origins::new(scene, &plan, &trees),
         work: trees.work,
+        deforming: deform::meshes(scene, origin, &plan, &trees),
         meshes,
         trees,
         tlas_source,

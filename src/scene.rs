@@ -12,6 +12,7 @@
 mod animation;
 mod bounds;
 mod curve;
+mod deformation;
 mod frame;
 mod framing;
 mod light;
@@ -24,17 +25,19 @@ mod node;
 mod object;
 mod output;
 mod picture;
+mod posed;
 mod shape;
 mod texture;
 mod transform;
 mod turntable;
 
 pub use animation::{
-    Beyond, CameraProperty, Curve, Easing, Interpolation, LightProperty, MaterialProperty,
+    Beyond, CameraProperty, Clip, Curve, Easing, Interpolation, LightProperty, MaterialProperty,
     NodeProperty, Target, Track, Values,
 };
 pub(crate) use bounds::corners;
 pub use curve::Value;
+pub use deformation::{Deformation, Influences, Joint, MorphTarget, Pose, PosedMesh, Skin};
 pub use frame::{Frame, NodeState};
 pub use framing::Framing;
 pub use light::{Attenuation, Light, LightKind};
@@ -60,6 +63,8 @@ pub struct Scene {
     pub meshes: Vec<Arc<Mesh>>,
     /// Placements of meshes.
     pub instances: Vec<Instance>,
+    /// Morph targets and skins of meshes.
+    pub deformations: Vec<Deformation>,
     /// Analytic shapes.
     pub shapes: Vec<Shape>,
     /// At least one.
@@ -94,6 +99,8 @@ pub struct Scene {
     pub nodes: Vec<Node>,
     /// The animation.
     pub tracks: Vec<Track>,
+    /// The clips of the file that it was read from.
+    pub clips: Vec<Clip>,
     /// The file's output settings; command-line flags override them.
     pub output: OutputDefaults,
     /// What the importer skipped or repaired: the first few of each kind, a sentence each, and how many
@@ -108,7 +115,8 @@ pub struct Instance {
     pub mesh: usize,
     /// From object space to the space of `node`. Invertible; may scale unevenly or mirror.
     pub placement: DAffine3,
-    /// Index into [`Scene::nodes`]; `None` is the world.
+    /// Index into [`Scene::nodes`]; `None` is the world. The skin of a deforming mesh gives positions in the
+    /// world: then the node may hide the instance, but does not move it.
     pub node: Option<usize>,
 }
 
@@ -221,6 +229,41 @@ impl Scene {
     /// [`Self::render_origin`], or else the position of the camera in `rest`, the frame at time 0.
     pub fn render_origin_at(&self, rest: &Frame) -> DVec3 {
         self.render_origin.unwrap_or(rest.camera.look_from)
+    }
+
+    /// The node that moves an instance, if any.
+    pub fn node_of(&self, instance: &Instance) -> Option<usize> {
+        let deformation = self.deformation_of(instance.mesh);
+        let is_skinned = deformation.is_some_and(|it| it.skin.is_some());
+        instance.node.filter(|_| !is_skinned)
+    }
+
+    /// Adds a copy of a mesh with its deformation, which the same tracks move, and returns its index.
+    pub fn copy_mesh(&mut self, mesh: usize) -> usize {
+        self.meshes.push(self.meshes[mesh].clone());
+        let copy = self.meshes.len() - 1;
+        let known = self.deformations.iter().position(|it| it.mesh == mesh);
+        if let Some(index) = known {
+            let own = self.deformations.len();
+            self.deformations.push(Deformation {
+                mesh: copy,
+                ..self.deformations[index].clone()
+            });
+            for track in &mut self.tracks {
+                let same = track.targets.iter().filter_map(|target| match *target {
+                    Target::Weight(of, weight) if of == index => Some(Target::Weight(own, weight)),
+                    _ => None,
+                });
+                let more: Vec<_> = same.collect();
+                track.targets.extend(more);
+            }
+        }
+        copy
+    }
+
+    /// The deformation of a mesh.
+    pub fn deformation_of(&self, mesh: usize) -> Option<&Deformation> {
+        self.deformations.iter().find(|it| it.mesh == mesh)
     }
 
     /// Number of triangles in the world; each instance counts.

@@ -170,6 +170,8 @@ override bindings__HAS_INSTANCES: bool = true;
 
 override bindings__HAS_MOTION: bool = true;
 
+override bindings__HAS_DEFORMATION: bool = true;
+
 const types__NONE: u32 = 4294967295u;
 
 const types__LEAF: u32 = 2147483648u;
@@ -264,7 +266,7 @@ struct types__PackedInstance {
 	linear_y: vec3f,
 	id: u32,
 	linear_z: vec3f,
-	_pad: u32,
+	next_key: u32,
 	pattern_x: vec4f,
 	pattern_y: vec4f,
 	pattern_z: vec4f
@@ -315,7 +317,11 @@ struct types__PackedFrame {
 	camera_key_count: u32,
 	light_key_count: u32,
 	first_triangle: u32,
-	shape_row: u32
+	shape_row: u32,
+	deformation_key_count: u32,
+	_pad0: u32,
+	_pad1: u32,
+	_pad2: u32
 }
 
 struct types__PackedDispatch {
@@ -566,7 +572,7 @@ fn traverse__traverse(ray: types__Ray, any: bool) -> types__Hit {
 
 fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool, start: types__Hit) -> types__Hit {
 	var hit = start;
-	var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+	var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
 	traverse__stack[0] = traverse__EMPTY;
 	var top = 0u;
 	var current = 0u;
@@ -576,7 +582,7 @@ fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool,
 	loop {
 		if (bindings__HAS_INSTANCES) {
 			if (current == traverse__RETURN) {
-				at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+				at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
 				current = traverse__stack[top];
 				top -= select(1u, 0u, current == traverse__EMPTY);
 			}
@@ -584,7 +590,7 @@ fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool,
 				let index = current & types__LEAF_FIRST_MASK;
 				let instance = fetch__load_instance(index);
 				let local = instance__object_ray(ray, instance__space_of(instance));
-				at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index);
+				at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
 				top += 1u;
 				traverse__stack[top] = traverse__RETURN;
 				current = instance.root;
@@ -717,7 +723,7 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
 }
 
 fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
-	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
 	var hit = start;
 	if (bindings__HAS_TRIANGLES) {
 		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
@@ -730,7 +736,8 @@ fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear
 		for (; index < bindings__frame.instance_count; index += 1u) {
 			let instance = fetch__load_instance(index);
 			let local = instance__object_ray(ray, instance__space_of(instance));
-			hit = exhaustive__hit_run(primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index), hit, instance.first, instance.count);
+			let at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
+			hit = exhaustive__hit_run(at, hit, instance.first, instance.count);
 		}
 		loops__cut_off |= index < bindings__frame.instance_count;
 	}
@@ -760,15 +767,16 @@ struct primitive__TraversalRay {
 	ray: types__Ray,
 	inv: vec3f,
 	shear: triangle_watertight__Shear,
-	instance: u32
+	instance: u32,
+	keys: deforming__Keys
 }
 
-fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32) -> primitive__TraversalRay {
-	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance);
+fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
+	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
 }
 
 fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
-	return primitive__closer_of(at, hit, primitive__test_primitive(at.ray, primitive, at.shear), primitive);
+	return primitive__closer_of(at, hit, primitive__test_primitive(at, primitive), primitive);
 }
 
 fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
@@ -798,13 +806,13 @@ fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, w
 	}
 }
 
-fn primitive__test_primitive(ray: types__Ray, primitive: u32, shear: triangle_watertight__Shear) -> types__Candidate {
+fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> types__Candidate {
 	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
 	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
-		candidate = primitive__test_triangle(ray, fetch__load_triangle(primitive), shear);
+		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
 	}
 	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
-		candidate = shape__test_shape(ray, fetch__load_shape(primitive & ~types__SHAPE));
+		candidate = shape__test_shape(at.ray, fetch__load_shape(primitive & ~types__SHAPE));
 	}
 	return candidate;
 }
@@ -817,6 +825,38 @@ fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, she
 		return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
 	}
 	return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
+}
+
+struct deforming__Keys {
+	next: u32,
+	stride: u32
+}
+
+const deforming__NO_KEYS: deforming__Keys = deforming__Keys(0u, 0u);
+
+fn deforming__keys_of(instance: types__PackedInstance) -> deforming__Keys {
+	if (bindings__HAS_DEFORMATION) {
+		return deforming__Keys(instance.next_key, instance.count);
+	}
+	return deforming__NO_KEYS;
+}
+
+fn deforming__index_at(primitive: u32, keys: deforming__Keys, key: u32) -> u32 {
+	return primitive + select(0u, keys.next + (key - 1u) * keys.stride, key > 0u);
+}
+
+fn deforming__triangle_now(primitive: u32, keys: deforming__Keys) -> types__PackedTriangle {
+	let first = fetch__load_triangle(primitive);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+			let a = fetch__load_triangle(deforming__index_at(primitive, keys, moment.key));
+			let b = fetch__load_triangle(deforming__index_at(primitive, keys, moment.key + 1u));
+			let fraction = vec3f(moment.fraction);
+			return types__PackedTriangle(mix(a.v0, b.v0, fraction), first.i0, mix(a.v1, b.v1, fraction), first.i1, mix(a.v2, b.v2, fraction), first.i2);
+		}
+	}
+	return first;
 }
 
 const numeric__ROUNDING: f32 = 5.9604645e-8;
@@ -859,6 +899,49 @@ fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray,
 	let t = inv_det * dot(e2, q);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
 	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+}
+
+struct motion__Moment {
+	key: u32,
+	fraction: f32
+}
+
+fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
+	let intervals = max(key_count, 2u) - 1u;
+	let at = time * f32(intervals);
+	let key = min(u32(at), intervals - 1u);
+	return motion__Moment(key, at - f32(key));
+}
+
+struct motion__Space {
+	translation: vec3f,
+	linear: mat3x3f,
+	inverse: mat3x3f
+}
+
+fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
+	let q = mix(a.rotation, b.rotation, vec4f(fraction));
+	let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+	let d = mix(a.stretch, b.stretch, vec3f(fraction));
+	let s = mix(a.shear, b.shear, vec3f(fraction));
+	let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
+	let e = d / size;
+	let f = s / size;
+	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
+	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
+	let usable = abs(determinant) > 1e-30;
+	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
+	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
+	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+}
+
+fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
+	let d = 2.0 * q.xyz * q.xyz;
+	let xy = 2.0 * q.x * q.y;
+	let xz = 2.0 * q.x * q.z;
+	let yz = 2.0 * q.y * q.z;
+	let w = 2.0 * q.w * q.xyz;
+	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
 }
 
 const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
@@ -1194,49 +1277,6 @@ fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
 
 fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
 	return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
-}
-
-struct motion__Moment {
-	key: u32,
-	fraction: f32
-}
-
-fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
-	let intervals = max(key_count, 2u) - 1u;
-	let at = time * f32(intervals);
-	let key = min(u32(at), intervals - 1u);
-	return motion__Moment(key, at - f32(key));
-}
-
-struct motion__Space {
-	translation: vec3f,
-	linear: mat3x3f,
-	inverse: mat3x3f
-}
-
-fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
-	let q = mix(a.rotation, b.rotation, vec4f(fraction));
-	let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
-	let d = mix(a.stretch, b.stretch, vec3f(fraction));
-	let s = mix(a.shear, b.shear, vec3f(fraction));
-	let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
-	let e = d / size;
-	let f = s / size;
-	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
-	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
-	let usable = abs(determinant) > 1e-30;
-	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
-	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
-	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
-}
-
-fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
-	let d = 2.0 * q.xyz * q.xyz;
-	let xy = 2.0 * q.x * q.y;
-	let xz = 2.0 * q.x * q.z;
-	let yz = 2.0 * q.y * q.z;
-	let w = 2.0 * q.w * q.xyz;
-	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
 }
 
 const node__MISS: u32 = 4294967292u;

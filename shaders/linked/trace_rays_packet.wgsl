@@ -283,7 +283,7 @@ struct types__PackedInstance {
 	linear_y: vec3f,
 	id: u32,
 	linear_z: vec3f,
-	_pad: u32,
+	next_key: u32,
 	pattern_x: vec4f,
 	pattern_y: vec4f,
 	pattern_z: vec4f
@@ -334,7 +334,11 @@ struct types__PackedFrame {
 	camera_key_count: u32,
 	light_key_count: u32,
 	first_triangle: u32,
-	shape_row: u32
+	shape_row: u32,
+	deformation_key_count: u32,
+	_pad0: u32,
+	_pad1: u32,
+	_pad2: u32
 }
 
 struct types__PackedDispatch {
@@ -544,7 +548,11 @@ fn walk__first_hit(ray: types__Ray) -> lanes__TwoHits {
 }
 
 fn walk__world_ray(ray: types__Ray) -> primitive__TraversalRay {
-	return primitive__traversal_ray(ray, triangle_watertight__shear_of(ray.direction), types__NO_INSTANCE);
+	return primitive__traversal_ray(ray, triangle_watertight__shear_of(ray.direction), types__NO_INSTANCE, deforming__NO_KEYS);
+}
+
+fn walk__placed_ray(ray: types__Ray, instance: u32) -> primitive__TraversalRay {
+	return primitive__traversal_ray(ray, triangle_watertight__shear_of(ray.direction), instance, deforming__NO_KEYS);
 }
 
 fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types__Ray, any: bool) -> lanes__FourHits {
@@ -574,7 +582,7 @@ fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types_
 					let o1 = instance__object_ray(ray1, space);
 					let o2 = instance__object_ray(ray2, space);
 					let o3 = instance__object_ray(ray3, space);
-					rays = lanes__FourRays(primitive__traversal_ray(o0, triangle_watertight__shear_of(o0.direction), index), primitive__traversal_ray(o1, triangle_watertight__shear_of(o1.direction), index), primitive__traversal_ray(o2, triangle_watertight__shear_of(o2.direction), index), primitive__traversal_ray(o3, triangle_watertight__shear_of(o3.direction), index));
+					rays = lanes__FourRays(walk__placed_ray(o0, index), walk__placed_ray(o1, index), walk__placed_ray(o2, index), walk__placed_ray(o3, index));
 					stack = stack__pushed(stack, traverse__RETURN, 1u);
 					current = instance.root;
 				}
@@ -655,11 +663,12 @@ struct primitive__TraversalRay {
 	ray: types__Ray,
 	inv: vec3f,
 	shear: triangle_watertight__Shear,
-	instance: u32
+	instance: u32,
+	keys: deforming__Keys
 }
 
-fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32) -> primitive__TraversalRay {
-	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance);
+fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
+	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
 }
 
 fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
@@ -771,6 +780,13 @@ fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: tria
 	let t = dot(edges, depths) * inv_det;
 	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
 }
+
+struct deforming__Keys {
+	next: u32,
+	stride: u32
+}
+
+const deforming__NO_KEYS: deforming__Keys = deforming__Keys(0u, 0u);
 
 const numeric__ROUNDING: f32 = 5.9604645e-8;
 

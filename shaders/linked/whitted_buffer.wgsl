@@ -191,7 +191,7 @@ fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: 
 		within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
 	}
 	let position = vec2f(pixel) + within;
-	if (bindings__HAS_MOTION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
+	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
 		shutter__shutter_time = dispatch__sample_time(sample, key);
 	}
 	let camera = shutter__shutter_camera(batch.camera);
@@ -448,7 +448,7 @@ struct types__PackedInstance {
 	linear_y: vec3f,
 	id: u32,
 	linear_z: vec3f,
-	_pad: u32,
+	next_key: u32,
 	pattern_x: vec4f,
 	pattern_y: vec4f,
 	pattern_z: vec4f
@@ -530,7 +530,11 @@ struct types__PackedFrame {
 	camera_key_count: u32,
 	light_key_count: u32,
 	first_triangle: u32,
-	shape_row: u32
+	shape_row: u32,
+	deformation_key_count: u32,
+	_pad0: u32,
+	_pad1: u32,
+	_pad2: u32
 }
 
 struct types__PackedDispatch {
@@ -945,6 +949,8 @@ override bindings__HAS_MOTION: bool = true;
 override bindings__CAMERA_MOTION: bool = true;
 
 override bindings__LIGHT_MOTION: bool = true;
+
+override bindings__HAS_DEFORMATION: bool = true;
 
 override bindings__ORTHOGRAPHIC: bool = false;
 
@@ -1566,7 +1572,7 @@ fn traverse__traverse(ray: types__Ray, any: bool) -> types__Hit {
 
 fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool, start: types__Hit) -> types__Hit {
 	var hit = start;
-	var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+	var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
 	traverse__stack[0] = traverse__EMPTY;
 	var top = 0u;
 	var current = 0u;
@@ -1576,7 +1582,7 @@ fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool,
 	loop {
 		if (bindings__HAS_INSTANCES) {
 			if (current == traverse__RETURN) {
-				at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+				at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
 				current = traverse__stack[top];
 				top -= select(1u, 0u, current == traverse__EMPTY);
 			}
@@ -1584,7 +1590,7 @@ fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool,
 				let index = current & types__LEAF_FIRST_MASK;
 				let instance = fetch__load_instance(index);
 				let local = instance__object_ray(ray, instance__space_of(instance));
-				at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index);
+				at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
 				top += 1u;
 				traverse__stack[top] = traverse__RETURN;
 				current = instance.root;
@@ -1658,15 +1664,16 @@ struct primitive__TraversalRay {
 	ray: types__Ray,
 	inv: vec3f,
 	shear: triangle_watertight__Shear,
-	instance: u32
+	instance: u32,
+	keys: deforming__Keys
 }
 
-fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32) -> primitive__TraversalRay {
-	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance);
+fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
+	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
 }
 
 fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
-	return primitive__closer_of(at, hit, primitive__test_primitive(at.ray, primitive, at.shear), primitive);
+	return primitive__closer_of(at, hit, primitive__test_primitive(at, primitive), primitive);
 }
 
 fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
@@ -1696,13 +1703,13 @@ fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, w
 	}
 }
 
-fn primitive__test_primitive(ray: types__Ray, primitive: u32, shear: triangle_watertight__Shear) -> types__Candidate {
+fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> types__Candidate {
 	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
 	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
-		candidate = primitive__test_triangle(ray, fetch__load_triangle(primitive), shear);
+		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
 	}
 	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
-		candidate = shape__test_shape(ray, fetch__load_shape(primitive & ~types__SHAPE));
+		candidate = shape__test_shape(at.ray, fetch__load_shape(primitive & ~types__SHAPE));
 	}
 	return candidate;
 }
@@ -1827,7 +1834,7 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
 }
 
 fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
-	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
 	var hit = start;
 	if (bindings__HAS_TRIANGLES) {
 		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
@@ -1840,7 +1847,8 @@ fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear
 		for (; index < bindings__frame.instance_count; index += 1u) {
 			let instance = fetch__load_instance(index);
 			let local = instance__object_ray(ray, instance__space_of(instance));
-			hit = exhaustive__hit_run(primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index), hit, instance.first, instance.count);
+			let at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
+			hit = exhaustive__hit_run(at, hit, instance.first, instance.count);
 		}
 		loops__cut_off |= index < bindings__frame.instance_count;
 	}
@@ -1862,6 +1870,50 @@ fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Can
 	let steep = abs(slope) > 1e-12;
 	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
 	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+}
+
+struct deforming__Keys {
+	next: u32,
+	stride: u32
+}
+
+const deforming__NO_KEYS: deforming__Keys = deforming__Keys(0u, 0u);
+
+fn deforming__keys_of(instance: types__PackedInstance) -> deforming__Keys {
+	if (bindings__HAS_DEFORMATION) {
+		return deforming__Keys(instance.next_key, instance.count);
+	}
+	return deforming__NO_KEYS;
+}
+
+fn deforming__index_at(primitive: u32, keys: deforming__Keys, key: u32) -> u32 {
+	return primitive + select(0u, keys.next + (key - 1u) * keys.stride, key > 0u);
+}
+
+fn deforming__triangle_now(primitive: u32, keys: deforming__Keys) -> types__PackedTriangle {
+	let first = fetch__load_triangle(primitive);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+			let a = fetch__load_triangle(deforming__index_at(primitive, keys, moment.key));
+			let b = fetch__load_triangle(deforming__index_at(primitive, keys, moment.key + 1u));
+			let fraction = vec3f(moment.fraction);
+			return types__PackedTriangle(mix(a.v0, b.v0, fraction), first.i0, mix(a.v1, b.v1, fraction), first.i1, mix(a.v2, b.v2, fraction), first.i2);
+		}
+	}
+	return first;
+}
+
+fn deforming__normals_now(primitive: u32, keys: deforming__Keys) -> mat3x3f {
+	let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+	let a = deforming__normals_at(deforming__index_at(primitive, keys, moment.key));
+	let b = deforming__normals_at(deforming__index_at(primitive, keys, moment.key + 1u));
+	return a * (1.0 - moment.fraction) + b * moment.fraction;
+}
+
+fn deforming__normals_at(triangle: u32) -> mat3x3f {
+	let own = fetch__load_triangle(triangle);
+	return mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
 }
 
 const numeric__ROUNDING: f32 = 5.9604645e-8;
@@ -1916,6 +1968,76 @@ fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray,
 	let t = inv_det * dot(e2, q);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
 	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+}
+
+struct motion__Moment {
+	key: u32,
+	fraction: f32
+}
+
+fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
+	let intervals = max(key_count, 2u) - 1u;
+	let at = time * f32(intervals);
+	let key = min(u32(at), intervals - 1u);
+	return motion__Moment(key, at - f32(key));
+}
+
+struct motion__Space {
+	translation: vec3f,
+	linear: mat3x3f,
+	inverse: mat3x3f
+}
+
+fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
+	let q = mix(a.rotation, b.rotation, vec4f(fraction));
+	let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+	let d = mix(a.stretch, b.stretch, vec3f(fraction));
+	let s = mix(a.shear, b.shear, vec3f(fraction));
+	let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
+	let e = d / size;
+	let f = s / size;
+	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
+	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
+	let usable = abs(determinant) > 1e-30;
+	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
+	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
+	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+}
+
+fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
+	let d = 2.0 * q.xyz * q.xyz;
+	let xy = 2.0 * q.x * q.y;
+	let xz = 2.0 * q.x * q.z;
+	let yz = 2.0 * q.y * q.z;
+	let w = 2.0 * q.w * q.xyz;
+	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
+}
+
+fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
+	return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
+}
+
+fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
+	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, 0u, 0u, 0u);
+}
+
+var<private> shutter__shutter_time: f32 = 0.0;
+
+fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
+	if (bindings__CAMERA_MOTION) {
+		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
+		return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
+	}
+	return still;
+}
+
+fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
+	if (bindings__LIGHT_MOTION) {
+		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
+		let place = moment.key * light_count + index;
+		return motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
+	}
+	return fetch__load_light(index);
 }
 
 const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
@@ -2418,76 +2540,6 @@ fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
 fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
 	let at = vec4f(q, 1.0);
 	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
-}
-
-struct motion__Moment {
-	key: u32,
-	fraction: f32
-}
-
-fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
-	let intervals = max(key_count, 2u) - 1u;
-	let at = time * f32(intervals);
-	let key = min(u32(at), intervals - 1u);
-	return motion__Moment(key, at - f32(key));
-}
-
-struct motion__Space {
-	translation: vec3f,
-	linear: mat3x3f,
-	inverse: mat3x3f
-}
-
-fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
-	let q = mix(a.rotation, b.rotation, vec4f(fraction));
-	let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
-	let d = mix(a.stretch, b.stretch, vec3f(fraction));
-	let s = mix(a.shear, b.shear, vec3f(fraction));
-	let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
-	let e = d / size;
-	let f = s / size;
-	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
-	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
-	let usable = abs(determinant) > 1e-30;
-	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
-	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
-	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
-}
-
-fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
-	let d = 2.0 * q.xyz * q.xyz;
-	let xy = 2.0 * q.x * q.y;
-	let xz = 2.0 * q.x * q.z;
-	let yz = 2.0 * q.y * q.z;
-	let w = 2.0 * q.w * q.xyz;
-	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
-}
-
-fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
-	return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
-}
-
-fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
-	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, 0u, 0u, 0u);
-}
-
-var<private> shutter__shutter_time: f32 = 0.0;
-
-fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
-	if (bindings__CAMERA_MOTION) {
-		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
-		return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
-	}
-	return still;
-}
-
-fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
-	if (bindings__LIGHT_MOTION) {
-		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
-		let place = moment.key * light_count + index;
-		return motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
-	}
-	return fetch__load_light(index);
 }
 
 const node__MISS: u32 = 4294967292u;
@@ -3015,6 +3067,12 @@ const surface__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2
 
 var<private> surface__met_vertices: vec3u;
 
+struct surface__Placing {
+	space: motion__Space,
+	is_placed: bool,
+	keys: deforming__Keys
+}
+
 fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
 	var instance: types__PackedInstance;
 	var space: motion__Space;
@@ -3027,7 +3085,7 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 	}
 	var surface: types__Surface;
 	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
-		surface = surface__triangle_surface(ray, hit, space, is_placed, cone);
+		surface = surface__triangle_surface(ray, hit, surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
 	}
 	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
 		surface = surface__shape_surface(local, hit);
@@ -3062,8 +3120,10 @@ fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__
 	return surface;
 }
 
-fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
-	let own = fetch__load_triangle(hit.primitive);
+fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface__Placing, cone: types__Cone) -> types__Surface {
+	let space = placing.space;
+	let keys = placing.keys;
+	let own = deforming__triangle_now(hit.primitive, keys);
 	surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
 	let v0 = fetch__load_vertex(own.i0);
 	let v1 = fetch__load_vertex(own.i1);
@@ -3073,10 +3133,15 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Sp
 	let b0 = 1.0 - b1 - b2;
 	var corners = mat3x3f(own.v0, own.v1, own.v2);
 	var normals = mat3x3f(v0.normal, v1.normal, v2.normal);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			normals = deforming__normals_now(hit.primitive, keys);
+		}
+	}
 	let place = corners * vec3f(b0, b1, b2);
-	if (bindings__HAS_INSTANCES && is_placed) {
+	if (bindings__HAS_INSTANCES && placing.is_placed) {
 		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
-		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, v0.normal), -ray.direction), numeric__normalize_or(instance__placed_normal(space, v1.normal), -ray.direction), numeric__normalize_or(instance__placed_normal(space, v2.normal), -ray.direction));
+		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, normals[0]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[1]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[2]), -ray.direction));
 	}
 	let material = fetch__load_material(v0.material);
 	var phong = material.phong;

@@ -374,7 +374,7 @@ fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: 
 		within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
 	}
 	let position = vec2f(pixel) + within;
-	if (bindings__HAS_MOTION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
+	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
 		shutter__shutter_time = dispatch__sample_time(sample, key);
 	}
 	let camera = shutter__shutter_camera(batch.camera);
@@ -625,7 +625,7 @@ struct types__PackedInstance {
 	linear_y: vec3f,
 	id: u32,
 	linear_z: vec3f,
-	_pad: u32,
+	next_key: u32,
 	pattern_x: vec4f,
 	pattern_y: vec4f,
 	pattern_z: vec4f
@@ -707,7 +707,11 @@ struct types__PackedFrame {
 	camera_key_count: u32,
 	light_key_count: u32,
 	first_triangle: u32,
-	shape_row: u32
+	shape_row: u32,
+	deformation_key_count: u32,
+	_pad0: u32,
+	_pad1: u32,
+	_pad2: u32
 }
 
 struct types__PackedDispatch {
@@ -1103,6 +1107,8 @@ override bindings__HAS_MOTION: bool = true;
 override bindings__CAMERA_MOTION: bool = true;
 
 override bindings__LIGHT_MOTION: bool = true;
+
+override bindings__HAS_DEFORMATION: bool = true;
 
 override bindings__ORTHOGRAPHIC: bool = false;
 
@@ -1588,7 +1594,11 @@ fn walk__first_hit(ray: types__Ray) -> lanes__TwoHits {
 }
 
 fn walk__world_ray(ray: types__Ray) -> primitive__TraversalRay {
-	return primitive__traversal_ray(ray, triangle_watertight__shear_of(ray.direction), types__NO_INSTANCE);
+	return primitive__traversal_ray(ray, triangle_watertight__shear_of(ray.direction), types__NO_INSTANCE, deforming__NO_KEYS);
+}
+
+fn walk__placed_ray(ray: types__Ray, instance: u32) -> primitive__TraversalRay {
+	return primitive__traversal_ray(ray, triangle_watertight__shear_of(ray.direction), instance, deforming__NO_KEYS);
 }
 
 fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types__Ray, any: bool) -> lanes__FourHits {
@@ -1618,7 +1628,7 @@ fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types_
 					let o1 = instance__object_ray(ray1, space);
 					let o2 = instance__object_ray(ray2, space);
 					let o3 = instance__object_ray(ray3, space);
-					rays = lanes__FourRays(primitive__traversal_ray(o0, triangle_watertight__shear_of(o0.direction), index), primitive__traversal_ray(o1, triangle_watertight__shear_of(o1.direction), index), primitive__traversal_ray(o2, triangle_watertight__shear_of(o2.direction), index), primitive__traversal_ray(o3, triangle_watertight__shear_of(o3.direction), index));
+					rays = lanes__FourRays(walk__placed_ray(o0, index), walk__placed_ray(o1, index), walk__placed_ray(o2, index), walk__placed_ray(o3, index));
 					stack = stack__pushed(stack, traverse__RETURN, 1u);
 					current = instance.root;
 				}
@@ -1699,11 +1709,12 @@ struct primitive__TraversalRay {
 	ray: types__Ray,
 	inv: vec3f,
 	shear: triangle_watertight__Shear,
-	instance: u32
+	instance: u32,
+	keys: deforming__Keys
 }
 
-fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32) -> primitive__TraversalRay {
-	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance);
+fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
+	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
 }
 
 fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
@@ -1857,6 +1868,50 @@ fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: tria
 	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
 	let t = dot(edges, depths) * inv_det;
 	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+}
+
+struct deforming__Keys {
+	next: u32,
+	stride: u32
+}
+
+const deforming__NO_KEYS: deforming__Keys = deforming__Keys(0u, 0u);
+
+fn deforming__keys_of(instance: types__PackedInstance) -> deforming__Keys {
+	if (bindings__HAS_DEFORMATION) {
+		return deforming__Keys(instance.next_key, instance.count);
+	}
+	return deforming__NO_KEYS;
+}
+
+fn deforming__index_at(primitive: u32, keys: deforming__Keys, key: u32) -> u32 {
+	return primitive + select(0u, keys.next + (key - 1u) * keys.stride, key > 0u);
+}
+
+fn deforming__triangle_now(primitive: u32, keys: deforming__Keys) -> types__PackedTriangle {
+	let first = fetch__load_triangle(primitive);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+			let a = fetch__load_triangle(deforming__index_at(primitive, keys, moment.key));
+			let b = fetch__load_triangle(deforming__index_at(primitive, keys, moment.key + 1u));
+			let fraction = vec3f(moment.fraction);
+			return types__PackedTriangle(mix(a.v0, b.v0, fraction), first.i0, mix(a.v1, b.v1, fraction), first.i1, mix(a.v2, b.v2, fraction), first.i2);
+		}
+	}
+	return first;
+}
+
+fn deforming__normals_now(primitive: u32, keys: deforming__Keys) -> mat3x3f {
+	let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+	let a = deforming__normals_at(deforming__index_at(primitive, keys, moment.key));
+	let b = deforming__normals_at(deforming__index_at(primitive, keys, moment.key + 1u));
+	return a * (1.0 - moment.fraction) + b * moment.fraction;
+}
+
+fn deforming__normals_at(triangle: u32) -> mat3x3f {
+	let own = fetch__load_triangle(triangle);
+	return mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
 }
 
 const numeric__ROUNDING: f32 = 5.9604645e-8;
@@ -3173,6 +3228,12 @@ const surface__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2
 
 var<private> surface__met_vertices: vec3u;
 
+struct surface__Placing {
+	space: motion__Space,
+	is_placed: bool,
+	keys: deforming__Keys
+}
+
 fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
 	var instance: types__PackedInstance;
 	var space: motion__Space;
@@ -3185,7 +3246,7 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 	}
 	var surface: types__Surface;
 	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
-		surface = surface__triangle_surface(ray, hit, space, is_placed, cone);
+		surface = surface__triangle_surface(ray, hit, surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
 	}
 	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
 		surface = surface__shape_surface(local, hit);
@@ -3220,8 +3281,10 @@ fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__
 	return surface;
 }
 
-fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
-	let own = fetch__load_triangle(hit.primitive);
+fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface__Placing, cone: types__Cone) -> types__Surface {
+	let space = placing.space;
+	let keys = placing.keys;
+	let own = deforming__triangle_now(hit.primitive, keys);
 	surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
 	let v0 = fetch__load_vertex(own.i0);
 	let v1 = fetch__load_vertex(own.i1);
@@ -3231,10 +3294,15 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Sp
 	let b0 = 1.0 - b1 - b2;
 	var corners = mat3x3f(own.v0, own.v1, own.v2);
 	var normals = mat3x3f(v0.normal, v1.normal, v2.normal);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			normals = deforming__normals_now(hit.primitive, keys);
+		}
+	}
 	let place = corners * vec3f(b0, b1, b2);
-	if (bindings__HAS_INSTANCES && is_placed) {
+	if (bindings__HAS_INSTANCES && placing.is_placed) {
 		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
-		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, v0.normal), -ray.direction), numeric__normalize_or(instance__placed_normal(space, v1.normal), -ray.direction), numeric__normalize_or(instance__placed_normal(space, v2.normal), -ray.direction));
+		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, normals[0]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[1]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[2]), -ray.direction));
 	}
 	let material = fetch__load_material(v0.material);
 	var phong = material.phong;

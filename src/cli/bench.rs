@@ -1,10 +1,11 @@
-//! `glimray bench`: whole renders of built-in workloads, ray sets in procedural scenes, and the time to the first
-//! picture. Everything is measured once, then again, so that a change of the machine's speed affects all alike;
+//! `glimray bench`: whole renders of built-in workloads, ray sets in procedural scenes, a skinned figure that plays,
+//! and the time to the first picture. Everything is measured once, then again, so that a change of the machine's speed affects all alike;
 //! medians are reported.
 
 mod comparison;
 mod figure;
 mod first_picture;
+mod playing;
 mod random;
 pub mod ray_sets;
 mod renders;
@@ -22,6 +23,7 @@ use crate::cli::interrupt::Interrupt;
 use crate::cli::job;
 use crate::gpu::Gpu;
 use comparison::Baseline;
+use playing::Playing;
 use renders::Renders;
 use scene_runs::SceneRuns;
 
@@ -47,8 +49,13 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
         .filter(|scene| is_selected(scene.name) && !(is_quick && scene.is_large))
         .map(|scene| SceneRuns::new(scene, is_quick))
         .collect();
+    let mut playing = match is_selected(playing::NAME) {
+        true => Some(Playing::new(is_quick)?),
+        false => None,
+    };
     let program = program.filter(|_| is_selected("viewer"));
-    let has_none = pictures.is_empty() && renders.is_empty() && scenes.is_empty();
+    let has_none =
+        pictures.is_empty() && renders.is_empty() && scenes.is_empty() && playing.is_none();
     if let (true, None, Some(part)) = (has_none, program, &arguments.only) {
         return Err(AppError::Usage(format!(
             "nothing to measure (--only {part}): no measurement has such a name. `glimray bench --quick` prints \
@@ -59,10 +66,12 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
         pictures.iter_mut().try_for_each(|picture| picture.run())?;
         (renders.iter_mut()).try_for_each(|workload| workload.run(arguments))?;
         (scenes.iter_mut()).try_for_each(|scene| scene.run(&gpu, arguments))?;
+        (playing.iter_mut()).try_for_each(|playing| playing.run(&gpu, arguments))?;
     }
     let pictures: Vec<_> = pictures.iter().map(|picture| picture.row()).collect();
     let renders: Vec<_> = renders.iter().map(Renders::row).collect();
     let scenes: Vec<_> = scenes.iter().map(SceneRuns::row).collect();
+    let playing: Vec<_> = playing.iter().map(Playing::row).collect();
     let window = window(arguments, program)?;
     let (viewer, viewer_text) = window.unzip();
 
@@ -74,6 +83,7 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
         "first_pictures": pictures,
         "workloads": renders,
         "scenes": scenes,
+        "playing": playing,
         "viewer": viewer,
     });
     let ratios = baseline.map(|(path, baseline)| (path, baseline.ratios(&run)));
@@ -90,6 +100,7 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
     }
     text.extend(renders.iter().map(renders::Row::text));
     text.extend(scenes.iter().map(scene_runs::Row::text));
+    text.extend(playing.iter().map(playing::Row::text));
     text.extend(viewer_text);
     text.extend(ratios.map(|(path, ratios)| comparison::text(path, &ratios)));
     console::print(&text)

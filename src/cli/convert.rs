@@ -32,6 +32,12 @@ pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
         )));
     }
     inputs.refuse_overwrite(&path, "scene", "-o")?;
+    if !scene.deformations.is_empty() {
+        console::warning(
+            "meshes with skins or animated morph targets are written in their pose at time 0: a native \
+             scene has no deforming meshes",
+        );
+    }
     let files = save(&path, &scene, !arguments.no_clobber)?;
     let list = files.iter().map(|path| format!("{}\n", path.display()));
     console::print(&list.collect::<String>())

@@ -1,5 +1,6 @@
 //! `glimray inspect SCENE`: the contents of a scene as the renderer sees it.
 
+mod deforming;
 mod motion;
 mod textures;
 
@@ -58,6 +59,8 @@ fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
         "tone": TONES.name(&output.tone), "transfer": TRANSFERS.name(&output.transfer),
     });
     value["animation"] = motion::to_json(scene);
+    value["clips"] = deforming::clips_json(scene);
+    value["deforming"] = deforming::to_json(scene);
     value["unlit"] = json!(scene.is_unlit());
     Ok(value)
 }
@@ -189,6 +192,7 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
         color(scene.ambient)
     )?;
     motion::write_text(out, scene)?;
+    deforming::write_text(out, scene)?;
     list(out, "cameras", &scene.cameras, |out, index, camera| {
         let used = if index == scene.camera_index {
             " (used)"

@@ -83,6 +83,8 @@ impl Writer<'_> {
                 table.put("material", string(&names.materials[index]));
                 of_material(property)
             }
+            // Deforming meshes are written at rest.
+            Target::Weight(..) => return,
         };
         table.put("property", string(property));
         let is_switch = matches!(property, "visible" | "on");

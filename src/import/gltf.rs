@@ -6,12 +6,14 @@
 //! cannot be shown is noted.
 
 mod accessor;
+mod aim;
 mod animation;
 mod bake;
 mod blame;
 mod buffers;
 mod compressed;
 mod container;
+mod deform;
 mod document;
 mod document_materials;
 mod extensions;
@@ -30,17 +32,21 @@ use super::notes::Notes;
 use super::paths::Files;
 use super::source::{Source, quote};
 use super::{Axis, Options, stage, suggest};
-use crate::scene::{OutputDefaults, Scene, Shadows};
+use crate::scene::{Clip, OutputDefaults, Scene, Shadows};
 use accessor::Accessors;
 use blame::{Blame, Ledger};
 use buffers::Buffers;
+use deform::Deformable;
 use document::Document;
 pub use extensions::{GLTF_EXTENSIONS, Support};
 use glam::DAffine3;
 use materials::{MaterialKey, Surface};
+use mesh::MeshKey;
+use skins::Bound;
 use std::cell::Cell;
 use std::collections::HashMap;
 use std::path::Path;
+use std::sync::Arc;
 use store::Store;
 
 /// Bytes that an object of the JSON may take in memory.
@@ -68,8 +74,22 @@ struct Reader<'a> {
     node_of: Vec<Option<usize>>,
     /// For each node of the file its transform at rest; the identity outside the chosen scene.
     worlds: Vec<DAffine3>,
-    /// Meshes by number in the file and skin; `None` for those without triangles.
-    meshes: HashMap<(usize, Option<usize>), Option<usize>>,
+    /// For each node of the file whether it or a node above it is animated.
+    moving: Vec<bool>,
+    /// For each node of the file whether a clip that is played changes the weights of its morph targets.
+    morphed: Vec<bool>,
+    /// For each node of the file whether it is a moving joint of a skin.
+    is_joint: Vec<bool>,
+    /// Still meshes; `None` for those without triangles.
+    meshes: HashMap<MeshKey, Option<usize>>,
+    /// Meshes that clips deform, by number in the file, with or without a skin.
+    deformables: HashMap<(usize, bool), Option<Deformable>>,
+    /// For each deformation of the scene its node in the file, and the joints of its skin.
+    deforming: Vec<(usize, Option<Arc<[Bound]>>)>,
+    skins: HashMap<usize, Arc<[Bound]>>,
+    /// For each camera and each light of the scene its number in the file.
+    cameras: Vec<usize>,
+    lights: Vec<usize>,
     surfaces: HashMap<MaterialKey, Surface>,
     /// Materials of the scene by their vertex colour.
     materials: HashMap<(MaterialKey, Option<(u32, u32)>), u32>,
@@ -130,19 +150,33 @@ pub(super) fn read(
         turn: options.up.map_or(DAffine3::IDENTITY, Axis::turn),
         variant: None,
         animated: Vec::new(),
+        moving: Vec::new(),
+        morphed: Vec::new(),
+        is_joint: Vec::new(),
         node_of: vec![None; document.nodes.len()],
         worlds: vec![DAffine3::IDENTITY; document.nodes.len()],
         meshes: HashMap::new(),
+        deformables: HashMap::new(),
+        deforming: Vec::new(),
+        skins: HashMap::new(),
+        cameras: Vec::new(),
+        lights: Vec::new(),
         surfaces: HashMap::new(),
         materials: HashMap::new(),
         store: Store::new(options),
     };
     reader.variant = reader.chosen_variant(options.variant.as_deref())?;
     let clips = reader.clips(options.clip.as_deref())?;
-    reader.animated = reader.moved_by(&clips);
+    reader.find_moved(&clips);
     let (roots, place) = reader.chosen_scene(options.scene.as_deref())?;
     reader.plan_images();
     reader.nodes(&roots, &place)?;
+    reader.bind_skins();
+    let all = document.animations.iter().map(|clip| Clip {
+        name: clip.name.clone().unwrap_or_default(),
+        seconds: None,
+    });
+    reader.scene.clips = all.collect();
     for clip in clips {
         reader.tracks(clip)?;
     }

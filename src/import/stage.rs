@@ -73,7 +73,7 @@ const TOP: Vec3 = Vec3::new(0.60, 0.60, 0.61);
 /// Adds lights, a background and a ground around the bounds of `scene`. Lights come from the side of the
 /// default camera and do not fade, so that large and small models are lit alike.
 fn light(scene: &mut Scene, staging: Staging) {
-    let bounds = scene.bounds();
+    let bounds = scene.bounds_over_time();
     let (min, max) = bounds.unwrap_or((DVec3::NEG_ONE, DVec3::ONE));
     let center = min.midpoint(max);
     // Never 0, not even for a single point far from the origin.

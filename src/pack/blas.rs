@@ -12,8 +12,8 @@ use crate::{
         LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, PackedNode, PackedShape,
         PackedTriangle, PackedVertex, SHAPE, leaf_reference,
     },
-    scene::Mesh,
 };
+use glam::Vec3;
 use std::{borrow::Cow, collections::BinaryHeap, sync::Arc};
 
 /// Maximum number of primitives in a leaf.
@@ -39,18 +39,19 @@ pub struct Topology {
     /// Their triangles are places in `order`.
     pieces: Vec<Piece>,
     stack_need: usize,
+    /// The cost of traversal in the position that it was built for; see [`cost_of`].
+    pub cost: f64,
 }
 
 impl Topology {
-    pub fn build(mesh: &Mesh) -> Self {
+    pub fn build(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
         // Scaling by a power of two does not change the BVH, but keeps areas in range.
-        let largest =
-            (mesh.positions.iter()).fold(0.0, |most: f32, p| most.max(p.abs().max_element()));
+        let largest = (positions.iter()).fold(0.0, |most: f32, p| most.max(p.abs().max_element()));
         let scale = (-largest.log2().floor()).clamp(-126.0, 126.0).exp2();
         let corners = |triangle: u32| {
-            mesh.triangles[triangle as usize].map(|corner| mesh.positions[corner as usize] * scale)
+            triangles[triangle as usize].map(|corner| positions[corner as usize] * scale)
         };
-        let boxes = threads::collect(mesh.triangles.len(), |triangle| {
+        let boxes = threads::collect(triangles.len(), |triangle| {
             Aabb::of(corners(triangle as u32))
         });
         let divided = Divided::new(boxes, corners);
@@ -70,12 +71,90 @@ impl Topology {
             }
             references
         };
+        let bounds = bvh.nodes.iter().map(|node| {
+            let boxes = node.children.iter().map(|(aabb, _)| *aabb);
+            boxes.fold(Aabb::EMPTY, Aabb::union)
+        });
         Self {
+            cost: cost_of(bounds),
             children: bvh.nodes.iter().map(references).collect(),
             order: divided.order(&bvh.order[usize::from(nodes::TRIANGLES)]),
             pieces: divided.pieces,
             stack_need: bvh.stack_need,
         }
+    }
+
+    /// The triangles of a mesh in leaf order.
+    pub fn triangles(&self, placed: &PlacedMesh) -> Arc<[PackedTriangle]> {
+        threads::collect_shared(self.order.len(), |place| {
+            placed.triangle(self.order[place] as usize)
+        })
+    }
+}
+
+/// The number of nodes that a ray visits that hits the root, by the surface area heuristic; `bounds` are those
+/// of the nodes, the root's first.
+fn cost_of(bounds: impl IntoIterator<Item = Aabb>) -> f64 {
+    let mut areas = bounds.into_iter().map(|aabb| f64::from(aabb.half_area()));
+    let root = areas.next().unwrap_or(0.0);
+    let below: f64 = areas.filter(|area| area.is_finite()).sum();
+    match root > 0.0 {
+        true => 1.0 + below / root,
+        false => 1.0,
+    }
+}
+
+/// A topology with boxes for the position of a mesh, or for several between which it moves: then the boxes hold
+/// at all times, since a triangle moves linearly from each to the next.
+pub struct Fit<'a> {
+    topology: &'a Topology,
+    /// The triangles in leaf order, at each position.
+    keys: &'a [Arc<[PackedTriangle]>],
+    /// The box of each node.
+    bounds: Vec<Aabb>,
+}
+
+impl<'a> Fit<'a> {
+    pub fn new(topology: &'a Topology, keys: &'a [Arc<[PackedTriangle]>]) -> Self {
+        let mut fit = Self {
+            topology,
+            keys,
+            bounds: Vec::new(),
+        };
+        // First the leaves of each node, then the nodes below it, which come after it.
+        let mut bounds = threads::collect(topology.children.len(), |index| {
+            let leaves = topology.children[index].iter().filter(|r| **r & LEAF != 0);
+            leaves.fold(Aabb::EMPTY, |all, &leaf| all.union(fit.leaf_box(leaf)))
+        });
+        for (index, children) in topology.children.iter().enumerate().rev() {
+            for &node in children.iter().filter(|r| **r != 0 && **r & LEAF == 0) {
+                bounds[index] = bounds[index].union(bounds[node as usize]);
+            }
+        }
+        fit.bounds = bounds;
+        fit
+    }
+
+    /// See [`cost_of`].
+    pub fn cost(&self) -> f64 {
+        cost_of(self.bounds.iter().copied())
+    }
+
+    fn leaf_box(&self, reference: u32) -> Aabb {
+        let keys = self.keys.iter();
+        let boxes = keys.map(|triangles| match reference & SHAPE {
+            0 => {
+                let boxes = triangles[leaf_range(reference)]
+                    .iter()
+                    .map(geometry::triangle_box);
+                boxes.fold(Aabb::EMPTY, Aabb::union)
+            }
+            _ => {
+                let piece = &self.topology.pieces[leaf_range(reference).start];
+                piece.aabb(geometry::corners(&triangles[piece.triangle as usize]))
+            }
+        });
+        boxes.fold(Aabb::EMPTY, Aabb::union)
     }
 }
 
@@ -116,32 +195,15 @@ pub struct Blas {
 impl Blas {
     /// The BLAS of one mesh, with boxes for its position.
     pub fn refitted(topology: &Topology, placed: PlacedMesh, offsets: Offsets) -> Self {
-        let count = topology.order.len();
-        let triangles = threads::collect_shared(count, |place| {
-            placed.triangle(topology.order[place] as usize)
-        });
-        let leaf_box = |reference: u32| match reference & SHAPE {
-            0 => {
-                let boxes = triangles[leaf_range(reference)]
-                    .iter()
-                    .map(geometry::triangle_box);
-                boxes.fold(Aabb::EMPTY, Aabb::union)
-            }
-            _ => {
-                let piece = &topology.pieces[leaf_range(reference).start];
-                piece.aabb(geometry::corners(&triangles[piece.triangle as usize]))
-            }
-        };
-        // First the leaves of each node, then the nodes below it, which come after it.
-        let mut bounds = threads::collect(topology.children.len(), |index| {
-            let leaves = topology.children[index].iter().filter(|r| **r & LEAF != 0);
-            leaves.fold(Aabb::EMPTY, |all, &leaf| all.union(leaf_box(leaf)))
-        });
-        for (index, children) in topology.children.iter().enumerate().rev() {
-            for &node in children.iter().filter(|r| **r != 0 && **r & LEAF == 0) {
-                bounds[index] = bounds[index].union(bounds[node as usize]);
-            }
-        }
+        let keys = [topology.triangles(&placed)];
+        Self::of(&Fit::new(topology, &keys), placed.vertices, offsets)
+    }
+
+    /// The BLAS of one mesh, with the triangles of the first position.
+    pub fn of(fit: &Fit, vertices: Arc<[PackedVertex]>, offsets: Offsets) -> Self {
+        let Fit {
+            topology, bounds, ..
+        } = fit;
         let zero = Offsets::default();
         let packed_leaf = |reference: u32| match reference & SHAPE {
             0 => offsets.moved(reference, &zero),
@@ -154,7 +216,7 @@ impl Blas {
             let references = topology.children[index].iter().filter(|r| **r != 0);
             Children::new(references.map(|&reference| match reference & LEAF {
                 0 => (bounds[reference as usize], offsets.moved(reference, &zero)),
-                _ => (leaf_box(reference), packed_leaf(reference)),
+                _ => (fit.leaf_box(reference), packed_leaf(reference)),
             }))
         };
         Self {
@@ -164,9 +226,9 @@ impl Blas {
             }),
             top: top_of(&offsets, children_of),
             shapes: Arc::default(),
-            vertices: placed.vertices,
+            vertices,
             stack_need: topology.stack_need,
-            triangles,
+            triangles: fit.keys[0].clone(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::{
     PackError, PackedScene,
+    deform::Deformed,
     geometry::{in_range, render_point},
     light, material, media,
     tlas::Tlas,
@@ -33,6 +34,8 @@ pub struct PackedView {
     pub cameras: Arc<[PackedCamera]>,
     /// The TLAS, shared between views as long as no instance moves.
     pub(super) tlas: Arc<Tlas>,
+    /// The deforming meshes, shared as long as none changes.
+    pub(super) deformed: Arc<Deformed>,
     /// Replaces the materials of the scene if any changes over time; otherwise empty. The values are those when
     /// the shutter opens, except that visible lights show their mean emission over the shutter interval.
     pub materials: Arc<[PackedMaterial]>,
@@ -94,13 +97,13 @@ impl PackedScene {
         }
         let light_count = lights.len() as u32 / light_key_count;
 
-        let first_node = self.first_view_node();
+        let deformed = self.deformed(frames, previous)?;
         let tlas = match self.features.instances {
-            true => self.tlas(frames, previous)?,
-            false => Arc::default(),
+            true => self.tlas(frames, &deformed, previous)?,
+            false => Arc::new(Tlas::empty(self.first_view_node())),
         };
         let moving = if tlas.moves { MOVING } else { 0 };
-        let instance_row = NODE_ROWS * (first_node + tlas.nodes.len() as u32);
+        let instance_row = NODE_ROWS * (tlas.first_node + tlas.nodes.len() as u32);
         let key_row = instance_row + INSTANCE_ROWS * tlas.instances.len() as u32;
         let light_row = key_row + KEY_ROWS * tlas.keys.len() as u32;
         Ok(PackedView {
@@ -116,7 +119,7 @@ impl PackedScene {
                 material_count: self.materials.len() as u32,
                 camera_media: media::at_point(&self.volumes, first, first.camera.look_from)?,
                 root: if self.features.instances {
-                    first_node | moving
+                    tlas.first_node | moving
                 } else {
                     0
                 },
@@ -127,6 +130,7 @@ impl PackedScene {
                 shape_row: TRIANGLE_ROWS * self.triangles.len() as u32,
                 camera_key_count: cameras.len() as u32,
                 light_key_count,
+                deformation_key_count: deformed.key_count,
                 ..self.background(&first.background)
             },
             background: match first.background {
@@ -143,6 +147,7 @@ impl PackedScene {
                 _ => cameras.into(),
             },
             tlas,
+            deformed,
             materials: self.materials_of(frames),
         })
     }
@@ -195,6 +200,10 @@ impl PackedView {
     pub fn parts(&self) -> Vec<&[u8]> {
         let mut parts = vec![bytes_of(&self.frame), cast_slice(&self.materials)];
         parts.extend(self.node_parts());
+        let trees = self.deformed.trees.iter();
+        parts.extend(trees.flat_map(|tree| tree.parts()));
+        parts.extend(self.deformed.key_triangles().map(cast_slice));
+        parts.extend(self.deformed.key_vertices().map(cast_slice));
         if self.orthographic {
             parts.push(b"orthographic");
         }
@@ -210,6 +219,41 @@ impl PackedView {
             cast_slice(&self.lights),
             cast_slice(&self.cameras),
         ]
+    }
+
+    /// The nodes of deforming meshes, the first of which is [`PackedScene::first_view_node`].
+    pub fn deformed_nodes(&self) -> impl Iterator<Item = &[u8]> {
+        self.deformed.nodes().map(cast_slice)
+    }
+
+    /// The triangles that replace those of the scene from an index on.
+    pub fn triangles_from(&self, first: usize) -> Option<&[u8]> {
+        self.deformed.triangles(first).map(cast_slice)
+    }
+
+    /// The vertices that replace those of the scene from an index on.
+    pub fn vertices_from(&self, first: usize) -> Option<&[u8]> {
+        self.deformed.vertices(first).map(cast_slice)
+    }
+
+    /// The triangles and the vertices of later keys of deforming meshes: after the shapes, at the next multiple
+    /// of a triangle, and after the texture coordinates.
+    pub fn later_keys(&self) -> [Vec<&[u8]>; 2] {
+        [
+            self.deformed.key_triangles().map(cast_slice).collect(),
+            self.deformed.key_vertices().map(cast_slice).collect(),
+        ]
+    }
+
+    /// Whether a mesh deforms while the shutter is open.
+    pub fn deforms(&self) -> bool {
+        self.deformed.key_count > 1
+    }
+
+    /// Number of deforming meshes whose BLAS was rebuilt because refitting would have made it slow.
+    pub fn rebuilt_count(&self) -> usize {
+        let trees = self.deformed.trees.iter();
+        trees.filter(|tree| tree.is_rebuilt).count()
     }
 
     /// Whether both views share a TLAS.

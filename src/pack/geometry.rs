@@ -7,7 +7,7 @@ use crate::{
         PackedShape, PackedTriangle, PackedVertex, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC,
         SHAPE_ELLIPSOID, SHAPE_GLOBE, SHAPE_PLANE, SHAPE_RECTANGLE, SHAPE_SPHERE, SHAPE_TORUS,
     },
-    scene::{CanonicalShape, Geometry, Mesh},
+    scene::{CanonicalShape, Geometry, Mesh, PosedMesh},
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use std::sync::Arc;
@@ -155,12 +155,7 @@ impl<'a> PlacedMesh<'a> {
         origin: DVec3,
         first_vertex: usize,
     ) -> Result<Self, PackError> {
-        let count = first_vertex + mesh.positions.len();
-        let limit = u32::MAX as usize;
-        if count > limit {
-            let what = "vertices";
-            return Err(PackError::TooMany { what, count, limit });
-        }
+        check_vertex_count(first_vertex + mesh.positions.len())?;
         let from_origin =
             |position: &Vec3| world_from_object.transform_point3(position.as_dvec3()) - origin;
         let positions = threads::collect(mesh.positions.len(), |index| {
@@ -190,6 +185,42 @@ impl<'a> PlacedMesh<'a> {
         })
     }
 
+    /// A mesh in a pose, whose positions are relative to `origin`. Otherwise as [`Self::new`].
+    pub fn posed(
+        mesh: &'a Mesh,
+        posed: &PosedMesh,
+        origin: DVec3,
+        first_vertex: usize,
+    ) -> Result<Self, PackError> {
+        check_vertex_count(first_vertex + posed.len())?;
+        let moved = threads::collect(posed.len(), |index| {
+            let (position, normal) = posed.vertex(index);
+            (position - origin, normal.as_vec3())
+        });
+        for (position, _) in &moved {
+            in_range(position.abs().max_element())?;
+        }
+        Ok(Self {
+            mesh,
+            positions: moved
+                .iter()
+                .map(|(position, _)| position.as_vec3())
+                .collect(),
+            vertices: (moved.iter().zip(&mesh.materials))
+                .map(|((_, normal), &material)| PackedVertex {
+                    normal: (*normal).into(),
+                    material,
+                })
+                .collect(),
+            first_vertex: first_vertex as u32,
+        })
+    }
+
+    /// Its positions.
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
     /// A triangle of the mesh.
     pub fn triangle(&self, index: usize) -> PackedTriangle {
         let [a, b, c] = self.mesh.triangles[index];
@@ -206,6 +237,14 @@ impl<'a> PlacedMesh<'a> {
     }
 }
 
+fn check_vertex_count(count: usize) -> Result<(), PackError> {
+    let (what, limit) = ("vertices", u32::MAX as usize);
+    match count > limit {
+        true => Err(PackError::TooMany { what, count, limit }),
+        false => Ok(()),
+    }
+}
+
 /// Transforms a point from world to render space.
 pub fn render_point(world: DVec3, origin: DVec3) -> Result<Vec3, PackError> {
     let p = world - origin;
@@ -215,7 +254,9 @@ pub fn render_point(world: DVec3, origin: DVec3) -> Result<Vec3, PackError> {
 
 /// Rejects a length whose square overflows f32.
 pub fn in_range(value: f64) -> Result<(), PackError> {
-    if value > COORDINATE_LIMIT {
+    // Also true for NaN.
+    let is_out = !(value <= COORDINATE_LIMIT);
+    if is_out {
         return Err(PackError::OutOfRange {
             value,
             limit: COORDINATE_LIMIT,

@@ -1,13 +1,14 @@
 //! Decides which objects are baked into the world and which become instances with their own BLAS: meshes with
-//! several copies, and everything that moves.
+//! several copies, and everything that moves or deforms.
 
 use super::{PackError, light};
 use crate::{
     bvh::Aabb,
     layout::NO_INSTANCE,
-    scene::{Frame, Geometry, LightProperty, ObjectRef, Scene, Target},
+    scene::{Deformation, Frame, Geometry, LightProperty, ObjectRef, Scene, Target},
 };
 use glam::{DAffine3, DVec3};
+use std::collections::HashMap;
 
 /// Copies of a static mesh are baked into the world if they have at most this many triangles in total: rays
 /// then need no transform into the space of an instance.
@@ -33,6 +34,8 @@ pub enum TransformSource {
     World(DAffine3),
     /// A moving node, and a transform to its space.
     Node(usize, DAffine3),
+    /// A node that only hides it, and a static transform to world space.
+    Switch(usize, DAffine3),
     /// A visible light.
     Lamp(usize),
 }
@@ -83,13 +86,18 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Bakes static objects, except meshes with many large copies. Hidden objects count towards the joint
+    /// Bakes static objects, except meshes that deform or have many large copies. Hidden objects count towards the joint
     /// limit, so that showing one changes no other BLAS.
     ///
     /// # Errors
     /// There are too many instances.
-    pub fn new(scene: &Scene, rest: &Frame, most_baked: usize) -> Result<Self, PackError> {
+    pub fn new(
+        scene: &Scene,
+        (rest, origin): (&Frame, DVec3),
+        most_baked: usize,
+    ) -> Result<Self, PackError> {
         let moving = scene.moving_nodes();
+        let object_from_tree = object_from_tree(scene, origin);
         let moving_node = |node: Option<usize>| node.filter(|&node| moving[node]);
         let is_visible_at_rest =
             |node: Option<usize>| node.is_none_or(|node| rest.nodes[node].visible);
@@ -105,10 +113,19 @@ impl Plan {
             let is_visible = is_visible_at_rest(instance.node);
             let is_shared =
                 copies[instance.mesh] > 1 && copies[instance.mesh] * triangles > most_baked;
-            let world_from_object = world_from(rest, instance.node) * instance.placement;
-            let source = match moving_node(instance.node) {
-                Some(node) => Some(TransformSource::Node(node, instance.placement)),
-                None => is_shared.then_some(TransformSource::World(world_from_object)),
+            let world_from_object = world_from(rest, scene.node_of(instance)) * instance.placement;
+            let deforming = object_from_tree.get(&instance.mesh);
+            let from_tree = deforming.copied().unwrap_or_default();
+            let source = match (moving_node(instance.node), scene.node_of(instance)) {
+                (Some(node), None) => Some(TransformSource::Switch(
+                    node,
+                    instance.placement * from_tree,
+                )),
+                (Some(node), _) => {
+                    Some(TransformSource::Node(node, instance.placement * from_tree))
+                }
+                (None, _) => (is_shared || deforming.is_some())
+                    .then_some(TransformSource::World(world_from_object * from_tree)),
             };
             match source {
                 Some(TransformSource::World(_)) if !is_visible => {}
@@ -173,6 +190,23 @@ impl Plan {
     }
 }
 
+/// For each mesh that deforms, the transform from the space of its BLAS to object space. A skin gives world
+/// positions, which are most precise around the render origin.
+fn object_from_tree(scene: &Scene, origin: DVec3) -> HashMap<usize, DAffine3> {
+    let transform =
+        |deformation: &Deformation| DAffine3::from_translation(tree_origin(deformation, origin));
+    let deformations = scene.deformations.iter();
+    deformations.map(|it| (it.mesh, transform(it))).collect()
+}
+
+/// The origin of the space of its BLAS.
+pub fn tree_origin(deformation: &Deformation, origin: DVec3) -> DVec3 {
+    match deformation.skin {
+        Some(_) => origin,
+        None => DVec3::ZERO,
+    }
+}
+
 /// The transform from a node to world space.
 pub fn world_from(frame: &Frame, node: Option<usize>) -> DAffine3 {
     node.map_or(DAffine3::IDENTITY, |node| frame.nodes[node].world_from_node)
@@ -193,7 +227,7 @@ impl TransformSource {
     /// The transform from BLAS to world space; `None` if the object is hidden.
     pub fn world_from_tree(&self, frame: &Frame) -> Option<DAffine3> {
         match *self {
-            Self::World(placement) => Some(placement),
+            Self::World(placement) | Self::Switch(_, placement) => Some(placement),
             Self::Node(node, placement) => Some(frame.nodes[node].world_from_node * placement),
             Self::Lamp(index) => light::world_from_unit(&frame.lights[index].kind),
         }
@@ -203,7 +237,7 @@ impl TransformSource {
     pub fn is_visible(&self, frame: &Frame) -> bool {
         match *self {
             Self::World(_) => true,
-            Self::Node(node, _) => frame.nodes[node].visible,
+            Self::Node(node, _) | Self::Switch(node, _) => frame.nodes[node].visible,
             Self::Lamp(index) => frame.lights[index].visible,
         }
     }
@@ -213,7 +247,7 @@ impl TransformSource {
     pub fn pattern_from_tree(&self, world_from_tree: DAffine3) -> DAffine3 {
         match *self {
             Self::Node(_, placement) => placement,
-            Self::World(_) | Self::Lamp(_) => world_from_tree,
+            Self::World(_) | Self::Switch(..) | Self::Lamp(_) => world_from_tree,
         }
     }
 }

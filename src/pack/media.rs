@@ -3,7 +3,7 @@
 use super::{PackError, light, material, mesh::CachedMesh, shell::Shell};
 use crate::{
     layout::NONE,
-    scene::{CanonicalShape, Frame, Geometry, Scene},
+    scene::{CanonicalShape, Frame, Geometry, Instance, Scene},
 };
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
@@ -27,7 +27,7 @@ enum Surface {
     Mesh(Arc<Shell>, DAffine3),
 }
 
-/// The dielectric volumes of a scene.
+/// The dielectric volumes of a scene, without deforming meshes.
 pub fn volumes(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> Vec<Volume> {
     let may_transmit = material::may_transmit(scene);
     let shapes = (scene.shapes.iter())
@@ -48,7 +48,8 @@ pub fn volumes(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> Vec<Volume> {
             Some((shell?, material))
         })
         .collect();
-    let meshes = scene.instances.iter().filter_map(|instance| {
+    let still = |instance: &&Instance| scene.deformation_of(instance.mesh).is_none();
+    let meshes = scene.instances.iter().filter(still).filter_map(|instance| {
         let (shell, material) = shells[instance.mesh].as_ref()?;
         Some(Volume {
             node: instance.node,

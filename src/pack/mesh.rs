@@ -41,7 +41,7 @@ impl CachedMesh {
     pub fn topology(&self, built: &mut usize) -> &Topology {
         self.topology.get_or_init(|| {
             *built += 1;
-            Topology::build(&self.mesh)
+            Topology::build(&self.mesh.positions, &self.mesh.triangles)
         })
     }
 

@@ -53,6 +53,11 @@ impl<T> Segments<T> {
 }
 
 impl<T: Pod> Segments<T> {
+    /// The index of the first element of each segment, and its bytes.
+    pub fn runs(&self) -> impl Iterator<Item = (usize, &[u8])> {
+        self.starts.iter().copied().zip(self.bytes())
+    }
+
     /// The bytes of each segment.
     pub fn bytes(&self) -> impl Iterator<Item = &[u8]> {
         self.runs.iter().map(|run| bytemuck::cast_slice(run))

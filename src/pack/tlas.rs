@@ -3,6 +3,7 @@
 
 use super::{
     PackError, PackedScene, PackedView,
+    deform::Deformed,
     geometry::in_range,
     instance::{Instance, InstancedBlas},
     nodes::{self, Children},
@@ -20,7 +21,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TlasSource {
     pub origin: DVec3,
-    /// Index of its first node in the nodes array.
+    /// Index of the first node of a view in the nodes array.
     pub first_node: u32,
     /// Boxes of baked geometry, with child references.
     pub parts: Vec<(Aabb, u32)>,
@@ -39,9 +40,12 @@ pub struct Tlas {
     pub keys: Vec<PackedKey>,
     /// Whether an instance moves while the shutter is open.
     pub moves: bool,
+    /// Index of its first node in the nodes array.
+    pub first_node: u32,
     /// The input it was built from: for each instance the transforms to world space over the shutter interval,
     /// one if it does not move; `None` if it is hidden.
     source: Arc<TlasSource>,
+    deformed: Arc<Deformed>,
     worlds: Vec<Option<Vec<DAffine3>>>,
 }
 
@@ -65,6 +69,7 @@ impl PackedScene {
     pub(super) fn tlas(
         &self,
         frames: &[Frame],
+        deformed: &Arc<Deformed>,
         previous: Option<&PackedView>,
     ) -> Result<Arc<Tlas>, PackError> {
         let source = &self.tlas_source;
@@ -73,11 +78,12 @@ impl PackedScene {
             .collect();
         if let Some(before) = previous.map(|previous| &previous.tlas)
             && Arc::ptr_eq(&before.source, source)
+            && before.deformed.is_same(deformed)
             && before.worlds == worlds
         {
             return Ok(before.clone());
         }
-        Ok(Arc::new(Tlas::build(source, worlds)?))
+        Ok(Arc::new(Tlas::build(source, deformed, worlds)?))
     }
 }
 
@@ -97,12 +103,23 @@ impl Instance {
 }
 
 impl Tlas {
+    /// The TLAS of a scene without instances.
+    pub fn empty(first_node: u32) -> Self {
+        Self {
+            first_node,
+            ..Self::default()
+        }
+    }
+
     fn build(
         source: &Arc<TlasSource>,
+        deformed: &Arc<Deformed>,
         worlds: Vec<Option<Vec<DAffine3>>>,
     ) -> Result<Self, PackError> {
         let mut tlas = Self {
             source: source.clone(),
+            deformed: deformed.clone(),
+            first_node: source.first_node + deformed.node_count(),
             ..Self::default()
         };
         // Boxes and child references: first parts of baked geometry, then instances.
@@ -122,21 +139,22 @@ impl Tlas {
         // One stack entry returns from a BLAS, and the last store of a traversal step writes one entry beyond
         // the top.
         let limit = STACK_SIZE as usize - 2;
+        let below = source.stack_need.max(deformed.stack_need());
         let limits = bvh::Limits {
             leaf_size: 1,
             alone: None,
-            stack_size: limit.saturating_sub(source.stack_need),
+            stack_size: limit.saturating_sub(below),
         };
         let unions: Vec<_> = (boxes.iter())
             .map(|swept| swept.open.union(swept.close))
             .collect();
         // Leaves hold a single box, so the groups do not matter.
         let bvh = bvh::build(&unions, &vec![0; unions.len()], 1, limits);
-        let need = bvh.stack_need + source.stack_need;
+        let need = bvh.stack_need + below;
         if need > limit {
             return Err(PackError::TooDeep { need, limit });
         }
-        tlas.nodes = pack_nodes(&bvh, &boxes, &references, source.first_node, tlas.moves);
+        tlas.nodes = pack_nodes(&bvh, &boxes, &references, tlas.first_node, tlas.moves);
         Ok(tlas)
     }
 
@@ -144,7 +162,8 @@ impl Tlas {
     fn add(&mut self, id: usize, worlds: &[DAffine3]) -> Result<Swept, PackError> {
         let Instance { blas, source } = &self.source.instances[id];
         let to_render = DAffine3::from_translation(-self.source.origin);
-        let blas = &self.source.blas[*blas];
+        let deformed = self.deformed.tree(*blas);
+        let blas = deformed.map_or(&self.source.blas[*blas], |tree| &tree.instanced);
         for &world in worlds {
             let (min, max) = blas.bounds(to_render * world);
             in_range(min.abs().max(max.abs()).max_element())?;
@@ -167,10 +186,10 @@ impl Tlas {
             linear_y: linear[1],
             id: id as u32 + 1,
             linear_z: linear[2],
+            next_key: deformed.map_or(0, |tree| tree.next_key),
             pattern_x: pattern[0],
             pattern_y: pattern[1],
             pattern_z: pattern[2],
-            ..Default::default()
         };
         let swept = if worlds.len() == 1 {
             let (min, max) = blas.bounds(first);

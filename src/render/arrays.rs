@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     gpu::{Gpu, GpuError},
-    layout::{IMAGE_WIDTH_LOG2, LAYER_ROWS_LOG2, PackedNode},
+    layout::{IMAGE_WIDTH_LOG2, LAYER_ROWS_LOG2, PackedNode, PackedTriangle},
     pack::{PackedScene, PackedView, Segments},
 };
 use bytemuck::{Pod, cast_slice};
@@ -55,13 +55,21 @@ pub fn arrays<'a>(scene: &'a PackedScene, view: &'a PackedView) -> [Array<'a>; A
     let surfaces: Upload = |uploads| &mut uploads.surfaces;
     let mut nodes = Array::of("nodes", Kind::Rows, &scene.nodes, geometry);
     nodes.add_view(scene, view);
-    let mut triangles = Array::of("triangles", Kind::Rows, &scene.triangles, geometry);
+    let [later_triangles, later_vertices] = view.later_keys();
+    let mut triangles = Array::new("triangles", Kind::Rows);
+    for (first, run) in scene.triangles.runs() {
+        triangles.push(view.triangles_from(first).unwrap_or(run), geometry);
+    }
     let shapes = scene.shapes.bytes();
     shapes.for_each(|run| triangles.push(run, geometry));
-    let mut vertices = Array::of("vertices", Kind::Rows, &scene.vertices, geometry);
-    scene
-        .uvs
-        .bytes()
+    triangles.align(size_of::<PackedTriangle>() as u64, &later_triangles);
+    (later_triangles.iter()).for_each(|run| triangles.push(run, geometry));
+    let mut vertices = Array::new("vertices", Kind::Rows);
+    for (first, run) in scene.vertices.runs() {
+        vertices.push(view.vertices_from(first).unwrap_or(run), geometry);
+    }
+    let uvs = scene.uvs.bytes();
+    uvs.chain(later_vertices)
         .for_each(|run| vertices.push(run, geometry));
     let mut materials = Array::new("materials", Kind::Rows);
     materials.push(
@@ -115,12 +123,22 @@ impl<'a> Array<'a> {
         }
     }
 
+    /// Leaves a gap before `pieces`, if there are any, so that they start at a multiple of `bytes`.
+    fn align(&mut self, bytes: u64, pieces: &[&[u8]]) {
+        if !pieces.is_empty() {
+            self.bytes = self.bytes.next_multiple_of(bytes);
+        }
+    }
+
     /// Adds the data of a view to the nodes, with some spare room.
     fn add_view(&mut self, scene: &PackedScene, view: &'a PackedView) {
         let [nodes, instances, keys, lights, cameras] = view.node_parts();
         let scene_bytes = self.bytes;
         let first = u64::from(scene.first_view_node()) * size_of::<PackedNode>() as u64;
         self.bytes = first;
+        for part in view.deformed_nodes() {
+            self.push(part, |uploads| &mut uploads.geometry);
+        }
         for part in [nodes, instances, keys] {
             self.push(part, |uploads| &mut uploads.tlas);
         }

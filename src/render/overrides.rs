@@ -134,7 +134,7 @@ pub fn of_tone(tone: &PackedTone) -> Overrides {
 }
 
 /// The overrides for the contents of the trees.
-fn geometry(scene: &PackedScene, view: &PackedView) -> [(&'static str, f64); 7] {
+fn geometry(scene: &PackedScene, view: &PackedView) -> [(&'static str, f64); 8] {
     let features = scene.features;
     [
         ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
@@ -147,6 +147,7 @@ fn geometry(scene: &PackedScene, view: &PackedView) -> [(&'static str, f64); 7] 
         ("SHAPE_KINDS", f64::from(features.shape_kinds)),
         ("HAS_INSTANCES", flag(features.instances)),
         ("HAS_MOTION", flag(view.has_moving_instances())),
+        ("HAS_DEFORMATION", flag(view.deforms())),
     ]
 }
 

@@ -77,7 +77,8 @@ pub fn portable(fetch: Fetch) -> Variant {
 /// Packets if the adapter traces them, the data are in images, and nothing moves while the shutter is open: then
 /// the rays of a packet can share nodes.
 pub fn tracing_variant(gpu: &Gpu, fetch: Fetch, view: &PackedView) -> Variant {
-    let is_still = !view.has_moving_instances() && view.frame.light_key_count == 1;
+    let is_still =
+        !view.has_moving_instances() && !view.deforms() && view.frame.light_key_count == 1;
     match fetch == Fetch::Image && is_still && gpu.traces_packets() {
         true => Variant::Packet,
         false => portable(fetch),

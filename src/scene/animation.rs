@@ -11,6 +11,15 @@ pub struct Track {
     pub curve: Curve,
 }
 
+/// A named animation of a model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clip {
+    /// Empty if the file gives none.
+    pub name: String,
+    /// How long it takes; `None` if its tracks are not among the scene's.
+    pub seconds: Option<f64>,
+}
+
 /// A property that a track drives. The numbers are indices into the [`super::Scene`]'s lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
@@ -22,10 +31,13 @@ pub enum Target {
     Light(usize, LightProperty),
     /// Of a [`super::Material`].
     Material(usize, MaterialProperty),
+    /// The weight of a morph target, a scalar: the index of a [`super::Deformation`], and that of one of
+    /// its targets.
+    Weight(usize, usize),
 }
 
 /// An animatable property of a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum NodeProperty {
     /// A vector.
     Translation,
@@ -41,7 +53,7 @@ pub enum NodeProperty {
 }
 
 /// An animatable property of a camera.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CameraProperty {
     /// A vector.
     LookFrom,
@@ -60,7 +72,7 @@ pub enum CameraProperty {
 }
 
 /// An animatable property of a light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LightProperty {
     /// A vector: the light's position or centre. Ignored by directional lights.
     Position,
@@ -77,7 +89,7 @@ pub enum LightProperty {
 
 /// An animatable property of a material. `Shininess`, `Opacity` and `Ior` are scalars, all others
 /// vectors. Materials are constant while the shutter is open.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "they are named after the members of Material")]
 pub enum MaterialProperty {
     Diffuse,

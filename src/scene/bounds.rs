@@ -1,22 +1,20 @@
 //! Bounding boxes of a scene's contents.
 
+use super::posed::{Bounds, Posed, union};
 use super::{Geometry, Mesh, ObjectRef, Scene};
 use glam::{DAffine3, DVec3};
 
-/// An axis-aligned box (min, max).
-type Bounds = (DVec3, DVec3);
-
 impl Mesh {
-    /// The smallest axis-aligned box (min, max) in object space; `None` without positions.
-    pub fn bounds(&self) -> Option<Bounds> {
-        let points = self.positions.iter().map(|p| p.as_dvec3());
-        points.map(|p| (p, p)).reduce(union)
-    }
-
     /// The smallest axis-aligned box in the target space of `space_from_object`.
     pub fn bounds_in(&self, space_from_object: DAffine3) -> Option<Bounds> {
         let points = self.positions.iter();
         let points = points.map(|p| space_from_object.transform_point3(p.as_dvec3()));
+        points.map(|p| (p, p)).reduce(union)
+    }
+
+    /// The smallest axis-aligned box (min, max) in object space; `None` without positions.
+    pub fn bounds(&self) -> Option<Bounds> {
+        let points = self.positions.iter().map(|p| p.as_dvec3());
         points.map(|p| (p, p)).reduce(union)
     }
 }
@@ -28,22 +26,30 @@ impl Scene {
     /// The vertices of an instance are only transformed if its own box extends beyond the bounds found so
     /// far.
     pub fn bounds(&self) -> Option<Bounds> {
-        let nodes = self.nodes_at(0.0, 0.0);
-        let world_from = |node: Option<usize>| match node {
-            Some(node) => nodes[node].world_from_node,
-            None => DAffine3::IDENTITY,
-        };
+        self.bounds_at(0.0)
+    }
+
+    /// The union of [`Self::bounds`] at many times of the animation.
+    pub fn bounds_over_time(&self) -> Option<Bounds> {
+        let all = self.moments().into_iter();
+        all.filter_map(|time| self.bounds_at(time)).reduce(union)
+    }
+
+    fn bounds_at(&self, time: f64) -> Option<Bounds> {
+        let posed = Posed::new(self, time);
+        let world_from = |node: Option<usize>| posed.world_from(node);
         let shapes = self.shapes.iter().filter_map(|shape| match shape.node {
             Some(_) => shape.geometry.placed(world_from(shape.node)).bounds(),
             None => shape.geometry.bounds(),
         });
         let mut all = shapes.reduce(union);
 
-        let of_meshes: Vec<_> = self.meshes.iter().map(|mesh| mesh.bounds()).collect();
+        let meshes = 0..self.meshes.len();
+        let of_meshes: Vec<_> = meshes.map(|mesh| posed.bounds(mesh)).collect();
         let mut open = Vec::with_capacity(self.instances.len());
         for instance in &self.instances {
             if let Some(bounds) = of_meshes[instance.mesh] {
-                let world_from_object = world_from(instance.node) * instance.placement;
+                let world_from_object = posed.world_from_object(instance);
                 open.push((
                     instance.mesh,
                     world_from_object,
@@ -60,49 +66,37 @@ impl Scene {
                 };
                 let farthest = open.iter().max_by(|a, b| reach(a).total_cmp(&reach(b)));
                 if let Some(&(mesh, world_from_object, outer)) = farthest {
-                    self.reach(&mut all, mesh, world_from_object, outer);
+                    posed.reach(&mut all, mesh, world_from_object, outer);
                 }
             }
         }
         for (mesh, world_from_object, outer) in open {
-            self.reach(&mut all, mesh, world_from_object, outer);
+            posed.reach(&mut all, mesh, world_from_object, outer);
         }
         all
-    }
-
-    /// Extends `all` by an instance of a mesh that lies within `outer`.
-    fn reach(&self, all: &mut Option<Bounds>, mesh: usize, place: DAffine3, outer: Bounds) {
-        let is_inside = |(min, max): Bounds| min.cmple(outer.0).all() && max.cmpge(outer.1).all();
-        if all.is_some_and(is_inside) {
-            return;
-        }
-        if let Some(bounds) = self.meshes[mesh].bounds_in(place) {
-            *all = Some(all.map_or(bounds, |all| union(all, bounds)));
-        }
     }
 
     /// The bounding box (min, max) of one object in world space at `time` seconds; for lights without
     /// extent it is their position. `None` for planes, directional lights, and meshes without triangles.
     pub fn bounds_of(&self, object: ObjectRef, time: f64) -> Option<Bounds> {
-        let nodes = self.nodes_at(time, time);
-        let world_from = |node: Option<usize>| match node {
-            Some(node) => nodes[node].world_from_node,
-            None => DAffine3::IDENTITY,
-        };
         match object {
             ObjectRef::Instance(index) => {
                 let instance = self.instances.get(index)?;
-                let place = world_from(instance.node) * instance.placement;
-                self.meshes[instance.mesh].bounds_in(place)
+                let posed = Posed::of(self, time, |mesh| mesh == instance.mesh);
+                posed.bounds_in(instance.mesh, posed.world_from_object(instance))
             }
             ObjectRef::Shape(index) => {
                 let shape = self.shapes.get(index)?;
                 match shape.node {
-                    Some(_) => shape.geometry.placed(world_from(shape.node)).bounds(),
+                    Some(node) => {
+                        let world_from_node = self.nodes_at(time, time)[node].world_from_node;
+                        shape.geometry.placed(world_from_node).bounds()
+                    }
                     None => shape.geometry.bounds(),
                 }
             }
             ObjectRef::Light(index) => {
+                let nodes = self.nodes_at(time, time);
                 let lights = self.lights_at(time, time, &nodes);
                 lights.get(index)?.kind.bounds()
             }
@@ -159,8 +153,4 @@ pub(crate) fn corners((min, max): Bounds) -> [DVec3; 8] {
         };
         DVec3::new(side(0), side(1), side(2))
     })
-}
-
-pub(super) fn union(a: Bounds, b: Bounds) -> Bounds {
-    (a.0.min(b.0), a.1.max(b.1))
 }

@@ -26,6 +26,8 @@ pub struct Frame {
     /// One for each of the scene's materials if a track animates any; otherwise empty, and the scene's
     /// materials apply.
     pub materials: Vec<Material>,
+    /// For each of the scene's deformations the weights of its morph targets.
+    pub weights: Vec<Vec<f64>>,
 }
 
 /// The state of a [`super::Node`] at one time.
@@ -56,6 +58,7 @@ impl Scene {
             background: self.background.clone(),
             ambient: self.ambient,
             materials: self.materials_at(opened),
+            weights: self.weights_at(time),
             nodes,
         }
     }
@@ -67,6 +70,22 @@ impl Scene {
             states.push(hierarchy.state(index, &states, time, opened));
         }
         states
+    }
+
+    /// The weights of the morph targets of each deformation.
+    pub(super) fn weights_at(&self, time: f64) -> Vec<Vec<f64>> {
+        let at_rest = self.deformations.iter().map(|it| it.weights.clone());
+        let mut weights: Vec<_> = at_rest.collect();
+        for track in &self.tracks {
+            for target in &track.targets {
+                if let Target::Weight(deformation, index) = *target
+                    && let Value::Scalar(value) = track.curve.at(time)
+                {
+                    weights[deformation][index] = value;
+                }
+            }
+        }
+        weights
     }
 
     /// For each node, whether a track moves or hides it or one of its ancestors.
@@ -206,6 +225,7 @@ impl Target {
                 | Camera::LensRadius,
             )
             | Self::Light(_, Light::Intensity | Light::On)
+            | Self::Weight(..)
             | Self::Material(_, Material::Shininess | Material::Opacity | Material::Ior) => {
                 matches!(values, Values::Scalar(_))
             }

@@ -5,6 +5,7 @@
 //! field of view. So only the largest x + w z and −x + w z over all points matter, and the same with y: each
 //! pair gives the camera's place across the image and its least distance, and the larger distance holds.
 
+use super::posed::Posed;
 use super::{Camera, Geometry, Scene, corners};
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -57,10 +58,10 @@ impl Reach {
 }
 
 impl Scene {
-    /// A perspective camera that has all bounded geometry, visible or not, in its image at time 0, from the
-    /// smallest distance. `None` if nothing is bounded.
+    /// A perspective camera that has all bounded geometry, visible or not, in its image from the smallest
+    /// distance: at many times of the animation, if there is one. `None` if nothing is bounded.
     pub fn framed(&self, framing: &Framing) -> Option<Camera> {
-        let (min, max) = self.bounds()?;
+        let (min, max) = self.bounds_over_time()?;
         let backward = framing.towards.normalize();
         let right = DVec3::Y.cross(backward).normalize();
         let world_from_camera = DMat3::from_cols(right, backward.cross(right), backward);
@@ -92,48 +93,55 @@ impl Scene {
         })
     }
 
-    /// Adds all points, relative to `center`.
+    /// Adds all points, relative to `center`; those that move at many times.
     fn visit(&self, reach: &mut Reach, center: DVec3) {
-        let nodes = self.nodes_at(0.0, 0.0);
         let relative = DAffine3::from_translation(-center);
-        let place_of = |node: Option<usize>| match node {
-            Some(node) => relative * nodes[node].world_from_node,
-            None => relative,
-        };
         let counts = self
             .instances
             .iter()
             .map(|i| self.meshes[i.mesh].positions.len());
         let is_large = counts.sum::<usize>() > MOST_VERTICES;
-        let boxes: Vec<_> = match is_large {
-            true => self.meshes.iter().map(|mesh| mesh.bounds()).collect(),
-            false => Vec::new(),
-        };
-        for instance in &self.instances {
-            let place = place_of(instance.node) * instance.placement;
-            if let Some(Some(bounds)) = boxes.get(instance.mesh) {
-                reach.add_box(*bounds, place);
-            } else if !is_large {
-                for position in &self.meshes[instance.mesh].positions {
-                    reach.add(place.transform_point3(position.as_dvec3()), 0.0);
+        let (moving, nodes) = (self.moving_instances(), self.moving_nodes());
+        for (index, time) in self.moments().into_iter().enumerate() {
+            let posed = Posed::new(self, time);
+            let counts = |moves: bool| moves || index == 0;
+            let boxes: Vec<_> = match is_large {
+                true => (0..self.meshes.len())
+                    .map(|mesh| posed.bounds(mesh))
+                    .collect(),
+                false => Vec::new(),
+            };
+            let instances = self.instances.iter().zip(&moving);
+            for (instance, _) in instances.filter(|(_, moves)| counts(**moves)) {
+                let place = relative * posed.world_from_object(instance);
+                if let Some(Some(bounds)) = boxes.get(instance.mesh) {
+                    reach.add_box(*bounds, place);
+                } else if !is_large {
+                    for position in posed.points(instance.mesh) {
+                        reach.add(place.transform_point3(position), 0.0);
+                    }
                 }
             }
-        }
-        for shape in &self.shapes {
-            match (shape.geometry, shape.node) {
-                (Geometry::Plane { .. }, _) => {}
-                (
-                    Geometry::Sphere {
-                        center: own,
-                        radius,
-                    },
-                    None,
-                ) => {
-                    reach.add(own - center, radius);
+            for shape in &self.shapes {
+                if !counts(shape.node.is_some_and(|node| nodes[node])) {
+                    continue;
                 }
-                (geometry, node) => {
-                    if let Some(bounds) = geometry.placed(place_of(node)).bounds() {
-                        reach.add_box(bounds, DAffine3::IDENTITY);
+                match (shape.geometry, shape.node) {
+                    (Geometry::Plane { .. }, _) => {}
+                    (
+                        Geometry::Sphere {
+                            center: own,
+                            radius,
+                        },
+                        None,
+                    ) => {
+                        reach.add(own - center, radius);
+                    }
+                    (geometry, node) => {
+                        let place = relative * posed.world_from(node);
+                        if let Some(bounds) = geometry.placed(place).bounds() {
+                            reach.add_box(bounds, DAffine3::IDENTITY);
+                        }
                     }
                 }
             }

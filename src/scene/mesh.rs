@@ -4,8 +4,8 @@ use crate::threads;
 use glam::{DVec3, Vec2, Vec3};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Indexed triangles in object space. Positions are in range, triangles have an area, and normals have
-/// unit length: [`Mesh::repair`] ensures that for any file.
+/// Indexed triangles in object space. Positions are in range, triangles have an area (unless the mesh
+/// deforms), and normals have unit length: [`Mesh::repair`] ensures that for any file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Empty if the file gives none.
@@ -39,9 +39,6 @@ impl Mesh {
     /// `normals` may be shorter than `positions`; the missing ones count as zero and are not reported as
     /// repaired. Indices must be in range and positions finite.
     pub fn repair(&mut self) -> Repairs {
-        let given_normals = self.normals.len();
-        self.normals.resize(self.positions.len(), Vec3::ZERO);
-
         let before = self.triangles.len();
         let (positions, triangles) = (&self.positions, &self.triangles);
         let has_area = threads::collect(before, |index| {
@@ -52,7 +49,18 @@ impl Mesh {
             self.triangles
                 .retain(|_| has_area.next().unwrap_or_default());
         }
+        Repairs {
+            dropped_triangles: before - self.triangles.len(),
+            ..self.repair_normals()
+        }
+    }
 
+    /// Repairs normals as [`Self::repair`] does, and keeps triangles without area, which a deformation may give
+    /// one.
+    pub fn repair_normals(&mut self) -> Repairs {
+        let given_normals = self.normals.len();
+        self.normals.resize(self.positions.len(), Vec3::ZERO);
+        let positions = &self.positions;
         let lacks_some = AtomicBool::new(false);
         threads::for_chunks(&mut self.normals, |_, normals| {
             for normal in normals {
@@ -85,7 +93,7 @@ impl Mesh {
             }
         }
         Repairs {
-            dropped_triangles: before - self.triangles.len(),
+            dropped_triangles: 0,
             recomputed_normals,
         }
     }
@@ -100,7 +108,7 @@ impl Mesh {
         let Some((min, max)) = positions
             .clone()
             .map(|&p| (p, p))
-            .reduce(super::bounds::union)
+            .reduce(super::posed::union)
         else {
             return (Vec::new(), DVec3::ZERO);
         };

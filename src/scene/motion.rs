@@ -5,10 +5,12 @@
 //! starting point in between. Rotation is therefore measured along the curves, from key to key, and
 //! states are also compared at the keys.
 
-use super::frame::{Hierarchy, rotation_from};
+mod speed;
+
+use super::frame::Hierarchy;
 use super::{
-    Beyond, Camera, Curve, Easing, Frame, Interpolation, Light, LightKind, LightProperty,
-    NodeProperty, NodeState, Scene, Target, Value,
+    Beyond, Camera, Curve, Frame, Light, LightKind, LightProperty, NodeProperty, NodeState, Scene,
+    Target,
 };
 use glam::DVec3;
 
@@ -41,6 +43,7 @@ impl Scene {
     ///   a tenth of the camera's distance to its target count as that far away;
     /// * the sagitta of a turn by 0.1 radians for the axes of nodes and lights;
     /// * 10⁻³ of the camera's distance to its target for the camera's position;
+    /// * 10⁻³ of that distance for what the weight of a morph target moves, taken as in world space;
     /// * 10⁻³ of their value for the field of view, the lens, and the colours of lights.
     ///
     /// Linear interpolation cannot represent a jump: a jump takes the largest number of frames and is
@@ -92,6 +95,9 @@ struct Motion<'a> {
     camera: bool,
     /// The lights that tracks animate.
     lights: Vec<usize>,
+    /// The weights of morph targets that tracks animate: the deformation, the target, and how far it moves
+    /// a vertex.
+    weights: Vec<(usize, usize, f64)>,
     /// The states of all nodes, initially those at the time when the shutter opens.
     states: Vec<NodeState>,
     /// The curves that cause the motion.
@@ -108,6 +114,7 @@ impl<'a> Motion<'a> {
         let hierarchy = Hierarchy::new(scene);
         let mut moving = vec![false; scene.nodes.len()];
         let mut lights = Vec::new();
+        let mut weights = Vec::new();
         let mut camera = false;
         let mut curves = Vec::new();
         for track in scene.tracks.iter().filter(|track| moves(&track.curve)) {
@@ -128,6 +135,11 @@ impl<'a> Motion<'a> {
                     Target::Camera(index, _) => {
                         camera |= index == scene.camera_index;
                         index == scene.camera_index
+                    }
+                    Target::Weight(deformation, index) => {
+                        let reach = scene.deformations[deformation].targets[index].reach();
+                        weights.push((deformation, index, reach));
+                        true
                     }
                 };
             }
@@ -153,6 +165,7 @@ impl<'a> Motion<'a> {
             nodes: (0..moving.len()).filter(|&node| moving[node]).collect(),
             camera,
             lights,
+            weights,
             states: first.nodes.clone(),
             curves,
         }
@@ -279,6 +292,13 @@ impl<'a> Motion<'a> {
         if self.camera {
             probes.extend(camera_probes(&camera));
         }
+        if !self.weights.is_empty() {
+            let weights = self.scene.weights_at(time);
+            for &(deformation, index, distance) in &self.weights {
+                let moved = distance * weights[deformation][index];
+                probes.push(Probe::new(DVec3::splat(moved), TOLERANCE * reach));
+            }
+        }
         if !self.lights.is_empty() {
             let lights = self.scene.lights_at(time, self.open, &self.states);
             for &index in &self.lights {
@@ -340,108 +360,4 @@ fn light_probes(light: &Light, from_camera: impl Fn(DVec3) -> f64, probes: &mut 
     };
     probes.push(Probe::axis(axis, MAX_TURN));
     probes.push(Probe::size(light.color.as_dvec3()));
-}
-
-impl Curve {
-    /// Whether the curve has constant velocity between two keys, possibly 0.
-    fn is_even(&self) -> bool {
-        match self.interpolation {
-            Interpolation::Step => true,
-            Interpolation::Linear => self.easing == Easing::None,
-            Interpolation::CatmullRom | Interpolation::Hermite => false,
-        }
-    }
-
-    /// Whether the curve may jump between `open` and `close`.
-    fn jumps_within(&self, open: f64, close: f64) -> bool {
-        (self.interpolation == Interpolation::Step || self.beyond == Beyond::Repeat)
-            && (self.keys_within(open, close)).is_some_and(|keys| !keys.is_empty())
-    }
-
-    /// The times in (`open`, `close`) at which the curve passes a key, in any order; `None` if there are
-    /// too many to examine.
-    fn keys_within(&self, open: f64, close: f64) -> Option<Vec<f64>> {
-        let (first, last) = self.span();
-        let period = last - first;
-        let run = |time: f64| ((time - first) / period).floor();
-        let (low, high) = match self.beyond {
-            _ if period <= 0.0 => return Some(Vec::new()),
-            Beyond::Hold => (0.0, 0.0),
-            Beyond::Repeat | Beyond::PingPong => (run(open), run(close)),
-        };
-        let mut found = Vec::new();
-        let are_few = high - low <= MAX_KEYS as f64;
-        if !are_few {
-            return None;
-        }
-        for i in 0..=(high - low) as u32 {
-            let start = first + (low + f64::from(i)) * period;
-            let is_back = self.beyond == Beyond::PingPong && (low + f64::from(i)) % 2.0 != 0.0;
-            // From the curve's own times to times of this run.
-            let at = |key: f64| start + if is_back { last - key } else { key - first };
-            let from_run = |time: f64| {
-                if is_back {
-                    last - (time - start)
-                } else {
-                    time - start + first
-                }
-            };
-            let (a, b) = (from_run(open), from_run(close));
-            let begin = self.times.partition_point(|key| *key < a.min(b));
-            let end = self.times.partition_point(|key| *key <= a.max(b));
-            if end - begin + found.len() > MAX_KEYS {
-                return None;
-            }
-            let keys = self.times[begin..end.max(begin)].iter().map(|key| at(*key));
-            found.extend(keys.filter(|time| *time > open && *time < close));
-        }
-        Some(found)
-    }
-
-    /// The highest speed, in radians per second, of a curve of rotations or angles between `open` and
-    /// `close`, ignoring jumps at keys.
-    fn fastest_turn(&self, open: f64, close: f64) -> Option<f64> {
-        /// Number of samples between two keys if the speed varies.
-        const PIECES: u32 = 16;
-        let mut stops = self.keys_within(open, close)?;
-        stops.extend([open, close]);
-        stops.sort_unstable_by(f64::total_cmp);
-        let count = if self.is_even() { 1 } else { PIECES };
-        let mut fastest = 0.0_f64;
-        for pair in stops.windows(2) {
-            for i in 0..count {
-                let (a, b) = (
-                    moment(pair[0], pair[1], i, count),
-                    moment(pair[0], pair[1], i + 1, count),
-                );
-                // Slightly inside, because the curve may jump at the end.
-                let inset = (b - a) / 4096.0;
-                let (a, b) = (a + inset, b - inset);
-                let turn = match (self.at(a), self.at(b)) {
-                    (Value::Rotation(a), Value::Rotation(b)) => angle_between(a, b),
-                    (Value::Vector(a), Value::Vector(b)) => turn_between(a, b),
-                    _ => 0.0,
-                };
-                let speed = turn / (b - a);
-                if speed.is_finite() {
-                    fastest = fastest.max(speed);
-                }
-            }
-        }
-        Some(fastest)
-    }
-}
-
-/// The smaller angle between two rotations, in radians.
-fn angle_between(a: glam::DQuat, b: glam::DQuat) -> f64 {
-    let b = if a.dot(b) < 0.0 { -b } else { b };
-    4.0 * (a - b).length().atan2((a + b).length())
-}
-
-/// Upper bound of the angle in radians between two triples of angles, which may be several turns; exact
-/// for a turn about one axis. It is never less than the smaller angle between the two rotations.
-fn turn_between(a: DVec3, b: DVec3) -> f64 {
-    let way = b - a;
-    let sum = way.abs().element_sum();
-    sum.max(angle_between(rotation_from(a), rotation_from(b)))
 }

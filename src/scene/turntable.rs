@@ -53,12 +53,12 @@ impl Default for Turntable {
 /// margin above and below, or left and right. The camera starts in front of the scene, at +Z if the axis
 /// is +Y. Returns `false` and leaves the scene as it is if nothing is bounded.
 ///
-/// The scene is framed as it is at time 0; animated objects may leave the frame. A scene without lights,
+/// Geometry that moves is in frame at many times of its animation, so that all of it is. A scene without lights,
 /// or with those of [`Scene::staged`], gets a soft three-light rig attached to the camera, as if the
 /// scene turned on a table in front of it, and a grey background if its own is black or staged. The ground of
 /// a staged scene is removed: it would not turn with it.
 pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
-    let Some((min, max)) = scene.bounds() else {
+    let Some((min, max)) = scene.bounds_over_time() else {
         return false;
     };
     let axis = options.axis.normalize_or(DVec3::Y);

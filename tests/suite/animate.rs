@@ -1,5 +1,6 @@
 //! Animations on the command line: frame files, resumable runs, videos.
 
+mod deforming;
 mod moving;
 mod refusals;
 mod resume;

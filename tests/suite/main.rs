@@ -9,6 +9,7 @@ mod cli;
 mod closed_mirrors;
 mod contact;
 mod coverage;
+mod deformation;
 mod difference;
 mod distribution;
 mod drivers;

@@ -57,7 +57,7 @@ fn rays(count: usize) -> Vec<QueryRay> {
         .collect()
 }
 
-fn toward(origin: DVec3, target: DVec3) -> QueryRay {
+pub fn toward(origin: DVec3, target: DVec3) -> QueryRay {
     QueryRay::new(origin, (target - origin).normalize().as_vec3())
 }
 
@@ -100,7 +100,7 @@ fn reference(scene: &Scene, ray: &QueryRay) -> Option<(f64, ObjectRef)> {
 }
 
 /// Solves origin + t direction = a + u (b - a) + v (c - a) by Cramer's rule.
-fn triangle(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
+pub fn triangle(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
     let (u_axis, v_axis, to) = (b - a, c - a, origin - a);
     let volume = |x: DVec3, y: DVec3, z: DVec3| x.dot(y.cross(z));
     let whole = volume(-direction, u_axis, v_axis);
@@ -110,7 +110,7 @@ fn triangle(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f6
     (t > 0.0 && u >= 0.0 && v >= 0.0 && u + v <= 1.0).then_some(t)
 }
 
-fn sphere(origin: DVec3, direction: DVec3, center: DVec3, radius: f64) -> Option<f64> {
+pub fn sphere(origin: DVec3, direction: DVec3, center: DVec3, radius: f64) -> Option<f64> {
     let to = center - origin;
     let (a, b, c) = (
         direction.length_squared(),

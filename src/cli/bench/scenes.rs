@@ -5,7 +5,7 @@ mod forest;
 mod glass;
 mod hairball;
 mod hall;
-mod parts;
+pub(super) mod parts;
 mod terrain;
 
 pub use flake::sphereflake;

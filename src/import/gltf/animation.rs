@@ -1,11 +1,13 @@
-//! Clips (section 3.11 of the specification): tracks of the nodes that they move.
+//! Clips (section 3.11 of the specification): tracks of what they move.
 
 use super::Reader;
-use super::document::{AnimationSampler, Interpolation as Kinds, Kind};
+use super::aim::{Aim, Values as ValueKind};
+use super::document::{AnimationSampler, ChannelTarget, Interpolation as Kinds, Kind};
 use super::hierarchy::{extended, unit};
 use crate::import::budget;
 use crate::import::error::ImportError;
-use crate::scene::{Beyond, Curve, Easing, Interpolation, NodeProperty, Target, Track, Values};
+use crate::import::source::quote;
+use crate::scene::{Beyond, Curve, Easing, Interpolation, LightProperty, Target, Track, Values};
 use glam::{DQuat, DVec3};
 use std::collections::HashSet;
 
@@ -14,16 +16,6 @@ struct Keys {
     times: Vec<f64>,
     values: Vec<[f64; 4]>,
     interpolation: Interpolation,
-}
-
-/// The property that a channel's path names.
-fn property(path: &str) -> Option<NodeProperty> {
-    match path {
-        "translation" => Some(NodeProperty::Translation),
-        "rotation" => Some(NodeProperty::Rotation),
-        "scale" => Some(NodeProperty::Scale),
-        _ => None,
-    }
 }
 
 impl Reader<'_> {
@@ -41,6 +33,9 @@ impl Reader<'_> {
                 if let Some(node) = channel.target.node {
                     self.blame.get(&document.nodes, node, "nodes", here())?;
                 }
+                if let Some(aim) = Aim::of(&channel.target) {
+                    self.check_aim(aim, &here())?;
+                }
                 self.blame
                     .get(&clip.samplers, channel.sampler, "samplers", here())?;
             }
@@ -49,12 +44,12 @@ impl Reader<'_> {
             let names = clips.iter().map(|clip| clip.name.as_deref());
             return Ok(vec![super::named("clip", wanted, names, self.blame)?]);
         }
-        let mut moved: HashSet<(usize, &str)> = HashSet::new();
+        let mut moved: HashSet<Aim> = HashSet::new();
         let mut played = Vec::new();
         for (index, clip) in clips.iter().enumerate() {
             let targets = || {
-                let targets = clip.channels.iter().map(|channel| &channel.target);
-                targets.filter_map(|target| Some((target.node?, target.path.as_str())))
+                let channels = clip.channels.iter();
+                channels.filter_map(|channel| Aim::of(&channel.target))
             };
             if targets().any(|target| moved.contains(&target)) {
                 let name = clip.name.clone().unwrap_or_default();
@@ -71,21 +66,24 @@ impl Reader<'_> {
         Ok(played)
     }
 
-    /// For each node of the file, whether one of `clips` moves it.
-    pub(super) fn moved_by(&self, clips: &[usize]) -> Vec<bool> {
-        let mut animated = vec![false; self.document.nodes.len()];
-        let clips = clips.iter().map(|&clip| &self.document.animations[clip]);
-        for target in clips.flat_map(|clip| &clip.channels).map(|it| &it.target) {
-            if let (Some(node), Some(_)) = (target.node, property(&target.path)) {
-                animated[node] = true;
+    /// Finds the nodes of the file that `clips` move or hide, and those whose morph targets they blend.
+    pub(super) fn find_moved(&mut self, clips: &[usize]) {
+        let document = self.document;
+        let nodes = &document.nodes;
+        (self.animated, self.morphed) = (vec![false; nodes.len()], vec![false; nodes.len()]);
+        let clips = clips.iter().map(|&clip| &document.animations[clip]);
+        for channel in clips.flat_map(|clip| &clip.channels) {
+            match Aim::of(&channel.target) {
+                Some(Aim::Node(node, _)) => self.animated[node] = true,
+                Some(Aim::WeightsOfNode(node)) => self.morphed[node] = true,
+                Some(Aim::WeightsOfMesh(mesh)) => {
+                    for (morphed, node) in self.morphed.iter_mut().zip(nodes) {
+                        *morphed |= node.mesh == Some(mesh) && node.weights.is_none();
+                    }
+                }
+                _ => {}
             }
         }
-        animated
-    }
-
-    /// Whether a clip moves `nodes[node]`, which exists.
-    pub(super) fn is_animated(&self, node: usize) -> bool {
-        self.animated[node]
     }
 
     /// Adds the tracks of the clip `index`. It repeats as a whole.
@@ -93,51 +91,70 @@ impl Reader<'_> {
         let document = self.document;
         let clip = &document.animations[index];
         let here = |i: usize| format!("animations[{index}].channels[{i}]");
+        let aims: HashSet<Aim> = (clip.channels.iter())
+            .filter_map(|channel| Aim::of(&channel.target))
+            .collect();
+        let is_lit = |light| aims.contains(&Aim::Light(light, LightProperty::Intensity));
         let mut found = Vec::new();
         let mut seen = HashSet::new();
         for (i, channel) in clip.channels.iter().enumerate() {
             let target = &channel.target;
-            let Some(node) = target.node.and_then(|node| self.node_of[node]) else {
-                if target.path == "pointer" {
-                    self.skip(index, "a property by its pointer");
+            let Some(aim) = Aim::of(target) else {
+                if target.node.is_some() || target.path == "pointer" {
+                    self.skip(index, &described(target));
                 }
                 continue;
             };
-            let Some(property) = property(&target.path) else {
-                self.skip(
-                    index,
-                    match target.path.as_str() {
-                        "weights" => "the weights of morph targets",
-                        _ => "an unknown property",
-                    },
-                );
-                continue;
-            };
-            if !seen.insert((node, target.path.as_str())) {
+            if !seen.insert(aim) {
                 continue;
             }
-            let has_matrix = target
-                .node
-                .is_some_and(|node| document.nodes[node].matrix.is_some());
-            if has_matrix {
+            if let Aim::Node(node, _) = aim
+                && document.nodes[node].matrix.is_some()
+            {
                 self.notes.add("animated matrices", || {
                     format!("{}: the node has a matrix, which stays", here(i))
                 });
             }
-            let keys = self.keys(&clip.samplers[channel.sampler], property, &here(i))?;
-            found.push((node, property, keys));
+            let sampler = &clip.samplers[channel.sampler];
+            let mut deformations = self.deformations_of(aim);
+            if let Aim::WeightsOfMesh(_) = aim {
+                let node = |it: usize| Aim::WeightsOfNode(self.deforming[it].0);
+                deformations.retain(|&it| !aims.contains(&node(it)));
+            }
+            let width = (deformations.iter())
+                .map(|&it| self.scene.deformations[it].targets.len())
+                .max();
+            match self.targets(aim, is_lit) {
+                Err(what) => self.skip(index, what),
+                Ok(targets) if !targets.is_empty() => {
+                    let mut keys = self.keys(sampler, aim.kind(), 1, &here(i))?;
+                    found.extend(keys.pop().map(|keys| (targets, aim.values(), keys)));
+                }
+                Ok(_) => {
+                    let Some(width) = width.filter(|width| *width > 0) else {
+                        continue;
+                    };
+                    let all = self.keys(sampler, Kind::Scalar, width, &here(i))?;
+                    for (k, keys) in all.into_iter().enumerate() {
+                        let has = |it: &&usize| k < self.scene.deformations[**it].targets.len();
+                        let targets = deformations.iter().filter(has);
+                        let targets = targets.map(|&it| (Target::Weight(it, k), DVec3::ONE));
+                        found.push((targets.collect(), ValueKind::Scalar, keys));
+                    }
+                }
+            }
         }
-        let span = found
-            .iter()
-            .map(|(.., keys)| (keys.times[0], keys.times[keys.times.len() - 1]));
-        let span = span.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let (_, end) = span.unwrap_or_default();
-        for (node, property, keys) in found {
-            let curve = curve(keys, property, end);
-            self.scene.tracks.push(Track {
-                targets: vec![Target::Node(node, property)],
-                curve,
-            });
+        let ends = (found.iter()).map(|(.., keys)| keys.times[keys.times.len() - 1]);
+        let end = ends.reduce(f64::max).unwrap_or_default();
+        self.scene.clips[index].seconds = Some(end);
+        for (targets, kind, keys) in found {
+            let keys = keys.held_until(end);
+            for alike in targets.chunk_by(|(_, a), (_, b)| a == b) {
+                self.scene.tracks.push(Track {
+                    targets: alike.iter().map(|(target, _)| *target).collect(),
+                    curve: keys.curve(kind, alike[0].1),
+                });
+            }
         }
         Ok(())
     }
@@ -148,119 +165,142 @@ impl Reader<'_> {
         });
     }
 
-    /// The keys of a sampler for `property`.
+    /// The keys of a sampler whose elements have this type; a list of each of `width` numbers that follow each
+    /// other for each key.
     fn keys(
         &mut self,
         sampler: &AnimationSampler,
-        property: NodeProperty,
+        kind: Kind,
+        width: usize,
         here: &str,
-    ) -> Result<Keys, ImportError> {
+    ) -> Result<Vec<Keys>, ImportError> {
         let accessors = self.accessors();
         let place = format!("{here}.sampler.input");
         let times = accessors.vectors::<1>(sampler.input, &[Kind::Scalar], 0.0, &place)?;
-        let mut times: Vec<f64> = times.iter().map(|[time]| f64::from(*time)).collect();
+        let times: Vec<f64> = times.iter().map(|[time]| f64::from(*time)).collect();
         let is_finite = times.iter().all(|time| time.is_finite());
         if times.is_empty() || !is_finite || times.windows(2).any(|pair| pair[0] > pair[1]) {
             return Err(self.blame.bad(place, "the times do not increase"));
         }
         let place = format!("{here}.sampler.output");
-        let kind = match property {
-            NodeProperty::Rotation => Kind::Vec4,
-            _ => Kind::Vec3,
-        };
         let values = accessors.vectors::<4>(sampler.output, &[kind], 0.0, &place)?;
         let per_key = match sampler.interpolation {
             Kinds::CubicSpline => 3,
             _ => 1,
         };
-        if values.len() != per_key * times.len() {
-            let why = format!("{} values for {} keys", values.len(), times.len());
+        if values.len() != per_key * times.len() * width {
+            let why = match width {
+                1 => format!("{} values for {} keys", values.len(), times.len()),
+                _ => format!(
+                    "{} values for {} keys of {width} morph targets",
+                    values.len(),
+                    times.len()
+                ),
+            };
             return Err(self.blame.bad(place, why));
         }
         if values.as_flattened().iter().any(|value| !value.is_finite()) {
             return Err(self.blame.bad(place, "a value is not finite"));
         }
-        let size = budget::size::<f64>(times.len()) + budget::size::<[f64; 4]>(values.len());
-        self.ledger.take(size, size, here)?;
-        let mut values: Vec<[f64; 4]> = values.iter().map(|v| v.map(f64::from)).collect();
+        let size =
+            budget::size::<[f64; 2]>(times.len() * width) + budget::size::<[f64; 4]>(values.len());
+        self.ledger.take(size, 2 * size, here)?;
         // Of keys at the same time the last one counts.
-        let is_last =
-            |i: usize, times: &[f64]| times.get(i + 1).is_none_or(|next| times[i] < *next);
-        let kept: Vec<usize> = (0..times.len()).filter(|&i| is_last(i, &times)).collect();
-        if kept.len() < times.len() {
-            let keys = kept.iter();
-            values = keys
-                .flat_map(|&i| values[per_key * i..per_key * (i + 1)].to_vec())
-                .collect();
-            times = kept.iter().map(|&i| times[i]).collect();
-        }
+        let is_last = |i: &usize| times.get(i + 1).is_none_or(|next| times[*i] < *next);
+        let kept: Vec<usize> = (0..times.len()).filter(is_last).collect();
         let interpolation = match sampler.interpolation {
             Kinds::Linear => Interpolation::Linear,
             Kinds::Step => Interpolation::Step,
             Kinds::CubicSpline => Interpolation::Hermite,
         };
-        Ok(Keys {
-            times,
-            values,
-            interpolation,
-        })
+        let of = |k: usize| {
+            let parts = kept
+                .iter()
+                .flat_map(|&i| (0..per_key).map(move |part| (i * per_key + part) * width + k));
+            Keys {
+                times: kept.iter().map(|&i| times[i]).collect(),
+                values: parts.map(|at| values[at].map(f64::from)).collect(),
+                interpolation,
+            }
+        };
+        Ok((0..width).map(of).collect())
     }
 }
 
-/// The curve through `keys`, with keys at 0 and at `end`, so that all curves of a clip repeat together.
-/// Before its first key and after its last one, a curve is constant.
-fn curve(mut keys: Keys, property: NodeProperty, end: f64) -> Curve {
-    let is_cubic = keys.interpolation == Interpolation::Hermite;
-    let last = keys.times.len() - 1;
-    if keys.times.len() > 1 || keys.times[0] != end {
-        let hold = |keys: &Keys, i: usize| match is_cubic {
+/// What a channel animates that is not known.
+fn described(target: &ChannelTarget) -> String {
+    let pointer = target
+        .extensions
+        .as_ref()
+        .and_then(|it| it.pointer.as_ref());
+    match pointer {
+        Some(it) => quote(it.pointer.as_bytes()),
+        None => "an unknown property".to_owned(),
+    }
+}
+
+impl Keys {
+    /// The same keys with one at 0 and one at `end`, so that all curves of a clip repeat together. Before its
+    /// first key and after its last one, a curve is constant.
+    fn held_until(mut self, end: f64) -> Self {
+        let is_cubic = self.interpolation == Interpolation::Hermite;
+        let last = self.times.len() - 1;
+        if self.times.len() == 1 && self.times[0] == end {
+            return self;
+        }
+        let hold = |keys: &Self, i: usize| match is_cubic {
             true => vec![[0.0; 4], keys.values[3 * i + 1], [0.0; 4]],
             false => vec![keys.values[i]],
         };
-        if keys.times[last] < end {
+        if self.times[last] < end {
             if is_cubic {
-                keys.values[3 * last + 2] = [0.0; 4];
+                self.values[3 * last + 2] = [0.0; 4];
             }
-            keys.values.extend(hold(&keys, last));
-            keys.times.push(end);
+            self.values.extend(hold(&self, last));
+            self.times.push(end);
         }
-        if keys.times[0] > 0.0 {
+        if self.times[0] > 0.0 {
             if is_cubic {
-                keys.values[0] = [0.0; 4];
+                self.values[0] = [0.0; 4];
             }
-            let first = hold(&keys, 0);
-            keys.values.splice(0..0, first);
-            keys.times.insert(0, 0.0);
+            let first = hold(&self, 0);
+            self.values.splice(0..0, first);
+            self.times.insert(0, 0.0);
         }
+        self
     }
-    let vector = |v: &[f64; 4]| DVec3::new(v[0], v[1], v[2]);
-    let is_key = |i: usize| !is_cubic || i % 3 == 1;
-    let all = keys.values.iter();
-    let values = match property {
-        NodeProperty::Rotation => Values::Rotation(
-            all.enumerate()
-                .map(|(i, v)| match is_key(i) {
+
+    /// The curve through these keys, their values multiplied with `factor`. It repeats.
+    fn curve(&self, kind: ValueKind, factor: DVec3) -> Curve {
+        let is_cubic = self.interpolation == Interpolation::Hermite;
+        let vector = |v: &[f64; 4]| DVec3::new(v[0], v[1], v[2]) * factor;
+        let all = self.values.iter().enumerate();
+        let all = all.map(|(i, v)| (!is_cubic || i % 3 == 1, v));
+        let values = match kind {
+            ValueKind::Rotation => Values::Rotation(
+                all.map(|(is_key, v)| match is_key {
                     true => unit(DQuat::from_array(*v)).unwrap_or_default(),
                     false => DQuat::from_array(*v),
                 })
                 .collect(),
-        ),
-        NodeProperty::Scale => Values::Vector(
-            all.enumerate()
-                .map(|(i, v)| match (is_key(i), vector(v)) {
+            ),
+            ValueKind::Scale => Values::Vector(
+                all.map(|(is_key, v)| match (is_key, vector(v)) {
                     (true, DVec3::ZERO) => DVec3::splat(1e-6),
                     (true, scale) => extended(scale),
                     (false, tangent) => tangent,
                 })
                 .collect(),
-        ),
-        _ => Values::Vector(all.map(vector).collect()),
-    };
-    Curve {
-        times: keys.times,
-        values,
-        interpolation: keys.interpolation,
-        easing: Easing::None,
-        beyond: Beyond::Repeat,
+            ),
+            ValueKind::Vector => Values::Vector(all.map(|(_, v)| vector(v)).collect()),
+            ValueKind::Scalar => Values::Scalar(all.map(|(_, v)| v[0] * factor.x).collect()),
+        };
+        Curve {
+            times: self.times.clone(),
+            values,
+            interpolation: self.interpolation,
+            easing: Easing::None,
+            beyond: Beyond::Repeat,
+        }
     }
 }

@@ -179,6 +179,18 @@ pub struct NodeExtensions {
     pub light: Option<NodeLight>,
     #[serde(rename = "EXT_mesh_gpu_instancing")]
     pub instancing: Option<Instancing>,
+    #[serde(rename = "KHR_node_visibility")]
+    pub visibility: Option<Visibility>,
+}
+
+#[derive(Debug, Deserialize)]
+pub struct Visibility {
+    #[serde(default = "yes")]
+    pub visible: bool,
+}
+
+fn yes() -> bool {
+    true
 }
 
 #[derive(Debug, Deserialize)]
@@ -303,6 +315,20 @@ pub struct ChannelTarget {
     #[serde(default)]
     pub node: Option<usize>,
     pub path: String,
+    #[serde(default)]
+    pub extensions: Option<Box<TargetExtensions>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct TargetExtensions {
+    #[serde(rename = "KHR_animation_pointer")]
+    pub pointer: Option<AnimationPointer>,
+}
+
+#[derive(Debug, Deserialize)]
+pub struct AnimationPointer {
+    pub pointer: String,
 }
 
 #[derive(Debug, Deserialize)]

@@ -23,6 +23,7 @@ pub const GLTF_EXTENSIONS: &[(&str, Support)] = &[
     ("EXT_mesh_gpu_instancing", Support::Full),
     ("EXT_meshopt_compression", Support::Full),
     ("EXT_texture_webp", Support::Full),
+    ("KHR_animation_pointer", Support::Full),
     #[cfg(feature = "draco")]
     ("KHR_draco_mesh_compression", Support::Full),
     ("KHR_lights_punctual", Support::Full),
@@ -36,6 +37,7 @@ pub const GLTF_EXTENSIONS: &[(&str, Support)] = &[
     ("KHR_materials_volume", Support::Full),
     ("KHR_mesh_quantization", Support::Full),
     ("KHR_meshopt_compression", Support::Full),
+    ("KHR_node_visibility", Support::Full),
     #[cfg(feature = "basis")]
     ("KHR_texture_basisu", Support::Full),
     ("KHR_texture_transform", Support::Full),

@@ -32,6 +32,7 @@ impl Reader<'_> {
         let nodes = &self.document.nodes;
         self.check_tree(roots, place)?;
         self.find_worlds(roots);
+        self.find_moving(roots);
         let visit = |&index: &usize| Visit {
             index,
             parent: None,
@@ -42,15 +43,19 @@ impl Reader<'_> {
         while let Some(visit) = stack.pop() {
             let source = &nodes[visit.index];
             let here = format!("nodes[{}]", visit.index);
-            let is_animated = self.is_animated(visit.index);
+            let is_animated = self.animated[visit.index];
+            let is_joint = self.is_joint[visit.index];
             let light = source.extensions.as_ref().and_then(|e| e.light.as_ref());
-            let is_carrier = source.mesh.is_some() || source.camera.is_some() || light.is_some();
+            let is_carrier = source.mesh.is_some()
+                || source.camera.is_some()
+                || light.is_some()
+                || is_hidden(source);
             let named = match source.name.as_deref() {
                 None | Some("") => visit.named,
                 Some(_) => visit.index,
             };
             let (mut parent, mut above) = (visit.parent, visit.parent_from_above);
-            if is_animated || is_carrier {
+            if is_animated || is_carrier || is_joint {
                 let size = budget::size::<(Node, Instance)>(1);
                 self.ledger.take(size, 0, &here)?;
                 let name = nodes[named].name.clone().unwrap_or_default();
@@ -59,7 +64,7 @@ impl Reader<'_> {
                 let added = self.scene.nodes.len() - 1;
                 self.node_of[visit.index] = Some(added);
                 (parent, above) = (Some(added), DAffine3::IDENTITY);
-                self.carry(source, added, &here)?;
+                self.carry(visit.index, added, &here)?;
             } else {
                 above *= self.placed(source, &here);
             }
@@ -82,6 +87,25 @@ impl Reader<'_> {
             let world = above * self.placed(&nodes[index], &format!("nodes[{index}]"));
             self.worlds[index] = world;
             stack.extend(nodes[index].children.iter().map(|&child| (child, world)));
+        }
+    }
+
+    /// Finds the nodes under `roots` that move, and the joints among them.
+    fn find_moving(&mut self, roots: &[usize]) {
+        let document = self.document;
+        let count = document.nodes.len();
+        (self.moving, self.is_joint) = (vec![false; count], vec![false; count]);
+        let mut stack: Vec<(usize, bool)> = roots.iter().map(|&root| (root, false)).collect();
+        while let Some((index, is_carried)) = stack.pop() {
+            let is_moving = is_carried || self.animated[index];
+            self.moving[index] = is_moving;
+            let children = document.nodes[index].children.iter();
+            stack.extend(children.map(|&child| (child, is_moving)));
+        }
+        for &joint in document.skins.iter().flat_map(|skin| &skin.joints) {
+            if self.moving.get(joint).is_some_and(|moves| *moves) {
+                self.is_joint[joint] = true;
+            }
         }
     }
 
@@ -123,6 +147,7 @@ impl Reader<'_> {
             name,
             parent: visit.parent,
             placement: visit.parent_from_above,
+            visible: !is_hidden(source),
             ..Node::default()
         };
         if is_animated && source.matrix.is_none() {
@@ -132,6 +157,13 @@ impl Reader<'_> {
             node.translation = translation;
         } else {
             node.placement *= self.placed(source, here);
+        }
+        let is_flat = !is_invertible(&node.parent_from_node());
+        if is_flat && self.is_joint[visit.index] && source.matrix.is_none() {
+            // What follows a joint without extent has none either.
+            let (_, rotation, translation) = self.parts(source, here);
+            (node.rotation, node.translation) = (rotation, translation);
+            (node.placement, node.scale) = (visit.parent_from_above, DVec3::splat(FLAT));
         }
         if !is_invertible(&node.parent_from_node()) {
             self.notes.add("hidden nodes", || {
@@ -179,22 +211,27 @@ impl Reader<'_> {
         (scale, rotation, translation)
     }
 
-    /// Adds what `source`, which is node `added` of the scene, carries.
-    fn carry(&mut self, source: &Source, added: usize, here: &str) -> Result<(), ImportError> {
-        if let Some(index) = source.mesh {
-            let mesh = self.mesh(index, source.skin, here)?;
-            if let (Some(mesh), Some(skin)) = (mesh, source.skin) {
+    /// Adds what `nodes[index]`, which is node `added` of the scene, carries.
+    fn carry(&mut self, index: usize, added: usize, here: &str) -> Result<(), ImportError> {
+        let document = self.document;
+        let source = &document.nodes[index];
+        if let Some(mesh) = source.mesh {
+            let skin = source.skin.and_then(|skin| document.skins.get(skin));
+            let mut joints = skin.iter().flat_map(|skin| &skin.joints);
+            let bends = joints.any(|&joint| self.moving.get(joint).is_some_and(|moves| *moves));
+            let may_hide = self.moving[index] || !self.scene.nodes[added].visible;
+            let deforms = bends || self.morphed[index] || source.skin.is_some() && may_hide;
+            let mesh = match deforms {
+                true => self.deforming_mesh(index, mesh, here)?,
+                false => self.mesh(mesh, source, here)?,
+            };
+            if let (Some(mesh), Some(_)) = (mesh, source.skin) {
+                // Its node only hides it.
                 self.scene.instances.push(Instance {
                     mesh,
                     placement: DAffine3::IDENTITY,
-                    node: None,
+                    node: deforms.then_some(added),
                 });
-                let joints = &self.document.skins[skin].joints;
-                if joints.iter().any(|&joint| self.is_animated(joint)) {
-                    self.notes.add("skins at rest", || {
-                        format!("{here}: the skin stays in its pose at rest while clips play")
-                    });
-                }
             } else if let Some(mesh) = mesh {
                 for placement in self.placements(source, here)? {
                     if !is_invertible(&placement) {
@@ -234,6 +271,7 @@ impl Reader<'_> {
                 }
             }
             self.scene.cameras.push(seen);
+            self.cameras.push(index);
         }
         let light = source.extensions.as_ref().and_then(|e| e.light.as_ref());
         match light {
@@ -291,6 +329,14 @@ impl Reader<'_> {
         };
         Ok((0..count).map(placement).collect())
     }
+}
+
+/// Whether `KHR_node_visibility` hides a node and what is below it.
+fn is_hidden(source: &Source) -> bool {
+    let extensions = source.extensions.as_ref();
+    extensions
+        .and_then(|it| it.visibility.as_ref())
+        .is_some_and(|it| !it.visible)
 }
 
 /// `q` with unit length, if it has a length.

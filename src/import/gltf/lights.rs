@@ -63,6 +63,7 @@ impl Reader<'_> {
             node: Some(node),
             ..Light::default()
         });
+        self.lights.push(index);
         Ok(())
     }
 }

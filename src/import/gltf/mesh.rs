@@ -2,13 +2,17 @@
 //! with a material at each vertex.
 
 use super::Reader;
-use super::document::{Kind, Primitive};
+use super::deform::{Modelled, Sources, Wanted};
+use super::document::{Kind, Node, Primitive};
 use super::materials::MaterialKey;
 use crate::import::budget;
 use crate::import::error::ImportError;
 use crate::import::notes;
 use crate::scene::Mesh;
-use glam::{DAffine3, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
+
+/// What the still mesh of a node depends on: its number in the file, its skin, and the bits of its weights.
+pub(super) type MeshKey = (usize, Option<usize>, Vec<u64>);
 
 /// The attributes of one primitive, one of each per vertex if there are any.
 struct Vertices {
@@ -20,8 +24,8 @@ struct Vertices {
 
 impl Vertices {
     /// Gives every corner of `triangles` a vertex of its own, with the normal of the triangle, whose
-    /// front is where it is counter-clockwise.
-    fn flatten(&mut self, triangles: &mut [[u32; 3]]) {
+    /// front is where it is counter-clockwise. Returns the vertices that they were.
+    fn flatten(&mut self, triangles: &mut [[u32; 3]]) -> Vec<u32> {
         fn spread<T: Copy>(values: &mut Vec<T>, corners: &[u32]) {
             if !values.is_empty() {
                 *values = corners.iter().map(|&i| values[i as usize]).collect();
@@ -38,55 +42,79 @@ impl Vertices {
             let normal = (b - a).cross(c - a).normalize_or_zero().as_vec3();
             self.normals.extend([normal; 3]);
         }
+        let sources = corners.to_vec();
         for (i, corner) in corners.iter_mut().enumerate() {
             *corner = i as u32;
         }
+        sources
     }
 }
 
 impl Reader<'_> {
-    /// The index in the scene of the triangles of `meshes[index]`, in world space if it has a skin;
-    /// `None` if it has none.
+    /// The index in the scene of the triangles of the mesh of `source`, in its pose at rest and in world
+    /// space if it has a skin; `None` if it has none.
     pub(super) fn mesh(
         &mut self,
         index: usize,
-        skin: Option<usize>,
+        source: &Node,
         place: &str,
     ) -> Result<Option<usize>, ImportError> {
-        if let Some(known) = self.meshes.get(&(index, skin)) {
+        let weights = self.weights_of(source);
+        let bits = weights.iter().map(|weight| weight.to_bits()).collect();
+        let key: MeshKey = (index, source.skin, bits);
+        if let Some(known) = self.meshes.get(&key) {
             return Ok(*known);
         }
-        let joints = match skin {
-            Some(skin) => Some(self.joints(skin, place)?),
+        let joints = match source.skin {
+            Some(skin) => Some(self.skin(skin, place)?),
             None => None,
         };
-        let document = self.document;
-        let source = self.blame.get(&document.meshes, index, "meshes", place)?;
-        let mut mesh = Mesh {
-            name: source.name.clone().unwrap_or_default(),
-            ..Mesh::default()
+        let wanted = Wanted {
+            weights: Some(&weights),
+            is_skinned: joints.is_some(),
         };
-        for (i, primitive) in source.primitives.iter().enumerate() {
-            let here = format!("meshes[{index}].primitives[{i}]");
-            let (weights, joints) = (source.weights.as_deref(), joints.as_deref());
-            self.primitive(&mut mesh, primitive, weights, joints, &here)?;
-        }
+        let modelled = self.modelled(index, wanted, place)?;
+        let is_posed = joints.is_some() || weights.iter().any(|weight| *weight != 0.0);
+        let mut mesh = match is_posed {
+            true => {
+                let here = format!("meshes[{index}]");
+                self.posed(modelled, joints.as_deref(), weights, &here)?
+            }
+            false => modelled.mesh,
+        };
         let repairs = mesh.repair();
         notes::of_repairs(&mut self.notes, repairs);
         let found = (!mesh.triangles.is_empty()).then(|| {
             self.scene.meshes.push(mesh.into());
             self.scene.meshes.len() - 1
         });
-        self.meshes.insert((index, skin), found);
+        self.meshes.insert(key, found);
         Ok(found)
+    }
+
+    /// `meshes[index]` as it was modelled, and what may deform it.
+    pub(super) fn modelled(
+        &mut self,
+        index: usize,
+        wanted: Wanted,
+        place: &str,
+    ) -> Result<Modelled, ImportError> {
+        let document = self.document;
+        let source = self.blame.get(&document.meshes, index, "meshes", place)?;
+        let mut modelled = Modelled::default();
+        modelled.mesh.name = source.name.clone().unwrap_or_default();
+        for (i, primitive) in source.primitives.iter().enumerate() {
+            let here = format!("meshes[{index}].primitives[{i}]");
+            self.primitive(&mut modelled, primitive, wanted, &here)?;
+        }
+        Ok(modelled)
     }
 
     fn primitive(
         &mut self,
-        mesh: &mut Mesh,
+        modelled: &mut Modelled,
         primitive: &Primitive,
-        weights: Option<&[f64]>,
-        joints: Option<&[DAffine3]>,
+        wanted: Wanted,
         here: &str,
     ) -> Result<(), ImportError> {
         let kind = match primitive.mode {
@@ -107,21 +135,24 @@ impl Reader<'_> {
             return Ok(());
         };
         let count = self.accessors().count(positions, here)?;
-        self.reserve(mesh, primitive, count, here)?;
+        self.reserve(&modelled.mesh, primitive, count, here)?;
         let material = self.material_of(primitive, here)?;
         let mut vertices = self.vertices(primitive, positions, &material, here)?;
-        self.morph(&mut vertices, primitive, weights, here)?;
-        if let Some(joints) = joints {
-            let Vertices {
-                positions, normals, ..
-            } = &mut vertices;
-            self.pose(positions, normals, primitive, joints, here)?;
+        let count = vertices.positions.len();
+        let mut triangles = self.triangles(primitive, count, here)?;
+        let first = modelled.mesh.positions.len();
+        let corners = vertices.normals.is_empty().then(|| {
+            let corners = vertices.flatten(&mut triangles);
+            modelled.flat.push(first..first + corners.len());
+            corners
+        });
+        let sources = Sources { count, corners };
+        let targets = &mut modelled.targets;
+        self.add_targets(targets, primitive, wanted.weights, (first, &sources), here)?;
+        if wanted.is_skinned {
+            self.add_influences(&mut modelled.influences, primitive, &sources, here)?;
         }
-        let mut triangles = self.triangles(primitive, vertices.positions.len(), here)?;
-        if vertices.normals.is_empty() {
-            vertices.flatten(&mut triangles);
-        }
-        let first = mesh.positions.len();
+        let mesh = &mut modelled.mesh;
         if first + vertices.positions.len() > u32::MAX as usize {
             return Err(self.blame.bad(here, "the mesh has more than 2³² vertices"));
         }
@@ -232,50 +263,6 @@ impl Reader<'_> {
             uvs: uvs.into_iter().map(uv).collect(),
             colors: colors.into_iter().map(Vec4::from).collect(),
         })
-    }
-
-    /// Adds the morph targets with their default weights.
-    fn morph(
-        &mut self,
-        vertices: &mut Vertices,
-        primitive: &Primitive,
-        weights: Option<&[f64]>,
-        here: &str,
-    ) -> Result<(), ImportError> {
-        for (i, target) in primitive.targets.iter().enumerate() {
-            let weight = weights
-                .and_then(|weights| weights.get(i))
-                .copied()
-                .unwrap_or(0.0) as f32;
-            if weight == 0.0 {
-                continue;
-            }
-            for (name, values) in [
-                ("POSITION", &mut vertices.positions),
-                ("NORMAL", &mut vertices.normals),
-            ] {
-                let Some(&index) = target.get(name) else {
-                    continue;
-                };
-                let at = format!("{here}.targets[{i}].{name}");
-                let moved = self
-                    .accessors()
-                    .vectors::<3>(index, &[Kind::Vec3], 0.0, &at)?;
-                if moved.len() != values.len() && !values.is_empty() {
-                    return Err(self
-                        .blame
-                        .bad(at, "a target for another number of vertices"));
-                }
-                for (value, moved) in values.iter_mut().zip(moved) {
-                    let value_then = *value + weight * Vec3::from(moved);
-                    if !value_then.is_finite() {
-                        return Err(self.blame.bad(at, "a displacement is not finite"));
-                    }
-                    *value = value_then;
-                }
-            }
-        }
-        Ok(())
     }
 
     /// The triangles of a primitive with `count` vertices.

@@ -22,6 +22,7 @@
 //! unless the width requires a larger d; then it is the t for which the third holds with equality too.
 
 use super::Turntable;
+use crate::scene::posed::Posed;
 use crate::scene::{CanonicalShape, Geometry, Scene, corners};
 use glam::DAffine3;
 
@@ -42,31 +43,34 @@ pub(super) struct View {
 }
 
 impl Swept {
-    /// All bounded geometry in `scene`, visible or not, at time 0: vertices, spheres, and the corners of
-    /// other shapes' boxes.
+    /// All bounded geometry in `scene`, visible or not, at many times of its animation: vertices, spheres, and
+    /// the corners of other shapes' boxes.
     pub fn new(scene: &Scene, pivot_from_world: DAffine3) -> Self {
-        let nodes = scene.nodes_at(0.0, 0.0);
-        let pivot_from = |node: Option<usize>| match node {
-            Some(node) => pivot_from_world * nodes[node].world_from_node,
-            None => pivot_from_world,
-        };
         let mut swept = Self {
             points: Vec::new(),
             spheres: Vec::new(),
         };
-        for instance in &scene.instances {
-            let pivot_from_object = pivot_from(instance.node) * instance.placement;
-            let positions = &scene.meshes[instance.mesh].positions;
-            (swept.points).extend(positions.iter().map(|p| {
-                let p = pivot_from_object.transform_point3(p.as_dvec3());
-                [p.x.hypot(p.z), p.y]
-            }));
+        let (moving, nodes) = (scene.moving_instances(), scene.moving_nodes());
+        for (index, time) in scene.moments().into_iter().enumerate() {
+            let posed = Posed::new(scene, time);
+            let counts = |moves: bool| moves || index == 0;
+            let instances = scene.instances.iter().zip(&moving);
+            for (instance, _) in instances.filter(|(_, moves)| counts(**moves)) {
+                let pivot_from_object = pivot_from_world * posed.world_from_object(instance);
+                (swept.points).extend(posed.points(instance.mesh).map(|p| {
+                    let p = pivot_from_object.transform_point3(p);
+                    [p.x.hypot(p.z), p.y]
+                }));
+                swept.points = hull(swept.points);
+            }
+            for shape in &scene.shapes {
+                if counts(shape.node.is_some_and(|node| nodes[node])) {
+                    let pivot_from_node = pivot_from_world * posed.world_from(shape.node);
+                    swept.add(shape.geometry.placed(pivot_from_node));
+                }
+            }
             swept.points = hull(swept.points);
         }
-        for shape in &scene.shapes {
-            swept.add(shape.geometry.placed(pivot_from(shape.node)));
-        }
-        swept.points = hull(swept.points);
         swept
     }
 

@@ -360,8 +360,7 @@ pub fn assign(scene: &mut Scene, object: ObjectRef, material: usize) -> Result<(
             }
             let others = scene.instances.iter().filter(|other| other.mesh == mesh);
             let own = if others.count() > 1 {
-                scene.meshes.push(scene.meshes[mesh].clone());
-                scene.meshes.len() - 1
+                scene.copy_mesh(mesh)
             } else {
                 mesh
             };

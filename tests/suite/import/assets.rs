@@ -147,6 +147,7 @@ fn assert_guarantees_of_animation(scene: &Scene) {
                 Target::Camera(index, _) => index < scene.cameras.len(),
                 Target::Light(index, _) => index < scene.lights.len(),
                 Target::Material(index, _) => index < scene.materials.len(),
+                Target::Weight(index, _) => index < scene.deformations.len(),
             });
         }
     }

@@ -1,6 +1,7 @@
 //! glTF 2.0. The models are built here, byte by byte.
 
 mod compressed;
+pub mod deform;
 mod geometry;
 mod hostile;
 mod materials;

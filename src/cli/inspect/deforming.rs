@@ -1,0 +1,67 @@
+//! The clips of a model, and its deforming meshes.
+
+use crate::cli::inspect::{list, number, quoted};
+use crate::scene::{Clip, Deformation, Scene};
+use serde_json::{Value, json};
+use std::fmt::{self, Write};
+
+/// `seconds` is null for clips that are not played.
+pub fn clips_json(scene: &Scene) -> Value {
+    let clips = scene.clips.iter();
+    clips
+        .map(|clip| json!({ "name": clip.name, "seconds": clip.seconds }))
+        .collect()
+}
+
+pub fn to_json(scene: &Scene) -> Value {
+    let deformations = scene.deformations.iter();
+    deformations
+        .map(|deformation| {
+            json!({
+                "mesh": scene.meshes[deformation.mesh].name,
+                "joints": deformation.skin.as_ref().map(|skin| skin.joints.len()),
+                "morph_targets": deformation.targets.len(),
+            })
+        })
+        .collect()
+}
+
+/// Nothing for scenes without.
+pub fn write_text(out: &mut String, scene: &Scene) -> fmt::Result {
+    if !scene.clips.is_empty() {
+        list(out, "clips", &scene.clips, |out, _, clip| {
+            clip_text(out, clip)
+        })?;
+    }
+    if !scene.deformations.is_empty() {
+        list(out, "deforming", &scene.deformations, |out, _, it| {
+            deformation_text(out, scene, it)
+        })?;
+    }
+    Ok(())
+}
+
+fn clip_text(out: &mut String, clip: &Clip) -> fmt::Result {
+    write!(out, "{}, ", quoted(&clip.name))?;
+    match clip.seconds {
+        Some(seconds) => write!(out, "{} s", number(seconds)),
+        None => write!(out, "not played"),
+    }
+}
+
+fn deformation_text(out: &mut String, scene: &Scene, it: &Deformation) -> fmt::Result {
+    let mesh = &scene.meshes[it.mesh];
+    write!(
+        out,
+        "{} of {} triangles",
+        quoted(&mesh.name),
+        mesh.triangles.len()
+    )?;
+    if let Some(skin) = &it.skin {
+        write!(out, ", skin with {} joint(s)", skin.joints.len())?;
+    }
+    match it.targets.len() {
+        0 => Ok(()),
+        count => write!(out, ", {count} morph target(s)"),
+    }
+}

@@ -1,0 +1,256 @@
+//! What a channel of a clip animates: by node and path, or by a pointer into the JSON
+//! (`KHR_animation_pointer`).
+
+use super::Reader;
+use super::document::{ChannelTarget, Kind};
+use crate::import::error::ImportError;
+use crate::scene::{CameraProperty, LightProperty, MaterialProperty, NodeProperty, Target};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// A property of something in the file, by its number there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Aim {
+    Node(usize, NodeProperty),
+    /// The weights of the morph targets of a node's mesh, or of a mesh wherever a node has none of its own.
+    WeightsOfNode(usize),
+    WeightsOfMesh(usize),
+    Camera(usize, CameraProperty),
+    Light(usize, LightProperty),
+    Material(usize, MaterialProperty),
+}
+
+/// The values of a channel, before they are values of the scene.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Values {
+    Scalar,
+    /// With their components, and factors to those of the scene.
+    Vector,
+    Rotation,
+    /// Never 0.
+    Scale,
+}
+
+impl Aim {
+    /// What `target` says; `None` if it is nothing that can be animated, or is missing.
+    pub fn of(target: &ChannelTarget) -> Option<Self> {
+        if target.path != "pointer" {
+            return Self::of_node(target.node?, &target.path);
+        }
+        let extensions = target.extensions.as_ref()?;
+        Self::at(&extensions.pointer.as_ref()?.pointer)
+    }
+
+    fn of_node(node: usize, property: &str) -> Option<Self> {
+        Some(match property {
+            "translation" => Self::Node(node, NodeProperty::Translation),
+            "rotation" => Self::Node(node, NodeProperty::Rotation),
+            "scale" => Self::Node(node, NodeProperty::Scale),
+            "weights" => Self::WeightsOfNode(node),
+            "extensions/KHR_node_visibility/visible" => Self::Node(node, NodeProperty::Visible),
+            _ => return None,
+        })
+    }
+
+    /// What a JSON pointer (RFC 6901) leads to.
+    fn at(pointer: &str) -> Option<Self> {
+        let rest = pointer.strip_prefix('/')?;
+        let lights = "extensions/KHR_lights_punctual/lights/";
+        if let Some(rest) = rest.strip_prefix(lights) {
+            let (index, property) = rest.split_once('/')?;
+            let property = match property {
+                "color" => LightProperty::Color,
+                "intensity" => LightProperty::Intensity,
+                _ => return None,
+            };
+            return Some(Self::Light(index.parse().ok()?, property));
+        }
+        let (list, rest) = rest.split_once('/')?;
+        let (index, property) = rest.split_once('/')?;
+        let index = index.parse().ok()?;
+        Some(match (list, property) {
+            ("nodes", property) => Self::of_node(index, property)?,
+            ("meshes", "weights") => Self::WeightsOfMesh(index),
+            ("cameras", "perspective/yfov") => Self::Camera(index, CameraProperty::FovY),
+            ("cameras", "orthographic/ymag") => {
+                Self::Camera(index, CameraProperty::OrthographicHeight)
+            }
+            ("materials", "emissiveFactor") => Self::Material(index, MaterialProperty::Emission),
+            ("materials", "pbrMetallicRoughness/baseColorFactor") => {
+                Self::Material(index, MaterialProperty::Diffuse)
+            }
+            _ => return None,
+        })
+    }
+
+    /// The type of its values in the file.
+    pub fn kind(self) -> Kind {
+        match self {
+            Self::Node(_, NodeProperty::Rotation)
+            | Self::Material(_, MaterialProperty::Diffuse) => Kind::Vec4,
+            Self::Node(_, NodeProperty::Translation | NodeProperty::Scale)
+            | Self::Light(_, LightProperty::Color)
+            | Self::Material(..) => Kind::Vec3,
+            _ => Kind::Scalar,
+        }
+    }
+
+    /// The type of its values in the scene.
+    pub fn values(self) -> Values {
+        match self {
+            Self::Node(_, NodeProperty::Rotation) => Values::Rotation,
+            Self::Node(_, NodeProperty::Scale) => Values::Scale,
+            _ if self.kind() == Kind::Scalar => Values::Scalar,
+            _ => Values::Vector,
+        }
+    }
+}
+
+/// A target in the scene, and what the values in the file are multiplied with for it.
+pub(super) type Scaled = (Target, DVec3);
+
+impl Reader<'_> {
+    /// The targets of `aim` in the scene, apart from weights; none if the chosen scene has none. `is_lit` says
+    /// of a light of the file whether its intensity is animated too.
+    ///
+    /// # Errors
+    /// The reason why it cannot be animated.
+    pub(super) fn targets(
+        &mut self,
+        aim: Aim,
+        is_lit: impl Fn(usize) -> bool,
+    ) -> Result<Vec<Scaled>, &'static str> {
+        let same = |target| (target, DVec3::ONE);
+        match aim {
+            Aim::Node(index, property) => {
+                let node = self.node_of.get(index).copied().flatten();
+                Ok(node
+                    .map(|node| same(Target::Node(node, property)))
+                    .into_iter()
+                    .collect())
+            }
+            Aim::WeightsOfNode(_) | Aim::WeightsOfMesh(_) => Ok(Vec::new()),
+            Aim::Camera(index, property) => {
+                // The height of a view is twice that of its half.
+                let factor = match property {
+                    CameraProperty::OrthographicHeight => 2.0,
+                    _ => 1.0,
+                };
+                let cameras = self.cameras.iter().enumerate();
+                let cameras = cameras.filter(|(_, file)| **file == index);
+                Ok(cameras
+                    .map(|(camera, _)| (Target::Camera(camera, property), DVec3::splat(factor)))
+                    .collect())
+            }
+            Aim::Light(index, property) => {
+                let source = self.document.extensions.lights.as_ref();
+                let Some(source) = source.and_then(|it| it.lights.get(index)) else {
+                    return Ok(Vec::new());
+                };
+                // A light that is dark at first has its colour with an intensity of 1.
+                let at_rest = source.intensity.unwrap_or(1.0).clamp(0.0, 1e30);
+                let is_dark = at_rest == 0.0 && is_lit(index);
+                let unit = if is_dark { 1.0 } else { at_rest };
+                let factor = match property {
+                    LightProperty::Intensity => unit.max(1e-30).recip(),
+                    _ => unit / PI,
+                };
+                let lights = self.lights.iter().enumerate();
+                let lights = lights.filter(|(_, file)| **file == index).map(|(i, _)| i);
+                let lights: Vec<usize> = lights.collect();
+                if is_dark {
+                    let color = source.color.unwrap_or([1.0; 3]).map(|c| (c / PI) as f32);
+                    for &light in &lights {
+                        self.scene.lights[light].color = color.into();
+                    }
+                }
+                Ok(lights
+                    .into_iter()
+                    .map(|light| (Target::Light(light, property), DVec3::splat(factor)))
+                    .collect())
+            }
+            Aim::Material(index, property) => self.material_targets(index, property),
+        }
+    }
+
+    fn material_targets(
+        &self,
+        index: usize,
+        property: MaterialProperty,
+    ) -> Result<Vec<Scaled>, &'static str> {
+        let mut targets = Vec::new();
+        let painted = self.materials.iter();
+        for ((_, color), &material) in painted.filter(|((key, _), _)| key.0 == Some(index)) {
+            let shown = &self.scene.materials[material as usize];
+            let Some(model) = &shown.metallic_roughness else {
+                continue;
+            };
+            let mut add = |property, factor| {
+                targets.push((Target::Material(material as usize, property), factor));
+            };
+            match property {
+                MaterialProperty::Emission if model.unlit => {}
+                MaterialProperty::Emission => {
+                    let extensions = self.document.materials[index].extensions.as_ref();
+                    let strength = extensions.and_then(|it| it.emissive_strength.as_ref());
+                    let strength = strength.and_then(|it| it.emissive_strength).unwrap_or(1.0);
+                    add(property, DVec3::splat(strength.clamp(0.0, 1e12)));
+                }
+                _ if color.is_some() => return Err("the colour of a mesh with vertex colours"),
+                _ if shown.textures.diffuse.is_some() => {
+                    return Err("the colour of a material with a picture");
+                }
+                // The colour is the emission then.
+                _ if model.unlit => add(MaterialProperty::Emission, DVec3::ONE),
+                _ => {
+                    let mut white = model.point();
+                    white.base_color = glam::Vec3::ONE;
+                    let factor = model.lobes(&white, model.roughness).diffuse.as_dvec3();
+                    add(MaterialProperty::Diffuse, factor);
+                    add(MaterialProperty::Ambient, factor);
+                }
+            }
+        }
+        targets.sort_by_key(|(target, _)| match target {
+            Target::Material(material, _) => *material,
+            _ => 0,
+        });
+        Ok(targets)
+    }
+
+    /// The deformations whose weights `aim` animates.
+    pub(super) fn deformations_of(&self, aim: Aim) -> Vec<usize> {
+        let nodes = &self.document.nodes;
+        let is_meant = |index: usize| match aim {
+            Aim::WeightsOfNode(node) => node == index,
+            Aim::WeightsOfMesh(mesh) => {
+                nodes[index].mesh == Some(mesh) && nodes[index].weights.is_none()
+            }
+            _ => false,
+        };
+        let deforming = self.deforming.iter().enumerate();
+        deforming
+            .filter(|(_, (node, _))| is_meant(*node))
+            .map(|(deformation, _)| deformation)
+            .collect()
+    }
+
+    /// Checks that what a channel animates exists.
+    pub(super) fn check_aim(&self, aim: Aim, here: &str) -> Result<(), ImportError> {
+        let document = self.document;
+        let lights = document.extensions.lights.as_ref();
+        let (what, index, count) = match aim {
+            Aim::Node(index, _) | Aim::WeightsOfNode(index) => {
+                ("nodes", index, document.nodes.len())
+            }
+            Aim::WeightsOfMesh(index) => ("meshes", index, document.meshes.len()),
+            Aim::Camera(index, _) => ("cameras", index, document.cameras.len()),
+            Aim::Light(index, _) => ("lights", index, lights.map_or(0, |it| it.lights.len())),
+            Aim::Material(index, _) => ("materials", index, document.materials.len()),
+        };
+        match index < count {
+            true => Ok(()),
+            false => Err(self.blame.missing(here, what, index)),
+        }
+    }
+}

@@ -1,0 +1,345 @@
+//! Deforming meshes: for each view their triangles, vertices and boxes in the pose of its frames. The topology of
+//! a BLAS is kept and its boxes are refitted, unless that would make it slow. A view depends on nothing but the
+//! scene and its frames: whether a BLAS is rebuilt never depends on earlier views.
+
+use super::{
+    PackError, PackedScene, PackedView,
+    blas::{Blas, Fit, Topology},
+    geometry::PlacedMesh,
+    instance::{InstancedBlas, Plan, tree_origin},
+    mesh::CachedMesh,
+    nodes::Offsets,
+    trees::Trees,
+};
+use crate::{
+    layout::{PackedNode, PackedShape, PackedTriangle, PackedVertex},
+    scene::{Deformation, Frame, Pose, Scene},
+};
+use bytemuck::cast_slice;
+use glam::DVec3;
+use std::sync::Arc;
+
+/// A BLAS is rebuilt if its cost exceeds that of the mesh at rest by this factor.
+const POOR: f64 = 2.0;
+
+/// The shutter interval has at most this many keys: a power of two, and one.
+const MAX_KEYS: usize = 17;
+
+/// Keys together take at most this many bytes, if two suffice for that.
+const MAX_KEY_BYTES: usize = 256 << 20;
+
+/// Rows of 16 bytes of a triangle and of a shape.
+const TRIANGLE_ROWS: usize = size_of::<PackedTriangle>() / 16;
+const SHAPE_ROWS: usize = size_of::<PackedShape>() / 16;
+
+/// A mesh that deforms.
+#[derive(Clone, Debug)]
+pub struct DeformingMesh {
+    /// Index of its deformation in the scene.
+    index: usize,
+    deformation: Deformation,
+    mesh: Arc<CachedMesh>,
+    /// Index among the instanced BLASes.
+    tree: usize,
+    /// Those of its triangles and vertices at rest, which a view replaces.
+    offsets: Offsets,
+    /// The origin of the space of its BLAS.
+    origin: DVec3,
+}
+
+/// The deforming meshes of a view.
+#[derive(Debug, Default)]
+pub struct Deformed {
+    pub trees: Vec<Arc<DeformedTree>>,
+    /// Number of keys over the shutter interval; 1 if no mesh deforms meanwhile.
+    pub key_count: u32,
+}
+
+/// The BLAS of a deforming mesh.
+#[derive(Debug)]
+pub struct DeformedTree {
+    /// Index among the instanced BLASes.
+    tree: usize,
+    /// One pose, or one for each key.
+    poses: Vec<Pose>,
+    /// Its node references and vertex indices are those of the view.
+    blas: Blas,
+    pub instanced: InstancedBlas,
+    /// The triangles and vertices of later keys.
+    key_triangles: Vec<Arc<[PackedTriangle]>>,
+    key_vertices: Vec<Arc<[PackedVertex]>>,
+    /// See [`crate::layout::PackedInstance::next_key`].
+    pub next_key: u32,
+    /// The first later key in the arrays of the view.
+    starts: Starts,
+    /// Whether its topology was built for this view.
+    pub is_rebuilt: bool,
+}
+
+/// Indices of the next triangle and vertex of later keys.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Starts {
+    triangle: usize,
+    vertex: usize,
+}
+
+/// The deforming meshes of a scene that have visible instances.
+pub fn meshes(scene: &Scene, origin: DVec3, plan: &Plan, trees: &Trees) -> Arc<[DeformingMesh]> {
+    let deforming = scene.deformations.iter().enumerate();
+    let deforming = deforming.filter_map(|(index, deformation)| {
+        let mut meshes = plan.instanced_meshes.iter();
+        let tree = meshes.position(|mesh| *mesh == deformation.mesh)?;
+        let at_rest = &trees.instanced[tree];
+        Some(DeformingMesh {
+            index,
+            deformation: deformation.clone(),
+            mesh: at_rest.mesh.clone(),
+            tree,
+            offsets: at_rest.blas.offsets,
+            origin: tree_origin(deformation, origin),
+        })
+    });
+    deforming.collect()
+}
+
+impl PackedScene {
+    /// The deforming meshes in the frames of a shutter interval; reuses what is the same in `previous`.
+    pub(super) fn deformed(
+        &self,
+        frames: &[Frame],
+        previous: Option<&PackedView>,
+    ) -> Result<Arc<Deformed>, PackError> {
+        if self.deforming.is_empty() {
+            return Ok(Arc::default());
+        }
+        let frames = self.deformation_keys(frames);
+        let mut node = self.first_view_node();
+        let triangle_rows = TRIANGLE_ROWS * self.triangles.len() + SHAPE_ROWS * self.shapes.len();
+        let mut starts = Starts {
+            triangle: triangle_rows.div_ceil(TRIANGLE_ROWS),
+            vertex: self.vertices.len() + self.uvs.len(),
+        };
+        let before = previous.map(|previous| &previous.deformed);
+        let mut deformed = Deformed {
+            trees: Vec::with_capacity(self.deforming.len()),
+            key_count: 1,
+        };
+        for (place, mesh) in self.deforming.iter().enumerate() {
+            let poses = mesh.poses(&frames);
+            if poses.len() > 1 {
+                deformed.key_count = frames.len() as u32;
+            }
+            let offsets = Offsets {
+                node,
+                ..mesh.offsets
+            };
+            let is_same = |tree: &&Arc<DeformedTree>| {
+                tree.poses == poses && tree.blas.offsets == offsets && tree.starts == starts
+            };
+            let known = before.and_then(|before| before.trees.get(place));
+            let tree = match known.filter(is_same) {
+                Some(tree) => tree.clone(),
+                None => Arc::new(DeformedTree::new(mesh, poses, offsets, starts)?),
+            };
+            node = tree.blas.end().node;
+            starts.triangle += tree
+                .key_triangles
+                .iter()
+                .map(|key| key.len())
+                .sum::<usize>();
+            starts.vertex += tree.key_vertices.iter().map(|key| key.len()).sum::<usize>();
+            deformed.trees.push(tree);
+        }
+        match before.filter(|before| ***before == deformed) {
+            Some(before) => Ok(before.clone()),
+            None => Ok(Arc::new(deformed)),
+        }
+    }
+
+    /// The frames at the keys of deforming meshes: all, or evenly spaced ones from the first to the last.
+    fn deformation_keys<'a>(&self, frames: &'a [Frame]) -> Vec<&'a Frame> {
+        let bytes = self.deforming.iter().map(|mesh| {
+            let mesh = &mesh.mesh.mesh;
+            size_of_val(&mesh.triangles[..]) * 4 + size_of_val(&mesh.positions[..])
+        });
+        let bytes = bytes.sum::<usize>();
+        let mut step = 1;
+        let count = |step: usize| (frames.len() - 1) / step + 1;
+        while count(step) > MAX_KEYS || count(step) > 2 && bytes * count(step) > MAX_KEY_BYTES {
+            step *= 2;
+        }
+        frames.iter().step_by(step).collect()
+    }
+}
+
+impl PartialEq for Deformed {
+    fn eq(&self, other: &Self) -> bool {
+        let is_same = |(a, b): (&Arc<_>, &Arc<_>)| Arc::ptr_eq(a, b) || a == b;
+        self.key_count == other.key_count
+            && self.trees.len() == other.trees.len()
+            && self.trees.iter().zip(&other.trees).all(is_same)
+    }
+}
+
+/// Compares the packed data.
+impl PartialEq for DeformedTree {
+    fn eq(&self, other: &Self) -> bool {
+        self.blas.nodes == other.blas.nodes
+            && self.blas.triangles == other.blas.triangles
+            && self.blas.vertices == other.blas.vertices
+            && self.key_triangles == other.key_triangles
+            && self.key_vertices == other.key_vertices
+    }
+}
+
+impl Deformed {
+    /// Whether both are shared, or empty.
+    pub fn is_same(self: &Arc<Self>, other: &Arc<Self>) -> bool {
+        Arc::ptr_eq(self, other) || self.trees.is_empty() && other.trees.is_empty()
+    }
+
+    /// Number of nodes of all trees.
+    pub fn node_count(&self) -> u32 {
+        let counts = self.trees.iter().map(|tree| tree.blas.nodes.len() as u32);
+        counts.sum()
+    }
+
+    /// Maximum number of stack entries of a tree.
+    pub fn stack_need(&self) -> usize {
+        let needs = self.trees.iter().map(|tree| tree.blas.stack_need);
+        needs.max().unwrap_or(0)
+    }
+
+    /// The tree that replaces an instanced BLAS.
+    pub fn tree(&self, blas: usize) -> Option<&DeformedTree> {
+        let mut trees = self.trees.iter();
+        trees.find(|tree| tree.tree == blas).map(|tree| &**tree)
+    }
+
+    /// The nodes of all trees.
+    pub fn nodes(&self) -> impl Iterator<Item = &[PackedNode]> {
+        self.trees.iter().map(|tree| &tree.blas.nodes[..])
+    }
+
+    /// The triangles that replace those of the scene from an index on.
+    pub fn triangles(&self, first: usize) -> Option<&[PackedTriangle]> {
+        let mut trees = self.trees.iter().map(|tree| &tree.blas);
+        let tree = trees.find(|blas| blas.offsets.triangle as usize == first)?;
+        Some(&tree.triangles)
+    }
+
+    /// The vertices that replace those of the scene from an index on.
+    pub fn vertices(&self, first: usize) -> Option<&[PackedVertex]> {
+        let mut trees = self.trees.iter().map(|tree| &tree.blas);
+        let tree = trees.find(|blas| blas.offsets.vertex as usize == first)?;
+        Some(&tree.vertices)
+    }
+
+    /// The triangles of later keys, after the shapes of the scene at the next multiple of a triangle.
+    pub fn key_triangles(&self) -> impl Iterator<Item = &[PackedTriangle]> {
+        let keys = self.trees.iter().flat_map(|tree| &tree.key_triangles);
+        keys.map(|key| &key[..])
+    }
+
+    /// The vertices of later keys, after the texture coordinates of the scene.
+    pub fn key_vertices(&self) -> impl Iterator<Item = &[PackedVertex]> {
+        let keys = self.trees.iter().flat_map(|tree| &tree.key_vertices);
+        keys.map(|key| &key[..])
+    }
+}
+
+impl DeformingMesh {
+    /// One pose for each frame; a single one if all are the same.
+    fn poses(&self, frames: &[&Frame]) -> Vec<Pose> {
+        let pose = |frame: &&Frame| {
+            let weights = &frame.weights[self.index];
+            self.deformation.pose(&frame.nodes, weights)
+        };
+        let mut poses: Vec<Pose> = frames.iter().map(pose).collect();
+        if poses.iter().all(|pose| *pose == poses[0]) {
+            poses.truncate(1);
+        }
+        poses
+    }
+}
+
+impl DeformedTree {
+    /// The bytes of its nodes, triangles and vertices.
+    pub fn parts(&self) -> [&[u8]; 3] {
+        let Blas {
+            nodes,
+            triangles,
+            vertices,
+            ..
+        } = &self.blas;
+        [
+            cast_slice(nodes),
+            cast_slice(triangles),
+            cast_slice(vertices),
+        ]
+    }
+
+    fn new(
+        mesh: &DeformingMesh,
+        poses: Vec<Pose>,
+        offsets: Offsets,
+        starts: Starts,
+    ) -> Result<Self, PackError> {
+        let source = &*mesh.mesh.mesh;
+        let mut placed = Vec::with_capacity(poses.len());
+        for (key, pose) in poses.iter().enumerate() {
+            let first_vertex = match key {
+                0 => offsets.vertex as usize,
+                _ => starts.vertex + (key - 1) * source.positions.len(),
+            };
+            let posed = mesh.deformation.posed(source, pose);
+            placed.push(PlacedMesh::posed(
+                source,
+                &posed,
+                mesh.origin,
+                first_vertex,
+            )?);
+        }
+        let triangles = |topology: &Topology| -> Vec<_> {
+            placed
+                .iter()
+                .map(|placed| topology.triangles(placed))
+                .collect()
+        };
+        let at_rest = mesh.mesh.topology(&mut 0);
+        let mut keys = triangles(at_rest);
+        // Boxes round all keys are larger, which no other topology would change.
+        let is_rebuilt = Fit::new(at_rest, &keys[..1]).cost() > POOR * at_rest.cost;
+        let own;
+        let topology = match is_rebuilt {
+            true => {
+                own = Topology::build(placed[0].positions(), &source.triangles);
+                keys = triangles(&own);
+                &own
+            }
+            false => at_rest,
+        };
+        let vertices = placed[0].vertices.clone();
+        let blas = Blas::of(&Fit::new(topology, &keys), vertices, offsets);
+        Ok(Self {
+            tree: mesh.tree,
+            instanced: InstancedBlas {
+                root: blas.root(),
+                first: offsets.triangle,
+                count: blas.triangles.len() as u32,
+                boxes: blas.boxes(),
+                shape: None,
+            },
+            next_key: match poses.len() {
+                1 => 0,
+                _ => (starts.triangle as u32).wrapping_sub(offsets.triangle),
+            },
+            key_triangles: keys.split_off(1),
+            key_vertices: placed[1..].iter().map(|it| it.vertices.clone()).collect(),
+            blas,
+            poses,
+            starts,
+            is_rebuilt,
+        })
+    }
+}

@@ -1,0 +1,547 @@
+//! Skins and morph targets that clips move, against matrices multiplied here in f64.
+
+use super::model::{Model, UNSIGNED_BYTE, floats};
+use glam::{DMat4, DQuat, DVec3, DVec4};
+use glimray::scene::{Scene, Target};
+use serde_json::{Value, json};
+
+/// A bar along x of `COUNT` pairs of vertices, and how it follows two joints.
+const COUNT: usize = 9;
+
+fn rest(i: usize) -> DVec3 {
+    let side = if i.is_multiple_of(2) { -0.5 } else { 0.5 };
+    DVec3::new((i / 2) as f64 * 0.5, side, 0.25 * side)
+}
+
+/// The share of the second joint.
+fn share(i: usize) -> f64 {
+    (i / 2) as f64 / (COUNT - 1) as f64
+}
+
+fn positions() -> Vec<[f32; 3]> {
+    let all = 0..2 * COUNT;
+    all.map(|i| rest(i).as_vec3().to_array()).collect()
+}
+
+fn indices() -> Vec<u8> {
+    let quads = (0..COUNT as u8 - 1).map(|i| 2 * i);
+    quads
+        .flat_map(|i| [i, i + 2, i + 1, i + 1, i + 2, i + 3])
+        .collect()
+}
+
+/// A bar with `sets` of four weights, of which the last two are used: so joints 0 and 1 are at the end.
+fn bar(sets: usize) -> Model {
+    let mut model = Model::new();
+    let position = model.vectors(&positions());
+    let normal = model.vectors(&[[0.0, -0.5, 1.0]; 2 * COUNT]);
+    let corners = indices();
+    let indices = model.accessor(&corners, UNSIGNED_BYTE, "SCALAR", corners.len());
+    let mut attributes = json!({ "NORMAL": normal });
+    for set in 0..sets {
+        let is_last = set + 1 == sets;
+        let joints: Vec<[u8; 4]> =
+            vec![if is_last { [0, 0, 0, 1] } else { [1, 0, 1, 0] }; 2 * COUNT];
+        let weights: Vec<[f32; 4]> = (0..2 * COUNT)
+            .map(|i| match is_last {
+                true => [0.0, 0.0, (1.0 - share(i)) as f32, share(i) as f32],
+                // In all, no more for one joint than for the other.
+                false => [0.0; 4],
+            })
+            .collect();
+        let joints = model.accessor(joints.as_flattened(), UNSIGNED_BYTE, "VEC4", 2 * COUNT);
+        attributes[format!("JOINTS_{set}")] = json!(joints);
+        attributes[format!("WEIGHTS_{set}")] = json!(model.quads(&weights));
+    }
+    model.primitive(
+        position,
+        json!({ "attributes": attributes, "indices": indices }),
+    );
+    // The second joint was bound at (2, 0, 0).
+    let mut bind = [DMat4::IDENTITY, DMat4::from_translation(DVec3::X * -2.0)]
+        .map(|m| m.as_mat4().to_cols_array());
+    bind[0][12] = 0.5;
+    let bind = model.accessor(&floats(bind.as_flattened()), 5126, "MAT4", 2);
+    model.with(json!({
+        "scenes": [{ "nodes": [0, 1] }],
+        "nodes": [
+            { "mesh": 0, "skin": 0, "translation": [100, 0, 0], "name": "bar" },
+            { "children": [2], "translation": [0, 0, 2], "scale": [1, 2, 3] },
+            { "children": [3], "translation": [2, 0, 0] },
+            { "translation": [2, 0, 0] },
+        ],
+        "skins": [{ "joints": [1, 2], "inverseBindMatrices": bind }],
+    }))
+}
+
+/// Adds a channel to the only clip.
+fn channel(model: &mut Model, target: Value, input: usize, output: usize, interpolation: &str) {
+    if model.json["animations"].is_null() {
+        model.push("animations", json!({ "channels": [], "samplers": [] }));
+    }
+    let clip = &mut model.json["animations"][0];
+    let sampler = clip["samplers"].as_array().expect("a list").len();
+    let mut add = |list: &str, entry: Value| clip[list].as_array_mut().expect("a list").push(entry);
+    add("channels", json!({ "sampler": sampler, "target": target }));
+    add(
+        "samplers",
+        json!({ "input": input, "output": output, "interpolation": interpolation }),
+    );
+}
+
+/// The second joint turns about z by a right angle within two seconds, while the first moves.
+fn bend(model: &mut Model) {
+    let quarter = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
+    let input = model.numbers(&[0.0, 2.0]);
+    let output = model.quads(&[[0.0, 0.0, 0.0, 1.0], quarter.as_quat().to_array()]);
+    channel(
+        model,
+        json!({ "node": 2, "path": "rotation" }),
+        input,
+        output,
+        "LINEAR",
+    );
+    let output = model.vectors(&[[0.0, 0.0, 2.0], [0.0, 4.0, 2.0]]);
+    channel(
+        model,
+        json!({ "node": 1, "path": "translation" }),
+        input,
+        output,
+        "LINEAR",
+    );
+}
+
+/// The joints' matrices at a time, with their inverse bind matrices.
+fn joints(time: f64) -> [DMat4; 2] {
+    let turn = DMat4::from_rotation_z(std::f64::consts::FRAC_PI_4 * time);
+    let first = DMat4::from_translation(DVec3::new(0.0, 2.0 * time, 2.0))
+        * DMat4::from_scale(DVec3::new(1.0, 2.0, 3.0));
+    let second = first * DMat4::from_translation(DVec3::X * 2.0) * turn;
+    [
+        first * DMat4::from_translation(DVec3::X * 0.5),
+        second * DMat4::from_translation(DVec3::X * -2.0),
+    ]
+}
+
+/// Where vertex `i` is after a displacement, and the normal that `normal` becomes.
+fn skinned(i: usize, moved: DVec3, normal: DVec3, time: f64) -> [DVec3; 2] {
+    let [a, b] = joints(time);
+    let blend = a * (1.0 - share(i)) + b * share(i);
+    let place = blend * (rest(i) + moved).extend(1.0);
+    // Normals transform by the inverse transpose.
+    let turned = blend.inverse().transpose() * DVec4::from((normal, 0.0));
+    [place.truncate(), turned.truncate().normalize()]
+}
+
+/// Checks the first instance at several times against `expected`, which gives the position and the normal.
+fn check(scene: &Scene, expected: impl Fn(usize, f64) -> [DVec3; 2]) {
+    let instance = &scene.instances[0];
+    let deformation = scene.deformation_of(instance.mesh).expect("a deformation");
+    let index = scene.deformations.iter().position(|it| it == deformation);
+    for time in [0.0, 0.4, 1.0, 1.7] {
+        let frame = scene.frame(time);
+        let pose = deformation.pose(&frame.nodes, &frame.weights[index.expect("an index")]);
+        let posed = deformation.posed(&scene.meshes[instance.mesh], &pose);
+        for i in 0..posed.len() {
+            let (place, normal) = posed.vertex(i);
+            let [wanted, direction] = expected(i, time);
+            assert!(
+                place.abs_diff_eq(wanted, 1e-5),
+                "vertex {i} at {time}: {place} is not {wanted}"
+            );
+            assert!(posed.position(i) == place);
+            assert!(
+                normal.abs_diff_eq(direction, 1e-5),
+                "normal {i} at {time}: {normal} is not {direction}"
+            );
+        }
+    }
+}
+
+fn tilted() -> DVec3 {
+    DVec3::new(0.0, -0.5, 1.0).normalize()
+}
+
+#[test]
+fn a_bar_follows_two_joints_with_uneven_scales() {
+    for sets in [1, 2] {
+        let mut model = bar(sets);
+        bend(&mut model);
+        let scene = model.scene();
+        assert_eq!(scene.skipped, [""; 0]);
+        check(&scene, |i, time| skinned(i, DVec3::ZERO, tilted(), time));
+    }
+}
+
+/// The weights of two targets: the first grows from 0 to 1 in two seconds, the second has cubic tangents.
+const WEIGHTS: [f32; 12] = [
+    0.0, 0.0, 0.0, 1.0, 0.0, 0.5, // first key: in-tangents, values, out-tangents
+    0.0, -1.0, 1.0, 3.0, 0.0, 0.0,
+];
+
+fn weights(time: f64) -> [f64; 2] {
+    let (s, length) = (time / 2.0, 2.0);
+    let hermite = |from: f64, leave: f64, reach: f64, to: f64| {
+        let (s2, s3) = (s * s, s * s * s);
+        (2.0 * s3 - 3.0 * s2 + 1.0) * from
+            + length * (s3 - 2.0 * s2 + s) * leave
+            + (3.0 * s2 - 2.0 * s3) * to
+            + length * (s3 - s2) * reach
+    };
+    [hermite(0.0, 0.0, 0.0, 1.0), hermite(1.0, 0.5, -1.0, 3.0)]
+}
+
+/// Two targets: all vertices rise along z by x; some move to the side, and their normals turn.
+fn morph(model: &mut Model) {
+    let rise: Vec<[f32; 3]> = positions().iter().map(|p| [0.0, 0.0, p[0]]).collect();
+    let aside: Vec<[f32; 3]> = (0..2 * COUNT)
+        .map(|i| {
+            if i >= COUNT {
+                [0.0, 1.0, 0.0]
+            } else {
+                [0.0; 3]
+            }
+        })
+        .collect();
+    let turned: Vec<[f32; 3]> = (0..2 * COUNT)
+        .map(|i| {
+            if i >= COUNT {
+                [1.0, 0.0, 0.0]
+            } else {
+                [0.0; 3]
+            }
+        })
+        .collect();
+    let targets = json!([
+        { "POSITION": model.vectors(&rise) },
+        { "POSITION": model.vectors(&aside), "NORMAL": model.vectors(&turned) },
+    ]);
+    model.json["meshes"][0]["primitives"][0]["targets"] = targets;
+    let (input, output) = (model.numbers(&[0.0, 2.0]), model.numbers(&WEIGHTS));
+    channel(
+        model,
+        json!({ "node": 0, "path": "weights" }),
+        input,
+        output,
+        "CUBICSPLINE",
+    );
+}
+
+/// What the targets add to the position and the normal of a vertex.
+fn morphed(i: usize, time: f64) -> [DVec3; 2] {
+    let [a, b] = weights(time);
+    let is_aside = i >= COUNT;
+    let aside = if is_aside { b } else { 0.0 };
+    [
+        DVec3::new(0.0, aside, a * rest(i).x),
+        tilted() + DVec3::X * aside,
+    ]
+}
+
+/// A bar that a clip of two seconds bends and morphs.
+pub fn bending() -> Model {
+    let mut model = bar(1);
+    bend(&mut model);
+    morph(&mut model);
+    model
+}
+
+#[test]
+fn morph_targets_move_a_bar_before_its_skin() {
+    let scene = bending().scene();
+    assert_eq!(scene.skipped, [""; 0]);
+    check(&scene, |i, time| {
+        let [moved, normal] = morphed(i, time);
+        skinned(i, moved, normal, time)
+    });
+}
+
+#[test]
+fn morph_targets_without_a_skin_stay_at_their_node() {
+    let mut model = bar(1);
+    morph(&mut model);
+    let node = model.json["nodes"][0].as_object_mut().expect("a node");
+    node.remove("skin");
+    let scene = model.scene();
+    check(&scene, |i, time| {
+        let [moved, normal] = morphed(i, time);
+        [rest(i) + moved, normal.normalize()]
+    });
+    let node = scene.instances[0].node.expect("a node");
+    let place = scene.frame(1.0).nodes[node].world_from_node.translation;
+    assert_eq!(place, DVec3::X * 100.0);
+}
+
+#[test]
+fn flat_meshes_stay_flat_in_every_pose() {
+    let mut model = bar(1);
+    bend(&mut model);
+    let primitive = &mut model.json["meshes"][0]["primitives"][0];
+    let attributes = primitive["attributes"].as_object_mut().expect("attributes");
+    attributes.remove("NORMAL");
+    let corners = indices();
+    check(&model.scene(), |i, time| {
+        let at = |i: usize| skinned(usize::from(corners[i]), DVec3::ZERO, DVec3::Z, time)[0];
+        let first = i / 3 * 3;
+        let [a, b, c] = [at(first), at(first + 1), at(first + 2)];
+        [at(i), (b - a).cross(c - a).normalize()]
+    });
+}
+
+#[test]
+fn nodes_that_share_a_mesh_deform_apart() {
+    let mut model = bar(1);
+    bend(&mut model);
+    morph(&mut model);
+    // The second has other weights at rest, and joints that do not move.
+    let skins = model.json["skins"].as_array_mut().expect("a list");
+    let mut still = skins[0].clone();
+    still["joints"] = json!([4, 5]);
+    skins.push(still);
+    let nodes = model.json["nodes"].as_array_mut().expect("a list");
+    nodes.push(json!({ "children": [5] }));
+    nodes.push(json!({}));
+    nodes.push(json!({ "mesh": 0, "skin": 0, "weights": [0, 2] }));
+    nodes.push(json!({ "mesh": 0, "skin": 1, "weights": [0, 2] }));
+    model.json["scenes"][0]["nodes"] = json!([0, 1, 4, 6, 7]);
+    let scene = model.scene();
+    // The last one never moves: its pose is in its mesh.
+    assert_eq!((scene.instances.len(), scene.deformations.len()), (3, 2));
+    let [moved, other] = &scene.deformations[..] else {
+        panic!("two deformations")
+    };
+    assert!(std::ptr::eq(
+        &*scene.meshes[moved.mesh],
+        &*scene.meshes[other.mesh]
+    ));
+    let frame = scene.frame(1.0);
+    let expected = weights(1.0);
+    assert!((frame.weights[0][1] - expected[1]).abs() < 1e-6);
+    assert_eq!(frame.weights[1], [0.0, 2.0]);
+    let pose = other.pose(&frame.nodes, &frame.weights[1]);
+    let posed = other.posed(&scene.meshes[other.mesh], &pose);
+    let last = 2 * COUNT - 1;
+    let [wanted, _] = skinned(last, DVec3::Y * 2.0, DVec3::Z, 1.0);
+    assert!(posed.position(last).abs_diff_eq(wanted, 1e-5));
+    let still = &scene.meshes[scene.instances[2].mesh];
+    let wanted = rest(last) + DVec3::Y * 2.0 - DVec3::X * 2.0;
+    assert!(still.positions[last].as_dvec3().abs_diff_eq(wanted, 1e-5));
+}
+
+#[test]
+fn a_clip_that_is_not_played_deforms_nothing() {
+    let mut model = bar(1);
+    bend(&mut model);
+    let clip = model.json["animations"][0].clone();
+    model.json["animations"][0] = json!({ "channels": [], "samplers": [] });
+    model.push("animations", clip);
+    let files = super::folder(&[("a.glb", &model.glb())]);
+    let options = glimray::import::Options {
+        clip: Some("0".to_owned()),
+        ..Default::default()
+    };
+    let path = files.path().join("a.glb");
+    let scene = glimray::import::load_with(&path, &options).expect("a scene");
+    assert!(scene.deformations.is_empty() && scene.tracks.is_empty());
+    let found = scene.meshes[0].positions[3].as_dvec3();
+    assert!(found.abs_diff_eq(skinned(3, DVec3::ZERO, DVec3::Z, 0.0)[0], 1e-5));
+}
+
+#[test]
+fn a_joint_may_shrink_to_nothing() {
+    let mut model = bar(1);
+    bend(&mut model);
+    model.json["nodes"][2]["scale"] = json!([0, 0, 0]);
+    let scene = model.scene();
+    let (deformation, frame) = (&scene.deformations[0], scene.frame(0.0));
+    let pose = deformation.pose(&frame.nodes, &frame.weights[0]);
+    let posed = deformation.posed(&scene.meshes[0], &pose);
+    let found = posed.position(2 * COUNT - 1);
+    // Where the joint is.
+    assert!(
+        found.abs_diff_eq(DVec3::new(2.0, 0.0, 2.0), 1e-4),
+        "{found}"
+    );
+}
+
+#[test]
+fn framing_holds_the_whole_animation() {
+    let mut model = bar(1);
+    bend(&mut model);
+    let scene = model.scene();
+    let camera = &scene.cameras[0];
+    let forward = (camera.look_at - camera.look_from).normalize();
+    let right = forward.cross(DVec3::Y).normalize();
+    let up = right.cross(forward);
+    let tangent = (camera.fov_y / 2.0).tan();
+    let mut highest = 0.0_f64;
+    for step in 0..20 {
+        let time = f64::from(step) / 10.0;
+        for i in 0..2 * COUNT {
+            let [place, _] = skinned(i, DVec3::ZERO, DVec3::Z, time);
+            let to = place - camera.look_from;
+            let depth = to.dot(forward) * tangent;
+            let (x, y) = (to.dot(right) / (depth * 4.0 / 3.0), to.dot(up) / depth);
+            highest = highest.max(x.abs()).max(y.abs());
+        }
+    }
+    // A tenth of the picture is left free; between two of its moments the bar may reach into that.
+    assert!((0.85..0.92).contains(&highest), "{highest}");
+}
+
+fn refused(change: impl FnOnce(&mut Model)) -> String {
+    let mut model = bar(1);
+    bend(&mut model);
+    morph(&mut model);
+    change(&mut model);
+    model.message()
+}
+
+#[test]
+fn bad_skins_and_targets_are_named() {
+    let message = refused(|model| {
+        let output = model.numbers(&[0.0; 9]);
+        model.json["animations"][0]["samplers"][2]["output"] = json!(output);
+    });
+    let expected = "bad model (a.glb): animations[0].channels[2].sampler.output: 9 values for 2 keys of 2 morph \
+        targets. Export the model again, or correct the file.";
+    assert_eq!(message, expected);
+    let message = refused(|model| {
+        model.json["skins"][0]["joints"] = json!([1]);
+    });
+    let expected = "bad model (a.glb): nodes[0]: the skin has no joint 1. Export the model again, or correct the file.";
+    assert_eq!(message, expected);
+    let message = refused(|model| {
+        let short = model.vectors(&[[0.0; 3]; 4]);
+        model.json["meshes"][0]["primitives"][0]["targets"][1]["POSITION"] = json!(short);
+    });
+    assert!(
+        message.contains("targets[1].POSITION: a target for another number of vertices"),
+        "{message}"
+    );
+    let message = refused(|model| {
+        let bind = [f32::NAN; 32];
+        let bind = model.accessor(&floats(&bind), 5126, "MAT4", 2);
+        model.json["skins"][0]["inverseBindMatrices"] = json!(bind);
+    });
+    assert!(
+        message.contains("skins[0]: an inverse bind matrix is not finite"),
+        "{message}"
+    );
+}
+
+/// A channel that points at `pointer`.
+fn pointed(model: &mut Model, pointer: &str, input: usize, output: usize, interpolation: &str) {
+    let target = json!({
+        "path": "pointer",
+        "extensions": { "KHR_animation_pointer": { "pointer": pointer } },
+    });
+    channel(model, target, input, output, interpolation);
+}
+
+#[test]
+fn pointers_animate_what_they_point_at() {
+    let mut model = Model::triangle(json!({ "material": 0 })).with(json!({
+        "extensionsUsed": ["KHR_animation_pointer", "KHR_lights_punctual", "KHR_node_visibility"],
+        "extensionsRequired": ["KHR_animation_pointer"],
+        "nodes": [
+            { "mesh": 0, "children": [1, 2] },
+            { "camera": 0 },
+            { "extensions": { "KHR_lights_punctual": { "light": 0 } } },
+        ],
+        "materials": [{
+            "pbrMetallicRoughness": { "metallicFactor": 0 },
+            "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 5 } },
+        }],
+        "cameras": [{ "type": "perspective", "perspective": { "yfov": 1.0, "znear": 1 } }],
+        "extensions": { "KHR_lights_punctual": { "lights": [
+            { "type": "point", "intensity": 0, "color": [1, 0.5, 0] },
+        ] } },
+    }));
+    let input = model.numbers(&[0.0, 2.0]);
+    let three = model.vectors(&[[0.0; 3], [0.5, 1.0, 0.25]]);
+    let four = model.quads(&[[1.0, 1.0, 1.0, 1.0], [0.0, 0.5, 1.0, 1.0]]);
+    let fov = model.numbers(&[1.0, 0.5]);
+    let intensity = model.numbers(&[0.0, 6.0]);
+    let seen = model.accessor(&[1_u8, 0, 1], UNSIGNED_BYTE, "SCALAR", 3);
+    let moments = model.numbers(&[0.0, 1.5, 2.0]);
+    pointed(&mut model, "/nodes/0/translation", input, three, "LINEAR");
+    pointed(
+        &mut model,
+        "/cameras/0/perspective/yfov",
+        input,
+        fov,
+        "LINEAR",
+    );
+    pointed(
+        &mut model,
+        "/materials/0/emissiveFactor",
+        input,
+        three,
+        "LINEAR",
+    );
+    let base_color = "/materials/0/pbrMetallicRoughness/baseColorFactor";
+    pointed(&mut model, base_color, input, four, "LINEAR");
+    let light = "/extensions/KHR_lights_punctual/lights/0/intensity";
+    pointed(&mut model, light, input, intensity, "LINEAR");
+    let visible = "/nodes/0/extensions/KHR_node_visibility/visible";
+    pointed(&mut model, visible, moments, seen, "STEP");
+    pointed(&mut model, "/materials/0/alphaCutoff", input, fov, "LINEAR");
+    let scene = model.scene();
+    assert_eq!(
+        scene.skipped,
+        ["animations[0] moves `/materials/0/alphaCutoff`, which is not shown"]
+    );
+    let frame = scene.frame(1.0);
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
+    let node = scene.instances[0].node.expect("a node");
+    let place = frame.nodes[node].world_from_node.translation;
+    assert_eq!(place, DVec3::new(0.25, 0.5, 0.125));
+    assert!(near(frame.camera.fov_y, 0.75));
+    let material = &frame.materials[0];
+    let emission = material.emission.as_dvec3();
+    assert!(emission.abs_diff_eq(DVec3::new(1.25, 2.5, 0.625), 1e-5));
+    let diffuse = material.diffuse.as_dvec3();
+    assert!(
+        diffuse.abs_diff_eq(DVec3::new(0.5, 0.75, 1.0), 1e-5),
+        "{diffuse}"
+    );
+    let color = frame.lights[0].color.as_dvec3() * std::f64::consts::PI;
+    assert!(
+        color.abs_diff_eq(DVec3::new(3.0, 1.5, 0.0), 1e-5),
+        "{color}"
+    );
+    assert!(frame.nodes[node].visible && !scene.frame(1.75).nodes[node].visible);
+}
+
+#[test]
+fn weights_of_a_mesh_are_those_of_nodes_without_their_own() {
+    let mut model = bar(1);
+    morph(&mut model);
+    let nodes = model.json["nodes"].as_array_mut().expect("a list");
+    nodes[0].as_object_mut().expect("a node").remove("skin");
+    nodes.push(json!({ "mesh": 0, "weights": [1, 0] }));
+    model.json["scenes"][0]["nodes"] = json!([0, 4]);
+    model.json["animations"] = Value::Null;
+    let (input, output) = (
+        model.numbers(&[0.0, 2.0]),
+        model.numbers(&[0.0, 0.0, 1.0, 3.0]),
+    );
+    pointed(&mut model, "/meshes/0/weights", input, output, "LINEAR");
+    let scene = model.scene();
+    assert_eq!(scene.deformations.len(), 1);
+    assert_eq!(scene.frame(1.0).weights, [[0.5, 1.5]]);
+    assert_eq!(scene.tracks[1].targets, [Target::Weight(0, 1)]);
+}
+
+#[test]
+fn a_node_may_be_hidden() {
+    let mut model = Model::triangle(json!({}));
+    model.json["nodes"] = json!([
+        { "children": [1], "extensions": { "KHR_node_visibility": { "visible": false } } },
+        { "mesh": 0 },
+    ]);
+    let scene = model.scene();
+    let node = scene.instances[0].node.expect("a node");
+    assert!(!scene.frame(0.0).nodes[node].visible);
+}
