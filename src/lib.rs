@@ -47,8 +47,8 @@
 //!   geometry (moving objects, and large meshes that are used several times) is f32 in the space of its
 //!   BLAS; everything else is f32 in render space, which is world space translated so that the scene's
 //!   render origin is at the origin ([`scene::Scene::render_origin`]).
-//! * **Motion**: a [`scene::Scene`] is static; its [`scene::Track`]s animate nodes, cameras, lights and
-//!   materials, and a [`scene::Frame`] is their state at one time. The GPU gets frames that are evenly
+//! * **Motion**: a [`scene::Scene`] is static; its [`scene::Track`]s animate nodes, cameras, lights,
+//!   materials and the weights of morph targets, and a [`scene::Frame`] is their state at one time. The GPU gets frames that are evenly
 //!   spaced over the shutter interval, and every sample has a time between the first and the last.
 //! * **Normals**: `n` is the shading normal, `ng` the geometric one; the winding of a triangle determines
 //!   `ng` only. Directions have unit length and point away from the surface.

@@ -63,7 +63,7 @@ pub struct Scene {
     pub meshes: Vec<Arc<Mesh>>,
     /// Placements of meshes.
     pub instances: Vec<Instance>,
-    /// Morph targets and skins of meshes.
+    /// Morph targets and skins of meshes, in ascending order of these.
     pub deformations: Vec<Deformation>,
     /// Analytic shapes.
     pub shapes: Vec<Shape>,
@@ -242,8 +242,8 @@ impl Scene {
     pub fn copy_mesh(&mut self, mesh: usize) -> usize {
         self.meshes.push(self.meshes[mesh].clone());
         let copy = self.meshes.len() - 1;
-        let known = self.deformations.iter().position(|it| it.mesh == mesh);
-        if let Some(index) = known {
+        let known = self.deformations.binary_search_by_key(&mesh, |it| it.mesh);
+        if let Ok(index) = known {
             let own = self.deformations.len();
             self.deformations.push(Deformation {
                 mesh: copy,
@@ -263,7 +263,8 @@ impl Scene {
 
     /// The deformation of a mesh.
     pub fn deformation_of(&self, mesh: usize) -> Option<&Deformation> {
-        self.deformations.iter().find(|it| it.mesh == mesh)
+        let found = self.deformations.binary_search_by_key(&mesh, |it| it.mesh);
+        Some(&self.deformations[found.ok()?])
     }
 
     /// Number of triangles in the world; each instance counts.

@@ -254,9 +254,7 @@ pub fn render_point(world: DVec3, origin: DVec3) -> Result<Vec3, PackError> {
 
 /// Rejects a length whose square overflows f32.
 pub fn in_range(value: f64) -> Result<(), PackError> {
-    // Also true for NaN.
-    let is_out = !(value <= COORDINATE_LIMIT);
-    if is_out {
+    if value.is_nan() || value > COORDINATE_LIMIT {
         return Err(PackError::OutOfRange {
             value,
             limit: COORDINATE_LIMIT,

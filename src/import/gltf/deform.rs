@@ -85,8 +85,10 @@ impl Reader<'_> {
         self.check_joints(&shared.influences, joints.as_deref(), here)?;
         let mut weights = self.weights_of(source);
         weights.resize(shared.targets.len(), 0.0);
-        self.ledger
-            .take(budget::size::<f64>(weights.len()), 0, here)?;
+        // Each node has vertices of its own in its pose.
+        let size = budget::size::<f64>(weights.len())
+            + budget::size::<[Vec3; 2]>(shared.mesh.positions.len());
+        self.ledger.take(size, 0, here)?;
         self.scene.meshes.push(shared.mesh);
         let added = self.scene.meshes.len() - 1;
         self.deforming.push((index, joints.clone()));
