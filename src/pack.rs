@@ -20,6 +20,7 @@ mod segments;
 mod shell;
 mod surfaces;
 mod tlas;
+mod topology;
 mod trees;
 
 pub use frame::PackedView;

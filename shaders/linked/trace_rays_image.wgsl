@@ -78,10 +78,10 @@ fn fetch__load_node(index: u32) -> types__Node {
 	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
 }
 
-fn fetch__load_moving_node(reference: u32, time: f32) -> types__Node {
-	let index = reference & ~types__MOVING;
-	let last = index + select(0u, 1u, (reference & types__MOVING) != 0u);
-	return node__node_between(fetch__load_node(index), fetch__load_node(last), time);
+fn fetch__load_moving_node(reference: u32, moment: motion__Moment) -> types__Node {
+	let moves = (reference & types__MOVING) != 0u;
+	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
+	return node__node_between(fetch__load_node(first), fetch__load_node(first + select(0u, 1u, moves)), moment.fraction);
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
@@ -599,7 +599,7 @@ fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool,
 		let is_node = !bindings__HAS_INSTANCES || (current & types__LEAF) == 0u;
 		if (is_node) {
 			loop {
-				let node = traverse__load_current_node(current);
+				let node = traverse__load_current_node(current, at.keys);
 				let keys = node__sort4(node__child_keys(node, at.ray.origin, at.inv, traverse__search_limit(ray, hit)));
 				let is_hit = keys < vec4u(node__MISS);
 				let pushed = select(vec4u(0u), vec4u(1u), is_hit);
@@ -651,9 +651,9 @@ fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool,
 	return hit;
 }
 
-fn traverse__load_current_node(reference: u32) -> types__Node {
-	if (bindings__HAS_MOTION) {
-		return fetch__load_moving_node(reference, shutter__shutter_time);
+fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> types__Node {
+	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
+		return deforming__node_now(reference, keys);
 	}
 	return fetch__load_node(reference);
 }
@@ -839,6 +839,14 @@ fn deforming__keys_of(instance: types__PackedInstance) -> deforming__Keys {
 		return deforming__Keys(instance.next_key, instance.count);
 	}
 	return deforming__NO_KEYS;
+}
+
+fn deforming__node_now(reference: u32, keys: deforming__Keys) -> types__Node {
+	var key_count = 2u;
+	if (bindings__HAS_DEFORMATION) {
+		key_count = select(2u, bindings__frame.deformation_key_count, keys.next != 0u);
+	}
+	return fetch__load_moving_node(reference, motion__moment_of(shutter__shutter_time, key_count));
 }
 
 fn deforming__index_at(primitive: u32, keys: deforming__Keys, key: u32) -> u32 {

@@ -4,11 +4,12 @@
 
 use super::{
     PackError, PackedScene, PackedView,
-    blas::{Blas, Fit, Topology},
+    blas::Blas,
     geometry::PlacedMesh,
     instance::{InstancedBlas, Plan, tree_origin},
     mesh::CachedMesh,
     nodes::Offsets,
+    topology::{Fit, Topology},
     trees::Trees,
 };
 use crate::{
@@ -160,7 +161,8 @@ impl PackedScene {
     fn deformation_keys<'a>(&self, frames: &'a [Frame]) -> Vec<&'a Frame> {
         let bytes = self.deforming.iter().map(|mesh| {
             let mesh = &mesh.mesh.mesh;
-            size_of_val(&mesh.triangles[..]) * 4 + size_of_val(&mesh.positions[..])
+            // A packed triangle with its share of the nodes, and a packed vertex.
+            72 * mesh.triangles.len() + 16 * mesh.positions.len()
         });
         let bytes = bytes.sum::<usize>();
         let mut step = 1;
@@ -308,8 +310,7 @@ impl DeformedTree {
         };
         let at_rest = mesh.mesh.topology(&mut 0);
         let mut keys = triangles(at_rest);
-        // Boxes round all keys are larger, which no other topology would change.
-        let is_rebuilt = Fit::new(at_rest, &keys[..1]).cost() > POOR * at_rest.cost;
+        let is_rebuilt = Fit::new(at_rest, &keys[0]).cost() > POOR * at_rest.cost;
         let own;
         let topology = match is_rebuilt {
             true => {
@@ -320,7 +321,9 @@ impl DeformedTree {
             false => at_rest,
         };
         let vertices = placed[0].vertices.clone();
-        let blas = Blas::of(&Fit::new(topology, &keys), vertices, offsets);
+        let fits: Vec<_> = keys.iter().map(|key| Fit::new(topology, key)).collect();
+        let blas = Blas::of(&fits, vertices, offsets);
+        drop(fits);
         Ok(Self {
             tree: mesh.tree,
             instanced: InstancedBlas {

@@ -1,8 +1,8 @@
 //! Data derived from a mesh, independent of its instances; cached as long as the mesh is the same object.
 
 use super::{
-    blas::Topology,
     shell::{self, Shell},
+    topology::Topology,
 };
 use crate::scene::{Mesh, Scene};
 use std::{

@@ -67,16 +67,27 @@ pub struct Children {
 }
 
 impl Children {
+    /// No children.
+    pub const NONE: Self = Self {
+        list: [(Aabb::EMPTY, 0); 4],
+        count: 0,
+    };
+
     pub fn new(children: impl Iterator<Item = (Aabb, u32)>) -> Self {
-        let mut all = Self {
-            list: [(Aabb::EMPTY, 0); 4],
-            count: 0,
-        };
+        let mut all = Self::NONE;
         for child in children {
             all.list[all.count] = child;
             all.count += 1;
         }
         all
+    }
+
+    /// The same children, each in a box round both of its own.
+    pub fn union(mut self, other: &Self) -> Self {
+        for ((aabb, _), (own, _)) in self.list.iter_mut().zip(&other.list) {
+            *aabb = aabb.union(*own);
+        }
+        self
     }
 
     pub fn map_references(&mut self, map: impl Fn(u32) -> u32) {

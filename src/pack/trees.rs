@@ -3,13 +3,14 @@
 
 use super::{
     PackError,
-    blas::{Blas, MAX_PARTS, STACK_BELOW, opened},
+    blas::{Blas, MAX_PARTS, opened},
     geometry::{Flat, PlacedMesh},
     instance::{InstancedBlas, Plan},
     light,
     mesh::CachedMesh,
     nodes::{self, Children, Offsets},
     segments::Segments,
+    topology::STACK_BELOW,
 };
 use crate::{
     bvh::{self, Aabb, Child},

@@ -11,7 +11,8 @@ use glam::{DAffine3, DMat4, DQuat, DVec3, Vec3, dvec3};
 use glimray::image::Image;
 use glimray::pack::{PackedScene, PackedView};
 use glimray::render::{
-    ExecutionPolicy, Fetch, Fingerprint, QueryRay, RayQuery, RenderSettings, Renderer, Tone,
+    ExecutionPolicy, Fetch, Fingerprint, QueryRay, RayQuery, RayTest, RenderSettings, Renderer,
+    Tone,
 };
 use glimray::scene::{
     Attenuation, Deformation, Influences, Instance, Joint, Light, LightKind, Material, Mesh,
@@ -463,6 +464,52 @@ fn a_bending_figure_blurs_like_the_mean_of_many_instants() {
             "{worst} at most, {off} in the mean, {energy} of the light"
         );
     }
+}
+
+#[test]
+fn boxes_follow_a_mesh_while_the_shutter_is_open() {
+    let mut scene = slider(-8.0, 1.0, 16.0);
+    scene.meshes[0] = sheet(40, 40, 0, |u, v| dvec3(u - 8.0, v - 0.5, 0.0)).into();
+    let count = scene.meshes[0].positions.len();
+    let target = MorphTarget {
+        vertices: (0..count as u32).collect(),
+        positions: vec![Vec3::X * 16.0; count],
+        normals: Vec::new(),
+    };
+    scene.deformations[0].targets = [target].into();
+    let packed = packed(&scene, 1 << 14);
+    let mut random = Random::new(5);
+    let rays = (0..1000).map(|_| {
+        let time = random.between(0.0, 1.0);
+        let (x, y) = (random.between(0.0, 1.0), random.between(-0.5, 0.5));
+        let at = dvec3(16.0 * time - 8.0 + x, y, 0.0);
+        let ray = toward(at + 3.0 * DVec3::Z, at);
+        QueryRay {
+            time: time as f32,
+            ..ray
+        }
+    });
+    let rays: Vec<_> = rays.collect();
+    let view = packed
+        .view(&scene.motion_samples(0.0, 1.0))
+        .expect("a view");
+    assert!(view.deforms());
+    let policy = ExecutionPolicy::default();
+    let query = RayQuery::new(open_gpu(), packed, &view, policy).expect("a query");
+    let hits = query.closest_hits(&rays).expect("hits");
+    let hit_count = hits.iter().flatten().count();
+    // Where a ray meets an edge of the sheet, rounding decides.
+    assert!(hit_count >= 998, "{hit_count} hits");
+    let batch = query.batch(&rays).expect("a batch");
+    let steps = query.steps(&batch, RayTest::Closest).expect("steps");
+    let nodes = steps
+        .iter()
+        .map(|steps| f64::from(steps.nodes))
+        .sum::<f64>()
+        / 1000.0;
+    // 3200 triangles are at least five levels of four children each. Boxes round the whole way would overlap:
+    // a ray would visit those of a row of 80 triangles.
+    assert!(nodes < 16.0, "{nodes} nodes");
 }
 
 #[test]
