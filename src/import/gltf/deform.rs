@@ -7,7 +7,7 @@ use super::skins::Bound;
 use crate::import::budget;
 use crate::import::error::ImportError;
 use crate::import::notes;
-use crate::scene::{Deformation, Influences, Mesh, MorphTarget, Skin};
+use crate::scene::{Deformation, Influences, Joint, Mesh, MorphTarget, Skin};
 use glam::Vec3;
 use std::ops::Range;
 use std::sync::Arc;
@@ -87,7 +87,8 @@ impl Reader<'_> {
         weights.resize(shared.targets.len(), 0.0);
         // Each node has vertices of its own in its pose.
         let size = budget::size::<f64>(weights.len())
-            + budget::size::<[Vec3; 2]>(shared.mesh.positions.len());
+            + budget::size::<[Vec3; 2]>(shared.mesh.positions.len())
+            + budget::size::<Joint>(joints.as_ref().map_or(0, |joints| joints.len()));
         self.ledger.take(size, 0, here)?;
         self.scene.meshes.push(shared.mesh);
         let added = self.scene.meshes.len() - 1;
