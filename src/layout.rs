@@ -181,6 +181,14 @@ packed! {
         /// 16-bit indices of [`PackedTexture`]s or [`NO_TEXTURE`]: diffuse and specular, reflect and
         /// transmit, ambient and emission, normal map and alpha, the first of each pair in the lower half.
         textures: [u32; 4],
+        /// The same of the occlusion map, in the lower half.
+        occlusion: u32,
+        /// Weight of the occlusion map, 0 to 1.
+        occlusion_strength: f32,
+        /// 0.
+        _pad0: u32,
+        /// 0.
+        _pad1: u32,
     }
     /// A spatially varying colour that multiplies a colour of a material.
     PackedTexture {

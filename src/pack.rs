@@ -73,7 +73,7 @@ pub struct PackedScene {
     pub plane_count: u32,
     /// BLAS by BLAS, mesh by mesh.
     pub vertices: Segments<PackedVertex>,
-    /// (u, v, 0, 0) of each vertex, zeros for meshes without texture coordinates; empty if no mesh has any.
+    /// (u, v) of each vertex and its second set, zeros for meshes without texture coordinates; empty if no mesh has any.
     pub uvs: Segments<[f32; 4]>,
     /// In scene order, then the materials of visible lights.
     pub materials: Arc<[PackedMaterial]>,
@@ -127,6 +127,8 @@ pub struct Features {
     pub filtered_shadows: bool,
     /// There are textures.
     pub textures: bool,
+    /// Some mesh has a second set of texture coordinates.
+    pub second_uvs: bool,
     /// Some texture is noise.
     pub noise: bool,
     /// Some texture is a picture.
@@ -137,6 +139,8 @@ pub struct Features {
     pub coverage: bool,
     /// Some material has a normal map.
     pub normal_maps: bool,
+    /// Some material has an occlusion map.
+    pub occlusion_maps: bool,
     /// Some picture has 8 bits per channel.
     pub byte_texels: bool,
     /// Some picture has floats.
@@ -279,6 +283,7 @@ fn pack(
     let features = Features {
         shape_kinds: bounded.fold(0, |kinds, shape| kinds | 1 << shape.kind),
         mixed_materials: trees.meshes().any(|mesh| mesh.mixes_materials),
+        second_uvs: scene.meshes.iter().any(|mesh| !mesh.second_uvs.is_empty()),
         contact: media::may_touch(scene, &meshes),
         filtered_shadows: scene.shadows == Shadows::Filtered,
         instances: plan.instance_count() > 0,

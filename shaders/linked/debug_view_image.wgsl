@@ -229,7 +229,7 @@ const types__SHAPE_CAPPED: u32 = 1u;
 
 const types__MATERIAL_TWO_SIDED: u32 = 1u;
 
-const types__MATERIAL_ROWS: u32 = 8u;
+const types__MATERIAL_ROWS: u32 = 9u;
 
 const types__TEXTURE_ROWS: u32 = 6u;
 
@@ -244,6 +244,8 @@ const types__TEXTURE_MINIFY_NEAREST: u32 = 64u;
 const types__TEXTURE_LEVELS: u32 = 128u;
 
 const types__TEXTURE_BETWEEN_LEVELS: u32 = 256u;
+
+const types__TEXTURE_SECOND_UV: u32 = 512u;
 
 const types__TEXTURE_WRAP_U_SHIFT: u32 = 2u;
 
@@ -489,6 +491,7 @@ struct types__Surface {
 	leaving: u32,
 	outside: bool,
 	uv: vec2f,
+	second_uv: vec2f,
 	material: u32,
 	phong: types__Phong,
 	id: u32,
@@ -505,6 +508,7 @@ struct types__Cone {
 
 struct types__Footprint {
 	uv: mat2x2f,
+	second_uv: mat2x2f,
 	place: mat2x3f
 }
 
@@ -631,8 +635,8 @@ fn fetch__load_texture(index: u32) -> types__PackedTexture {
 	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
 }
 
-fn fetch__load_uv(index: u32) -> vec2f {
-	return bitcast<vec2f>(fetch__vertex_row(fetch__uv_row + index).xy);
+fn fetch__load_uvs(index: u32) -> vec4f {
+	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
 }
 
 fn fetch__texel(row: u32) -> vec2u {
@@ -740,6 +744,8 @@ override bindings__HAS_DEFORMATION: bool = true;
 override bindings__ORTHOGRAPHIC: bool = false;
 
 override bindings__HAS_UVS: bool = true;
+
+override bindings__HAS_SECOND_UVS: bool = true;
 
 override bindings__FILM_ROWS: u32 = 1u;
 
@@ -1877,7 +1883,7 @@ fn node__sort4(keys: vec4u) -> vec4u {
 	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
-const surface__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x3f());
+const surface__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
 
 var<private> surface__met_vertices: vec3u;
 
@@ -1969,21 +1975,28 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 	if (bindings__HAS_TEXTURES) {
 		uv = vec2f(0.0);
 	}
+	var second_uv = uv;
 	var footprint = surface__NO_FOOTPRINT;
 	if (bindings__HAS_FOOTPRINTS) {
 		footprint.place = ray_cone__footprint_axes(ray.direction, ng, ray_cone__cone_at(cone, hit.t).width);
 	}
 	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
-		let uvs = mat3x2f(fetch__load_uv(own.i0), fetch__load_uv(own.i1), fetch__load_uv(own.i2));
+		let rows = mat3x4f(fetch__load_uvs(own.i0), fetch__load_uvs(own.i1), fetch__load_uvs(own.i2));
+		let uvs = mat3x2f(rows[0].xy, rows[1].xy, rows[2].xy);
+		let second_uvs = mat3x2f(rows[0].zw, rows[1].zw, rows[2].zw);
 		uv = uvs * vec3f(b0, b1, b2);
+		second_uv = select(uv, second_uvs * vec3f(b0, b1, b2), bindings__HAS_SECOND_UVS);
 		if (bindings__HAS_FOOTPRINTS) {
 			footprint.uv = footprint__triangle_uv_footprint(footprint.place, corners, uvs);
+			if (bindings__HAS_SECOND_UVS) {
+				footprint.second_uv = footprint__triangle_uv_footprint(footprint.place, corners, second_uvs);
+			}
 		}
 		if (bindings__HAS_NORMAL_MAPS) {
-			shading_normal = normal_map__mapped_normal(v0.material, n, corners, uvs, vec3f(b0, b1, b2), footprint);
+			shading_normal = normal_map__mapped_normal(v0.material, n, corners, rows, vec3f(b0, b1, b2), footprint);
 		}
 	}
-	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)));
+	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)));
 }
 
 fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
@@ -1998,13 +2011,13 @@ fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
+		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
+		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
 	}
 	let placed = surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -2013,7 +2026,7 @@ fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
+	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
 }
 
 fn surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
@@ -2143,7 +2156,8 @@ fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: ty
 		scale = length(instance__placed_normal(space, own.ng));
 	}
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	surface.footprint = types__Footprint(footprint__shape_uv_footprint(shape, p, local, hit.b1), axes);
+	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
+	surface.footprint = types__Footprint(in_uv, in_uv, axes);
 	if (shape__is_round(shape.kind)) {
 		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
 		surface.curvature = select(-curvature, curvature, own.outside);
@@ -2159,7 +2173,7 @@ fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) 
 	return select(-bend, bend, side < 0.0) / 3.0;
 }
 
-fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x2f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
 	let index = fetch__load_texture_indices(material).w & 65535u;
 	if (index == types__NO_TEXTURE) {
 		return n;
@@ -2176,8 +2190,9 @@ fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat
 	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + max(2.0 * code.z - 1.0, 0.0) * n, n);
 }
 
-fn normal_map__in_picture(texture: types__PackedTexture, uv: vec2f) -> vec2f {
-	let at = vec4f(uv, 0.0, 1.0);
+fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
+	let is_second = bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
+	let at = vec4f(select(uvs.xy, uvs.zw, is_second), 0.0, 1.0);
 	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
 }
 
@@ -2191,13 +2206,21 @@ fn texture__picture_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f
 	return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v));
 }
 
+fn texture__uses_second_uv(texture: types__PackedTexture) -> bool {
+	return bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
+}
+
 fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footprint) -> mat2x2f {
 	if (!bindings__HAS_FOOTPRINTS) {
 		return mat2x2f();
 	}
 	let is_uv = (texture.flags & types__TEXTURE_UV) != 0u;
-	let a = select(footprint.place[0], vec3f(footprint.uv[0], 0.0), is_uv);
-	let b = select(footprint.place[1], vec3f(footprint.uv[1], 0.0), is_uv);
+	var in_uv = footprint.uv;
+	if (texture__uses_second_uv(texture)) {
+		in_uv = footprint.second_uv;
+	}
+	let a = select(footprint.place[0], vec3f(in_uv[0], 0.0), is_uv);
+	let b = select(footprint.place[1], vec3f(in_uv[1], 0.0), is_uv);
 	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
 }
 

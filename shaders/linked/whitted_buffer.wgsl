@@ -343,7 +343,9 @@ const types__MATERIAL_COVERAGE: u32 = 32u;
 
 const types__MATERIAL_MASK: u32 = 64u;
 
-const types__MATERIAL_ROWS: u32 = 8u;
+const types__MATERIAL_THIN: u32 = 128u;
+
+const types__MATERIAL_ROWS: u32 = 9u;
 
 const types__TEXTURE_ROWS: u32 = 6u;
 
@@ -366,6 +368,8 @@ const types__TEXTURE_MINIFY_NEAREST: u32 = 64u;
 const types__TEXTURE_LEVELS: u32 = 128u;
 
 const types__TEXTURE_BETWEEN_LEVELS: u32 = 256u;
+
+const types__TEXTURE_SECOND_UV: u32 = 512u;
 
 const types__TEXTURE_WRAP_U_SHIFT: u32 = 2u;
 
@@ -632,6 +636,7 @@ struct types__Surface {
 	leaving: u32,
 	outside: bool,
 	uv: vec2f,
+	second_uv: vec2f,
 	material: u32,
 	phong: types__Phong,
 	id: u32,
@@ -648,6 +653,7 @@ struct types__Cone {
 
 struct types__Footprint {
 	uv: mat2x2f,
+	second_uv: mat2x2f,
 	place: mat2x3f
 }
 
@@ -832,8 +838,12 @@ fn fetch__load_texture(index: u32) -> types__PackedTexture {
 	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
 }
 
-fn fetch__load_uv(index: u32) -> vec2f {
-	return bitcast<vec2f>(fetch__vertex_row(fetch__uv_row + index).xy);
+fn fetch__load_uvs(index: u32) -> vec4f {
+	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
+}
+
+fn fetch__load_occlusion(index: u32) -> vec2u {
+	return fetch__material_row(types__MATERIAL_ROWS * index + 8u).xy;
 }
 
 fn fetch__node_row(row: u32) -> vec4u {
@@ -932,6 +942,8 @@ override bindings__HAS_COVERAGE: bool = true;
 
 override bindings__HAS_NORMAL_MAPS: bool = true;
 
+override bindings__HAS_OCCLUSION: bool = true;
+
 override bindings__HAS_BYTE_TEXELS: bool = true;
 
 override bindings__HAS_HALF_TEXELS: bool = true;
@@ -955,6 +967,8 @@ override bindings__HAS_DEFORMATION: bool = true;
 override bindings__ORTHOGRAPHIC: bool = false;
 
 override bindings__HAS_UVS: bool = true;
+
+override bindings__HAS_SECOND_UVS: bool = true;
 
 override bindings__FILM_ROWS: u32 = 1u;
 
@@ -1513,7 +1527,8 @@ fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: ty
 		scale = length(instance__placed_normal(space, own.ng));
 	}
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	surface.footprint = types__Footprint(footprint__shape_uv_footprint(shape, p, local, hit.b1), axes);
+	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
+	surface.footprint = types__Footprint(in_uv, in_uv, axes);
 	if (shape__is_round(shape.kind)) {
 		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
 		surface.curvature = select(-curvature, curvature, own.outside);
@@ -2740,6 +2755,8 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 	let direction = state.ray.direction;
 	let optics = fetch__load_optics(surface.material);
 	let transparent = bindings__HAS_REFRACTION && any(optics.transmit > vec3f(0.0));
+	let thin = (optics.flags & types__MATERIAL_THIN) != 0u;
+	let encloses = transparent && !thin;
 	var media = state.media;
 	var ior = 1.0;
 	var ior_behind = optics.ior;
@@ -2748,8 +2765,10 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 	if (bindings__HAS_REFRACTION) {
 		var here = medium__dominant(state.media);
 		if (transparent) {
-			here = medium__medium_before(state.media, surface.material, surface.outside);
 			media = contact__media_behind(state.media, contact);
+		}
+		if (encloses) {
+			here = medium__medium_before(state.media, surface.material, surface.outside);
 			let behind = medium__dominant(media);
 			ior_behind = medium__medium_of(behind).ior;
 			is_boundary = !bindings__HAS_CONTACT || here != behind;
@@ -2772,15 +2791,16 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 		reflect *= boundary.reflectance;
 		transmit *= 1.0 - boundary.reflectance;
 	}
-	else if (boundary.total && transparent) {
+	else if (boundary.total && encloses) {
 		reflect += select(transmit, vec3f(0.0), (optics.flags & types__MATERIAL_SUM) != 0u);
 		transmit = vec3f(0.0);
 	}
 	var straight = direction;
-	if (is_boundary) {
+	let bends = is_boundary && !thin;
+	if (bends) {
 		straight = fresnel__refracted(direction, n, ior / ior_behind, boundary.cos_t);
 	}
-	else {
+	else if (!is_boundary) {
 		reflect = vec3f(0.0);
 		transmit = vec3f(1.0);
 	}
@@ -2791,7 +2811,7 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 		cone = ray_cone__cone_at(state.cone, distance);
 		mirrored_way = ray_cone__mirrored_cone(cone, surface.curvature);
 		refracted_way = cone;
-		if (is_boundary) {
+		if (bends) {
 			refracted_way = ray_cone__refracted_cone(cone, surface.curvature, ior / ior_behind);
 		}
 	}
@@ -2803,11 +2823,11 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 		let ray = surface__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
 		reflected_ray = ray_states__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_states__KIND_REFLECTED, 2u * state.node, mirrored_way);
 	}
-	let refracts = bindings__HAS_REFRACTION && transparent && (deeper || !is_boundary);
+	let refracts = bindings__HAS_REFRACTION && transparent && (deeper || !bends);
 	let beyond = select(vec3f(0.0), arriving * transmit, refracts);
 	if (bindings__HAS_REFRACTION && refracts && optics__is_worth_tracing(batch, beyond + passing)) {
 		let ray = surface__leaving_ray(surface, straight, camera__T_FAR);
-		refracted_ray = ray_states__RayState(ray, beyond + passing, media, select(state.depth, state.depth + 1u, is_boundary), ray_states__KIND_REFRACTED, 2u * state.node + 1u, refracted_way);
+		refracted_ray = ray_states__RayState(ray, beyond + passing, media, select(state.depth, state.depth + 1u, bends), ray_states__KIND_REFRACTED, 2u * state.node + 1u, refracted_way);
 	}
 	else if (bindings__HAS_COVERAGE && optics__is_worth_tracing(batch, passing)) {
 		let ray = surface__leaving_ray(surface, direction, camera__T_FAR);
@@ -3016,10 +3036,12 @@ fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> c
 
 fn contact__media_behind(media: vec4u, contact: contact__Contact) -> vec4u {
 	var behind = media;
-	if (contact.surface.outside && !media__has_room(behind)) {
-		ray_stack__cut_tree();
+	if (!contact__is_thin(contact.surface)) {
+		if (contact.surface.outside && !media__has_room(behind)) {
+			ray_stack__cut_tree();
+		}
+		behind = medium__cross_surface(behind, contact.surface.material, contact.surface.outside);
 	}
-	behind = medium__cross_surface(behind, contact.surface.material, contact.surface.outside);
 	if (bindings__HAS_CONTACT && contact.touching != types__NONE) {
 		if (contact.enters_touching && !media__has_room(behind)) {
 			ray_stack__cut_tree();
@@ -3039,12 +3061,19 @@ fn contact__is_transparent(surface: types__Surface) -> bool {
 	return any(fetch__load_optics(surface.material).transmit > vec3f(0.0));
 }
 
+fn contact__is_thin(surface: types__Surface) -> bool {
+	return (fetch__load_optics(surface.material).flags & types__MATERIAL_THIN) != 0u;
+}
+
 fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_volume: bool) -> contact__Contact {
 	let is_alike = (second.material == contact.surface.material) & (second.outside == contact.surface.outside);
 	let is_other = !(is_alike & is_same_volume);
 	let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
 	var both = contact;
 	if (together && contact__is_transparent(second)) {
+		if (contact__is_thin(second)) {
+			return both;
+		}
 		both.touching = second.material;
 		both.enters_touching = second.outside;
 	}
@@ -3071,7 +3100,7 @@ fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
 	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
 }
 
-const surface__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x3f());
+const surface__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
 
 var<private> surface__met_vertices: vec3u;
 
@@ -3163,21 +3192,28 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 	if (bindings__HAS_TEXTURES) {
 		uv = vec2f(0.0);
 	}
+	var second_uv = uv;
 	var footprint = surface__NO_FOOTPRINT;
 	if (bindings__HAS_FOOTPRINTS) {
 		footprint.place = ray_cone__footprint_axes(ray.direction, ng, ray_cone__cone_at(cone, hit.t).width);
 	}
 	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
-		let uvs = mat3x2f(fetch__load_uv(own.i0), fetch__load_uv(own.i1), fetch__load_uv(own.i2));
+		let rows = mat3x4f(fetch__load_uvs(own.i0), fetch__load_uvs(own.i1), fetch__load_uvs(own.i2));
+		let uvs = mat3x2f(rows[0].xy, rows[1].xy, rows[2].xy);
+		let second_uvs = mat3x2f(rows[0].zw, rows[1].zw, rows[2].zw);
 		uv = uvs * vec3f(b0, b1, b2);
+		second_uv = select(uv, second_uvs * vec3f(b0, b1, b2), bindings__HAS_SECOND_UVS);
 		if (bindings__HAS_FOOTPRINTS) {
 			footprint.uv = footprint__triangle_uv_footprint(footprint.place, corners, uvs);
+			if (bindings__HAS_SECOND_UVS) {
+				footprint.second_uv = footprint__triangle_uv_footprint(footprint.place, corners, second_uvs);
+			}
 		}
 		if (bindings__HAS_NORMAL_MAPS) {
-			shading_normal = normal_map__mapped_normal(v0.material, n, corners, uvs, vec3f(b0, b1, b2), footprint);
+			shading_normal = normal_map__mapped_normal(v0.material, n, corners, rows, vec3f(b0, b1, b2), footprint);
 		}
 	}
-	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)));
+	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)));
 }
 
 fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
@@ -3192,13 +3228,13 @@ fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
+		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
+		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
 	}
 	let placed = surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -3207,7 +3243,7 @@ fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
+	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
 }
 
 fn surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
@@ -3299,7 +3335,7 @@ fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
 	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
 }
 
-fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x2f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
 	let index = fetch__load_texture_indices(material).w & 65535u;
 	if (index == types__NO_TEXTURE) {
 		return n;
@@ -3316,8 +3352,9 @@ fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat
 	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + max(2.0 * code.z - 1.0, 0.0) * n, n);
 }
 
-fn normal_map__in_picture(texture: types__PackedTexture, uv: vec2f) -> vec2f {
-	let at = vec4f(uv, 0.0, 1.0);
+fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
+	let is_second = bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
+	let at = vec4f(select(uvs.xy, uvs.zw, is_second), 0.0, 1.0);
 	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
 }
 
@@ -3325,7 +3362,19 @@ fn texture__textured_phong(surface: types__Surface) -> types__Phong {
 	let phong = surface.phong;
 	let indices = fetch__load_texture_indices(surface.material);
 	let factors = texture__texture_factors(vec3u(indices.x & 65535u, indices.x >> 16u, indices.z & 65535u), surface);
-	return types__Phong(factors[0] * phong.diffuse, factors[1] * phong.specular, phong.shininess, factors[2] * phong.ambient, phong.reflect);
+	return types__Phong(factors[0] * phong.diffuse, factors[1] * phong.specular, phong.shininess, (texture__unoccluded(surface) * factors[2]) * phong.ambient, phong.reflect);
+}
+
+fn texture__unoccluded(surface: types__Surface) -> f32 {
+	if (!bindings__HAS_OCCLUSION) {
+		return 1.0;
+	}
+	let map = fetch__load_occlusion(surface.material);
+	let index = map.x & 65535u;
+	if (index == types__NO_TEXTURE) {
+		return 1.0;
+	}
+	return 1.0 + bitcast<f32>(map.y) * (texture__texture_color(fetch__load_texture(index), surface).x - 1.0);
 }
 
 fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
@@ -3366,18 +3415,27 @@ fn texture__picture_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f
 	return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v));
 }
 
+fn texture__uses_second_uv(texture: types__PackedTexture) -> bool {
+	return bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
+}
+
 fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footprint) -> mat2x2f {
 	if (!bindings__HAS_FOOTPRINTS) {
 		return mat2x2f();
 	}
 	let is_uv = (texture.flags & types__TEXTURE_UV) != 0u;
-	let a = select(footprint.place[0], vec3f(footprint.uv[0], 0.0), is_uv);
-	let b = select(footprint.place[1], vec3f(footprint.uv[1], 0.0), is_uv);
+	var in_uv = footprint.uv;
+	if (texture__uses_second_uv(texture)) {
+		in_uv = footprint.second_uv;
+	}
+	let a = select(footprint.place[0], vec3f(in_uv[0], 0.0), is_uv);
+	let b = select(footprint.place[1], vec3f(in_uv[1], 0.0), is_uv);
 	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
 }
 
-fn texture__place_in_pattern(texture: types__PackedTexture, p: vec3f, uv: vec2f) -> vec3f {
-	let at = select(vec4f(p, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
+fn texture__place_in_pattern(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+	let uv = select(surface.uv, surface.second_uv, texture__uses_second_uv(texture));
+	let at = select(vec4f(surface.place, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
 	return clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
 }
 
@@ -3385,13 +3443,13 @@ fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
 		let axes = texture__footprint_in(texture, surface.footprint);
 		let size = select(1.0, 0.0, is_mask);
-		return texture__picture_color(texture, texture__place_in_pattern(texture, surface.place, surface.uv).xy, size * axes).w;
+		return texture__picture_color(texture, texture__place_in_pattern(texture, surface).xy, size * axes).w;
 	}
 	return 1.0;
 }
 
 fn texture__texture_color(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
-	let q = texture__place_in_pattern(texture, surface.place, surface.uv);
+	let q = texture__place_in_pattern(texture, surface);
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
 		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint)).xyz;
 	}
@@ -3918,11 +3976,16 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__
 
 fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, around: vec4u, behind: u32) -> vec3f {
 	let optics = fetch__load_optics(surface.material);
-	let here = medium__medium_before(around, surface.material, surface.outside);
+	var here = medium__medium_before(around, surface.material, surface.outside);
+	var ior_behind = medium__medium_of(behind).ior;
+	if ((optics.flags & types__MATERIAL_THIN) != 0u) {
+		here = behind;
+		ior_behind = optics.ior;
+	}
 	var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), distance);
 	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
 		let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
-		let eta = medium__medium_of(here).ior / medium__medium_of(behind).ior;
+		let eta = medium__medium_of(here).ior / ior_behind;
 		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
 	}
 	return through;

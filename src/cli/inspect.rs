@@ -153,6 +153,7 @@ fn material_json(material: &Material) -> Value {
         "reflect": material.reflect.to_array(),
         "transmit": material.transmit.to_array(),
         "ior": material.ior,
+        "thin": material.thin,
         "absorption": material.absorption.to_array(),
         "priority": material.priority,
     })
@@ -336,8 +337,10 @@ fn material_text(out: &mut String, material: &Material) -> fmt::Result {
             write!(out, ", {what} {}", color(value))?;
         }
     }
-    if material.transmit != Vec3::ZERO {
-        write!(out, ", ior {}", material.ior)?;
+    match material.thin {
+        _ if material.transmit == Vec3::ZERO => {}
+        true => write!(out, ", thin")?,
+        false => write!(out, ", ior {}", material.ior)?,
     }
     Ok(())
 }

@@ -30,8 +30,13 @@ impl Writer<'_> {
             table.put_if(!material.two_sided, "two_sided", "false");
             let coverage = self.coverage(material);
             table.put_if(!coverage.is_empty(), "coverage", coverage.inline());
-            if let Some(map) = self.normal_map(material)? {
+            table.put_if(material.thin, "thin", "true".to_owned());
+            let own = &material.textures;
+            if let Some(map) = self.data_map(own.normal, material.normal_scale)? {
                 table.put("normal_map", map);
+            }
+            if let Some(map) = self.data_map(own.occlusion, material.occlusion_strength)? {
+                table.put("occlusion_map", map);
             }
             self.text.gap();
             let name = key(&self.names.materials[index]);

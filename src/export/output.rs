@@ -48,7 +48,7 @@ impl Writer<'_> {
         // Textures write their images first: this image may be among them, under the same name.
         for (index, texture) in self.scene.textures.iter().enumerate() {
             if let crate::scene::Pattern::Picture { picture, .. } = texture.pattern
-                && !self.is_normal_map(index)
+                && !self.is_data_map(index)
             {
                 self.picture(picture, Role::Color)?;
             }

@@ -14,6 +14,10 @@ pub(super) fn mesh(mesh: &Mesh, number_of: impl Fn(u32) -> u32, has_numbers: boo
     if has_uvs {
         names.extend(["s", "t"]);
     }
+    let has_second = !mesh.second_uvs.is_empty();
+    if has_second {
+        names.extend(["s2", "t2"]);
+    }
     for name in &names {
         header += &format!("property float {name}\n");
     }
@@ -32,6 +36,9 @@ pub(super) fn mesh(mesh: &Mesh, number_of: impl Fn(u32) -> u32, has_numbers: boo
         mesh.normals[i].to_array().into_iter().for_each(&mut put);
         if has_uvs {
             mesh.uvs[i].to_array().into_iter().for_each(&mut put);
+        }
+        if has_second {
+            mesh.second_uvs[i].to_array().into_iter().for_each(&mut put);
         }
         if has_numbers {
             bytes.extend(number_of(mesh.materials[i]).to_le_bytes());

@@ -3,7 +3,7 @@
 use super::pictures::Role;
 use super::text::{self, Table, color, key, string};
 use super::{ExportError, Writer, exact};
-use crate::scene::{Material, Minify, Pattern, Space, Texture, Transform, Wrap};
+use crate::scene::{Minify, Pattern, Space, Texture, Transform, Wrap};
 use glam::{DAffine3, DVec3, Vec3};
 
 impl Writer<'_> {
@@ -12,7 +12,7 @@ impl Writer<'_> {
             self.text.section("Textures");
         }
         for (index, texture) in self.scene.textures.iter().enumerate() {
-            if self.is_normal_map(index) {
+            if self.is_data_map(index) {
                 continue;
             }
             let mut table = Table::default();
@@ -46,6 +46,7 @@ impl Writer<'_> {
             let is_picture = matches!(texture.pattern, Pattern::Picture { .. });
             match (texture.space, is_picture) {
                 (Space::Uv, false) => table.put("space", string("uv")),
+                (Space::SecondUv, _) => table.put("space", string("second-uv")),
                 (Space::World, true) => table.put("space", string("world")),
                 _ => {}
             }
@@ -58,12 +59,13 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// The normal map of a material, if it has one.
-    pub fn normal_map(&mut self, material: &Material) -> Result<Option<String>, ExportError> {
-        let texture = material
-            .textures
-            .normal
-            .map(|index| &self.scene.textures[index]);
+    /// A normal or occlusion map, if there is one.
+    pub fn data_map(
+        &mut self,
+        index: Option<usize>,
+        strength: f32,
+    ) -> Result<Option<String>, ExportError> {
+        let texture = index.map(|index| &self.scene.textures[index]);
         let Some((
             texture,
             Pattern::Picture {
@@ -79,21 +81,23 @@ impl Writer<'_> {
         let mut table = Table::default();
         let file = self.picture(*picture, Role::Data)?;
         table.put("picture", sampled(file, *nearest, *minify, *wrap));
-        let strength = material.normal_scale;
         table.put_if(strength != 1.0, "strength", text::number32(strength));
+        if texture.space == Space::SecondUv {
+            table.put("space", string("second-uv"));
+        }
         place(&mut table, texture);
         Ok(Some(table.inline()))
     }
 
-    /// Whether a texture is a normal map and nothing else: materials hold those.
-    pub fn is_normal_map(&self, index: usize) -> bool {
+    /// Whether a texture is a normal or occlusion map and nothing else: materials hold those.
+    pub fn is_data_map(&self, index: usize) -> bool {
         let mut all = self
             .scene
             .materials
             .iter()
             .map(|material| &material.textures);
         let is_looked_up = all.clone().any(|it| it.looked_up().contains(&Some(index)));
-        !is_looked_up && all.any(|it| it.normal == Some(index))
+        !is_looked_up && all.any(|it| [it.normal, it.occlusion].contains(&Some(index)))
     }
 }
 

@@ -267,6 +267,9 @@ fn split(mesh: &mut Mesh, is_sharp: &[bool], crease: f64) {
                     if !mesh.uvs.is_empty() {
                         mesh.uvs.push(mesh.uvs[at]);
                     }
+                    if !mesh.second_uvs.is_empty() {
+                        mesh.second_uvs.push(mesh.second_uvs[at]);
+                    }
                     mesh.normals.push(normal);
                     mesh.positions.len() as u32 - 1
                 });

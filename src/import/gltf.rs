@@ -19,6 +19,7 @@ mod document_materials;
 mod extensions;
 mod hierarchy;
 mod lights;
+mod maps;
 mod materials;
 mod mesh;
 mod meshopt;

@@ -328,6 +328,7 @@ impl<'s> Reader<'s> {
             positions,
             normals: corners().map(normal).collect(),
             uvs,
+            second_uvs: Vec::new(),
             materials: corners().map(|corner| corner.material).collect(),
             triangles: self.triangles,
         };

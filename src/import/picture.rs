@@ -4,6 +4,7 @@
 //! 709. A truncated file is refused even if its decoder would accept it.
 
 mod complete;
+mod height;
 #[cfg(feature = "basis")]
 mod ktx2;
 mod store;
@@ -43,6 +44,11 @@ pub(super) enum Role {
     Color,
     /// Numbers, such as the coordinates of normals.
     Data,
+    /// The height of a surface, white above black by the width of a texel: becomes the normal map of that surface.
+    /// An image with colours is taken for a normal map: many files name one so.
+    Height,
+    /// The same, white below black.
+    Depth,
     /// A mask: the image's alpha, or its brightness if it has none, becomes the alpha of a white picture.
     Alpha,
 }
@@ -136,7 +142,11 @@ fn decode(bytes: &[u8], name: &str, roles: &[Role]) -> Result<Vec<Picture>, Refu
     let picture = |image, role| Picture {
         width,
         height,
-        texels: texels(image, role),
+        texels: match role {
+            Role::Height => height::normals(texels(image, role), [width, height], 1.0),
+            Role::Depth => height::normals(texels(image, role), [width, height], -1.0),
+            Role::Color | Role::Data | Role::Alpha => texels(image, role),
+        },
     };
     let Some((last, others)) = roles.split_last() else {
         return Ok(Vec::new());
@@ -272,7 +282,9 @@ fn texels(image: DynamicImage, role: Role) -> Texels {
             let texels = image.as_bytes().chunks_exact(channels).map(texel);
             match role {
                 Role::Color => Texels::Srgb8(texels.collect()),
-                Role::Data | Role::Alpha => Texels::Linear8(texels.collect()),
+                Role::Data | Role::Alpha | Role::Height | Role::Depth => {
+                    Texels::Linear8(texels.collect())
+                }
             }
         }
         image => {
@@ -280,7 +292,7 @@ fn texels(image: DynamicImage, role: Role) -> Texels {
             let curve: Vec<f32> = (0..=u16::MAX)
                 .map(|code| match role {
                     Role::Color => linear_from_srgb(value(code)) as f32,
-                    Role::Data | Role::Alpha => value(code) as f32,
+                    _ => value(code) as f32,
                 })
                 .collect();
             let texel = |p: &image::Rgba<u16>| {

@@ -194,6 +194,7 @@ struct Layout {
     columns: Vec<usize>,
     normal: Option<usize>,
     uv: Option<usize>,
+    second_uv: Option<usize>,
     color: Option<usize>,
     material: Option<usize>,
     radius: Option<usize>,
@@ -216,6 +217,9 @@ impl Layout {
                 layout.uv = add(reader.columns(element, &names)?);
             }
         }
+        if layout.uv.is_some() {
+            layout.second_uv = add(reader.columns(element, &["s2", "t2"])?);
+        }
         match purpose {
             Purpose::Mesh(_) => layout.material = add(reader.columns(element, &["material"])?),
             Purpose::Model => {
@@ -237,7 +241,9 @@ impl Layout {
         if self.normal.is_none() {
             needed += budget::size::<Option<DVec3>>(count);
         }
-        needed += budget::size::<Vec2>(if self.uv.is_some() { count } else { 0 });
+        for uv in [self.uv, self.second_uv] {
+            needed += budget::size::<Vec2>(if uv.is_some() { count } else { 0 });
+        }
         needed += budget::size::<DVec3>(if is_double { count } else { 0 });
         if self.color.is_some() {
             needed += budget::size::<Option<Rgb>>(count) + tint::bytes();
@@ -296,10 +302,16 @@ fn vertices(
         if let Some(at) = layout.normal {
             mesh.normals.push(three(at).as_vec3());
         }
-        if let Some(at) = layout.uv {
-            // What is not a number becomes 0.
-            let place = |x: f64| x.clamp(-1e9, 1e9).max(-1e9) as f32;
-            mesh.uvs.push(Vec2::new(place(row[at]), place(row[at + 1])));
+        let uvs = [
+            (layout.uv, &mut mesh.uvs),
+            (layout.second_uv, &mut mesh.second_uvs),
+        ];
+        for (at, uvs) in uvs {
+            if let Some(at) = at {
+                // What is not a number becomes 0.
+                let place = |x: f64| x.clamp(-1e9, 1e9).max(-1e9) as f32;
+                uvs.push(Vec2::new(place(row[at]), place(row[at + 1])));
+            }
         }
         if let Some(at) = layout.color {
             let channel = |x: f64| (x * color_scale).round().clamp(0.0, 255.0) as u8;
@@ -346,6 +358,7 @@ fn drop_unused(mesh: &mut Mesh) {
     keep(&mut mesh.positions, &moved);
     keep(&mut mesh.normals, &moved);
     keep(&mut mesh.uvs, &moved);
+    keep(&mut mesh.second_uvs, &moved);
     keep(&mut mesh.materials, &moved);
     let used = moved.iter_mut().filter(|index| **index != UNUSED);
     used.zip(0..).for_each(|(index, new)| *index = new);

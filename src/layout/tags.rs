@@ -95,8 +95,10 @@ pub const MATERIAL_BLEND: u32 = 16;
 pub const MATERIAL_COVERAGE: u32 = 32;
 /// Bit of [`super::PackedMaterial::flags`]: the surface is there where alpha is at least 1.
 pub const MATERIAL_MASK: u32 = 64;
+/// Bit of [`super::PackedMaterial::flags`]: transmitted light goes straight on, in the same medium.
+pub const MATERIAL_THIN: u32 = 128;
 /// Rows of 16 bytes of a [`super::PackedMaterial`].
-pub const MATERIAL_ROWS: u32 = 8;
+pub const MATERIAL_ROWS: u32 = 9;
 /// Rows of 16 bytes of a [`super::PackedTexture`].
 pub const TEXTURE_ROWS: u32 = 6;
 /// No texture, in the 16 bits of a texture index in a [`super::PackedMaterial`].
@@ -122,6 +124,8 @@ pub const TEXTURE_MINIFY_NEAREST: u32 = 64;
 pub const TEXTURE_LEVELS: u32 = 128;
 /// Bit of [`super::PackedTexture::flags`]: levels are interpolated.
 pub const TEXTURE_BETWEEN_LEVELS: u32 = 256;
+/// Bit of [`super::PackedTexture::flags`]: with [`TEXTURE_UV`], u and v are those of the second set.
+pub const TEXTURE_SECOND_UV: u32 = 512;
 /// Shift of the mode in [`super::PackedTexture::flags`] by which a picture continues along u.
 pub const TEXTURE_WRAP_U_SHIFT: u32 = 2;
 /// The same along v.

@@ -4,11 +4,11 @@ use super::{Features, PackError, light};
 use crate::{
     layout::{
         MATERIAL_BLEND, MATERIAL_COVERAGE, MATERIAL_FRESNEL, MATERIAL_MASK, MATERIAL_SCHLICK,
-        MATERIAL_SUM, MATERIAL_TWO_SIDED, NO_TEXTURE, PATTERN_CHECKER, PATTERN_GRADIENT,
-        PATTERN_NOISE, PATTERN_PICTURE, PATTERN_STRIPES, PackedMaterial, PackedTexture,
-        TEXTURE_BETWEEN_LEVELS, TEXTURE_LEVELS, TEXTURE_MINIFY_NEAREST, TEXTURE_NEAREST,
-        TEXTURE_UV, TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP, WRAP_MIRROR,
-        WRAP_REPEAT,
+        MATERIAL_SUM, MATERIAL_THIN, MATERIAL_TWO_SIDED, NO_TEXTURE, PATTERN_CHECKER,
+        PATTERN_GRADIENT, PATTERN_NOISE, PATTERN_PICTURE, PATTERN_STRIPES, PackedMaterial,
+        PackedTexture, TEXTURE_BETWEEN_LEVELS, TEXTURE_LEVELS, TEXTURE_MINIFY_NEAREST,
+        TEXTURE_NEAREST, TEXTURE_SECOND_UV, TEXTURE_UV, TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT,
+        WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT,
     },
     scene::{
         Coverage, Fresnel, Material, MaterialProperty, Mixing, Pattern, Scene, Space, Target,
@@ -53,7 +53,7 @@ pub fn material(material: &Material) -> PackedMaterial {
         diffuse: material.diffuse.into(),
         shininess: material.shininess,
         specular: material.specular.into(),
-        flags: sides | fresnel | mixing | covers,
+        flags: sides | fresnel | mixing | covers | if material.thin { MATERIAL_THIN } else { 0 },
         ambient: material.ambient.into(),
         opacity: material.opacity,
         reflect: material.reflect.into(),
@@ -70,6 +70,9 @@ pub fn material(material: &Material) -> PackedMaterial {
             pair(textures.normal, textures.alpha),
         ],
         normal_scale: material.normal_scale,
+        occlusion: pair(textures.occlusion, None),
+        occlusion_strength: material.occlusion_strength,
+        ..Default::default()
     }
 }
 
@@ -101,12 +104,20 @@ pub fn may_transmit(scene: &Scene) -> Vec<bool> {
     may_be_nonblack(scene, |m| m.transmit, MaterialProperty::Transmit)
 }
 
+/// For each material, whether it encloses a transparent medium at some time.
+pub fn may_enclose(scene: &Scene) -> Vec<bool> {
+    let transmits = may_transmit(scene).into_iter().zip(&scene.materials);
+    transmits
+        .map(|(is, material)| is && !material.thin)
+        .collect()
+}
+
 /// Whether total internal reflection converts transmitted light to reflected light for some material. With
 /// Fresnel, `reflect` covers that case; `sum` mixing does not convert.
 fn has_total_reflection(scene: &Scene) -> bool {
-    let mut materials = scene.materials.iter().zip(may_transmit(scene));
-    materials.any(|(material, transmits)| {
-        transmits && material.fresnel == Fresnel::None && material.mixing != Mixing::Sum
+    let mut materials = scene.materials.iter().zip(may_enclose(scene));
+    materials.any(|(material, encloses)| {
+        encloses && material.fresnel == Fresnel::None && material.mixing != Mixing::Sum
     })
 }
 
@@ -128,7 +139,7 @@ pub fn features(scene: &Scene) -> Features {
     let refraction = may_transmit(scene).contains(&true);
     let emission =
         may_be_nonblack(scene, |m| m.emission, MaterialProperty::Emission).contains(&true);
-    let transparent = may_transmit(scene).into_iter().zip(&scene.materials);
+    let transparent = may_enclose(scene).into_iter().zip(&scene.materials);
     let mut priorities = transparent.filter_map(|(is, material)| is.then_some(material.priority));
     let first = priorities.next();
     let has_pattern = |is: fn(&Pattern) -> bool| scene.textures.iter().any(|it| is(&it.pattern));
@@ -155,6 +166,7 @@ pub fn features(scene: &Scene) -> Features {
             .map(|material| &material.textures)
             .any(|it| it.reflect.or(it.transmit).or(it.emission).is_some()),
         coverage: (scene.materials.iter()).any(|it| it.coverage != Coverage::Opaque),
+        occlusion_maps: (scene.materials.iter()).any(|it| it.textures.occlusion.is_some()),
         normal_maps: (scene.materials.iter()).any(|material| material.textures.normal.is_some()),
         emission: emission || light::visible(scene).next().is_some(),
         ..Features::default()
@@ -179,7 +191,7 @@ pub fn textures(
 fn texture(texture: &Texture, origin: DVec3, pictures: &[[u32; 3]]) -> PackedTexture {
     let mut space = match texture.space {
         Space::World => texture.pattern_from_space * DAffine3::from_translation(origin),
-        Space::Uv => texture.pattern_from_space,
+        Space::Uv | Space::SecondUv => texture.pattern_from_space,
     };
     // Whole periods are subtracted, so that f32 is as precise far from the origin of the pattern as near it.
     let periods = periods(&texture.pattern);
@@ -192,10 +204,10 @@ fn texture(texture: &Texture, origin: DVec3, pictures: &[[u32; 3]]) -> PackedTex
         [row.x, row.y, row.z, space.translation[i]].map(|c| c.clamp(-1e18, 1e18) as f32)
     };
     let mut packed = PackedTexture {
-        flags: if texture.space == Space::Uv {
-            TEXTURE_UV
-        } else {
-            0
+        flags: match texture.space {
+            Space::World => 0,
+            Space::Uv => TEXTURE_UV,
+            Space::SecondUv => TEXTURE_UV | TEXTURE_SECOND_UV,
         },
         row_x: row(0),
         row_y: row(1),

@@ -29,9 +29,9 @@ enum Surface {
 
 /// The dielectric volumes of a scene, without deforming meshes.
 pub fn volumes(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> Vec<Volume> {
-    let may_transmit = material::may_transmit(scene);
+    let may_enclose = material::may_enclose(scene);
     let shapes = (scene.shapes.iter())
-        .filter(|shape| may_transmit[shape.material] && is_closed(&shape.geometry))
+        .filter(|shape| may_enclose[shape.material] && is_closed(&shape.geometry))
         .map(|shape| Volume {
             node: shape.node,
             material: shape.material as u32,
@@ -42,7 +42,7 @@ pub fn volumes(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> Vec<Volume> {
             let mesh = &cached.mesh;
             // A mesh with several materials consists of several volumes that cannot be told apart.
             let material = *mesh.materials.first()?;
-            let is_volume = may_transmit[material as usize]
+            let is_volume = may_enclose[material as usize]
                 && mesh.materials.iter().all(|&other| other == material);
             let shell = if is_volume { cached.shell() } else { None };
             Some((shell?, material))
@@ -66,7 +66,7 @@ pub fn may_touch(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> bool {
     let lamps = light::visible(scene).count();
     let volumes = scene.shapes.len() + scene.instances.len() + lamps;
     let is_divided = || meshes.iter().any(|mesh| mesh.part_count() > 1);
-    material::may_transmit(scene).contains(&true)
+    material::may_enclose(scene).contains(&true)
         && (volumes > 1 || scene.materials.len() > 1 || is_divided())
 }
 

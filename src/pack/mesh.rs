@@ -45,11 +45,16 @@ impl CachedMesh {
         })
     }
 
-    /// (u, v, 0, 0) of each vertex, zeros where it has no texture coordinates.
+    /// u and v of each vertex in both sets, zeros where it has no texture coordinates. Without a second set the first
+    /// is in its place.
     pub fn uvs(&self) -> Arc<[[f32; 4]]> {
         let uvs = || {
-            let mut uvs: Vec<_> = (self.mesh.uvs.iter())
-                .map(|uv| [uv.x, uv.y, 0.0, 0.0])
+            let second = match &self.mesh.second_uvs[..] {
+                [] => &self.mesh.uvs,
+                _ => &self.mesh.second_uvs,
+            };
+            let mut uvs: Vec<_> = (self.mesh.uvs.iter().zip(second))
+                .map(|(first, second)| [first.x, first.y, second.x, second.y])
                 .collect();
             uvs.resize(self.mesh.positions.len(), [0.0; 4]);
             uvs.into()

@@ -36,6 +36,9 @@ pub struct Material {
     /// Absorption coefficient of the inside per unit length: exp(−absorption · length) is transmitted
     /// (Beer and Lambert). 0 or more.
     pub absorption: Vec3,
+    /// Whether transmitted light goes straight on, as through a window pane: the surface encloses no medium, and
+    /// `ior`, `absorption` and `priority` have no effect on it. Passing it is not a bounce.
+    pub thin: bool,
     /// Among overlapping dielectric volumes the one of the highest priority counts; among equals the one
     /// entered last (Schmidt and Budge 2002).
     pub priority: i32,
@@ -47,6 +50,8 @@ pub struct Material {
     pub textures: Textures,
     /// Factor on the tilt of normals in the normal map: on their x and y, 0 or more.
     pub normal_scale: f32,
+    /// The weight of the occlusion map, in 0..=1: a value v of it leaves 1 + weight · (v − 1) of the ambient light.
+    pub occlusion_strength: f32,
     /// How much of the surface is there.
     pub coverage: Coverage,
     /// The number that `coverage` is about, in 0..=1, multiplied by the alpha of [`Textures::alpha`].
@@ -115,13 +120,15 @@ pub struct Textures {
     /// to 1; x points along u of the picture, y along v, z along the interpolated normal. Other surfaces
     /// have none.
     pub normal: Option<usize>,
+    /// The occlusion map: the fraction of ambient light that reaches the surface, in red.
+    pub occlusion: Option<usize>,
     /// Its alpha multiplies [`Material::alpha`]. Only pictures have an alpha other than 1.
     pub alpha: Option<usize>,
 }
 
 impl Textures {
-    /// The textures of all colours and of alpha, and the normal map.
-    pub fn all(&self) -> [Option<usize>; 8] {
+    /// The textures of all colours and of alpha, the normal map and the occlusion map.
+    pub fn all(&self) -> [Option<usize>; 9] {
         let [
             diffuse,
             specular,
@@ -140,6 +147,7 @@ impl Textures {
             transmit,
             alpha,
             self.normal,
+            self.occlusion,
         ]
     }
 
@@ -154,6 +162,7 @@ impl Textures {
             transmit,
             alpha,
             normal: _,
+            occlusion: _,
         } = *self;
         [
             diffuse, specular, ambient, emission, reflect, transmit, alpha,
@@ -170,10 +179,11 @@ impl Textures {
             reflect,
             transmit,
             normal,
+            occlusion,
             alpha,
         } = self;
         for index in [
-            diffuse, specular, ambient, emission, reflect, transmit, normal, alpha,
+            diffuse, specular, ambient, emission, reflect, transmit, normal, occlusion, alpha,
         ] {
             *index = index.map(|index| index + first);
         }
@@ -196,11 +206,13 @@ impl Default for Material {
             opacity: 1.0,
             ior: 1.0,
             absorption: Vec3::ZERO,
+            thin: false,
             priority: 0,
             fresnel: Fresnel::None,
             mixing: Mixing::Layer,
             textures: Textures::default(),
             normal_scale: 1.0,
+            occlusion_strength: 1.0,
             coverage: Coverage::Opaque,
             alpha: 1.0,
             metallic_roughness: None,

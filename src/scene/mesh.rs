@@ -16,6 +16,8 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// One (u, v) for each position, v upwards; empty if the file gives none.
     pub uvs: Vec<Vec2>,
+    /// A second set of (u, v), as `uvs`; empty if the file gives none or no texture uses it.
+    pub second_uvs: Vec<Vec2>,
     /// For each position, an index into [`super::Scene::materials`]. Where the vertices of a triangle
     /// differ, their coefficients are interpolated and the textures of the first one apply.
     pub materials: Vec<u32>,
@@ -33,6 +35,11 @@ pub struct Repairs {
 }
 
 impl Mesh {
+    /// Both sets of texture coordinates.
+    pub fn uv_sets_mut(&mut self) -> [&mut Vec<Vec2>; 2] {
+        [&mut self.uvs, &mut self.second_uvs]
+    }
+
     /// Drops triangles whose area is zero (or below f32's precision), recomputes missing and zero normals
     /// as the area-weighted mean of the adjacent triangles' normals, and normalises the others.
     ///

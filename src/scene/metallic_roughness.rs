@@ -208,6 +208,7 @@ impl MetallicRoughness {
                 true => absorption / self.attenuation_distance,
                 false => Vec3::ZERO,
             },
+            thin: self.transmission > 0.0 && !self.is_refractive(),
             fresnel: match (self.has_fresnel(), self.is_refractive()) {
                 (true, true) => Fresnel::Exact,
                 (true, false) => Fresnel::Schlick,

@@ -129,7 +129,7 @@ impl Texels {
         match self {
             Self::Srgb8(texels) => {
                 let [r, g, b, a] = texels[index];
-                let color = [r, g, b].map(|code| curve.values[usize::from(code)]);
+                let color = [r, g, b].map(|code| curve.value(code));
                 Vec3::from(color).extend(value(a))
             }
             Self::Linear8(texels) => Vec4::from(texels[index].map(value)),
@@ -155,6 +155,11 @@ impl Default for SrgbCurve {
 }
 
 impl SrgbCurve {
+    /// The linear value of a code.
+    pub fn value(&self, code: u8) -> f32 {
+        self.values[usize::from(code)]
+    }
+
     /// The code whose linear value is nearest to `value`.
     pub fn code(&self, value: f32) -> u8 {
         let above = (self.values.partition_point(|known| *known < value)).min(255);

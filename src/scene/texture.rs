@@ -21,6 +21,8 @@ pub enum Space {
     World,
     /// (u, v, 0) of the surface.
     Uv,
+    /// The same with the second set of u and v, of meshes that have one.
+    SecondUv,
 }
 
 /// A function from points to colours.

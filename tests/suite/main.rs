@@ -89,6 +89,7 @@ mod soft_shadows;
 mod spd;
 mod support;
 mod textures;
+mod thin_walls;
 mod trees;
 mod uv_view;
 #[cfg(feature = "video")]

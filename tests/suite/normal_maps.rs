@@ -188,6 +188,8 @@ fn a_native_scene_names_a_map_and_gets_it_back_when_it_is_exported() {
         [materials.rough]
         phong.diffuse = { picture = 'n.png' }
         normal_map = { picture = { file = 'n.png', wrap = 'mirror' }, strength = 0.75, scale = 0.5 }
+        occlusion_map = { picture = 'n.png', strength = 0.25, space = 'second-uv' }
+        thin = true
         [[objects]]
         sphere = { center = [0, 0, -3], radius = 1 }
         material = 'rough'";
@@ -197,6 +199,10 @@ fn a_native_scene_names_a_map_and_gets_it_back_when_it_is_exported() {
     let scene = import::load(&folder.path().join("a.toml")).expect("a scene");
     let material = &scene.materials[0];
     assert_eq!(material.normal_scale, 0.75);
+    assert!(material.thin);
+    assert_eq!(material.occlusion_strength, 0.25);
+    let occlusion = &scene.textures[material.textures.occlusion.expect("a map")];
+    assert_eq!(occlusion.space, Space::SecondUv);
     let map = &scene.textures[material.textures.normal.expect("a map")];
     let color = &scene.textures[material.textures.diffuse.expect("a texture")];
     let texels = |texture: &Texture| match texture.pattern {

@@ -76,5 +76,6 @@ fn space(texture: &Texture) -> &'static str {
     match texture.space {
         Space::World => "world",
         Space::Uv => "uv",
+        Space::SecondUv => "second uv",
     }
 }

@@ -2,7 +2,7 @@
 //! metallic-roughness material.
 
 use crate::scene::{MetallicRoughness, Picture, SrgbCurve, SurfacePoint, Texels};
-use glam::{Vec3, Vec4Swizzles};
+use glam::{DVec4, Vec3, Vec4Swizzles};
 
 /// Differences of colours below this are not worth a picture.
 const VISIBLE: f32 = 1.0 / 512.0;
@@ -32,6 +32,20 @@ pub(super) struct Baked {
     pub transmit: Shade,
     /// The mean, for the width of the highlight.
     pub roughness: f32,
+}
+
+/// Multiplies a parameter of `model` by the mean of a map that is not aligned with the others: its metallic-roughness
+/// map (1) or its transmission map (2).
+pub(super) fn with_mean(model: &mut MetallicRoughness, index: usize, sheet: &Picture) {
+    let sum: DVec4 = sheet.linear().map(|texel| texel.as_dvec4()).sum();
+    let mean = (sum / sheet.texels.len() as f64).as_vec4();
+    match index {
+        1 => {
+            model.roughness *= mean.y;
+            model.metallic *= mean.z;
+        }
+        _ => model.transmission *= mean.x,
+    }
 }
 
 /// The colours of `model` with `sheets`, in pictures of the size of the largest sheet; others are sampled at

@@ -21,8 +21,8 @@ pub(super) struct MaterialKey(pub Option<usize>);
 /// A material with its pictures, before vertex colours.
 pub(super) struct Surface {
     pub material: Material,
-    /// The set of texture coordinates that its pictures use.
-    pub uv_set: Option<u32>,
+    /// The sets of texture coordinates that its pictures use, at most two.
+    pub uv_sets: Vec<u32>,
 }
 
 impl Reader<'_> {
@@ -42,7 +42,7 @@ impl Reader<'_> {
                     material.metallic_roughness = Some(Arc::new(model));
                     Surface {
                         material,
-                        uv_set: None,
+                        uv_sets: Vec::new(),
                     }
                 }
                 Some(index) => {
@@ -68,9 +68,10 @@ impl Reader<'_> {
         primitive.material
     }
 
-    /// The set of texture coordinates that a material needs, which [`Self::material_of`] returned.
-    pub(super) fn uv_set(&self, key: &MaterialKey) -> Option<u32> {
-        self.surfaces.get(key).and_then(|surface| surface.uv_set)
+    /// The sets of texture coordinates that a material needs, which [`Self::material_of`] returned: those of the mesh's
+    /// first and second set.
+    pub(super) fn uv_sets(&self, key: &MaterialKey) -> Vec<u32> {
+        (self.surfaces.get(key)).map_or_else(Vec::new, |surface| surface.uv_sets.clone())
     }
 
     /// Adds a material for each of `count` vertices to `materials`: those of `key`, multiplied with
@@ -151,11 +152,11 @@ impl Reader<'_> {
         self.maps(source, &mut model, &here)?;
         let name = source.name.clone().unwrap_or_default();
         let mut material = model.classical(name);
-        let uv_set = self.textured(source, &model, &mut material, &here)?;
+        let uv_sets = self.textured(source, &model, &mut material, &here)?;
         let size = budget::size::<(Surface, MetallicRoughness)>(1);
         self.ledger.take(size, 0, &here)?;
         material.metallic_roughness = Some(Arc::new(model));
-        Ok(Surface { material, uv_set })
+        Ok(Surface { material, uv_sets })
     }
 
     /// Lists the maps of a material in `model`, and notes those that are not shown.
@@ -188,11 +189,12 @@ impl Reader<'_> {
 }
 
 /// The maps that have an effect on the picture.
-pub(super) const SHOWN_MAPS: [&str; 7] = [
+pub(super) const SHOWN_MAPS: [&str; 8] = [
     "baseColorTexture",
     "metallicRoughnessTexture",
     "emissiveTexture",
     "normalTexture",
+    "occlusionTexture",
     "transmissionTexture",
     "diffuseTexture",
     "thicknessTexture",

@@ -18,7 +18,8 @@ pub(super) type MeshKey = (usize, Option<usize>, Vec<u64>);
 struct Vertices {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
-    uvs: Vec<Vec2>,
+    /// The first and the second set that the material uses.
+    uvs: [Vec<Vec2>; 2],
     colors: Vec<Vec4>,
 }
 
@@ -33,7 +34,9 @@ impl Vertices {
         }
         let corners = triangles.as_flattened_mut();
         spread(&mut self.positions, corners);
-        spread(&mut self.uvs, corners);
+        for uvs in &mut self.uvs {
+            spread(uvs, corners);
+        }
         spread(&mut self.colors, corners);
         self.normals = Vec::with_capacity(corners.len());
         for corners in self.positions.chunks_exact(3) {
@@ -160,14 +163,19 @@ impl Reader<'_> {
         mesh.triangles.extend(triangles.into_iter().map(shift));
         let count = vertices.positions.len();
         self.paint(&mut mesh.materials, count, &vertices.colors, material)?;
-        if !vertices.uvs.is_empty() {
-            mesh.uvs.resize(first, Vec2::ZERO);
-            mesh.uvs.extend(&vertices.uvs);
+        for (uvs, own) in (mesh.uv_sets_mut().into_iter()).zip(&vertices.uvs) {
+            if !own.is_empty() {
+                uvs.resize(first, Vec2::ZERO);
+                uvs.extend(own);
+            }
         }
         mesh.positions.extend(&vertices.positions);
         mesh.normals.extend(&vertices.normals);
-        if !mesh.uvs.is_empty() {
-            mesh.uvs.resize(mesh.positions.len(), Vec2::ZERO);
+        let count = mesh.positions.len();
+        for uvs in mesh.uv_sets_mut() {
+            if !uvs.is_empty() {
+                uvs.resize(count, Vec2::ZERO);
+            }
         }
         Ok(())
     }
@@ -180,7 +188,7 @@ impl Reader<'_> {
         count: u64,
         here: &str,
     ) -> Result<(), ImportError> {
-        type Vertex = (Vec3, Vec3, Vec2, u32);
+        type Vertex = (Vec3, Vec3, [Vec2; 2], u32);
         let corners = match primitive.indices {
             Some(indices) => self.accessors().count(indices, here)?,
             None => count,
@@ -232,12 +240,12 @@ impl Reader<'_> {
             normals = accessors.vectors::<3>(index, &[Kind::Vec3], 0.0, &place("NORMAL"))?;
             same_count(normals.len(), "NORMAL")?;
         }
-        let mut uvs = Vec::new();
-        if let Some(set) = self.uv_set(material) {
+        let mut uvs = [Vec::new(), Vec::new()];
+        for (uvs, set) in uvs.iter_mut().zip(self.uv_sets(material)) {
             let name = format!("TEXCOORD_{set}");
             match attribute(&name) {
                 Some(index) => {
-                    uvs = accessors.vectors::<2>(index, &[Kind::Vec2], 0.0, &place(&name))?;
+                    *uvs = accessors.vectors::<2>(index, &[Kind::Vec2], 0.0, &place(&name))?;
                     same_count(uvs.len(), &name)?;
                 }
                 None => self.notes.add("meshes without texture coordinates", || {
@@ -260,7 +268,7 @@ impl Reader<'_> {
         Ok(Vertices {
             positions: positions.into_iter().map(Vec3::from).collect(),
             normals: normals.into_iter().map(Vec3::from).collect(),
-            uvs: uvs.into_iter().map(uv).collect(),
+            uvs: uvs.map(|uvs| uvs.into_iter().map(uv).collect()),
             colors: colors.into_iter().map(Vec4::from).collect(),
         })
     }

@@ -3,43 +3,14 @@
 use super::Reader;
 use super::bake::{self, Baked, Shade, Sheets};
 use super::document::{Material as Source, TextureInfo};
+use super::maps::FoundMap;
 use crate::import::error::ImportError;
 use crate::import::picture::Role;
-use crate::scene::{Coverage, Material, MetallicRoughness, Minify, Pattern, Space, Texture, Wrap};
-use glam::{DAffine2, DAffine3, DMat2, DMat3, DVec2, DVec3, Vec3};
-
-const NEAREST: u32 = 9728;
-const LINEAR: u32 = 9729;
-const NEAREST_MIPMAP_NEAREST: u32 = 9984;
-const LINEAR_MIPMAP_NEAREST: u32 = 9985;
-const NEAREST_MIPMAP_LINEAR: u32 = 9986;
-const CLAMP: u32 = 33071;
-const MIRROR: u32 = 33648;
+use crate::scene::{Coverage, Material, MetallicRoughness, Pattern, Space, Texture};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// Largest width and height of pictures that are computed from several maps.
 const MAX_BAKED: u32 = 2048;
-
-/// A use of an image.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct FoundMap {
-    pub image: usize,
-    pub uv_set: u32,
-    /// Both with v downwards.
-    pub picture_from_uv: DAffine3,
-    /// Whether texels that look large are not interpolated.
-    nearest: bool,
-    minify: Minify,
-    /// Along u and v.
-    wrap: [Wrap; 2],
-}
-
-impl FoundMap {
-    /// Whether a texel of one map belongs to the same point as that of the other.
-    fn is_aligned(&self, other: &Self) -> bool {
-        (self.uv_set, self.wrap) == (other.uv_set, other.wrap)
-            && self.picture_from_uv == other.picture_from_uv
-    }
-}
 
 /// The classical colours of a textured material: factors and indices of pictures.
 #[derive(Clone, Debug)]
@@ -51,95 +22,16 @@ pub(super) struct Appearance {
     roughness: f32,
 }
 
-/// The transform that `KHR_texture_transform` describes.
-fn transform(info: &TextureInfo) -> DAffine3 {
-    let Some(it) = &info.extensions.transform else {
-        return DAffine3::IDENTITY;
-    };
-    let number = |x: f64| x.clamp(-1e9, 1e9);
-    let (sin, cos) = it.rotation.sin_cos();
-    // Counter-clockwise on the picture, whose v points down.
-    let rotation = DMat2::from_cols(DVec2::new(cos, -sin), DVec2::new(sin, cos));
-    let scale = DVec2::from(it.scale.unwrap_or([1.0; 2]).map(number));
-    let flat = DAffine2 {
-        matrix2: rotation * DMat2::from_diagonal(scale),
-        translation: DVec2::from(it.offset.map(number)),
-    };
-    DAffine3 {
-        matrix3: DMat3::from_cols(
-            flat.matrix2.x_axis.extend(0.0),
-            flat.matrix2.y_axis.extend(0.0),
-            DVec3::Z,
-        ),
-        translation: flat.translation.extend(0.0),
-    }
-}
-
 impl Reader<'_> {
-    /// The image that `info`, which is at `place`, uses; `None` with a note if there is none.
-    pub(super) fn map(
-        &mut self,
-        info: &TextureInfo,
-        place: &str,
-    ) -> Result<Option<FoundMap>, ImportError> {
-        let document = self.document;
-        let texture = self
-            .blame
-            .get(&document.textures, info.index, "textures", place)?;
-        let here = format!("textures[{}]", info.index);
-        let Some(image) = texture.image() else {
-            let what = match texture.extensions.basisu {
-                Some(_) => "has only a KTX2 picture, which this program cannot read",
-                None => "has no picture",
-            };
-            let note = || format!("texture skipped: {here} {what}");
-            self.notes.add("skipped textures", note);
-            return Ok(None);
-        };
-        self.blame.get(&document.images, image, "images", &here)?;
-        let mut found = FoundMap {
-            image,
-            uv_set: info.tex_coord,
-            picture_from_uv: transform(info),
-            nearest: false,
-            minify: Minify::default(),
-            wrap: [Wrap::Repeat; 2],
-        };
-        let moved = info.extensions.transform.as_ref();
-        if let Some(set) = moved.and_then(|it| it.tex_coord) {
-            found.uv_set = set;
-        }
-        if let Some(index) = texture.sampler {
-            let sampler = self
-                .blame
-                .get(&document.samplers, index, "samplers", &here)?;
-            found.nearest = sampler.mag_filter == Some(NEAREST);
-            found.minify = match sampler.min_filter {
-                Some(NEAREST) => Minify::Nearest,
-                Some(LINEAR) => Minify::Linear,
-                Some(NEAREST_MIPMAP_NEAREST) => Minify::NearestMipmapNearest,
-                Some(LINEAR_MIPMAP_NEAREST) => Minify::LinearMipmapNearest,
-                Some(NEAREST_MIPMAP_LINEAR) => Minify::NearestMipmapLinear,
-                _ => Minify::LinearMipmapLinear,
-            };
-            found.wrap = [sampler.wrap_s, sampler.wrap_t].map(|wrap| match wrap {
-                Some(CLAMP) => Wrap::Clamp,
-                Some(MIRROR) => Wrap::Mirror,
-                _ => Wrap::Repeat,
-            });
-        }
-        Ok(Some(found))
-    }
-
-    /// Gives `material`, which is `model`'s, the pictures of `source`. Returns the set of texture
-    /// coordinates that they use.
+    /// Gives `material`, which is `model`'s, the pictures of `source`. Returns the sets of texture coordinates that
+    /// they use, at most two.
     pub(super) fn textured(
         &mut self,
         source: &Source,
         model: &MetallicRoughness,
         material: &mut Material,
         here: &str,
-    ) -> Result<Option<u32>, ImportError> {
+    ) -> Result<Vec<u32>, ImportError> {
         let pbr = source.pbr_metallic_roughness.as_deref();
         let extensions = source.extensions.as_deref();
         let older = extensions.and_then(|e| e.specular_glossiness.as_deref());
@@ -162,75 +54,94 @@ impl Reader<'_> {
                 *map = self.map(info, here)?;
             }
         }
-        let mut lead = maps.iter().flatten().next().cloned();
-        for map in &mut maps {
-            if let (Some(other), Some(lead)) = (&*map, &lead)
-                && !other.is_aligned(lead)
-            {
-                self.notes.add("maps that are not shown", || {
-                    format!(
-                        "{here}: a map with other texture coordinates than the first is not shown"
-                    )
-                });
-                *map = None;
+        let lead = maps.iter().flatten().next().cloned();
+        let mut sets = Vec::new();
+        // Without a picture for it, a map counts with its mean.
+        let mut mean = model.clone();
+        if let Some(lead) = &lead {
+            for (index, map) in maps.iter_mut().enumerate() {
+                if map.as_ref().is_some_and(|map| !map.is_aligned(lead)) {
+                    let note =
+                        "a map with other texture coordinates than the first is shown by its mean";
+                    (self.notes).add("maps that are not shown", || format!("{here}: {note}"));
+                    if let Some(map) = map.take()
+                        && let Some(image) = self.image(map.image, Role::Data)?
+                    {
+                        bake::with_mean(&mut mean, index, &image);
+                    }
+                }
+            }
+            if let Some(look) = self.appearance(&mean, &maps)? {
+                let space = self.space(&mut sets, lead, here);
+                self.dress(material, model, &look, lead, space.unwrap_or_default());
             }
         }
-        if let Some(lead) = &lead
-            && let Some(look) = self.appearance(model, &maps)?
-        {
-            self.dress(material, model, &look, lead);
-        } else {
-            lead = None;
-        }
-        let mut uv_set = lead.map(|lead| lead.uv_set);
         if model.coverage != Coverage::Opaque
             && let Some(map) = &maps[0]
             && let Some(picture) = self.shown(map.image, Role::Color)?
+            && let Some(space) = self.space(&mut sets, map, here)
         {
-            material.textures.alpha = Some(self.texture(picture, map));
+            material.textures.alpha = Some(self.texture(picture, map, space));
         }
         if let Some(info) = source.emissive_texture.as_deref()
             && model.emission != Vec3::ZERO
             && !model.unlit
         {
-            material.textures.emission = self.other(info, false, &mut uv_set, here)?;
+            material.textures.emission = self.other(info, false, &mut sets, here)?;
         }
         if let Some(info) = source.normal_texture.as_deref()
             && !model.unlit
         {
-            material.textures.normal = self.other(info, true, &mut uv_set, here)?;
+            material.textures.normal = self.other(info, true, &mut sets, here)?;
             material.normal_scale = info.scale.unwrap_or(1.0).clamp(0.0, 1e3) as f32;
         }
-        Ok(uv_set)
+        if let Some(info) = source.occlusion_texture.as_deref()
+            && !model.unlit
+        {
+            material.textures.occlusion = self.other(info, true, &mut sets, here)?;
+            material.occlusion_strength = info.strength.unwrap_or(1.0).clamp(0.0, 1.0) as f32;
+        }
+        Ok(sets)
     }
 
-    /// The texture of a map that is shown as it is, with values or colours; `None` with a note if it uses
-    /// another set of texture coordinates than `uv_set`, which it sets if it is the first.
+    /// The place of a map's texture coordinates in the meshes of its material, whose sets so far are `sets`; `None`
+    /// with a note if it is a third one.
+    fn space(&mut self, sets: &mut Vec<u32>, map: &FoundMap, here: &str) -> Option<Space> {
+        if !sets.contains(&map.uv_set) {
+            sets.push(map.uv_set);
+        }
+        match sets.iter().position(|set| *set == map.uv_set) {
+            Some(0) => Some(Space::Uv),
+            Some(1) => Some(Space::SecondUv),
+            _ => {
+                sets.pop();
+                self.notes.add("maps that are not shown", || {
+                    format!("{here}: a map with a third set of texture coordinates is not shown")
+                });
+                None
+            }
+        }
+    }
+
+    /// The texture of a map that is shown as it is, with values or colours; `None` with a note if it cannot be.
     fn other(
         &mut self,
         info: &TextureInfo,
         has_values: bool,
-        uv_set: &mut Option<u32>,
+        sets: &mut Vec<u32>,
         here: &str,
     ) -> Result<Option<usize>, ImportError> {
         let Some(map) = self.map(info, here)? else {
             return Ok(None);
         };
-        if uv_set.is_some_and(|set| set != map.uv_set) {
-            self.notes.add("maps that are not shown", || {
-                let what = if has_values { "normal" } else { "emissive" };
-                format!(
-                    "{here}.{what}Texture uses another set of texture coordinates and is not shown"
-                )
-            });
-            return Ok(None);
-        }
         let role = if has_values { Role::Data } else { Role::Color };
         let Some(picture) = self.shown(map.image, role)? else {
             return Ok(None);
         };
-        *uv_set = Some(map.uv_set);
-        Ok(Some(self.texture(picture, &map)))
+        let Some(space) = self.space(sets, &map, here) else {
+            return Ok(None);
+        };
+        Ok(Some(self.texture(picture, &map, space)))
     }
 
     /// The classical colours of `model` with its base colour, metallic-roughness and transmission map;
@@ -323,8 +234,9 @@ impl Reader<'_> {
         model: &MetallicRoughness,
         look: &Appearance,
         map: &FoundMap,
+        space: Space,
     ) {
-        let mut texture = |picture: Option<usize>| picture.map(|it| self.texture(it, map));
+        let mut texture = |picture: Option<usize>| picture.map(|it| self.texture(it, map, space));
         let diffuse = texture(look.diffuse.1);
         let textures = &mut material.textures;
         if model.unlit {
@@ -349,7 +261,7 @@ impl Reader<'_> {
     }
 
     /// Adds a texture with `picture`, placed as `map` says.
-    fn texture(&mut self, picture: usize, map: &FoundMap) -> usize {
+    fn texture(&mut self, picture: usize, map: &FoundMap, space: Space) -> usize {
         let flip = DAffine3 {
             matrix3: DMat3::from_diagonal(DVec3::new(1.0, -1.0, 1.0)),
             translation: DVec3::Y,
@@ -361,7 +273,7 @@ impl Reader<'_> {
                 minify: map.minify,
                 wrap: map.wrap,
             },
-            space: Space::Uv,
+            space,
             pattern_from_space: flip * map.picture_from_uv * flip,
         };
         let textures = &mut self.scene.textures;

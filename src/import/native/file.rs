@@ -26,7 +26,7 @@ pub(super) use objects::{
 };
 
 pub(super) use textures::{
-    BackgroundTable, ColorOrBackground, ColorOrTexture, NormalMapTable, PairTable, PatternTables,
+    BackgroundTable, ColorOrBackground, ColorOrTexture, DataMapTable, PairTable, PatternTables,
     PictureOrFile, SpaceName, TextureTable,
 };
 

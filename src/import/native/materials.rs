@@ -32,6 +32,7 @@ pub(super) fn material(
         shininess: phong.shininess.0,
         ambient: ambient.0,
         two_sided: table.two_sided,
+        thin: table.thin,
         emission: emission.0,
         textures: scene::Textures {
             diffuse: diffuse.1,
@@ -43,8 +44,12 @@ pub(super) fn material(
         ..Material::default()
     };
     if let Some(map) = &table.normal_map {
-        material.textures.normal = Some(textures.normal_map(map)?);
+        material.textures.normal = Some(textures.data_map(map)?);
         material.normal_scale = map.get_ref().strength.0;
+    }
+    if let Some(map) = &table.occlusion_map {
+        material.textures.occlusion = Some(textures.data_map(map)?);
+        material.occlusion_strength = map.get_ref().strength.0.min(1.0);
     }
     if let Some(coverage) = &table.coverage {
         material.coverage = match coverage.mask {

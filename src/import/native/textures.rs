@@ -2,7 +2,7 @@
 
 use super::Texts;
 use super::file::{
-    BackgroundTable, ColorOrBackground, ColorOrTexture, NormalMapTable, PairTable, PatternTables,
+    BackgroundTable, ColorOrBackground, ColorOrTexture, DataMapTable, PairTable, PatternTables,
     PictureOrFile, SceneFile, SpaceName, in_order,
 };
 use crate::import::error::ImportError;
@@ -86,8 +86,12 @@ impl<'a> Textures<'a> {
         Ok((factor, Some(index)))
     }
 
-    /// The texture of a normal map.
-    pub fn normal_map(&mut self, map: &Spanned<NormalMapTable>) -> Result<usize, ImportError> {
+    /// The texture of a map of numbers.
+    pub fn data_map(&mut self, map: &Spanned<DataMapTable>) -> Result<usize, ImportError> {
+        if map.get_ref().space == Some(SpaceName::World) {
+            let why = "a map of numbers has its place by u and v";
+            return Err(self.refuse(map.span(), why, "Leave out `space`"));
+        }
         self.texture(&map.get_ref().pattern(), map.span())
     }
 
@@ -206,6 +210,7 @@ impl<'a> Textures<'a> {
         let space = match (tables.space, tables.picture) {
             (Some(SpaceName::World), _) | (None, None) => Space::World,
             (Some(SpaceName::Uv), _) | (None, Some(_)) => Space::Uv,
+            (Some(SpaceName::SecondUv), _) => Space::SecondUv,
         };
         let space_from_pattern = Transform {
             scale: tables.scale.map_or(DVec3::ONE, |scale| scale.0),

@@ -188,6 +188,16 @@ impl<'s> Reader<'s> {
         };
         material.textures.emission = self.picture(maps.emission, Role::Color, file);
         material.textures.normal = self.picture(maps.normal, Role::Data, file);
+        if material.textures.normal.is_none()
+            && let Some(map) = maps.bump
+        {
+            material.normal_scale = map.height.abs().min(1e6) as f32;
+            let role = match map.height < 0.0 {
+                true => Role::Depth,
+                false => Role::Height,
+            };
+            material.textures.normal = self.picture(Some(map), role, file);
+        }
         material.textures.alpha = self.picture(maps.alpha, Role::Alpha, file);
         if material.textures.alpha.is_some() {
             material.coverage = Coverage::Blend;

@@ -11,10 +11,13 @@ use glam::{DAffine3, DVec3, Vec3};
 use std::collections::BTreeMap;
 
 /// Textures and numbers that are skipped by name: the renderer has no such thing.
-const SKIPPED: [&str; 17] = [
-    "map_Bump", "bump", "map_Tr", "map_Ns", "map_Pr", "map_Pm", "map_Ps", "map_Pc", "disp",
-    "decal", "refl", "map_refl", "Ps", "Pc", "Pcr", "aniso", "anisor",
+const SKIPPED: [&str; 15] = [
+    "map_Tr", "map_Ns", "map_Pr", "map_Pm", "map_Ps", "map_Pc", "disp", "decal", "refl",
+    "map_refl", "Ps", "Pc", "Pcr", "aniso", "anisor",
 ];
+
+/// Names of height maps, in upper or lower case.
+const HEIGHTS: [&str; 2] = ["map_Bump", "bump"];
 
 /// A material without its images.
 pub(super) struct Entry {
@@ -29,6 +32,8 @@ pub(super) struct Map<N> {
     pub name: N,
     /// By `-s` and `-o`.
     pub picture_from_uv: DAffine3,
+    /// By `-bm`: how high white is in a height map, in texels.
+    pub height: f64,
 }
 
 /// The images of a material.
@@ -40,6 +45,8 @@ pub(super) struct Maps<N> {
     pub emission: Option<Map<N>>,
     /// The shading normal.
     pub normal: Option<Map<N>>,
+    /// The height of the surface, which a normal map replaces.
+    pub bump: Option<Map<N>>,
     /// How much of the surface is there.
     pub alpha: Option<Map<N>>,
 }
@@ -115,15 +122,10 @@ pub(super) fn read(
                 }
             }
             b"map_Kd" | b"map_Ks" | b"map_Ka" | b"map_Ke" | b"norm" | b"map_d" | b"map_opacity" => {
-                let (picture_from_uv, is_complete) = options(&mut line);
-                if !is_complete {
+                let (map, is_complete) = map(&mut line);
+                if !is_complete || map.is_some_and(|map| map.height != 1.0) {
                     *left_out.entry("texture options").or_default() += 1;
                 }
-                let name = line.rest().bytes;
-                let map = (!name.is_empty()).then_some(Map {
-                    name,
-                    picture_from_uv,
-                });
                 match keyword.bytes {
                     b"map_Kd" => draft.maps.diffuse = map,
                     b"map_Ks" => draft.maps.specular = map,
@@ -132,6 +134,16 @@ pub(super) fn read(
                     b"map_d" | b"map_opacity" => draft.maps.alpha = map,
                     _ => draft.maps.emission = map,
                 }
+            }
+            word if HEIGHTS
+                .iter()
+                .any(|name| word.eq_ignore_ascii_case(name.as_bytes())) =>
+            {
+                let (map, is_complete) = map(&mut line);
+                if !is_complete {
+                    *left_out.entry("texture options").or_default() += 1;
+                }
+                draft.maps.bump = map;
             }
             word => {
                 let is_named = |name: &&&str| word.eq_ignore_ascii_case(name.as_bytes());
@@ -167,9 +179,11 @@ pub(super) fn read(
     Ok(())
 }
 
-/// Reads the options of a texture: its transform by `-s` and `-o`, and whether these are all.
-fn options(line: &mut Line) -> (DAffine3, bool) {
+/// Reads a texture, with its transform by `-s` and `-o` and its height by `-bm`, and whether these are all of its
+/// options. `None` without a name.
+fn map<'s>(line: &mut Line<'s>) -> (Option<Map<&'s [u8]>>, bool) {
     let mut is_complete = true;
+    let mut height = 1.0;
     let (mut scale, mut offset) = (DVec3::ONE, DVec3::ZERO);
     while line.rest().bytes.starts_with(b"-") {
         let Some(option) = line.word() else { break };
@@ -197,11 +211,17 @@ fn options(line: &mut Line) -> (DAffine3, bool) {
             (b"-o", [first, ..]) => {
                 offset = DVec3::new(*first, numbers.get(1).copied().unwrap_or(0.0), 0.0);
             }
+            (b"-bm", [number]) => height = *number,
             _ => is_complete = false,
         }
     }
-    let transform = DAffine3::from_translation(offset) * DAffine3::from_scale(scale);
-    (transform, is_complete)
+    let name = line.rest().bytes;
+    let map = Map {
+        name,
+        picture_from_uv: DAffine3::from_translation(offset) * DAffine3::from_scale(scale),
+        height,
+    };
+    ((!name.is_empty()).then_some(map), is_complete)
 }
 
 impl Draft<'_> {
@@ -210,6 +230,7 @@ impl Draft<'_> {
             map.map(|map| Map {
                 name: String::from_utf8_lossy(map.name).into_owned(),
                 picture_from_uv: map.picture_from_uv,
+                height: map.height,
             })
         };
         // An image without a colour is shown unchanged.
@@ -234,6 +255,7 @@ impl Draft<'_> {
                 ambient: text(maps.ambient),
                 emission: text(maps.emission),
                 normal: text(maps.normal),
+                bump: text(maps.bump),
                 alpha: text(maps.alpha),
             },
         };

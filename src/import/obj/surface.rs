@@ -43,8 +43,10 @@ impl Values {
             self.optical(&mut material);
         }
         // Models 6 and 7 refract; others are seen straight through.
-        if matches!(self.illum, 6 | 7) && self.ni > 0.0 {
-            material.ior = self.ni;
+        match matches!(self.illum, 6 | 7) {
+            true if self.ni > 0.0 => material.ior = self.ni,
+            true => {}
+            false => material.thin = material.transmit != Vec3::ZERO,
         }
         if self.illum == 0 {
             // A constant colour.

@@ -248,11 +248,17 @@ fn own_bytes(scene: &Scene, next: &Scene) -> usize {
                 positions,
                 normals,
                 uvs,
+                second_uvs,
                 materials,
                 triangles,
                 ..
             } = mesh.as_ref();
-            bytes += of(positions) + of(normals) + of(uvs) + of(materials) + of(triangles);
+            bytes += of(positions)
+                + of(normals)
+                + of(uvs)
+                + of(second_uvs)
+                + of(materials)
+                + of(triangles);
         }
     }
     for (index, picture) in scene.pictures.iter().enumerate() {

@@ -122,6 +122,7 @@ fn material(random: &mut Random, textures: usize) -> Material {
         material.transmit = amount * color(random);
         material.opacity = 1.0 - amount;
     }
+    material.thin = random.below(4) == 0;
     material.fresnel = pick(random, &[Fresnel::None, Fresnel::Exact, Fresnel::Schlick]);
     material.mixing = pick(
         random,
@@ -137,6 +138,7 @@ fn material(random: &mut Random, textures: usize) -> Material {
             reflect: slot(),
             transmit: slot(),
             normal: None,
+            occlusion: None,
             alpha: slot(),
         };
         material.coverage = match random.below(3) {
@@ -173,7 +175,7 @@ fn texture(random: &mut Random, pictures: usize) -> Texture {
     };
     Texture {
         pattern,
-        space: pick(random, &[Space::World, Space::Uv]),
+        space: pick(random, &[Space::World, Space::Uv, Space::SecondUv]),
         pattern_from_space: placement(random),
     }
 }
@@ -212,7 +214,11 @@ fn mesh(random: &mut Random, materials: usize) -> Mesh {
     };
     if random.below(2) == 0 {
         let mut place = || random.between(-3.0, 3.0) as f32;
-        mesh.uvs = (0..count).map(|_| Vec2::new(place(), place())).collect();
+        let mut set = || (0..count).map(|_| Vec2::new(place(), place())).collect();
+        mesh.uvs = set();
+        if count.is_multiple_of(2) {
+            mesh.second_uvs = set();
+        }
     }
     if random.below(2) == 0 {
         mesh.materials.fill(0);

@@ -136,12 +136,13 @@ fn physically_based_keys_become_a_highlight_and_a_mirror() {
 
 #[test]
 fn what_the_renderer_lacks_is_named() {
-    let library = "map_Bump -bm 0.5 a.png\nbump b.png\nmap_Ns c.png\nmap_Pr e.png\ndisp f.png\n\
+    let library = "norm -bm 0.5 red.png\nmap_Ns c.png\nmap_Pr e.png\ndisp f.png\n\
         refl -type sphere g.png\nmap_what h.png\nPs 0.5\nPc 0\nPcr 0.1\naniso 0.5\nd -halo 0.5\n";
     assert_snapshot!(with(library).skipped.join("\n"), @r"
 `d -halo` of materials skipped: 1
 other textures of materials skipped: 1
-skipped in materials: `Pcr` 1, `Ps` 1, `aniso` 1, `bump` 1, `disp` 1, `map_Bump` 1, `map_Ns` 1, `map_Pr` 1, `refl` 1
+texture options of materials skipped: 1
+skipped in materials: `Pcr` 1, `Ps` 1, `aniso` 1, `disp` 1, `map_Ns` 1, `map_Pr` 1, `refl` 1
 ");
 }
 
@@ -235,4 +236,53 @@ fn colours_of_vertices_multiply_the_material() {
             ("a #00ffff", Vec3::new(0.0, 0.25, 1.0)),
         ]
     );
+}
+
+#[test]
+fn height_maps_become_normal_maps_by_their_slopes() {
+    let png = |image: image::DynamicImage| {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        let written = image.write_to(&mut bytes, image::ImageFormat::Png);
+        written.expect("a picture");
+        bytes.into_inner()
+    };
+    // Rows from the top: the surface rises to the right by 10 levels a texel, and upwards by 40.
+    let rising =
+        image::GrayImage::from_fn(5, 4, |x, y| image::Luma([(10 * x + 40 * (3 - y)) as u8]));
+    let coded = image::RgbImage::from_pixel(5, 4, image::Rgb([120, 130, 250]));
+    let read = |image: image::DynamicImage, line: &str| {
+        let folder = folder(&[
+            ("a.obj", MODEL.as_bytes()),
+            ("a.mtl", format!("newmtl a\n{line} a.png").as_bytes()),
+            ("a.png", &png(image)),
+        ]);
+        let scene = import::load(&folder.path().join("a.obj")).expect("a model");
+        assert_eq!(scene.skipped, [""; 0]);
+        let material = &scene.materials[0];
+        assert_eq!(material.textures.normal, Some(0));
+        let texels: Vec<_> = scene.pictures[0].linear().collect();
+        (texels, material.normal_scale)
+    };
+    for (line, sign, scale) in [
+        ("bump", 1.0, 1.0),
+        ("map_Bump -bm 2", 1.0, 2.0),
+        ("MAP_BUMP -bm -3", -1.0, 3.0),
+    ] {
+        let (texels, found) = read(rising.clone().into(), line);
+        assert_eq!(found, scale, "{line}");
+        // In the middle of the picture; at its edges it is repeated.
+        let normal = 2.0 * texels[5 + 2].as_dvec4().truncate() - 1.0;
+        let slopes = DVec3::new(-10.0 / 255.0 * sign, -40.0 / 255.0 * sign, 1.0);
+        assert!(
+            (normal - slopes.normalize()).length() < 1e-3,
+            "{line}: {normal}"
+        );
+    }
+    // What has colours is a normal map already.
+    let (texels, _) = read(coded.into(), "map_Bump");
+    let expected = [120.0, 130.0, 250.0].map(|code: f32| code / 255.0);
+    assert!((texels[7].truncate() - Vec3::from(expected)).length() < 1e-5);
+    // A normal map counts before heights.
+    let both = material("bump gone.png\nnorm red.png");
+    assert_eq!(both.textures.normal, Some(0));
 }

@@ -152,7 +152,7 @@ bad scene (a.toml:2:39): 0 is not a whole number from 1 to 16. See `glimray sche
 bad scene (a.toml:2:39): 17 is not a whole number from 1 to 16. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:39): 2.5 is not a whole number from 1 to 16. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:41): a scale cannot be 0. See `glimray schema` for what is allowed.
-bad scene (a.toml:2:41): unknown value `object`. Allowed here: `world`, `uv`.
+bad scene (a.toml:2:41): unknown value `object`. Allowed here: `world`, `uv`, `second-uv`.
 picture refused (a.toml:2:29): `gone.png` does not exist. Check the name and the folder.
 bad scene (a.toml:2:29): invalid type: integer `3`, expected the name of a picture file, or a table. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:29): the key `file` is missing. Add `file = …`.
@@ -219,7 +219,7 @@ fn models_have_their_textures() {
     }
     assert_snapshot!(scene.skipped.join("\n"), @r"
 texture options of materials skipped: 2
-skipped in materials: `map_Bump` 1
+texture skipped: `x.png` does not exist
 ");
 }
 

@@ -26,7 +26,7 @@ pub fn textured(scene: &Scene, material: Material, p: DVec3, uv: DVec2) -> Mater
 pub fn color_at(scene: &Scene, texture: &Texture, p: DVec3, uv: DVec2) -> DVec3 {
     let at = match texture.space {
         Space::World => p,
-        Space::Uv => uv.extend(0.0),
+        Space::Uv | Space::SecondUv => uv.extend(0.0),
     };
     let q = texture.pattern_from_space.transform_point3(at);
     let mix = |a: Vec3, b: Vec3, fraction: f64| a.as_dvec3().lerp(b.as_dvec3(), fraction);

@@ -318,7 +318,7 @@ impl Builder<'_> {
     /// Whether a texture of the material with this index uses u and v.
     fn wants_uvs(&self, material: usize) -> bool {
         let textures = self.scene.materials[material].textures.all();
-        let is_uv = |&index: &usize| self.textures.textures[index].space == Space::Uv;
+        let is_uv = |&index: &usize| self.textures.textures[index].space != Space::World;
         textures.iter().flatten().any(is_uv)
     }
 

@@ -1,6 +1,6 @@
 //! Materials in a native scene.
 
-use super::textures::{ColorOrTexture, NormalMapTable, plain};
+use super::textures::{ColorOrTexture, DataMapTable, plain};
 use crate::import::native::values::{
     Absorption, Fraction, FresnelName, MixingName, NonNegative, Positive, Priority, RefractiveIndex,
 };
@@ -27,8 +27,14 @@ pub(in crate::import::native) struct MaterialTable {
     #[schemars(with = "Option<OpticsTable>")]
     pub optics: Option<Spanned<OpticsTable>>,
     /// Bumps of the surface that only light shows; default none.
-    #[schemars(with = "Option<NormalMapTable>")]
-    pub normal_map: Option<Spanned<NormalMapTable>>,
+    #[schemars(with = "Option<DataMapTable>")]
+    pub normal_map: Option<Spanned<DataMapTable>>,
+    /// Where ambient light does not reach; default none.
+    #[schemars(with = "Option<DataMapTable>")]
+    pub occlusion_map: Option<Spanned<DataMapTable>>,
+    /// Whether transmitted light goes straight on, as through a window pane: the surface encloses no medium. Default
+    /// false.
+    pub thin: bool,
     /// Holes in the surface, such as those between the leaves of a picture of foliage; default none.
     pub coverage: Option<CoverageTable>,
     /// The light that it emits; default none.
@@ -46,6 +52,8 @@ impl Default for MaterialTable {
             refract: None,
             optics: None,
             normal_map: None,
+            occlusion_map: None,
+            thin: false,
             coverage: None,
             emission: plain(Vec3::ZERO),
             two_sided: true,

@@ -100,17 +100,20 @@ pub(in crate::import::native) struct PatternTables<'a> {
     pub role: Role,
 }
 
-/// A normal map, for models with u and v. Red, green and blue from 0 to 1 stand for -1 to 1: red along u, green
-/// along v, blue along the surface's own normal.
+/// A map of numbers, for surfaces with u and v: the image is not read as sRGB. In a normal map red, green and blue
+/// from 0 to 1 stand for -1 to 1: red along u, green along v, blue along the surface's own normal; models only. In an
+/// occlusion map red is the fraction of ambient light that reaches the surface.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(in crate::import::native) struct NormalMapTable {
-    /// The image, which is not read as sRGB.
+pub(in crate::import::native) struct DataMapTable {
+    /// The image.
     #[schemars(with = "PictureOrFile")]
     pub picture: Spanned<PictureOrFile>,
-    /// Factor on the tilt of the normals; default 1.
+    /// Factor on the tilt of the normals, or weight of the occlusion, at most 1; default 1.
     #[serde(default = "one")]
     pub strength: NonNegative,
+    /// The set of u and v: uv (the default) or second-uv.
+    pub space: Option<SpaceName>,
     /// The scale of the image: a factor for both axes, or one for each; not 0.
     pub scale: Option<Scale>,
     /// Rotation of the image in degrees about the x, then the y, then the z axis.
@@ -125,7 +128,7 @@ fn one() -> NonNegative {
     NonNegative(1.0)
 }
 
-impl NormalMapTable {
+impl DataMapTable {
     /// The image and its transform.
     pub fn pattern(&self) -> PatternTables<'_> {
         PatternTables {
@@ -134,7 +137,7 @@ impl NormalMapTable {
             gradient: None,
             noise: None,
             picture: Some(&self.picture),
-            space: None,
+            space: self.space,
             scale: self.scale,
             rotate_deg: self.rotate_deg,
             translate: self.translate,
@@ -320,6 +323,8 @@ pub(in crate::import::native) enum SpaceName {
     /// The surface's own u and v, as x and y: for a model from its file, for a triangle from its first
     /// corner to its second and third.
     Uv,
+    /// The same with the second set of u and v, of models that have one.
+    SecondUv,
 }
 
 /// The background: either `bottom` and `top`, or `picture`.

@@ -79,7 +79,7 @@ fn sphere_in(
 ) -> Option<Geometry> {
     let shape = &scene.shapes[index];
     let textures = scene.materials[shape.material].textures.all();
-    let is_mapped = (textures.iter().flatten()).any(|&at| scene.textures[at].space == Space::Uv);
+    let is_mapped = (textures.iter().flatten()).any(|&at| scene.textures[at].space != Space::World);
     if is_mapped || !matches!(shape.geometry, Geometry::Sphere { .. }) {
         return None;
     }

@@ -396,7 +396,8 @@ fn pictures_that_cannot_be_read_are_skipped_by_name_and_those_outside_refused() 
 
 #[test]
 fn what_is_not_shown_is_named() {
-    let mut model = model(json!({ "occlusionTexture": { "index": 0 } }));
+    let mut model = model(json!({ "extensions": { "KHR_materials_clearcoat":
+        { "clearcoatTexture": { "index": 0 } } } }));
     picture(&mut model, 1, &[[128, 128, 255, 255]]);
     let model = model.with(json!({
         "extensionsUsed": ["KHR_materials_sheen", "EXT_unheard_of", "KHR_xmp_json_ld"],
@@ -407,9 +408,105 @@ fn what_is_not_shown_is_named() {
         [
             "the extension `KHR_materials_sheen` is kept, but not shown",
             "the extension `EXT_unheard_of` is not supported and was ignored",
-            "materials[0].occlusionTexture is not shown",
+            "materials[0].clearcoatTexture is not shown",
         ]
     );
     let maps = &metallic_roughness(&scene.materials[0]).maps;
-    assert_eq!((maps.len(), maps[0].parameter), (1, "occlusionTexture"));
+    assert_eq!((maps.len(), maps[0].parameter), (1, "clearcoatTexture"));
+}
+
+#[test]
+fn maps_use_two_sets_of_texture_coordinates() {
+    let mut model = model(json!({
+        "pbrMetallicRoughness": { "metallicFactor": 0, "baseColorTexture": { "index": 0, "texCoord": 4 } },
+        "emissiveFactor": [1, 1, 1],
+        "emissiveTexture": { "index": 0, "texCoord": 1,
+            "extensions": { "KHR_texture_transform": { "texCoord": 0 } } },
+        "normalTexture": { "index": 0, "texCoord": 4 },
+        "occlusionTexture": { "index": 0, "texCoord": 0, "strength": 0.5 },
+    }));
+    picture(&mut model, 1, &[[128, 128, 255, 255]]);
+    let other = model.pairs(&[[0.25, 0.75], [0.5, 0.5], [1.0, 0.0]]);
+    model.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_4"] = json!(other);
+    let scene = model.scene();
+    assert_eq!(scene.skipped, [""; 0]);
+    let material = &scene.materials[0];
+    let space = |index: Option<usize>| scene.textures[index.expect("a texture")].space;
+    let textures = &material.textures;
+    assert_eq!(
+        [
+            textures.diffuse,
+            textures.normal,
+            textures.emission,
+            textures.occlusion
+        ]
+        .map(space),
+        [Space::Uv, Space::Uv, Space::SecondUv, Space::SecondUv]
+    );
+    assert_eq!(material.occlusion_strength, 0.5);
+    let mesh = &scene.meshes[0];
+    let first: Vec<_> = mesh.uvs.iter().map(|uv| uv.to_array()).collect();
+    assert_eq!(first, [[0.25, 0.25], [0.5, 0.5], [1.0, 1.0]]);
+    assert_eq!(mesh.second_uvs.len(), 3);
+    assert_ne!(mesh.second_uvs, mesh.uvs);
+}
+
+#[test]
+fn a_third_set_is_noted_and_maps_that_cannot_be_combined_count_with_their_mean() {
+    let mut model = model(json!({
+        "pbrMetallicRoughness": {
+            "baseColorTexture": { "index": 0 },
+            "metallicRoughnessTexture": { "index": 1, "texCoord": 1 },
+        },
+        "normalTexture": { "index": 1, "texCoord": 2 },
+        "occlusionTexture": { "index": 1, "texCoord": 3 },
+    }));
+    picture(&mut model, 1, &[[255, 255, 255, 255]]);
+    // Half as rough as the factor, and half of it a metal.
+    picture(&mut model, 2, &[[0, 255, 0, 255], [0, 0, 255, 255]]);
+    let attributes = &mut model.json["meshes"][0]["primitives"][0]["attributes"];
+    for set in 1..4 {
+        attributes[format!("TEXCOORD_{set}")] = attributes["TEXCOORD_0"].clone();
+    }
+    let scene = model.scene();
+    assert_eq!(
+        scene.skipped,
+        [
+            "materials[0]: a map with other texture coordinates than the first is shown by its mean",
+            "materials[0]: a map with a third set of texture coordinates is not shown",
+        ]
+    );
+    let material = &scene.materials[0];
+    let expected = MetallicRoughness {
+        metallic: 0.5,
+        roughness: 0.5,
+        ..MetallicRoughness::default()
+    };
+    let lobes = expected.lobes(&expected.point(), 0.5);
+    let near = |a: Vec3, b: Vec3| (a - b).abs().max_element() < 5e-3;
+    assert!(
+        near(material.diffuse, lobes.diffuse),
+        "{}",
+        material.diffuse
+    );
+    assert!(
+        near(material.reflect, lobes.reflect),
+        "{}",
+        material.reflect
+    );
+}
+
+#[test]
+fn transmission_without_a_volume_is_a_thin_wall() {
+    for (thickness, is_thin) in [(0.0, true), (1.0, false)] {
+        let model = model(
+            json!({ "pbrMetallicRoughness": { "metallicFactor": 0 }, "extensions": {
+            "KHR_materials_transmission": { "transmissionFactor": 1 },
+            "KHR_materials_volume": { "thicknessFactor": thickness },
+        } }),
+        );
+        let material = &model.scene().materials[0];
+        assert_eq!(material.thin, is_thin, "{thickness}");
+        assert!(material.transmit.min_element() > 0.0);
+    }
 }

@@ -1,0 +1,118 @@
+//! Uses of images: which picture, where it lies, and how a sampler filters it.
+
+use super::Reader;
+use super::document::TextureInfo;
+use crate::import::error::ImportError;
+use crate::scene::{Minify, Wrap};
+use glam::{DAffine2, DAffine3, DMat2, DMat3, DVec2, DVec3};
+
+const NEAREST: u32 = 9728;
+const LINEAR: u32 = 9729;
+const NEAREST_MIPMAP_NEAREST: u32 = 9984;
+const LINEAR_MIPMAP_NEAREST: u32 = 9985;
+const NEAREST_MIPMAP_LINEAR: u32 = 9986;
+const CLAMP: u32 = 33071;
+const MIRROR: u32 = 33648;
+
+/// A use of an image.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct FoundMap {
+    pub image: usize,
+    pub uv_set: u32,
+    /// Both with v downwards.
+    pub picture_from_uv: DAffine3,
+    /// Whether texels that look large are not interpolated.
+    pub nearest: bool,
+    pub minify: Minify,
+    /// Along u and v.
+    pub wrap: [Wrap; 2],
+}
+
+impl FoundMap {
+    /// Whether a texel of one map belongs to the same point as that of the other.
+    pub fn is_aligned(&self, other: &Self) -> bool {
+        (self.uv_set, self.wrap) == (other.uv_set, other.wrap)
+            && self.picture_from_uv == other.picture_from_uv
+    }
+}
+
+/// The transform that `KHR_texture_transform` describes.
+fn transform(info: &TextureInfo) -> DAffine3 {
+    let Some(it) = &info.extensions.transform else {
+        return DAffine3::IDENTITY;
+    };
+    let number = |x: f64| x.clamp(-1e9, 1e9);
+    let (sin, cos) = it.rotation.sin_cos();
+    // Counter-clockwise on the picture, whose v points down.
+    let rotation = DMat2::from_cols(DVec2::new(cos, -sin), DVec2::new(sin, cos));
+    let scale = DVec2::from(it.scale.unwrap_or([1.0; 2]).map(number));
+    let flat = DAffine2 {
+        matrix2: rotation * DMat2::from_diagonal(scale),
+        translation: DVec2::from(it.offset.map(number)),
+    };
+    DAffine3 {
+        matrix3: DMat3::from_cols(
+            flat.matrix2.x_axis.extend(0.0),
+            flat.matrix2.y_axis.extend(0.0),
+            DVec3::Z,
+        ),
+        translation: flat.translation.extend(0.0),
+    }
+}
+
+impl Reader<'_> {
+    /// The image that `info`, which is at `place`, uses; `None` with a note if there is none.
+    pub(super) fn map(
+        &mut self,
+        info: &TextureInfo,
+        place: &str,
+    ) -> Result<Option<FoundMap>, ImportError> {
+        let document = self.document;
+        let texture = self
+            .blame
+            .get(&document.textures, info.index, "textures", place)?;
+        let here = format!("textures[{}]", info.index);
+        let Some(image) = texture.image() else {
+            let what = match texture.extensions.basisu {
+                Some(_) => "has only a KTX2 picture, which this program cannot read",
+                None => "has no picture",
+            };
+            let note = || format!("texture skipped: {here} {what}");
+            self.notes.add("skipped textures", note);
+            return Ok(None);
+        };
+        self.blame.get(&document.images, image, "images", &here)?;
+        let mut found = FoundMap {
+            image,
+            uv_set: info.tex_coord,
+            picture_from_uv: transform(info),
+            nearest: false,
+            minify: Minify::default(),
+            wrap: [Wrap::Repeat; 2],
+        };
+        let moved = info.extensions.transform.as_ref();
+        if let Some(set) = moved.and_then(|it| it.tex_coord) {
+            found.uv_set = set;
+        }
+        if let Some(index) = texture.sampler {
+            let sampler = self
+                .blame
+                .get(&document.samplers, index, "samplers", &here)?;
+            found.nearest = sampler.mag_filter == Some(NEAREST);
+            found.minify = match sampler.min_filter {
+                Some(NEAREST) => Minify::Nearest,
+                Some(LINEAR) => Minify::Linear,
+                Some(NEAREST_MIPMAP_NEAREST) => Minify::NearestMipmapNearest,
+                Some(LINEAR_MIPMAP_NEAREST) => Minify::LinearMipmapNearest,
+                Some(NEAREST_MIPMAP_LINEAR) => Minify::NearestMipmapLinear,
+                _ => Minify::LinearMipmapLinear,
+            };
+            found.wrap = [sampler.wrap_s, sampler.wrap_t].map(|wrap| match wrap {
+                Some(CLAMP) => Wrap::Clamp,
+                Some(MIRROR) => Wrap::Mirror,
+                _ => Wrap::Repeat,
+            });
+        }
+        Ok(Some(found))
+    }
+}
