@@ -2969,7 +2969,7 @@ fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: 
 }
 
 fn direct__shadow_ray(surface: types__Surface, arriving: types__Incident) -> types__Ray {
-	var ray = surface__leaving_ray(surface, arriving.direction, arriving.distance);
+	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
 	ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
 	return ray;
 }
@@ -3066,17 +3066,17 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 	let deeper = state.depth < batch.max_depth;
 	if (bindings__HAS_REFLECTION && deeper && optics__is_worth_tracing(batch, arriving * reflect)) {
 		let way = fresnel__mirrored(direction, n);
-		let ray = surface__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
+		let ray = leaving__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
 		reflected_ray = ray_states__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_states__KIND_REFLECTED, 2u * state.node, mirrored_way);
 	}
 	let refracts = bindings__HAS_REFRACTION && transparent && (deeper || !bends);
 	let beyond = select(vec3f(0.0), arriving * transmit, refracts);
 	if (bindings__HAS_REFRACTION && refracts && optics__is_worth_tracing(batch, beyond + passing)) {
-		let ray = surface__leaving_ray(surface, straight, camera__T_FAR);
+		let ray = leaving__leaving_ray(surface, straight, camera__T_FAR);
 		refracted_ray = ray_states__RayState(ray, beyond + passing, media, select(state.depth, state.depth + 1u, bends), ray_states__KIND_REFRACTED, 2u * state.node + 1u, refracted_way);
 	}
 	else if (bindings__HAS_COVERAGE && optics__is_worth_tracing(batch, passing)) {
-		let ray = surface__leaving_ray(surface, direction, camera__T_FAR);
+		let ray = leaving__leaving_ray(surface, direction, camera__T_FAR);
 		refracted_ray = ray_states__RayState(ray, passing, state.media, state.depth, ray_states__KIND_REFRACTED, 2u * state.node + 1u, cone);
 	}
 	let sends = any(reflected_ray.throughput > vec3f(0.0));
@@ -3511,24 +3511,6 @@ fn surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: 
 	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
 }
 
-fn surface__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -> types__Ray {
-	if (bindings__FIXED_OFFSET > 0.0) {
-		let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
-		return types__Ray(origin, t_max, direction, types__NONE, surface.instance);
-	}
-	let origin = offset__offset_origin(surface.p, surface.error, surface.ng, direction);
-	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
-}
-
-fn surface__mirrored_ray(surface: types__Surface, direction: vec3f, t_max: f32, arriving: types__Ray, distance: f32) -> types__Ray {
-	if (bindings__FIXED_OFFSET > 0.0) {
-		return surface__leaving_ray(surface, direction, t_max);
-	}
-	let is_flat = surface.leaving != types__NONE;
-	let origin = offset__mirrored_origin(surface.p, surface.error, surface.ng, arriving, distance, is_flat);
-	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
-}
-
 const ray_cone__MOST_TAPS: f32 = 8.0;
 
 const ray_cone__WIDEST: f32 = 1000000000000000.0;
@@ -3934,6 +3916,24 @@ fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f
 	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
+fn leaving__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -> types__Ray {
+	if (bindings__FIXED_OFFSET > 0.0) {
+		let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
+		return types__Ray(origin, t_max, direction, types__NONE, surface.instance);
+	}
+	let origin = offset__offset_origin(surface.p, surface.error, surface.ng, direction);
+	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
+}
+
+fn leaving__mirrored_ray(surface: types__Surface, direction: vec3f, t_max: f32, arriving: types__Ray, distance: f32) -> types__Ray {
+	if (bindings__FIXED_OFFSET > 0.0) {
+		return leaving__leaving_ray(surface, direction, t_max);
+	}
+	let is_flat = surface.leaving != types__NONE;
+	let origin = offset__mirrored_origin(surface.p, surface.error, surface.ng, arriving, distance, is_flat);
+	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
+}
+
 fn coverage__coverage_at(surface: types__Surface) -> f32 {
 	if (!bindings__HAS_COVERAGE) {
 		return 1.0;
@@ -4108,7 +4108,7 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__
 					passed *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
 					let rest = ray.t_max - hit.t;
 					if (any(passed > vec3f(0.0)) & (rest > 0.0)) {
-						next = surface__leaving_ray(surface, ray.direction, rest);
+						next = leaving__leaving_ray(surface, ray.direction, rest);
 						is_unfinished = true;
 						passed = select(passed, vec3f(0.0), crossings + 1u >= shadow__MAX_CROSSINGS);
 					}
