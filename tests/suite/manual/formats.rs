@@ -32,7 +32,7 @@ pub fn extensions() -> String {
         ),
         (
             Support::Irrelevant,
-            "skipped: they say nothing about the picture",
+            "skipped, as they say nothing about the picture",
         ),
     ] {
         let names = GLTF_EXTENSIONS
