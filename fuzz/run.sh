@@ -26,6 +26,8 @@ for target in "${targets[@]}"; do
         native) cp ../assets/scenes/*.toml "$corpus" ;;
         course) cp ../assets/scenes/*.scene "$corpus" ;;
         nff) cp ../assets/scenes/*.nff "$corpus" ;;
+        glb) cp ../tests/encoded/*.glb "$corpus" ;;
+        picture) cp ../tests/encoded/*.ktx2 ../tests/encoded/*.webp "$corpus" ;;
     esac
     dictionary=()
     if [ -e "dictionaries/$target.dict" ]; then dictionary=(-dict="dictionaries/$target.dict"); fi

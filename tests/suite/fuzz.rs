@@ -28,16 +28,18 @@ fn inputs(target: &str) -> Vec<(String, Vec<u8>)> {
             inputs.push((path.display().to_string(), fs::read(&path).expect("a file")));
         }
     }
-    let scenes = root().join("assets/scenes");
-    let ending = match target {
-        "native" => "toml",
-        "course" => "scene",
-        "nff" => "nff",
-        _ => "",
+    let (folder, endings): (&str, &[&str]) = match target {
+        "native" => ("assets/scenes", &["toml"]),
+        "course" => ("assets/scenes", &["scene"]),
+        "nff" => ("assets/scenes", &["nff"]),
+        "glb" => ("tests/encoded", &["glb"]),
+        "picture" => ("tests/encoded", &["ktx2", "webp"]),
+        _ => ("tests/encoded", &[]),
     };
-    for entry in fs::read_dir(scenes).expect("scenes") {
+    for entry in fs::read_dir(root().join(folder)).expect("a folder") {
         let path = entry.expect("an entry").path();
-        if path.extension().is_some_and(|it| it == ending) {
+        let ending = path.extension().unwrap_or_default();
+        if endings.iter().any(|known| ending == *known) {
             inputs.push((path.display().to_string(), fs::read(&path).expect("a file")));
         }
     }

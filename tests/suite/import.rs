@@ -26,7 +26,7 @@ mod shapes;
 mod stage;
 mod stl;
 mod textures;
-mod zipped;
+pub mod zipped;
 
 use glimray::import::{self, ImportError, Options};
 use glimray::scene::Scene;

@@ -1,6 +1,7 @@
 //! One model in every format: a letter that has no symmetry, in four colours. It looks the same in all.
 
 use crate::import::gltf::model::{Model, UNSIGNED_SHORT};
+use crate::import::zipped::archive;
 use crate::reference::compare::{assert_none, check_alike, sized, start_packed};
 use glam::{Vec3, vec3};
 use glimray::image::Image;
@@ -8,7 +9,6 @@ use glimray::import::{self, Memory, Options};
 use glimray::render::{Integrator, RenderSettings, Tone};
 use glimray::{pack, scene::Scene};
 use serde_json::json;
-use std::io::Write;
 use std::sync::Arc;
 
 /// Width and height of a picture.
@@ -175,23 +175,13 @@ fn gltf() -> Model {
     }))
 }
 
-fn zip(files: &[(&str, &[u8])]) -> Vec<u8> {
-    let mut writer = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
-    for (name, contents) in files {
-        let options = zip::write::SimpleFileOptions::default();
-        writer.start_file(*name, options).expect("an entry");
-        writer.write_all(contents).expect("its contents");
-    }
-    writer.finish().expect("an archive").into_inner()
-}
-
 /// The model in every format, the reference first.
 fn models() -> Vec<(&'static str, Vec<u8>)> {
     let (obj, mtl, model) = (obj(), mtl(), gltf());
     vec![
         (
             "letter.zip",
-            zip(&[("a/letter.obj", &obj), ("a/letter.mtl", &mtl)]),
+            archive(&[("a/letter.obj", &obj), ("a/letter.mtl", &mtl)]),
         ),
         ("letter.obj", obj),
         ("text.ply", ply(false)),

@@ -6,7 +6,8 @@ use std::io::Write;
 use zip::CompressionMethod;
 use zip::write::SimpleFileOptions;
 
-fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
+/// A ZIP archive of files with these names.
+pub fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
     let mut writer = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
     for (name, contents) in files {
