@@ -165,7 +165,17 @@ impl<'s> Reader<'s> {
         }
         let colors = [&maps.diffuse, &maps.specular, &maps.ambient, &maps.emission];
         let colors = colors.map(|map| (map, Role::Color));
-        let others = [(&maps.normal, Role::Data), (&maps.alpha, Role::Alpha)];
+        // A normal map replaces a height map.
+        let bump = if maps.normal.is_some() {
+            &None
+        } else {
+            &maps.bump
+        };
+        let others = [
+            (&maps.normal, Role::Data),
+            (bump, bump.as_ref().map_or(Role::Height, relief)),
+            (&maps.alpha, Role::Alpha),
+        ];
         for (map, role) in colors.into_iter().chain(others) {
             let Some(map) = map else { continue };
             if let Ok(path) = self.files.named_in(file).resolve(&map.name) {
@@ -192,10 +202,7 @@ impl<'s> Reader<'s> {
             && let Some(map) = maps.bump
         {
             material.normal_scale = map.height.abs().min(1e6) as f32;
-            let role = match map.height < 0.0 {
-                true => Role::Depth,
-                false => Role::Height,
-            };
+            let role = relief(&map);
             material.textures.normal = self.picture(Some(map), role, file);
         }
         material.textures.alpha = self.picture(maps.alpha, Role::Alpha, file);
@@ -241,5 +248,13 @@ impl<'s> Reader<'s> {
             self.textures.push(texture);
             self.textures.len() - 1
         }))
+    }
+}
+
+/// The role of a height map: with a negative factor it holds depths.
+fn relief<N>(map: &mtl::Map<N>) -> Role {
+    match map.height < 0.0 {
+        true => Role::Depth,
+        false => Role::Height,
     }
 }
