@@ -164,17 +164,13 @@ impl<'s> Reader<'s> {
             return;
         }
         let colors = [&maps.diffuse, &maps.specular, &maps.ambient, &maps.emission];
-        let colors = colors.map(|map| (map, Role::Color));
+        let colors = colors.map(|map| (map.as_ref(), Role::Color));
         // A normal map replaces a height map.
-        let bump = if maps.normal.is_some() {
-            &None
-        } else {
-            &maps.bump
-        };
+        let bump = maps.bump.as_ref().filter(|_| maps.normal.is_none());
         let others = [
-            (&maps.normal, Role::Data),
-            (bump, bump.as_ref().map_or(Role::Height, relief)),
-            (&maps.alpha, Role::Alpha),
+            (maps.normal.as_ref(), Role::Data),
+            (bump, bump.map_or(Role::Height, relief)),
+            (maps.alpha.as_ref(), Role::Alpha),
         ];
         for (map, role) in colors.into_iter().chain(others) {
             let Some(map) = map else { continue };

@@ -1,15 +1,16 @@
 //! Pictures in scenes of all formats: decoded once, limited in size, and the same whatever decodes them.
 
 use super::gltf::model::{Model, png};
+use super::resolver::Recorded;
 use super::{folder, load};
 use glam::DVec4;
-use glimray::import::{self, FileError, Memory, Options, Resolver};
+use glimray::import::{self, Memory, Options};
 use glimray::scene::{Picture, Scene, Texels};
 use glimray::threads;
 use serde_json::json;
 use std::cell::RefCell;
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A picture of `width` × `height` texels of different colours and alphas.
@@ -173,49 +174,39 @@ fn a_file_is_one_picture_for_all_materials_that_use_it_alike() {
     }
 }
 
-/// Files in memory, and the names of those that were read.
-struct Watched {
-    files: Memory,
-    reads: RefCell<Vec<String>>,
-}
-
-impl Resolver for Watched {
-    fn resolve(&self, base: &Path, name: &Path) -> Result<PathBuf, FileError> {
-        self.files.resolve(base, name)
-    }
-
-    fn read(&self, path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
-        self.reads.borrow_mut().push(path.display().to_string());
-        self.files.read(path, limit)
-    }
-}
-
 #[test]
 fn a_height_map_is_planned_with_the_other_maps_unless_a_normal_map_replaces_it() {
     let reads = |maps: &str| {
         let model = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
-        let watched = Watched {
-            files: Memory::from_iter([
-                ("a.obj", model.into()),
-                ("a.mtl", format!("newmtl m\n{maps}").into_bytes()),
-                ("a.png", colorful(4, 4)),
-                ("b.png", colorful(4, 4)),
-            ]),
-            reads: RefCell::default(),
-        };
-        import::load_from(&watched, "a.obj", &Options::default()).expect("a scene");
-        let mut reads = watched.reads.into_inner();
-        reads.retain(|name| name.ends_with(".png"));
+        let files = Memory::from_iter([
+            ("a.obj", model.into()),
+            ("a.mtl", format!("newmtl m\n{maps}").into_bytes()),
+            ("a.png", colorful(4, 4)),
+            ("b.png", colorful(4, 4)),
+        ]);
+        let recorded = Recorded(files, RefCell::default());
+        import::load_from(&recorded, "a.obj", &Options::default()).expect("a scene");
+        let mut reads = recorded.1.into_inner();
+        reads.retain(|path| path.extension() == Some("png".as_ref()));
         reads
     };
     // A file for two roles is read and decoded once, because both are known before the first use.
-    assert_eq!(reads("map_Kd a.png\nmap_Bump a.png\n"), ["a.png"]);
-    assert_eq!(reads("map_Kd a.png\nbump -bm -2 a.png\n"), ["a.png"]);
+    assert_eq!(
+        reads("map_Kd a.png\nmap_Bump a.png\n"),
+        ["a.png"].map(PathBuf::from)
+    );
+    assert_eq!(
+        reads("map_Kd a.png\nbump -bm -2 a.png\n"),
+        ["a.png"].map(PathBuf::from)
+    );
     assert_eq!(
         reads("map_Kd a.png\nmap_Bump b.png\nnorm a.png\n"),
-        ["a.png"]
+        ["a.png"].map(PathBuf::from)
     );
-    assert_eq!(reads("map_Kd a.png\nmap_Bump b.png\n"), ["a.png", "b.png"]);
+    assert_eq!(
+        reads("map_Kd a.png\nmap_Bump b.png\n"),
+        ["a.png", "b.png"].map(PathBuf::from)
+    );
 }
 
 #[test]

@@ -78,18 +78,22 @@ fn a_scene_from_memory_gives_the_same_image_as_one_from_a_folder() {
 }
 
 /// Each file is requested once, under the name that another file gives it.
+/// Files in memory, and those that were read, in that order.
+pub struct Recorded(pub Memory, pub RefCell<Vec<PathBuf>>);
+
+impl Resolver for Recorded {
+    fn resolve(&self, base: &Path, name: &Path) -> Result<PathBuf, FileError> {
+        self.0.resolve(base, name)
+    }
+
+    fn read(&self, path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
+        self.1.borrow_mut().push(path.to_owned());
+        self.0.read(path, limit)
+    }
+}
+
 #[test]
 fn every_file_comes_from_the_resolver_and_is_read_once() {
-    struct Recorded(Memory, RefCell<Vec<PathBuf>>);
-    impl Resolver for Recorded {
-        fn resolve(&self, base: &Path, name: &Path) -> Result<PathBuf, FileError> {
-            self.0.resolve(base, name)
-        }
-        fn read(&self, path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
-            self.1.borrow_mut().push(path.to_owned());
-            self.0.read(path, limit)
-        }
-    }
     let mut files = files();
     files[0]
         .1
