@@ -12,8 +12,9 @@ const VARIANTS: [(&str, &[&str]); 3] = [
 
 /// Names of kernels, the modules in `shaders/kernels` they are made of, the features that all their variants
 /// have, and their variants.
-const KERNELS: [(&str, &str, &[&str], &[&str]); 6] = [
+const KERNELS: [(&str, &str, &[&str], &[&str]); 7] = [
     ("whitted", "whitted", &[], &["image", "buffer", "packet"]),
+    ("path_trace", "path_trace", &[], &["image", "buffer"]),
     ("debug_view", "debug_view", &[], &["image", "buffer"]),
     ("develop", "develop", &[], &["buffer"]),
     ("show", "show", &[], &["buffer"]),

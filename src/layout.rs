@@ -185,10 +185,68 @@ packed! {
         occlusion: u32,
         /// Weight of the occlusion map, 0 to 1.
         occlusion_strength: f32,
-        /// 0.
+        #[doc(hidden)]
         _pad0: u32,
-        /// 0.
+        #[doc(hidden)]
         _pad1: u32,
+        /// What the path tracer sees.
+        layers: PackedLayers,
+    }
+    /// The layers of a surface in the path tracer: glTF's metallic-roughness material with its extensions.
+    PackedLayers {
+        /// Base colour: of the diffuse body of a dielectric, and of the reflection of a metal.
+        base: [f32; 3],
+        /// 0 for a dielectric, 1 for a metal.
+        metallic: f32,
+        /// Reflectance of a dielectric along the normal.
+        f0: [f32; 3],
+        /// The same at grazing angles; of Phong materials unused, `f0` holds for all angles.
+        f90: f32,
+        /// Square root of the width α of the microfacet distribution.
+        roughness: f32,
+        /// Fraction of the light in a dielectric that passes through it.
+        transmission: f32,
+        /// Strength of the clear coat.
+        coat: f32,
+        /// Roughness of the clear coat.
+        coat_roughness: f32,
+        /// Colour of the sheen.
+        sheen: [f32; 3],
+        /// Roughness of the sheen.
+        sheen_roughness: f32,
+        /// How much longer highlights are along one direction, 0 to 1.
+        anisotropy: f32,
+        /// That direction, in radians counter-clockwise from the tangent.
+        anisotropy_rotation: f32,
+        /// Strength of the thin film.
+        iridescence: f32,
+        /// Index of refraction of the film.
+        iridescence_ior: f32,
+        /// Thickness of the film in nanometres where its texture is 0.
+        film_thinnest: f32,
+        /// The same where it is 1, or without a texture.
+        film_thickest: f32,
+        /// 20 divided by the Abbe number; 0 for none.
+        dispersion: f32,
+        /// Fraction of the diffuse light that leaves on the other side.
+        diffuse_transmission: f32,
+        /// Its colour.
+        diffuse_transmission_color: [f32; 3],
+        /// Index of refraction, of thin walls too.
+        ior: f32,
+        /// Index of the light whose surface this is, or [`NONE`].
+        light: u32,
+        /// Chance per area of a point of an emissive mesh to be chosen as a light sample; 0 for others.
+        emitter_density: f32,
+        /// A bit for each slot with a texture, from [`SLOT_BASE`] to [`SLOT_EMISSION`].
+        slots: u32,
+        #[doc(hidden)]
+        _pad: u32,
+        /// 16-bit indices of the [`PackedTexture`]s of the first eight slots, the first of each pair in the lower
+        /// half.
+        textures: [u32; 4],
+        /// The same for the other slots.
+        more_textures: [u32; 4],
     }
     /// A spatially varying colour that multiplies a colour of a material.
     PackedTexture {
@@ -240,12 +298,12 @@ packed! {
         radius: f32,
         /// Shadow rays per shaded point, at least 1.
         sample_count: u32,
-        #[doc(hidden)]
-        _pad0: u32,
-        #[doc(hidden)]
-        _pad1: u32,
-        #[doc(hidden)]
-        _pad2: u32,
+        /// Chance with which a path samples this light.
+        chance: f32,
+        /// The sum of the chances of the lights before it.
+        cumulative: f32,
+        /// Whether rays can hit it, 0 or 1.
+        visible: u32,
     }
     /// A camera; `right` and `up` reach from the centre of the image plane to its edges.
     PackedCamera {

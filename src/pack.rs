@@ -6,6 +6,7 @@ mod deform;
 mod frame;
 mod geometry;
 mod instance;
+mod layers;
 mod light;
 mod material;
 mod media;
@@ -89,6 +90,8 @@ pub struct PackedScene {
     pub features: Features,
     /// Dielectric volumes that are transparent at some time, which the camera may be inside of.
     volumes: Vec<media::Volume>,
+    /// Half of the diagonal of the scene's bounds, where the chances of lights depend on it.
+    radius: f64,
     meshes: Vec<Arc<CachedMesh>>,
     trees: Trees,
     /// The meshes that deform.
@@ -125,6 +128,8 @@ pub struct Features {
     pub priorities: bool,
     /// Transparent surfaces filter shadow rays.
     pub filtered_shadows: bool,
+    /// Some transparent material is a thin wall.
+    pub thin_walls: bool,
     /// There are textures.
     pub textures: bool,
     /// Some mesh has a second set of texture coordinates.
@@ -313,6 +318,7 @@ fn pack(
         pictures,
         features,
         volumes: media::volumes(scene, &meshes),
+        radius: light::radius(scene),
         origins: Origins::new(scene, &plan, &trees),
         work: trees.work,
         deforming: deform::meshes(scene, origin, &plan, &trees),

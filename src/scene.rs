@@ -41,7 +41,7 @@ pub use deformation::{Deformation, Influences, Joint, MorphTarget, Pose, PosedMe
 pub use frame::{Frame, NodeState};
 pub use framing::Framing;
 pub use light::{Attenuation, Light, LightKind};
-pub use material::{Coverage, Fresnel, Material, Mixing, Textures};
+pub use material::{Coverage, Fresnel, LayerTextures, Material, Mixing, Textures};
 pub use mesh::{Mesh, Repairs, area_normal};
 pub use metallic_roughness::{Lobes, Map, MetallicRoughness, SurfacePoint};
 pub use node::Node;

@@ -229,7 +229,9 @@ const types__SHAPE_CAPPED: u32 = 1u;
 
 const types__MATERIAL_TWO_SIDED: u32 = 1u;
 
-const types__MATERIAL_ROWS: u32 = 9u;
+const types__MATERIAL_ROWS: u32 = 19u;
+
+const types__LAYERS_ROW: u32 = 9u;
 
 const types__TEXTURE_ROWS: u32 = 6u;
 
@@ -601,40 +603,6 @@ fn fetch__load_vertex(index: u32) -> types__PackedVertex {
 	return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
 }
 
-struct fetch__PhongMaterial {
-	phong: types__Phong,
-	flags: u32
-}
-
-fn fetch__load_material(index: u32) -> fetch__PhongMaterial {
-	let row = types__MATERIAL_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	var reflect = vec3f(0.0);
-	if (bindings__HAS_REFLECTION) {
-		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
-	}
-	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
-	return fetch__PhongMaterial(phong, r1.w);
-}
-
-fn fetch__load_texture_indices(index: u32) -> vec4u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
-}
-
-fn fetch__load_normal_scale(index: u32) -> f32 {
-	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
-}
-
-fn fetch__load_texture(index: u32) -> types__PackedTexture {
-	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r5 = fetch__material_row(row + 5u);
-	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
-}
-
 fn fetch__load_uvs(index: u32) -> vec4f {
 	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
 }
@@ -728,6 +696,8 @@ override bindings__HAS_NORMAL_MAPS: bool = true;
 override bindings__HAS_BYTE_TEXELS: bool = true;
 
 override bindings__HAS_HALF_TEXELS: bool = true;
+
+override bindings__HAS_LAYERS: bool = false;
 
 override bindings__ADAPTIVE: bool = false;
 
@@ -1963,10 +1933,10 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
 		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, normals[0]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[1]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[2]), -ray.direction));
 	}
-	let material = fetch__load_material(v0.material);
+	let material = material__load_material(v0.material);
 	var phong = material.phong;
 	if (bindings__MIXED_MATERIALS) {
-		phong = surface__mix_phong(phong, fetch__load_material(v1.material).phong, fetch__load_material(v2.material).phong, b0, b1, b2);
+		phong = surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
 	}
 	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
 	let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
@@ -2002,7 +1972,7 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
 	let reached = ray.origin + hit.t * ray.direction;
-	let material = fetch__load_material(shape.material);
+	let material = material__load_material(shape.material);
 	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
 		let ng = shape.row_y;
 		let p = reached - dot(reached - shape.position, ng) * ng;
@@ -2044,6 +2014,40 @@ fn surface__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool 
 
 fn surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
 	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+}
+
+struct material__PhongMaterial {
+	phong: types__Phong,
+	flags: u32
+}
+
+fn material__load_material(index: u32) -> material__PhongMaterial {
+	let row = types__MATERIAL_ROWS * index;
+	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = fetch__material_row(row + 2u);
+	var reflect = vec3f(0.0);
+	if (bindings__HAS_REFLECTION) {
+		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
+	}
+	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+	return material__PhongMaterial(phong, r1.w);
+}
+
+fn material__load_texture_indices(index: u32) -> vec4u {
+	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+}
+
+fn material__load_normal_scale(index: u32) -> f32 {
+	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+}
+
+fn material__load_texture(index: u32) -> types__PackedTexture {
+	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r5 = fetch__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
 }
 
 const ray_cone__MOST_TAPS: f32 = 8.0;
@@ -2174,17 +2178,17 @@ fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) 
 }
 
 fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
-	let index = fetch__load_texture_indices(material).w & 65535u;
+	let index = material__load_texture_indices(material).w & 65535u;
 	if (index == types__NO_TEXTURE) {
 		return n;
 	}
-	let texture = fetch__load_texture(index);
+	let texture = material__load_texture(index);
 	let q0 = normal_map__in_picture(texture, uvs[0]);
 	let q1 = normal_map__in_picture(texture, uvs[1]);
 	let q2 = normal_map__in_picture(texture, uvs[2]);
 	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
 	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
-	let tilt = fetch__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
+	let tilt = material__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
 	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
 	let bitangent = tangent.w * cross(n, tangent.xyz);
 	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + max(2.0 * code.z - 1.0, 0.0) * n, n);

@@ -106,8 +106,8 @@ fn own_light(batch: dispatch__Batch, surface: types__Surface, glow: vec3f) -> ve
 	var color = batch.ambient * surface.phong.ambient;
 	record__record_ambient(color);
 	if (bindings__HAS_EMISSION) {
-		let shines = surface.outside || (fetch__load_optics(surface.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
-		let emission = select(vec3f(0.0), glow * fetch__load_emission(surface.material), shines);
+		let shines = surface.outside || (material__load_optics(surface.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
+		let emission = select(vec3f(0.0), glow * material__load_emission(surface.material), shines);
 		color += emission;
 		record__record_emission(emission);
 	}
@@ -172,6 +172,8 @@ override bindings__HAS_PRIORITIES: bool = true;
 
 override bindings__FILTERED_SHADOWS: bool = false;
 
+override bindings__SOLID_GLASS: bool = false;
+
 override bindings__HAS_AREA_LIGHTS: bool = true;
 
 override bindings__HAS_LENS: bool = true;
@@ -203,6 +205,8 @@ override bindings__HAS_HALF_TEXELS: bool = true;
 override bindings__HAS_OPTICS_TEXTURES: bool = true;
 
 override bindings__HAS_EMISSION: bool = true;
+
+override bindings__HAS_LAYERS: bool = false;
 
 override bindings__HAS_INSTANCES: bool = true;
 
@@ -302,7 +306,25 @@ const types__MATERIAL_MASK: u32 = 64u;
 
 const types__MATERIAL_THIN: u32 = 128u;
 
-const types__MATERIAL_ROWS: u32 = 9u;
+const types__MATERIAL_METALLIC_ROUGHNESS: u32 = 256u;
+
+const types__MATERIAL_ROWS: u32 = 19u;
+
+const types__LAYERS_ROW: u32 = 9u;
+
+const types__SLOT_BASE: u32 = 0u;
+
+const types__SLOT_METALLIC_ROUGHNESS: u32 = 1u;
+
+const types__SLOT_F0: u32 = 2u;
+
+const types__SLOT_TRANSMISSION: u32 = 3u;
+
+const types__SLOT_F90: u32 = 4u;
+
+const types__SLOT_REFLECT: u32 = 14u;
+
+const types__SLOT_EMISSION: u32 = 15u;
 
 const types__TEXTURE_ROWS: u32 = 6u;
 
@@ -439,6 +461,35 @@ struct types__PackedKey {
 	_pad2: u32
 }
 
+struct types__PackedLayers {
+	base: vec3f,
+	metallic: f32,
+	f0: vec3f,
+	f90: f32,
+	roughness: f32,
+	transmission: f32,
+	coat: f32,
+	coat_roughness: f32,
+	sheen: vec3f,
+	sheen_roughness: f32,
+	anisotropy: f32,
+	anisotropy_rotation: f32,
+	iridescence: f32,
+	iridescence_ior: f32,
+	film_thinnest: f32,
+	film_thickest: f32,
+	dispersion: f32,
+	diffuse_transmission: f32,
+	diffuse_transmission_color: vec3f,
+	ior: f32,
+	light: u32,
+	emitter_density: f32,
+	slots: u32,
+	_pad: u32,
+	textures: vec4u,
+	more_textures: vec4u
+}
+
 struct types__PackedTexture {
 	color_a: vec3f,
 	kind: u32,
@@ -465,9 +516,9 @@ struct types__PackedLight {
 	edge_v: vec3f,
 	radius: f32,
 	sample_count: u32,
-	_pad0: u32,
-	_pad1: u32,
-	_pad2: u32
+	chance: f32,
+	cumulative: f32,
+	visible: u32
 }
 
 struct types__PackedCamera {
@@ -1053,7 +1104,8 @@ fn fetch__load_light(index: u32) -> types__PackedLight {
 	let r2 = fetch__node_row(row + 2u);
 	let r3 = fetch__node_row(row + 3u);
 	let r4 = fetch__node_row(row + 4u);
-	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), fetch__node_row(row + 5u).x, 0u, 0u, 0u);
+	let r5 = fetch__node_row(row + 5u);
+	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), r5.x, bitcast<f32>(r5.y), bitcast<f32>(r5.z), r5.w);
 }
 
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
@@ -1087,75 +1139,8 @@ fn fetch__load_vertex(index: u32) -> types__PackedVertex {
 	return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
 }
 
-struct fetch__PhongMaterial {
-	phong: types__Phong,
-	flags: u32
-}
-
-fn fetch__load_material(index: u32) -> fetch__PhongMaterial {
-	let row = types__MATERIAL_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	var reflect = vec3f(0.0);
-	if (bindings__HAS_REFLECTION) {
-		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
-	}
-	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
-	return fetch__PhongMaterial(phong, r1.w);
-}
-
-fn fetch__load_optics(index: u32) -> types__Optics {
-	let row = types__MATERIAL_ROWS * index;
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = fetch__material_row(row + 4u);
-	return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
-}
-
-fn fetch__load_medium(index: u32) -> types__Medium {
-	let row = types__MATERIAL_ROWS * index;
-	let r5 = fetch__material_row(row + 5u);
-	return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
-}
-
-fn fetch__load_emission(index: u32) -> vec3f {
-	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
-}
-
-fn fetch__load_texture_indices(index: u32) -> vec4u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
-}
-
-struct fetch__CoverageMaterial {
-	alpha: f32,
-	flags: u32
-}
-
-fn fetch__load_coverage(index: u32) -> fetch__CoverageMaterial {
-	let row = types__MATERIAL_ROWS * index;
-	return fetch__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
-}
-
-fn fetch__load_normal_scale(index: u32) -> f32 {
-	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
-}
-
-fn fetch__load_texture(index: u32) -> types__PackedTexture {
-	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r5 = fetch__material_row(row + 5u);
-	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
-}
-
 fn fetch__load_uvs(index: u32) -> vec4f {
 	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
-}
-
-fn fetch__load_occlusion(index: u32) -> vec2u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 8u).xy;
 }
 
 fn fetch__texel(row: u32) -> vec2u {
@@ -1523,7 +1508,7 @@ fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fracti
 }
 
 fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
-	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, 0u, 0u, 0u);
+	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.cumulative, a.visible);
 }
 
 const camera__T_FAR: f32 = 3e38;
@@ -2997,30 +2982,14 @@ struct optics__Weights {
 fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance: f32, contact: contact__Contact, factors: mat3x3f, coverage: f32) -> optics__ScatterEvent {
 	let surface = contact.surface;
 	let direction = state.ray.direction;
-	let optics = fetch__load_optics(surface.material);
-	let transparent = bindings__HAS_REFRACTION && any(optics.transmit > vec3f(0.0));
+	let optics = material__load_optics(surface.material);
 	let thin = (optics.flags & types__MATERIAL_THIN) != 0u;
-	let encloses = transparent && !thin;
-	var media = state.media;
-	var ior = 1.0;
-	var ior_behind = optics.ior;
+	let met = interface__interface_at(state.media, contact, optics);
+	let eta = met.ior / met.ior_behind;
 	var arriving = state.throughput;
-	var is_boundary = true;
 	if (bindings__HAS_REFRACTION) {
-		var here = medium__dominant(state.media);
-		if (transparent) {
-			media = contact__media_behind(state.media, contact);
-		}
-		if (encloses) {
-			here = medium__medium_before(state.media, surface.material, surface.outside);
-			let behind = medium__dominant(media);
-			ior_behind = medium__medium_of(behind).ior;
-			is_boundary = !bindings__HAS_CONTACT || here != behind;
-		}
-		record__record_media(here, medium__dominant(media), transparent);
-		let medium = medium__medium_of(here);
-		ior = medium.ior;
-		arriving *= medium__transmittance(medium, distance);
+		record__record_media(met.here, medium__dominant(met.media), met.is_transparent);
+		arriving *= medium__transmittance(medium__medium_of(met.here), distance);
 	}
 	let passing = arriving * (1.0 - coverage);
 	if (bindings__HAS_COVERAGE) {
@@ -3029,27 +2998,27 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 	let ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
 	var n = select(surface.n, -surface.n, dot(surface.n, direction) > 0.0);
 	n = select(ng, n, dot(fresnel__mirrored(direction, n), ng) > 0.0);
-	let boundary = optics__boundary_at(optics.flags, clamp(-dot(direction, n), 0.0, 1.0), ior / ior_behind);
+	let boundary = boundary__boundary_at(optics.flags, clamp(-dot(direction, n), 0.0, 1.0), eta);
 	var reflect = factors[0] * surface.phong.reflect;
 	var transmit = factors[1] * optics.transmit;
 	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
 		reflect *= boundary.reflectance;
 		transmit *= 1.0 - boundary.reflectance;
 	}
-	else if (boundary.total && encloses) {
+	else if (boundary.total && met.encloses) {
 		reflect += select(transmit, vec3f(0.0), (optics.flags & types__MATERIAL_SUM) != 0u);
 		transmit = vec3f(0.0);
 	}
 	var straight = direction;
-	let bends = is_boundary && !thin;
+	let bends = met.is_boundary && !thin;
 	if (bends) {
-		straight = fresnel__refracted(direction, n, ior / ior_behind, boundary.cos_t);
+		straight = fresnel__refracted(direction, n, eta, boundary.cos_t);
 	}
-	else if (!is_boundary) {
+	else if (!met.is_boundary) {
 		reflect = vec3f(0.0);
 		transmit = vec3f(1.0);
 	}
-	record__record_scatter(reflect, transmit, boundary, vec2f(ior, ior_behind), is_boundary);
+	record__record_scatter(reflect, transmit, boundary, vec2f(met.ior, met.ior_behind), met.is_boundary);
 	var cone = types__Cone(0.0, 0.0);
 	var mirrored_way = cone;
 	var refracted_way = cone;
@@ -3058,7 +3027,7 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 		mirrored_way = ray_cone__mirrored_cone(cone, surface.curvature);
 		refracted_way = cone;
 		if (bends) {
-			refracted_way = ray_cone__refracted_cone(cone, surface.curvature, ior / ior_behind);
+			refracted_way = ray_cone__refracted_cone(cone, surface.curvature, eta);
 		}
 	}
 	var reflected_ray = ray_states__no_ray();
@@ -3069,11 +3038,11 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 		let ray = leaving__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
 		reflected_ray = ray_states__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_states__KIND_REFLECTED, 2u * state.node, mirrored_way);
 	}
-	let refracts = bindings__HAS_REFRACTION && transparent && (deeper || !bends);
+	let refracts = bindings__HAS_REFRACTION && met.is_transparent && (deeper || !bends);
 	let beyond = select(vec3f(0.0), arriving * transmit, refracts);
 	if (bindings__HAS_REFRACTION && refracts && optics__is_worth_tracing(batch, beyond + passing)) {
 		let ray = leaving__leaving_ray(surface, straight, camera__T_FAR);
-		refracted_ray = ray_states__RayState(ray, beyond + passing, media, select(state.depth, state.depth + 1u, bends), ray_states__KIND_REFRACTED, 2u * state.node + 1u, refracted_way);
+		refracted_ray = ray_states__RayState(ray, beyond + passing, met.media, select(state.depth, state.depth + 1u, bends), ray_states__KIND_REFRACTED, 2u * state.node + 1u, refracted_way);
 	}
 	else if (bindings__HAS_COVERAGE && optics__is_worth_tracing(batch, passing)) {
 		let ray = leaving__leaving_ray(surface, direction, camera__T_FAR);
@@ -3081,15 +3050,8 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 	}
 	let sends = any(reflected_ray.throughput > vec3f(0.0));
 	let kept = optics__local_weights(optics, reflect, sends);
-	let visible = select(0.0, 1.0, is_boundary);
+	let visible = select(0.0, 1.0, met.is_boundary);
 	return optics__ScatterEvent(arriving, visible * kept.diffuse, visible * kept.highlight, reflected_ray, refracted_ray);
-}
-
-fn optics__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
-	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
-		return fresnel__schlick(cos_i, eta);
-	}
-	return fresnel__fresnel(cos_i, eta);
 }
 
 fn optics__is_worth_tracing(batch: dispatch__Batch, throughput: vec3f) -> bool {
@@ -3129,14 +3091,14 @@ fn medium__higher(best: u32, next: u32) -> u32 {
 	if (next == types__NONE) {
 		return best;
 	}
-	return select(best, next, fetch__load_medium(next).priority >= fetch__load_medium(best).priority);
+	return select(best, next, material__load_medium(next).priority >= material__load_medium(best).priority);
 }
 
 fn medium__medium_of(material: u32) -> types__Medium {
 	if (material == types__NONE) {
 		return medium__VACUUM;
 	}
-	return fetch__load_medium(material);
+	return material__load_medium(material);
 }
 
 fn medium__transmittance(medium: types__Medium, distance: f32) -> vec3f {
@@ -3150,6 +3112,86 @@ fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
 fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
 	let started_inside = !entering & !media__contains(media, material);
 	return select(medium__dominant(media), material, started_inside);
+}
+
+struct material__PhongMaterial {
+	phong: types__Phong,
+	flags: u32
+}
+
+fn material__load_material(index: u32) -> material__PhongMaterial {
+	let row = types__MATERIAL_ROWS * index;
+	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = fetch__material_row(row + 2u);
+	var reflect = vec3f(0.0);
+	if (bindings__HAS_REFLECTION) {
+		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
+	}
+	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+	return material__PhongMaterial(phong, r1.w);
+}
+
+fn material__load_optics(index: u32) -> types__Optics {
+	let row = types__MATERIAL_ROWS * index;
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = fetch__material_row(row + 2u);
+	let r3 = fetch__material_row(row + 3u);
+	let r4 = fetch__material_row(row + 4u);
+	return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
+}
+
+fn material__load_medium(index: u32) -> types__Medium {
+	let row = types__MATERIAL_ROWS * index;
+	let r5 = fetch__material_row(row + 5u);
+	return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
+}
+
+fn material__load_emission(index: u32) -> vec3f {
+	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
+}
+
+fn material__load_texture_indices(index: u32) -> vec4u {
+	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+}
+
+struct material__CoverageMaterial {
+	alpha: f32,
+	flags: u32
+}
+
+fn material__load_coverage(index: u32) -> material__CoverageMaterial {
+	let row = types__MATERIAL_ROWS * index;
+	return material__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
+}
+
+fn material__load_normal_scale(index: u32) -> f32 {
+	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+}
+
+fn material__load_texture(index: u32) -> types__PackedTexture {
+	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r5 = fetch__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+}
+
+fn material__load_occlusion(index: u32) -> vec2u {
+	return fetch__material_row(types__MATERIAL_ROWS * index + 8u).xy;
+}
+
+fn material__load_layers(index: u32) -> types__PackedLayers {
+	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
+	let r3 = fetch__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
+	let r6 = fetch__material_row(row + 6u);
+	let r7 = fetch__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, 0u, fetch__material_row(row + 8u), fetch__material_row(row + 9u));
 }
 
 fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
@@ -3305,11 +3347,11 @@ fn contact__is_near(ray: types__Ray, hit: types__Hit, surface: types__Surface) -
 }
 
 fn contact__is_transparent(surface: types__Surface) -> bool {
-	return any(fetch__load_optics(surface.material).transmit > vec3f(0.0));
+	return any(material__load_optics(surface.material).transmit > vec3f(0.0));
 }
 
 fn contact__is_thin(surface: types__Surface) -> bool {
-	return (fetch__load_optics(surface.material).flags & types__MATERIAL_THIN) != 0u;
+	return (material__load_optics(surface.material).flags & types__MATERIAL_THIN) != 0u;
 }
 
 fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_volume: bool) -> contact__Contact {
@@ -3428,10 +3470,10 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
 		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, normals[0]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[1]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[2]), -ray.direction));
 	}
-	let material = fetch__load_material(v0.material);
+	let material = material__load_material(v0.material);
 	var phong = material.phong;
 	if (bindings__MIXED_MATERIALS) {
-		phong = surface__mix_phong(phong, fetch__load_material(v1.material).phong, fetch__load_material(v2.material).phong, b0, b1, b2);
+		phong = surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
 	}
 	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
 	let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
@@ -3467,7 +3509,7 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
 	let reached = ray.origin + hit.t * ray.direction;
-	let material = fetch__load_material(shape.material);
+	let material = material__load_material(shape.material);
 	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
 		let ng = shape.row_y;
 		let p = reached - dot(reached - shape.position, ng) * ng;
@@ -3566,17 +3608,17 @@ fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
 }
 
 fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
-	let index = fetch__load_texture_indices(material).w & 65535u;
+	let index = material__load_texture_indices(material).w & 65535u;
 	if (index == types__NO_TEXTURE) {
 		return n;
 	}
-	let texture = fetch__load_texture(index);
+	let texture = material__load_texture(index);
 	let q0 = normal_map__in_picture(texture, uvs[0]);
 	let q1 = normal_map__in_picture(texture, uvs[1]);
 	let q2 = normal_map__in_picture(texture, uvs[2]);
 	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
 	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
-	let tilt = fetch__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
+	let tilt = material__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
 	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
 	let bitangent = tangent.w * cross(n, tangent.xyz);
 	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + max(2.0 * code.z - 1.0, 0.0) * n, n);
@@ -3590,7 +3632,7 @@ fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
 
 fn texture__textured_phong(surface: types__Surface) -> types__Phong {
 	let phong = surface.phong;
-	let indices = fetch__load_texture_indices(surface.material);
+	let indices = material__load_texture_indices(surface.material);
 	let factors = texture__texture_factors(vec3u(indices.x & 65535u, indices.x >> 16u, indices.z & 65535u), surface);
 	return types__Phong(factors[0] * phong.diffuse, factors[1] * phong.specular, phong.shininess, (texture__unoccluded(surface) * factors[2]) * phong.ambient, phong.reflect);
 }
@@ -3599,19 +3641,19 @@ fn texture__unoccluded(surface: types__Surface) -> f32 {
 	if (!bindings__HAS_OCCLUSION) {
 		return 1.0;
 	}
-	let map = fetch__load_occlusion(surface.material);
+	let map = material__load_occlusion(surface.material);
 	let index = map.x & 65535u;
 	if (index == types__NO_TEXTURE) {
 		return 1.0;
 	}
-	return 1.0 + bitcast<f32>(map.y) * (texture__texture_color(fetch__load_texture(index), surface).x - 1.0);
+	return 1.0 + bitcast<f32>(map.y) * (texture__texture_color(material__load_texture(index), surface).x - 1.0);
 }
 
 fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
 	if (!(bindings__HAS_TEXTURES && bindings__HAS_OPTICS_TEXTURES)) {
 		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
 	}
-	let indices = fetch__load_texture_indices(surface.material);
+	let indices = material__load_texture_indices(surface.material);
 	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
 }
 
@@ -3620,7 +3662,7 @@ fn texture__texture_factors(wanted: vec3u, surface: types__Surface) -> mat3x3f {
 	var open = wanted != vec3u(types__NO_TEXTURE);
 	loop {
 		let index = select(select(select(0u, wanted.z, open.z), wanted.y, open.y), wanted.x, open.x);
-		let color = texture__texture_color(fetch__load_texture(index), surface);
+		let color = texture__texture_color(material__load_texture(index), surface);
 		let found = open & (wanted == vec3u(index));
 		factors[0] = select(factors[0], color, found.x);
 		factors[1] = select(factors[1], color, found.y);
@@ -3679,9 +3721,13 @@ fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface
 }
 
 fn texture__texture_color(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+	return texture__texture_value(texture, surface).xyz;
+}
+
+fn texture__texture_value(texture: types__PackedTexture, surface: types__Surface) -> vec4f {
 	let q = texture__place_in_pattern(texture, surface);
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
-		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint)).xyz;
+		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint));
 	}
 	var weight = pattern__checker(q);
 	if (bindings__HAS_NOISE && texture.kind == types__PATTERN_NOISE) {
@@ -3691,7 +3737,7 @@ fn texture__texture_color(texture: types__PackedTexture, surface: types__Surface
 	}
 	weight = select(weight, pattern__stripes(q), texture.kind == types__PATTERN_STRIPES);
 	weight = select(weight, pattern__gradient(q), texture.kind == types__PATTERN_GRADIENT);
-	return mix(texture.color_a, texture.color_b, weight);
+	return vec4f(mix(texture.color_a, texture.color_b, weight), 1.0);
 }
 
 fn mipmap__mipmap_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
@@ -3855,6 +3901,36 @@ fn noise__corner(key: u32, d: vec3f) -> f32 {
 	return select(u, -u, (h & 1u) != 0u) + select(v, -v, (h & 2u) != 0u);
 }
 
+struct interface__Interface {
+	here: u32,
+	media: vec4u,
+	ior: f32,
+	ior_behind: f32,
+	is_boundary: bool,
+	is_transparent: bool,
+	encloses: bool
+}
+
+fn interface__interface_at(around: vec4u, contact: contact__Contact, optics: types__Optics) -> interface__Interface {
+	let surface = contact.surface;
+	let transparent = bindings__HAS_REFRACTION && any(optics.transmit > vec3f(0.0));
+	let encloses = transparent && (optics.flags & types__MATERIAL_THIN) == 0u;
+	var found = interface__Interface(medium__dominant(around), around, 1.0, optics.ior, true, transparent, encloses);
+	if (bindings__HAS_REFRACTION) {
+		if (transparent) {
+			found.media = contact__media_behind(around, contact);
+		}
+		if (encloses) {
+			found.here = medium__medium_before(around, surface.material, surface.outside);
+			let behind = medium__dominant(found.media);
+			found.ior_behind = medium__medium_of(behind).ior;
+			found.is_boundary = !bindings__HAS_CONTACT || found.here != behind;
+		}
+		found.ior = medium__medium_of(found.here).ior;
+	}
+	return found;
+}
+
 fn media__has_room(media: vec4u) -> bool {
 	return media.w == types__NONE;
 }
@@ -3916,6 +3992,13 @@ fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f
 	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
+fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
+	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
+		return fresnel__schlick(cos_i, eta);
+	}
+	return fresnel__fresnel(cos_i, eta);
+}
+
 fn leaving__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -> types__Ray {
 	if (bindings__FIXED_OFFSET > 0.0) {
 		let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
@@ -3938,15 +4021,15 @@ fn coverage__coverage_at(surface: types__Surface) -> f32 {
 	if (!bindings__HAS_COVERAGE) {
 		return 1.0;
 	}
-	let material = fetch__load_coverage(surface.material);
+	let material = material__load_coverage(surface.material);
 	if ((material.flags & types__MATERIAL_COVERAGE) == 0u) {
 		return 1.0;
 	}
 	var alpha = material.alpha;
 	if (bindings__HAS_TEXTURES) {
-		let index = fetch__load_texture_indices(surface.material).w >> 16u;
+		let index = material__load_texture_indices(surface.material).w >> 16u;
 		if (index != types__NO_TEXTURE) {
-			alpha *= texture__texture_alpha(fetch__load_texture(index), surface, (material.flags & types__MATERIAL_MASK) != 0u);
+			alpha *= texture__texture_alpha(material__load_texture(index), surface, (material.flags & types__MATERIAL_MASK) != 0u);
 		}
 	}
 	let masked = select(0.0, 1.0, alpha >= 0.999999);
@@ -4133,7 +4216,18 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__
 }
 
 fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, around: vec4u, behind: u32) -> vec3f {
-	let optics = fetch__load_optics(surface.material);
+	let optics = material__load_optics(surface.material);
+	let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
+	if (bindings__SOLID_GLASS) {
+		let layers = layers__layers_at(surface, optics);
+		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < layers__SMOOTH;
+		let medium = medium__medium_of(behind);
+		var share = 1.0;
+		if ((layers.fresnel & types__MATERIAL_FRESNEL) != 0u) {
+			share -= boundary__boundary_at(layers.fresnel, cos_i, medium.ior / layers.ior).reflectance;
+		}
+		return select(vec3f(0.0), share * layers.transmit * medium__transmittance(medium, distance), is_window);
+	}
 	var here = medium__medium_before(around, surface.material, surface.outside);
 	var ior_behind = medium__medium_of(behind).ior;
 	if ((optics.flags & types__MATERIAL_THIN) != 0u) {
@@ -4142,9 +4236,79 @@ fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, arou
 	}
 	var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), distance);
 	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
-		let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
 		let eta = medium__medium_of(here).ior / ior_behind;
 		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
 	}
 	return through;
+}
+
+const layers__SMOOTH: f32 = 0.0001;
+
+struct layers__Layers {
+	diffuse: vec3f,
+	f0: vec3f,
+	f90: vec3f,
+	coat_f0: vec3f,
+	coat_f90: vec3f,
+	alpha: f32,
+	reflect: vec3f,
+	transmit: vec3f,
+	boundary_alpha: f32,
+	fresnel: u32,
+	ior: f32,
+	glow: vec3f
+}
+
+fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
+	var own = material__load_layers(surface.material);
+	own.base = surface.phong.diffuse;
+	var reflect = surface.phong.reflect;
+	var transmit = optics.transmit;
+	var glow = vec3f(1.0);
+	if (bindings__HAS_TEXTURES) {
+		var rest = own.slots;
+		loop {
+			let slot = firstTrailingBit(rest | 65536u);
+			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
+			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
+			own.roughness *= select(1.0, value.y, slot == types__SLOT_METALLIC_ROUGHNESS);
+			own.metallic *= select(1.0, value.z, slot == types__SLOT_METALLIC_ROUGHNESS);
+			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
+			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
+			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
+			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
+			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
+			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			rest &= rest - 1u;
+			continuing {
+			
+				break if rest == 0u;
+			}
+		}
+		loops__cut_off |= rest != 0u;
+	}
+	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
+		return layers__metallic_roughness(own, glow);
+	}
+	return layers__Layers(own.base, own.f0, own.f0, own.f0, own.f0, own.roughness * own.roughness, reflect, transmit, 0.0, optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK), own.ior, glow);
+}
+
+fn layers__metallic_roughness(own: types__PackedLayers, glow: vec3f) -> layers__Layers {
+	let alpha = own.roughness * own.roughness;
+	let body = 1.0 - own.metallic;
+	let metal = own.metallic * own.base;
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
+		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
+		let tint = min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
+		return layers__Layers((body * (1.0 - own.transmission)) * own.base, metal, vec3f(own.metallic), vec3f(0.0), vec3f(0.0), alpha, body * tint, (body * own.transmission) * own.base, alpha, types__MATERIAL_FRESNEL, own.ior, glow);
+	}
+	return layers__Layers(body * own.base, mix(own.f0, own.base, own.metallic), vec3f(mix(own.f90, 1.0, own.metallic)), own.f0, vec3f(own.f90), alpha, vec3f(0.0), vec3f(0.0), 0.0, 0u, own.ior, glow);
+}
+
+fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
+	let four = select(own.textures, own.more_textures, vec4<bool>(slot >= 8u));
+	let word = (slot >> 1u) & 3u;
+	let low = select(four.x, four.y, word == 1u);
+	let high = select(four.z, four.w, word == 3u);
+	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
 }

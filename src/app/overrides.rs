@@ -40,6 +40,8 @@ pub struct PictureOverrides {
     pub max_depth: Option<u32>,
     /// Rays with less throughput are not traced.
     pub min_throughput: Option<f32>,
+    /// Let all transparent surfaces filter the shadow rays of paths.
+    pub transparent_shadows: bool,
     /// Reconstruction filter.
     pub filter: Option<Filter>,
     /// Its radius in pixels.
@@ -108,11 +110,20 @@ pub struct TimingOverrides {
     pub shutter: Option<Shutter>,
 }
 
+/// Samples and bounces of path-traced pictures, unless told otherwise.
+const PATH_SAMPLES: u32 = 64;
+const PATH_DEPTH: u32 = 16;
+
 impl PictureOverrides {
     /// The settings of a picture: the overrides, else the values of `scene`.
     pub fn settings(&self, scene: &OutputDefaults) -> RenderSettings {
+        let integrator = self.integrator.unwrap_or_default();
+        let samples = match integrator {
+            Integrator::Path => scene.samples.max(PATH_SAMPLES),
+            _ => scene.samples,
+        };
         let output = OutputDefaults {
-            samples: self.samples.unwrap_or(scene.samples),
+            samples: self.samples.unwrap_or(samples),
             antialias: self.antialias.or(scene.antialias),
             ..scene.clone()
         };
@@ -127,13 +138,17 @@ impl PictureOverrides {
             filter,
             filter_radius: (self.filter_radius.or(scene_radius)).unwrap_or(filter.default_radius()),
             light_samples: self.light_samples.unwrap_or(scene.light_samples),
-            integrator: self.integrator.unwrap_or(defaults.integrator),
+            integrator,
             triangle_test: self.triangle_test.unwrap_or(defaults.triangle_test),
             offset: self.offset.unwrap_or(defaults.offset),
             brute_force: self.brute_force,
             seed: self.seed,
-            max_depth: self.max_depth.unwrap_or(defaults.max_depth),
+            max_depth: self.max_depth.unwrap_or(match integrator {
+                Integrator::Path => PATH_DEPTH,
+                _ => defaults.max_depth,
+            }),
             min_throughput: self.min_throughput.unwrap_or(defaults.min_throughput),
+            transparent_shadows: self.transparent_shadows,
             ..defaults
         }
     }

@@ -67,6 +67,8 @@ impl Kernel {
     kernels! {
         /// Adds samples of [`crate::render::Integrator::Whitted`] to the film.
         WHITTED "whitted" Image "image", Buffer "buffer", Packet "packet";
+        /// Adds samples of [`crate::render::Integrator::Path`] to the film.
+        PATH_TRACE "path_trace" Image "image", Buffer "buffer";
         /// Adds samples of the other integrators to the film.
         DEBUG_VIEW "debug_view" Image "image", Buffer "buffer";
         /// Records all rays of single samples of [`crate::render::Integrator::Whitted`].

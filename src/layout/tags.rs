@@ -97,8 +97,44 @@ pub const MATERIAL_COVERAGE: u32 = 32;
 pub const MATERIAL_MASK: u32 = 64;
 /// Bit of [`super::PackedMaterial::flags`]: transmitted light goes straight on, in the same medium.
 pub const MATERIAL_THIN: u32 = 128;
+/// Bit of [`super::PackedMaterial::flags`]: its layers are those of a metallic-roughness material.
+pub const MATERIAL_METALLIC_ROUGHNESS: u32 = 256;
 /// Rows of 16 bytes of a [`super::PackedMaterial`].
-pub const MATERIAL_ROWS: u32 = 9;
+pub const MATERIAL_ROWS: u32 = 19;
+/// The first of these rows that belongs to [`super::PackedMaterial::layers`].
+pub const LAYERS_ROW: u32 = 9;
+/// Texture slot of [`super::PackedLayers`]: base colour.
+pub const SLOT_BASE: u32 = 0;
+/// Texture slot of [`super::PackedLayers`]: roughness in green, metalness in blue.
+pub const SLOT_METALLIC_ROUGHNESS: u32 = 1;
+/// Texture slot of [`super::PackedLayers`]: reflectance of a dielectric along the normal; of Phong materials the highlight.
+pub const SLOT_F0: u32 = 2;
+/// Texture slot of [`super::PackedLayers`]: transmission, in red; of Phong materials the transmitted colour.
+pub const SLOT_TRANSMISSION: u32 = 3;
+/// Texture slot of [`super::PackedLayers`]: factor on the reflectance of a dielectric, in alpha.
+pub const SLOT_F90: u32 = 4;
+/// Texture slot of [`super::PackedLayers`]: strength of the clear coat, in red.
+pub const SLOT_COAT: u32 = 5;
+/// Texture slot of [`super::PackedLayers`]: its roughness, in green.
+pub const SLOT_COAT_ROUGHNESS: u32 = 6;
+/// Texture slot of [`super::PackedLayers`]: colour of the sheen.
+pub const SLOT_SHEEN: u32 = 7;
+/// Texture slot of [`super::PackedLayers`]: its roughness, in alpha.
+pub const SLOT_SHEEN_ROUGHNESS: u32 = 8;
+/// Texture slot of [`super::PackedLayers`]: direction in red and green, strength in blue.
+pub const SLOT_ANISOTROPY: u32 = 9;
+/// Texture slot of [`super::PackedLayers`]: strength of the thin film, in red.
+pub const SLOT_IRIDESCENCE: u32 = 10;
+/// Texture slot of [`super::PackedLayers`]: position in its range of thickness, in green.
+pub const SLOT_FILM_THICKNESS: u32 = 11;
+/// Texture slot of [`super::PackedLayers`]: fraction of diffuse light that passes, in alpha.
+pub const SLOT_DIFFUSE_TRANSMISSION: u32 = 12;
+/// Texture slot of [`super::PackedLayers`]: its colour.
+pub const SLOT_DIFFUSE_TRANSMISSION_COLOR: u32 = 13;
+/// Texture slot of [`super::PackedLayers`]: mirror of a Phong material.
+pub const SLOT_REFLECT: u32 = 14;
+/// Texture slot of [`super::PackedLayers`]: emission.
+pub const SLOT_EMISSION: u32 = 15;
 /// Rows of 16 bytes of a [`super::PackedTexture`].
 pub const TEXTURE_ROWS: u32 = 6;
 /// No texture, in the 16 bits of a texture index in a [`super::PackedMaterial`].

@@ -84,7 +84,8 @@ impl PackedScene {
                 .lights
                 .iter()
                 .map(|light| packed_light(light, self.origin));
-            let key = packed.collect::<Result<Vec<_>, _>>()?;
+            let mut key = packed.collect::<Result<Vec<_>, _>>()?;
+            light::set_chances(&mut key, &first.lights, self.radius);
             lights.push(key);
         }
         if lights.iter().all(|key| *key == lights[0]) {
@@ -162,9 +163,12 @@ impl PackedScene {
             changed => changed,
         };
         let lamps = animated_materials.lamps.iter();
-        let lamps = lamps.map(|&index| light::mean_material(frames, index));
-        (materials.iter().map(material::material))
-            .chain(lamps.map(|lamp| material::material(&lamp)))
+        let lamps = lamps.map(|&index| {
+            let mean = light::mean_material(frames, index);
+            material::material(&mean, Some(index))
+        });
+        (materials.iter().map(|one| material::material(one, None)))
+            .chain(lamps)
             .collect()
     }
 
@@ -328,6 +332,7 @@ fn packed_light(light: &Light, origin: DVec3) -> Result<PackedLight, PackError> 
             Attenuation::None => ATTENUATION_NONE,
         },
         sample_count: 1,
+        visible: u32::from(light.visible && light.kind.radiance().is_some()),
         ..Default::default()
     };
     let direct = |direction: DVec3| direction.as_vec3().into();

@@ -1,6 +1,9 @@
 //! The surfaces of visible lights.
 
-use crate::scene::{CanonicalShape, Frame, Geometry, Light, LightKind, Material, Scene};
+use crate::{
+    layout::PackedLight,
+    scene::{Attenuation, CanonicalShape, Frame, Geometry, Light, LightKind, Material, Scene},
+};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// The indices of visible lights, in scene order.
@@ -111,4 +114,59 @@ pub fn world_from_unit(kind: &LightKind) -> Option<DAffine3> {
         }
     };
     Some(DAffine3::from_mat3_translation(matrix, center))
+}
+
+/// The part of a light's chance that does not depend on its power, so that a strong light far away does not hide a
+/// weak one nearby.
+const EVEN_PART: f64 = 0.1;
+
+/// Half of the diagonal of a scene's bounds; 1 where [`set_chances`] does not need it.
+pub fn radius(scene: &Scene) -> f64 {
+    let fades = |light: &Light| {
+        light.attenuation == Attenuation::InverseSquare
+            && !matches!(light.kind, LightKind::Directional { .. })
+    };
+    let is_mixed = scene
+        .lights
+        .iter()
+        .any(|light| fades(light) != fades(&scene.lights[0]));
+    let bounds = if is_mixed { scene.bounds() } else { None };
+    bounds.map_or(1.0, |(min, max)| (max - min).length() / 2.0)
+}
+
+/// Sets the chances with which paths sample the packed `lights`, in proportion to their power in `source`. `radius` is
+/// that of the scene: lights that do not fade shine on a disc of this size.
+pub fn set_chances(lights: &mut [PackedLight], source: &[Light], radius: f64) {
+    let powers: Vec<f64> = source.iter().map(|light| power(light, radius)).collect();
+    let total: f64 = powers.iter().sum();
+    let lit = powers.iter().filter(|power| **power > 0.0).count() as f64;
+    let mut sum = 0.0;
+    for (light, power) in lights.iter_mut().zip(&powers) {
+        let chance = match *power > 0.0 {
+            true => EVEN_PART / lit + (1.0 - EVEN_PART) * power / total,
+            false => 0.0,
+        };
+        light.chance = chance as f32;
+        light.cumulative = sum as f32;
+        sum += chance;
+    }
+}
+
+/// The luminous power of a light, up to a factor that all have in common.
+fn power(light: &Light, radius: f64) -> f64 {
+    use std::f64::consts::PI;
+    let [r, g, b] = light.color.as_dvec3().to_array();
+    let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let solid_angle = match light.kind {
+        LightKind::Directional { .. } => return luminance * radius * radius,
+        LightKind::Point { .. } | LightKind::Sphere { .. } => 4.0 * PI,
+        LightKind::Spot { outer, .. } => 2.0 * PI * (1.0 - outer.cos()),
+        LightKind::Rectangle { .. } | LightKind::Disc { .. } => PI,
+    };
+    let spread = match light.attenuation {
+        Attenuation::InverseSquare => 1.0,
+        Attenuation::None => radius * radius,
+    };
+    // Per steradian a light that fades sends its strength, which a light that does not sends per area.
+    luminance * spread * solid_angle / PI
 }

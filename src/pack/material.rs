@@ -1,14 +1,14 @@
 //! Packs materials and textures.
 
-use super::{Features, PackError, light};
+use super::{Features, PackError, layers, light};
 use crate::{
     layout::{
-        MATERIAL_BLEND, MATERIAL_COVERAGE, MATERIAL_FRESNEL, MATERIAL_MASK, MATERIAL_SCHLICK,
-        MATERIAL_SUM, MATERIAL_THIN, MATERIAL_TWO_SIDED, NO_TEXTURE, PATTERN_CHECKER,
-        PATTERN_GRADIENT, PATTERN_NOISE, PATTERN_PICTURE, PATTERN_STRIPES, PackedMaterial,
-        PackedTexture, TEXTURE_BETWEEN_LEVELS, TEXTURE_LEVELS, TEXTURE_MINIFY_NEAREST,
-        TEXTURE_NEAREST, TEXTURE_SECOND_UV, TEXTURE_UV, TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT,
-        WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT,
+        MATERIAL_BLEND, MATERIAL_COVERAGE, MATERIAL_FRESNEL, MATERIAL_MASK,
+        MATERIAL_METALLIC_ROUGHNESS, MATERIAL_SCHLICK, MATERIAL_SUM, MATERIAL_THIN,
+        MATERIAL_TWO_SIDED, NO_TEXTURE, PATTERN_CHECKER, PATTERN_GRADIENT, PATTERN_NOISE,
+        PATTERN_PICTURE, PATTERN_STRIPES, PackedMaterial, PackedTexture, TEXTURE_BETWEEN_LEVELS,
+        TEXTURE_LEVELS, TEXTURE_MINIFY_NEAREST, TEXTURE_NEAREST, TEXTURE_SECOND_UV, TEXTURE_UV,
+        TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT,
     },
     scene::{
         Coverage, Fresnel, Material, MaterialProperty, Mixing, Pattern, Scene, Space, Target,
@@ -21,7 +21,8 @@ use std::sync::Arc;
 /// Equals `NOISE_PERIOD` of `lib/noise.wesl`.
 const NOISE_PERIOD: f64 = 256.0;
 
-pub fn material(material: &Material) -> PackedMaterial {
+/// Packs a material. `lamp` is the index of the light whose surface it is.
+pub fn material(material: &Material, lamp: Option<usize>) -> PackedMaterial {
     let fresnel = match material.fresnel {
         Fresnel::None => 0,
         Fresnel::Exact => MATERIAL_FRESNEL,
@@ -53,7 +54,15 @@ pub fn material(material: &Material) -> PackedMaterial {
         diffuse: material.diffuse.into(),
         shininess: material.shininess,
         specular: material.specular.into(),
-        flags: sides | fresnel | mixing | covers | if material.thin { MATERIAL_THIN } else { 0 },
+        flags: sides
+            | fresnel
+            | mixing
+            | covers
+            | if material.thin { MATERIAL_THIN } else { 0 }
+            | match material.metallic_roughness {
+                Some(_) => MATERIAL_METALLIC_ROUGHNESS,
+                None => 0,
+            },
         ambient: material.ambient.into(),
         opacity: material.opacity,
         reflect: material.reflect.into(),
@@ -72,6 +81,7 @@ pub fn material(material: &Material) -> PackedMaterial {
         normal_scale: material.normal_scale,
         occlusion: pair(textures.occlusion, None),
         occlusion_strength: material.occlusion_strength,
+        layers: layers::packed(material, lamp),
         ..Default::default()
     }
 }
@@ -151,6 +161,8 @@ pub fn features(scene: &Scene) -> Features {
             || has_total_reflection(scene)
             || !refraction && has_thin_material(scene),
         refraction,
+        thin_walls: (may_transmit(scene).into_iter().zip(&scene.materials))
+            .any(|(transmits, material)| transmits && material.thin),
         textures: !scene.textures.is_empty(),
         noise: has_pattern(|it| matches!(it, Pattern::Noise { .. })),
         pictures: has_pattern(|it| matches!(it, Pattern::Picture { .. })),

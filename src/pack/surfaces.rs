@@ -22,14 +22,16 @@ pub fn materials(
     let lamps: Vec<usize> = light::visible(scene).collect();
     let lamp_materials = lamps
         .iter()
-        .map(|&index| light::material(&rest.lights[index]));
+        .map(|&index| material::material(&light::material(&rest.lights[index]), Some(index)));
     let rest_materials = match &rest.materials[..] {
         [] => &scene.materials,
         changed => changed,
     };
-    let materials = (rest_materials.iter().map(material::material))
-        .chain(lamp_materials.map(|lamp| material::material(&lamp)))
-        .collect();
+    let materials = (rest_materials
+        .iter()
+        .map(|one| material::material(one, None)))
+    .chain(lamp_materials)
+    .collect();
     let is_changing = !rest.materials.is_empty() || (!lamps.is_empty() && !scene.tracks.is_empty());
     let animated_materials = is_changing.then(|| AnimatedMaterials {
         materials: scene.materials.clone(),

@@ -20,6 +20,8 @@ impl Fingerprint {
             contact,
             priorities,
             filtered_shadows,
+            // Follows from the materials.
+            thin_walls: _,
             textures,
             second_uvs,
             noise,

@@ -14,6 +14,8 @@ pub enum Integrator {
     /// Phong's illumination with shadow rays, and recursive reflection and refraction.
     #[default]
     Whitted,
+    /// Path tracing: light that comes from everywhere, by the rendering equation (Kajiya 1986).
+    Path,
     /// Shading normals, with components mapped from -1..1 to 0..1; black without a hit.
     Normals,
     /// Distance along the ray in scene units; 0 without a hit.
@@ -67,7 +69,7 @@ pub enum Shows {
 }
 
 /// All integrators, in menu order.
-pub const TABLE: [IntegratorEntry; 7] = [
+pub const TABLE: [IntegratorEntry; 8] = [
     IntegratorEntry {
         kernel: Kernel::WHITTED,
         shows: Shows::Radiance,
@@ -76,6 +78,17 @@ pub const TABLE: [IntegratorEntry; 7] = [
             Integrator::Whitted,
             ("whitted", "Full render"),
             "Phong shading with shadows, reflection and refraction",
+            VIEW_NORMALS,
+        )
+    },
+    IntegratorEntry {
+        kernel: Kernel::PATH_TRACE,
+        shows: Shows::Radiance,
+        is_lit: true,
+        ..debug_view(
+            Integrator::Path,
+            ("path", "Path tracing"),
+            "unbiased global illumination with physically based materials",
             VIEW_NORMALS,
         )
     },

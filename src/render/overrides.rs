@@ -2,7 +2,7 @@
 //! a kernel.
 
 use super::{
-    layers,
+    Integrator, layers,
     settings::{RayOffset, TriangleTest},
     task::Task,
 };
@@ -43,6 +43,11 @@ pub fn of(task: Task) -> Overrides {
         Filter::Mitchell => FILTER_MITCHELL,
     };
     let features = scene.features;
+    let is_path = settings.integrator == Integrator::Path;
+    let filters_shadows = match is_path {
+        true => features.thin_walls || settings.transparent_shadows,
+        false => features.filtered_shadows,
+    };
     let layers = layers::of_sampling(settings);
     let squares_row = layers::row_of(layers, &layers::SQUARES).unwrap_or_default();
     let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
@@ -67,7 +72,11 @@ pub fn of(task: Task) -> Overrides {
             flag(features.contact && settings.max_depth > 0),
         ),
         ("HAS_PRIORITIES", flag(features.priorities)),
-        ("FILTERED_SHADOWS", flag(features.filtered_shadows)),
+        ("FILTERED_SHADOWS", flag(filters_shadows)),
+        (
+            "SOLID_GLASS",
+            flag(is_path && !settings.transparent_shadows),
+        ),
         (
             "HAS_LENS",
             flag(cameras.any(|camera| camera.lens_radius > 0.0)),
@@ -88,6 +97,7 @@ pub fn of(task: Task) -> Overrides {
         ("HAS_HALF_TEXELS", flag(features.half_texels)),
         ("HAS_OPTICS_TEXTURES", flag(features.optics_textures)),
         ("HAS_EMISSION", flag(features.emission)),
+        ("HAS_LAYERS", flag(is_path)),
         ("ADAPTIVE", flag(settings.is_adaptive())),
         ("CAMERA_MOTION", flag(!view.cameras.is_empty())),
         ("LIGHT_MOTION", flag(view.frame.light_key_count > 1)),

@@ -45,6 +45,9 @@ pub struct RenderSettings {
     /// Minimum throughput of reflected and refracted rays, averaged over the channels, 0 to 1. Rays below it
     /// are not traced.
     pub min_throughput: f32,
+    /// Path tracing: whether all transparent surfaces filter shadow rays, in straight lines. Without it only smooth
+    /// thin walls do, and the light behind other glass is found by paths; with it caustics are lost.
+    pub transparent_shadows: bool,
 }
 
 impl Default for RenderSettings {
@@ -66,6 +69,7 @@ impl Default for RenderSettings {
             seed: 0,
             max_depth: 5,
             min_throughput: MIN_THROUGHPUT,
+            transparent_shadows: false,
         }
     }
 }
@@ -146,6 +150,7 @@ impl RenderSettings {
             seed,
             max_depth,
             min_throughput,
+            transparent_shadows,
         } = self;
         let range = sample_range.as_ref();
         let mut encoder = Encoder::new("render settings", 1);
@@ -183,6 +188,9 @@ impl RenderSettings {
         if let RayOffset::Fixed(distance) = offset {
             encoder.bytes(b"fixed offset");
             encoder.float(*distance);
+        }
+        if *transparent_shadows {
+            encoder.bytes(b"transparent shadows");
         }
         encoder.finish()
     }

@@ -56,9 +56,51 @@ pub struct Material {
     pub coverage: Coverage,
     /// The number that `coverage` is about, in 0..=1, multiplied by the alpha of [`Textures::alpha`].
     pub alpha: f32,
-    /// The physically based material that the members above show, if the file has one. Shared by
-    /// materials that differ in vertex colours.
+    /// The physically based material that the members above show, if the file has one; the path tracer uses
+    /// it. Shared by materials that differ in vertex colours.
     pub metallic_roughness: Option<Arc<MetallicRoughness>>,
+    /// The colour of the vertex, which multiplies the base colour of `metallic_roughness`.
+    pub tint: Vec3,
+    /// Textures that multiply parameters of `metallic_roughness`. Its emission has that of `textures`.
+    pub layer_textures: LayerTextures,
+}
+
+/// For parameters of a [`MetallicRoughness`] the index in [`super::Scene::textures`] of the texture that multiplies
+/// them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LayerTextures {
+    /// Of [`MetallicRoughness::base_color`].
+    pub base_color: Option<usize>,
+    /// Of [`MetallicRoughness::roughness`] in green and [`MetallicRoughness::metallic`] in blue.
+    pub metallic_roughness: Option<usize>,
+    /// Of [`MetallicRoughness::transmission`], in red.
+    pub transmission: Option<usize>,
+    /// Of [`MetallicRoughness::specular`], in alpha.
+    pub specular: Option<usize>,
+    /// Of [`MetallicRoughness::specular_color`].
+    pub specular_color: Option<usize>,
+}
+
+impl LayerTextures {
+    /// Adds `first` to every index, for textures that are appended to others.
+    pub fn shift(&mut self, first: usize) {
+        let Self {
+            base_color,
+            metallic_roughness,
+            transmission,
+            specular,
+            specular_color,
+        } = self;
+        for index in [
+            base_color,
+            metallic_roughness,
+            transmission,
+            specular,
+            specular_color,
+        ] {
+            *index = index.map(|index| index + first);
+        }
+    }
 }
 
 /// How much of a surface is there. The rest is a hole: rays pass it in a straight line, shadow rays too. They
@@ -216,6 +258,8 @@ impl Default for Material {
             coverage: Coverage::Opaque,
             alpha: 1.0,
             metallic_roughness: None,
+            tint: Vec3::ONE,
+            layer_textures: LayerTextures::default(),
         }
     }
 }

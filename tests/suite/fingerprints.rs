@@ -52,6 +52,8 @@ fn every_setting_changes_the_fingerprint() {
         ("seed", |s| s.seed = 1),
         ("depth of rays", |s| s.max_depth += 1),
         ("throughput", |s| s.min_throughput = 0.25),
+        ("paths", |s| s.integrator = Integrator::Path),
+        ("transparent shadows", |s| s.transparent_shadows = true),
     ];
     let mut known: HashMap<Fingerprint, &str> = HashMap::new();
     for (name, change) in changes {

@@ -47,6 +47,7 @@ mod output;
 mod pack;
 mod pack_again;
 mod pack_view;
+mod path;
 mod pictures;
 mod ray_offset;
 mod ray_query;

@@ -124,6 +124,49 @@ fn segments_end_just_short_of_the_lights_surface() {
     verdict.close();
 }
 
+/// Each sample stands for the solid angle that is the reciprocal of its density, so their mean is that of the light.
+#[test]
+fn densities_of_samples_add_up_to_the_solid_angle_of_the_light() {
+    use std::f64::consts::PI;
+    let mut verdict = Verdict::on("area_density");
+    for height in [0.5f64, 1.5, 6.0] {
+        let away = (1.0 + height * height).sqrt();
+        for (kind, expected) in [
+            // Squares of side 2 and discs of radius 1 around the axis, and a ball of radius 1.
+            (LIGHT_RECTANGLE, 4.0 * (1.0 / (away * away)).asin()),
+            (LIGHT_DISC, 2.0 * PI * (1.0 - height / away)),
+            (
+                LIGHT_SPHERE,
+                if height < 1.0 {
+                    4.0 * PI
+                } else {
+                    2.0 * PI * (1.0 - (1.0 - 1.0 / (height * height)).sqrt())
+                },
+            ),
+        ] {
+            let p = [0.0, -height as f32, 0.0];
+            let points = square_points(4096, 3);
+            let rows: Vec<_> = points.iter().map(|u| (light(kind), p, *u)).collect();
+            let hits: Vec<_> = (arriving(&rows).iter())
+                .map(|to| (light(kind), p, to.direction, to.distance))
+                .collect();
+            let densities: Vec<f32> = gpu().map("lib::area_light::area_density", &hits);
+            let sum: f64 = densities
+                .iter()
+                .map(|density| 1.0 / f64::from(*density))
+                .sum();
+            let found = sum / densities.len() as f64;
+            verdict.near(
+                format!("light {kind} at {height}"),
+                &(found as f32),
+                &expected,
+                Tolerance::Relative(0.01),
+            );
+        }
+    }
+    verdict.close();
+}
+
 #[test]
 fn flat_lights_shine_on_the_side_of_their_normal_only() {
     let mut verdict = Verdict::on("area_incident");

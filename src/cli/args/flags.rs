@@ -75,12 +75,17 @@ pub struct PictureFlags {
     #[arg(long, value_name = "NOISE", allow_hyphen_values = true, value_parser = values::noise)]
     pub noise: Option<f32>,
     /// Bounces after the first hit, 0 to 1000; 0 is local shading only [default: the scene's, else 5; 0
-    /// for .scene]
+    /// for .scene; 16 for --integrator path]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub max_depth: Option<u32>,
     /// Terminate reflection and refraction rays below this throughput, 0 to 1 [default: 1/512]
     #[arg(long, value_name = "FRACTION", allow_hyphen_values = true, value_parser = values::fraction)]
     pub min_throughput: Option<f32>,
+    /// Path tracing: let all glass filter shadow rays in straight lines, which loses caustics
+    ///
+    /// Without it smooth thin walls do so, and paths find the light behind other glass.
+    #[arg(long)]
+    pub transparent_shadows: bool,
     /// Reconstruction filter [default: the scene's, else box]
     #[arg(long, value_parser = values::one_of(&FILTERS))]
     pub filter: Option<Filter>,
@@ -282,6 +287,7 @@ impl PictureFlags {
             noise: self.noise,
             max_depth: self.max_depth,
             min_throughput: self.min_throughput,
+            transparent_shadows: self.transparent_shadows,
             filter: self.filter,
             filter_radius: self.filter_radius,
             light_samples: self.light_samples,

@@ -177,9 +177,9 @@ shader_struct!(PackedLight = "package::types::PackedLight" {
     edge_v: [f32; 3],
     radius: f32,
     sample_count: u32,
-    _pad0: u32,
-    _pad1: u32,
-    _pad2: u32,
+    chance: f32,
+    cumulative: f32,
+    visible: u32,
 });
 shader_struct!(PackedShape = "package::types::PackedShape" {
     position: [f32; 3],

@@ -95,11 +95,7 @@ fn settings(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
     let (width, height) = wanted.size;
     let crop = wanted.crop.map(|edges| edges.map(|edge| edge.to_string()));
     let crop = crop.map(|edges| ("--crop", edges.join(",")));
-    // A switch without a value.
-    let brute_force = wanted
-        .brute_force
-        .then(|| ("--no-bvh", String::new()))
-        .into_iter();
+    let switch = |is_on: bool, name| is_on.then(|| (name, String::new())).into_iter();
     vec![
         one(
             wanted.size != parsed.size,
@@ -169,7 +165,7 @@ fn settings(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
         (
             wanted.brute_force != parsed.brute_force,
             "brute force",
-            brute_force.collect(),
+            switch(wanted.brute_force, "--no-bvh").collect(),
         ),
         one(
             wanted.seed != parsed.seed,
@@ -188,6 +184,11 @@ fn settings(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
             "the minimum throughput",
             "--min-throughput",
             wanted.min_throughput.to_string(),
+        ),
+        (
+            wanted.transparent_shadows != parsed.transparent_shadows,
+            "transparent shadows",
+            switch(wanted.transparent_shadows, "--transparent-shadows").collect(),
         ),
     ]
 }

@@ -9,6 +9,7 @@ mod statistics;
 pub use statistics::{remaining, seconds};
 
 use crate::app::value_names::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
+use crate::render::Integrator;
 use crate::scene::Antialias;
 use crate::viewer::model::view_settings::{MAX_SAMPLES, ViewSettings};
 use crate::viewer::ui::context::PanelContext;
@@ -189,6 +190,18 @@ fn rays(ui: &mut Ui, look: &mut ViewSettings) {
         &usual.min_throughput,
         |ui, value| number(ui, value, 0.0..=1.0, 0.0005, ""),
     );
+    if settings.integrator == Integrator::Path {
+        line(
+            ui,
+            (
+                "Clear shadows",
+                "Let all glass filter shadow rays in straight lines, which loses caustics",
+            ),
+            &mut settings.transparent_shadows,
+            &usual.transparent_shadows,
+            |ui, value| ui.checkbox(value, ""),
+        );
+    }
     line(
         ui,
         ("Triangle test", "Ray–triangle intersection algorithm"),
