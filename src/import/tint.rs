@@ -72,6 +72,7 @@ fn tinted(material: &Material, color: u32) -> Material {
         name: format!("{}{separator}#{color:06x}", material.name),
         diffuse: material.diffuse * linear,
         ambient: material.ambient * linear,
+        tint: linear,
         ..material.clone()
     }
 }

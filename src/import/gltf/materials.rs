@@ -127,6 +127,7 @@ impl Reader<'_> {
             let color = Vec3::new(r, g, b);
             material.diffuse *= color;
             material.ambient *= color;
+            material.tint = color;
             if let Some(model) = &material.metallic_roughness {
                 if model.unlit {
                     material.emission *= color;

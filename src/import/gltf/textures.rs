@@ -6,7 +6,7 @@ use super::document::{Material as Source, TextureInfo};
 use super::maps::FoundMap;
 use crate::import::error::ImportError;
 use crate::import::picture::Role;
-use crate::scene::{Coverage, Material, MetallicRoughness, Pattern, Space, Texture};
+use crate::scene::{Coverage, LayerTextures, Material, MetallicRoughness, Pattern, Space, Texture};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// Largest width and height of pictures that are computed from several maps.
@@ -82,6 +82,23 @@ impl Reader<'_> {
             && let Some(space) = self.space(&mut sets, map, here)
         {
             material.textures.alpha = Some(self.texture(picture, map, space));
+        }
+        if !model.unlit {
+            let specular = extensions.and_then(|e| e.specular.as_ref());
+            let mut of = |info: Option<&TextureInfo>, has_values| match info {
+                Some(info) => self.other(info, has_values, &mut sets, here),
+                None => Ok(None),
+            };
+            material.layer_textures = LayerTextures {
+                base_color: of(infos[0], false)?,
+                metallic_roughness: of(infos[1], true)?,
+                transmission: of(infos[2], true)?,
+                specular: of(specular.and_then(|it| it.specular_texture.as_deref()), true)?,
+                specular_color: of(
+                    specular.and_then(|it| it.specular_color_texture.as_deref()),
+                    false,
+                )?,
+            };
         }
         if let Some(info) = source.emissive_texture.as_deref()
             && model.emission != Vec3::ZERO

@@ -186,6 +186,7 @@ impl<'s> Reader<'s> {
             return;
         }
         material.textures.diffuse = self.picture(maps.diffuse, Role::Color, file);
+        material.layer_textures.base_color = material.textures.diffuse;
         material.textures.specular = self.picture(maps.specular, Role::Color, file);
         // Few exporters write an ambient texture, and all use the diffuse one.
         material.textures.ambient = match maps.ambient {
