@@ -236,8 +236,8 @@ packed! {
         ior: f32,
         /// Index of the light whose surface this is, or [`NONE`].
         light: u32,
-        /// Chance per area of a point of an emissive mesh to be chosen as a light sample; 0 for others.
-        emitter_density: f32,
+        /// Mean luminance of the texture of the emission, 1 without one.
+        glow: f32,
         /// A bit for each slot with a texture, from [`SLOT_BASE`] to [`SLOT_EMISSION`].
         slots: u32,
         #[doc(hidden)]
@@ -304,6 +304,17 @@ packed! {
         cumulative: f32,
         /// Whether rays can hit it, 0 or 1.
         visible: u32,
+    }
+    /// An emissive triangle that paths sample as a light.
+    PackedEmitter {
+        /// Its index in the triangles array.
+        triangle: u32,
+        /// Its instance, or [`NO_INSTANCE`].
+        instance: u32,
+        /// Chance with which it is sampled.
+        chance: f32,
+        /// The sum of the chances of the lights and of the emitters up to it.
+        end: f32,
     }
     /// A camera; `right` and `up` reach from the centre of the image plane to its edges.
     PackedCamera {
@@ -376,12 +387,12 @@ packed! {
         shape_row: u32,
         /// Keys of deforming meshes, evenly spaced over the shutter interval; more than 1 if one deforms.
         deformation_key_count: u32,
-        #[doc(hidden)]
-        _pad0: u32,
-        #[doc(hidden)]
-        _pad1: u32,
-        #[doc(hidden)]
-        _pad2: u32,
+        /// Row of the first [`PackedEmitter`].
+        emitter_row: u32,
+        /// Number of emitters.
+        emitter_count: u32,
+        /// Radiance divided by this is the chance per area with which a path samples a point of an emitter.
+        emitter_power: f32,
     }
     /// The parameters of one dispatch: which workgroups of which film tile, which samples. `counters` is its
     /// result.

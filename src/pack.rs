@@ -3,6 +3,7 @@
 
 mod blas;
 mod deform;
+mod emitters;
 mod frame;
 mod geometry;
 mod instance;
@@ -90,6 +91,8 @@ pub struct PackedScene {
     pub features: Features,
     /// Dielectric volumes that are transparent at some time, which the camera may be inside of.
     volumes: Vec<media::Volume>,
+    /// Triangles that emit light at some time, by their index.
+    emissive: Vec<emitters::Emissive>,
     /// Half of the diagonal of the scene's bounds, where the chances of lights depend on it.
     radius: f64,
     meshes: Vec<Arc<CachedMesh>>,
@@ -296,7 +299,7 @@ fn pack(
     };
     let has_uvs = scene.meshes.iter().any(|mesh| !mesh.uvs.is_empty());
     let (materials, animated_materials) = surfaces::materials(scene, &rest);
-    Ok(PackedScene {
+    let mut packed = PackedScene {
         nodes,
         triangles: trees.triangles(&plan),
         first_baked_triangle,
@@ -319,6 +322,7 @@ fn pack(
         features,
         volumes: media::volumes(scene, &meshes),
         radius: light::radius(scene),
+        emissive: Vec::new(),
         origins: Origins::new(scene, &plan, &trees),
         work: trees.work,
         deforming: deform::meshes(scene, origin, &plan, &trees),
@@ -329,7 +333,9 @@ fn pack(
         animated_materials,
         origin,
         build_seconds,
-    })
+    };
+    packed.emissive = packed.emissive(&material::may_emit(scene));
+    Ok(packed)
 }
 
 /// Moving shapes, each with its own BLAS. Their indices start at `first`.

@@ -53,7 +53,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 		return path__ended(path);
 	}
 	let bsdf = bsdf__bsdf_at(surface, optics, layers, met, ray.direction);
-	if (bindings__HAS_LIGHTS) {
+	if (bindings__HAS_LIGHTS || bindings__HAS_EMITTERS) {
 		path.radiance += path.throughput * lamp_light(batch, path, surface, bsdf, met);
 	}
 	return scattered(path, surface, bsdf, met);
@@ -163,13 +163,15 @@ struct dispatch__Batch {
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
-	camera_media: vec4u
+	camera_media: vec4u,
+	emitter_count: u32,
+	emitter_power: f32
 }
 
 fn dispatch__load_batch() -> dispatch__Batch {
 	fetch__load_starts();
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
@@ -493,7 +495,7 @@ struct types__PackedLayers {
 	diffuse_transmission_color: vec3f,
 	ior: f32,
 	light: u32,
-	emitter_density: f32,
+	glow: f32,
 	slots: u32,
 	_pad: u32,
 	textures: vec4u,
@@ -529,6 +531,13 @@ struct types__PackedLight {
 	chance: f32,
 	cumulative: f32,
 	visible: u32
+}
+
+struct types__PackedEmitter {
+	triangle: u32,
+	instance: u32,
+	chance: f32,
+	end: f32
 }
 
 struct types__PackedCamera {
@@ -568,9 +577,9 @@ struct types__PackedFrame {
 	first_triangle: u32,
 	shape_row: u32,
 	deformation_key_count: u32,
-	_pad0: u32,
-	_pad1: u32,
-	_pad2: u32
+	emitter_row: u32,
+	emitter_count: u32,
+	emitter_power: f32
 }
 
 struct types__PackedDispatch {
@@ -776,6 +785,11 @@ fn fetch__load_light_end(index: u32) -> f32 {
 	return bitcast<f32>(r5.y) + bitcast<f32>(r5.z);
 }
 
+fn fetch__load_emitter(index: u32) -> types__PackedEmitter {
+	let r0 = fetch__node_row(bindings__frame.emitter_row + index);
+	return types__PackedEmitter(r0.x, r0.y, bitcast<f32>(r0.z), bitcast<f32>(r0.w));
+}
+
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
 	let row = fetch__light_row + types__LIGHT_ROWS * bindings__frame.light_count * bindings__frame.light_key_count + types__CAMERA_ROWS * key;
 	let r0 = fetch__node_row(row);
@@ -876,6 +890,8 @@ override bindings__COUNT_RAYS: bool = false;
 override bindings__COUNT_STEPS: bool = false;
 
 override bindings__HAS_LIGHTS: bool = true;
+
+override bindings__HAS_EMITTERS: bool = false;
 
 override bindings__SHAPE_KINDS: u32 = 4294967295u;
 
@@ -3072,8 +3088,17 @@ fn material__load_layers(index: u32) -> types__PackedLayers {
 	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, 0u, fetch__material_row(row + 8u), fetch__material_row(row + 9u));
 }
 
-fn material__load_emitter(index: u32) -> vec2u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + types__LAYERS_ROW + 7u).xy;
+struct material__Glow {
+	light: u32,
+	luminance: f32,
+	texture: u32
+}
+
+fn material__load_glow(index: u32) -> material__Glow {
+	let row = types__MATERIAL_ROWS * index;
+	let own = fetch__material_row(row + types__LAYERS_ROW + 7u);
+	let luminance = bitcast<f32>(own.y) * dot(material__load_emission(index), tone__LUMINANCE_REC709);
+	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
 }
 
 const ray_cone__MOST_TAPS: f32 = 8.0;
@@ -3619,7 +3644,10 @@ struct emitters__LightSample {
 }
 
 fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
-	let light = shutter__shutter_light(emitters__chosen_light(choice, batch.light_count), batch.light_count);
+	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || choice >= fetch__load_light_end(batch.light_count - 1u))) {
+		return emitters__sample_emitter(batch, p, choice, u);
+	}
+	let light = shutter__shutter_light(emitters__chosen(choice, batch.light_count, false), batch.light_count);
 	var arriving = light__incident(light, p);
 	var pdf = 0.0;
 	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
@@ -3632,14 +3660,21 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2
 	return emitters__LightSample(arriving, pdf);
 }
 
-fn emitters__chosen_light(choice: f32, count: u32) -> u32 {
+fn emitters__chosen(choice: f32, count: u32, among_emitters: bool) -> u32 {
 	var low = 0u;
 	var high = count - 1u;
 	loop {
 		let middle = (low + high) / 2u;
-		let is_below = choice < fetch__load_light_end(middle);
-		high = select(high, middle, is_below);
+		var end = 0.0;
+		if (among_emitters) {
+			end = fetch__load_emitter(middle).end;
+		}
+		else {
+			end = fetch__load_light_end(middle);
+		}
+		let is_below = choice < end;
 		low = select(min(middle + 1u, high), low, is_below);
+		high = select(high, middle, is_below);
 		continuing {
 		
 			break if low >= high;
@@ -3649,17 +3684,73 @@ fn emitters__chosen_light(choice: f32, count: u32) -> u32 {
 	return low;
 }
 
+fn emitters__sample_emitter(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
+	let emitter = fetch__load_emitter(emitters__chosen(choice, batch.emitter_count, true));
+	var instance: types__PackedInstance;
+	let is_placed = bindings__HAS_INSTANCES && emitter.instance != types__NO_INSTANCE;
+	if (is_placed) {
+		instance = fetch__load_instance(emitter.instance);
+	}
+	let own = deforming__triangle_now(emitter.triangle, deforming__keys_of(instance));
+	let b = warp__triangle_from_square(u);
+	let weights = vec3f(1.0 - b.x - b.y, b);
+	var surface: types__Surface;
+	surface.place = mat3x3f(own.v0, own.v1, own.v2) * weights;
+	var corners = mat3x3f(own.v0 - surface.place, own.v1 - surface.place, own.v2 - surface.place);
+	surface.p = surface.place;
+	if (is_placed) {
+		let space = instance__space_of(instance);
+		corners = space.linear * corners;
+		surface.p = space.linear * surface.place + space.translation;
+		surface.place = instance__pattern_place(instance, surface.place);
+	}
+	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
+		let uvs = mat3x4f(fetch__load_uvs(own.i0), fetch__load_uvs(own.i1), fetch__load_uvs(own.i2)) * weights;
+		surface.uv = uvs.xy;
+		surface.second_uv = select(uvs.xy, uvs.zw, bindings__HAS_SECOND_UVS);
+	}
+	let material = fetch__load_vertex(own.i0).material;
+	let glow = material__load_glow(material);
+	var radiance = material__load_emission(material);
+	if (bindings__HAS_TEXTURES && glow.texture != types__NO_TEXTURE) {
+		radiance *= texture__texture_color(material__load_texture(glow.texture), surface);
+	}
+	let across = cross(corners[1] - corners[0], corners[2] - corners[0]);
+	let to_point = surface.p - p;
+	let distance = length(to_point);
+	let direction = numeric__normalize_or(to_point, vec3f(0.0, 0.0, 1.0));
+	let n = numeric__normalize_or(across, -direction);
+	let cosine = -dot(direction, n);
+	let normals = mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+	var front = normals * weights;
+	if (is_placed) {
+		front = instance__placed_normal(instance__space_of(instance), front);
+	}
+	let shines = dot(front, direction) < 0.0 || (material__load_optics(material).flags & types__MATERIAL_TWO_SIDED) != 0u;
+	let facing = select(0.0, abs(cosine), shines);
+	let actual = emitter.chance / max(0.5 * length(across), 1e-30);
+	let fading = 1.0 / max(distance * distance, 1e-30);
+	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
+	return emitters__LightSample(types__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max(actual, 1e-30)) * radiance), glow.luminance / batch.emitter_power / max(abs(cosine) * fading, 1e-30));
+}
+
 fn emitters__emission_weight(batch: dispatch__Batch, surface: types__Surface, origin: vec3f, direction: vec3f, distance: f32, pdf: f32) -> f32 {
-	if (!bindings__HAS_AREA_LIGHTS || pdf <= 0.0) {
+	if (!(bindings__HAS_AREA_LIGHTS || bindings__HAS_EMITTERS) || pdf <= 0.0) {
 		return 1.0;
 	}
-	let index = material__load_emitter(surface.material).x;
-	if (index == types__NONE) {
-		return 1.0;
+	let glow = material__load_glow(surface.material);
+	if (bindings__HAS_AREA_LIGHTS && glow.light != types__NONE) {
+		let light = shutter__shutter_light(glow.light, batch.light_count);
+		let density = light.chance * area_light__area_density(light, origin, direction, distance);
+		return select(0.0, mis__power_heuristic(pdf, density), emitters__can_be_hit(light));
 	}
-	let light = shutter__shutter_light(index, batch.light_count);
-	let density = light.chance * area_light__area_density(light, origin, direction, distance);
-	return select(0.0, mis__power_heuristic(pdf, density), emitters__can_be_hit(light));
+	let is_triangle = (surface.leaving & types__SHAPE) == 0u && surface.leaving != types__NONE;
+	if (bindings__HAS_EMITTERS && is_triangle) {
+		let cosine = abs(dot(direction, surface.ng));
+		let density = glow.luminance / batch.emitter_power * distance * distance / max(cosine, 1e-30);
+		return mis__power_heuristic(pdf, density);
+	}
+	return 1.0;
 }
 
 fn emitters__can_be_hit(light: types__PackedLight) -> bool {
@@ -3673,6 +3764,8 @@ fn emitters__emitted(surface: types__Surface, optics: types__Optics, glow: vec3f
 	let shines = surface.outside || (optics.flags & types__MATERIAL_TWO_SIDED) != 0u;
 	return select(vec3f(0.0), glow * material__load_emission(surface.material), shines);
 }
+
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 fn area_light__area_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
 	if (light.kind == types__LIGHT_SPHERE) {
@@ -3961,8 +4054,6 @@ fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f
 	let cos_i = -dot(direction, n);
 	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
-
-const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
 	let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);

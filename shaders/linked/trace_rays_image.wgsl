@@ -319,9 +319,9 @@ struct types__PackedFrame {
 	first_triangle: u32,
 	shape_row: u32,
 	deformation_key_count: u32,
-	_pad0: u32,
-	_pad1: u32,
-	_pad2: u32
+	emitter_row: u32,
+	emitter_count: u32,
+	emitter_power: f32
 }
 
 struct types__PackedDispatch {

@@ -176,13 +176,15 @@ struct dispatch__Batch {
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
-	camera_media: vec4u
+	camera_media: vec4u,
+	emitter_count: u32,
+	emitter_power: f32
 }
 
 fn dispatch__load_batch() -> dispatch__Batch {
 	fetch__load_starts();
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
@@ -508,7 +510,7 @@ struct types__PackedLayers {
 	diffuse_transmission_color: vec3f,
 	ior: f32,
 	light: u32,
-	emitter_density: f32,
+	glow: f32,
 	slots: u32,
 	_pad: u32,
 	textures: vec4u,
@@ -583,9 +585,9 @@ struct types__PackedFrame {
 	first_triangle: u32,
 	shape_row: u32,
 	deformation_key_count: u32,
-	_pad0: u32,
-	_pad1: u32,
-	_pad2: u32
+	emitter_row: u32,
+	emitter_count: u32,
+	emitter_power: f32
 }
 
 struct types__PackedDispatch {

@@ -10,9 +10,9 @@ use super::{
 use crate::{
     layout::{
         ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, BACKGROUND_COLOR, BACKGROUND_GRADIENT,
-        BACKGROUND_PICTURE, INSTANCE_ROWS, KEY_ROWS, LIGHT_DIRECTIONAL, LIGHT_DISC, LIGHT_POINT,
-        LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, MOVING, NODE_ROWS, PackedCamera, PackedFrame,
-        PackedLight, PackedMaterial,
+        BACKGROUND_PICTURE, CAMERA_ROWS, INSTANCE_ROWS, KEY_ROWS, LIGHT_DIRECTIONAL, LIGHT_DISC,
+        LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_ROWS, LIGHT_SPHERE, LIGHT_SPOT, MOVING, NODE_ROWS,
+        PackedCamera, PackedEmitter, PackedFrame, PackedLight, PackedMaterial,
     },
     scene::{Attenuation, Background, Camera, Frame, Light, LightKind},
 };
@@ -39,6 +39,8 @@ pub struct PackedView {
     /// Replaces the materials of the scene if any changes over time; otherwise empty. The values are those when
     /// the shutter opens, except that visible lights show their mean emission over the shutter interval.
     pub materials: Arc<[PackedMaterial]>,
+    /// Emissive triangles.
+    pub emitters: Vec<PackedEmitter>,
     /// Whether the camera is orthographic.
     pub orthographic: bool,
     /// Whether there is a light that is not black.
@@ -84,8 +86,7 @@ impl PackedScene {
                 .lights
                 .iter()
                 .map(|light| packed_light(light, self.origin));
-            let mut key = packed.collect::<Result<Vec<_>, _>>()?;
-            light::set_chances(&mut key, &first.lights, self.radius);
+            let key = packed.collect::<Result<Vec<_>, _>>()?;
             lights.push(key);
         }
         if lights.iter().all(|key| *key == lights[0]) {
@@ -103,10 +104,24 @@ impl PackedScene {
             true => self.tlas(frames, &deformed, previous)?,
             false => Arc::new(Tlas::empty(self.first_view_node())),
         };
+        let materials = self.materials_of(frames);
+        let lit = match materials.is_empty() {
+            true => &self.materials,
+            false => &materials,
+        };
+        let powers = light::powers(&first.lights, self.radius);
+        let emitters = self.emitters(&tlas.instances, lit, powers.iter().sum());
+        light::set_chances(&mut lights, &powers, 1.0 - emitters.share);
         let moving = if tlas.moves { MOVING } else { 0 };
         let instance_row = NODE_ROWS * (tlas.first_node + tlas.nodes.len() as u32);
         let key_row = instance_row + INSTANCE_ROWS * tlas.instances.len() as u32;
         let light_row = key_row + KEY_ROWS * tlas.keys.len() as u32;
+        let camera_row = light_row + LIGHT_ROWS * lights.len() as u32;
+        let camera_key_rows = if cameras.len() > 1 {
+            cameras.len() as u32
+        } else {
+            0
+        };
         Ok(PackedView {
             frame: PackedFrame {
                 camera: cameras[0],
@@ -132,6 +147,9 @@ impl PackedScene {
                 camera_key_count: cameras.len() as u32,
                 light_key_count,
                 deformation_key_count: deformed.key_count,
+                emitter_row: camera_row + CAMERA_ROWS * camera_key_rows,
+                emitter_count: emitters.rows.len() as u32,
+                emitter_power: emitters.power as f32,
                 ..self.background(&first.background)
             },
             background: match first.background {
@@ -141,6 +159,7 @@ impl PackedScene {
             },
             orthographic: first.camera.orthographic_height.is_some(),
             has_lights: lights.iter().any(|light| light.color != [0.0; 3]),
+            emitters: emitters.rows,
             has_area_lights: lights.iter().any(|light| light.kind >= LIGHT_RECTANGLE),
             lights,
             cameras: match cameras.len() {
@@ -149,7 +168,7 @@ impl PackedScene {
             },
             tlas,
             deformed,
-            materials: self.materials_of(frames),
+            materials,
         })
     }
 
@@ -167,9 +186,12 @@ impl PackedScene {
             let mean = light::mean_material(frames, index);
             material::material(&mean, Some(index))
         });
-        (materials.iter().map(|one| material::material(one, None)))
-            .chain(lamps)
-            .collect()
+        let own = materials.iter().zip(&*self.materials).map(|(one, rest)| {
+            let mut packed = material::material(one, None);
+            packed.layers.glow = rest.layers.glow;
+            packed
+        });
+        own.chain(lamps).collect()
     }
 
     /// The background members of a frame.
@@ -215,13 +237,14 @@ impl PackedView {
     }
 
     /// The data after the scene's nodes on the GPU.
-    pub fn node_parts(&self) -> [&[u8]; 5] {
+    pub fn node_parts(&self) -> [&[u8]; 6] {
         [
             cast_slice(&self.tlas.nodes),
             cast_slice(&self.tlas.instances),
             cast_slice(&self.tlas.keys),
             cast_slice(&self.lights),
             cast_slice(&self.cameras),
+            cast_slice(&self.emitters),
         ]
     }
 

@@ -21,6 +21,7 @@ pub fn packed(material: &Material, light: Option<usize>) -> PackedLayers {
     let used = |mask, slot: usize| mask | u32::from(slots[slot].is_some()) << slot;
     PackedLayers {
         light: light.map_or(NONE, |index| index as u32),
+        glow: 1.0,
         slots: (0..slots.len()).fold(0, used),
         textures: [0, 1, 2, 3].map(pair),
         more_textures: [4, 5, 6, 7].map(pair),

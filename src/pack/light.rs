@@ -134,25 +134,30 @@ pub fn radius(scene: &Scene) -> f64 {
     bounds.map_or(1.0, |(min, max)| (max - min).length() / 2.0)
 }
 
-/// Sets the chances with which paths sample the packed `lights`, in proportion to their power in `source`. `radius` is
-/// that of the scene: lights that do not fade shine on a disc of this size.
-pub fn set_chances(lights: &mut [PackedLight], source: &[Light], radius: f64) {
-    let powers: Vec<f64> = source.iter().map(|light| power(light, radius)).collect();
+/// The power of each light, up to a factor that all have in common. `radius` is that of the scene: lights that do not
+/// fade shine on a disc of this size.
+pub fn powers(lights: &[Light], radius: f64) -> Vec<f64> {
+    lights.iter().map(|light| power(light, radius)).collect()
+}
+
+/// Sets the chances with which paths sample the lights of each key, in proportion to `powers`. They add up to `share`.
+pub fn set_chances(lights: &mut [PackedLight], powers: &[f64], share: f64) {
     let total: f64 = powers.iter().sum();
     let lit = powers.iter().filter(|power| **power > 0.0).count() as f64;
-    let mut sum = 0.0;
-    for (light, power) in lights.iter_mut().zip(&powers) {
-        let chance = match *power > 0.0 {
-            true => EVEN_PART / lit + (1.0 - EVEN_PART) * power / total,
-            false => 0.0,
-        };
-        light.chance = chance as f32;
-        light.cumulative = sum as f32;
-        sum += chance;
+    for key in lights.chunks_mut(powers.len().max(1)) {
+        let mut sum = 0.0;
+        for (light, power) in key.iter_mut().zip(powers) {
+            let chance = match *power > 0.0 {
+                true => share * (EVEN_PART / lit + (1.0 - EVEN_PART) * power / total),
+                false => 0.0,
+            };
+            light.chance = chance as f32;
+            light.cumulative = sum as f32;
+            sum += chance;
+        }
     }
 }
 
-/// The luminous power of a light, up to a factor that all have in common.
 fn power(light: &Light, radius: f64) -> f64 {
     use std::f64::consts::PI;
     let [r, g, b] = light.color.as_dvec3().to_array();

@@ -109,6 +109,11 @@ fn may_be_nonblack(
     nonblack
 }
 
+/// For each material, whether it emits light at some time.
+pub fn may_emit(scene: &Scene) -> Vec<bool> {
+    may_be_nonblack(scene, |m| m.emission, MaterialProperty::Emission)
+}
+
 /// For each material, whether it is transparent at some time.
 pub fn may_transmit(scene: &Scene) -> Vec<bool> {
     may_be_nonblack(scene, |m| m.transmit, MaterialProperty::Transmit)
@@ -147,8 +152,7 @@ fn has_thin_material(scene: &Scene) -> bool {
 pub fn features(scene: &Scene) -> Features {
     let mirrors = may_be_nonblack(scene, |m| m.reflect, MaterialProperty::Reflect).contains(&true);
     let refraction = may_transmit(scene).contains(&true);
-    let emission =
-        may_be_nonblack(scene, |m| m.emission, MaterialProperty::Emission).contains(&true);
+    let emission = may_emit(scene).contains(&true);
     let transparent = may_enclose(scene).into_iter().zip(&scene.materials);
     let mut priorities = transparent.filter_map(|(is, material)| is.then_some(material.priority));
     let first = priorities.next();

@@ -1,6 +1,6 @@
 //! Packs the materials of a scene and of its visible lights.
 
-use super::{light, material};
+use super::{emitters, light, material};
 use crate::layout::PackedMaterial;
 use crate::scene::{Frame, Material, Scene};
 use std::sync::Arc;
@@ -27,11 +27,13 @@ pub fn materials(
         [] => &scene.materials,
         changed => changed,
     };
-    let materials = (rest_materials
-        .iter()
-        .map(|one| material::material(one, None)))
-    .chain(lamp_materials)
-    .collect();
+    let glows = emitters::mean_glow(scene);
+    let own = rest_materials.iter().zip(glows).map(|(one, glow)| {
+        let mut packed = material::material(one, None);
+        packed.layers.glow = glow;
+        packed
+    });
+    let materials = own.chain(lamp_materials).collect();
     let is_changing = !rest.materials.is_empty() || (!lamps.is_empty() && !scene.tracks.is_empty());
     let animated_materials = is_changing.then(|| AnimatedMaterials {
         materials: scene.materials.clone(),

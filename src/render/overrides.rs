@@ -98,6 +98,7 @@ pub fn of(task: Task) -> Overrides {
         ("HAS_OPTICS_TEXTURES", flag(features.optics_textures)),
         ("HAS_EMISSION", flag(features.emission)),
         ("HAS_LAYERS", flag(is_path)),
+        ("HAS_EMITTERS", flag(is_path && !view.emitters.is_empty())),
         ("ADAPTIVE", flag(settings.is_adaptive())),
         ("CAMERA_MOTION", flag(!view.cameras.is_empty())),
         ("LIGHT_MOTION", flag(view.frame.light_key_count > 1)),

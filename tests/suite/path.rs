@@ -3,12 +3,14 @@
 use crate::reference::compare::{render, sized};
 use crate::reference::scenes::Build;
 use crate::support::verdict::Verdict;
-use glam::{DVec3, Vec3, dvec3};
+use glam::{DAffine3, DQuat, DVec3, Vec3, dvec3, vec3};
 use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{
-    Antialias, Attenuation, Background, Camera, Fresnel, Light, LightKind, Material, Scene,
+    Antialias, Attenuation, Background, Camera, Fresnel, Instance, Light, LightKind, Material,
+    Mesh, Scene,
 };
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 fn paths(samples: u32, size: (u32, u32), max_depth: u32) -> RenderSettings {
     RenderSettings {
@@ -318,4 +320,84 @@ fn a_picture_does_not_depend_on_how_it_is_cut_into_slices() {
         .map(|(x, y)| whole.pixels[y * 40 + x])
         .collect();
     assert_eq!(part.pixels, expected);
+}
+
+/// A glowing square of two triangles, as an emissive mesh.
+fn glowing_square(scene: &mut Scene, world_from_mesh: DAffine3, radiance: f32) {
+    let material = scene.add_material(Material {
+        emission: Vec3::splat(radiance),
+        two_sided: false,
+        ..matte(0.0)
+    });
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    scene.meshes.push(Arc::new(Mesh {
+        positions: corners.map(|(x, z)| vec3(x, 0.0, z)).to_vec(),
+        name: String::new(),
+        normals: vec![Vec3::NEG_Y; 4],
+        uvs: Vec::new(),
+        second_uvs: Vec::new(),
+        materials: vec![material as u32; 4],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+    }));
+    scene.instances.push(Instance {
+        mesh: scene.meshes.len() - 1,
+        placement: world_from_mesh,
+        node: None,
+    });
+}
+
+/// An emissive mesh and a lamp of the same shape and radiance light a floor alike, wherever the mesh is and however it
+/// is stretched; and paths that find the mesh without light samples agree.
+#[test]
+fn emissive_meshes_shine_like_lamps_of_the_same_radiance() {
+    let mut verdict = Verdict::on("floors under emissive squares");
+    let center = dvec3(0.4, 1.2, -0.5);
+    let (along, across) = (0.4, 0.3);
+    let kind = LightKind::Rectangle {
+        center,
+        edge_u: along * DVec3::X,
+        edge_v: across * DVec3::Z,
+    };
+    let radiance = 3.0;
+    let lamp = Light {
+        kind,
+        color: Vec3::splat((radiance / kind.radiance().expect("an area light")) as f32),
+        attenuation: Attenuation::InverseSquare,
+        samples: 1,
+        visible: true,
+        node: None,
+    };
+    let glossy = Material {
+        specular: Vec3::splat(2.0),
+        shininess: 20.0,
+        ..matte(0.5)
+    };
+    let expected = mean(
+        &lit_floor(glossy.clone(), lamp.clone()),
+        &paths(512, (24, 16), 0),
+    );
+    let placed = DAffine3::from_scale_rotation_translation(
+        dvec3(along, 1.0, across),
+        DQuat::IDENTITY,
+        center,
+    );
+    let mut scene = lit_floor(glossy.clone(), lamp.clone());
+    scene.lights.clear();
+    glowing_square(&mut scene, placed, radiance as f32);
+    let found = mean(&scene, &paths(512, (24, 16), 0));
+    near(&mut verdict, "mesh", found, expected, 0.004 * expected);
+    // Half of the radiance in the mesh, half in the lamp: both are in one table of chances.
+    let mut scene = lit_floor(glossy, lamp);
+    scene.lights[0].color *= 0.5;
+    scene.lights[0].visible = false;
+    glowing_square(&mut scene, placed, radiance as f32 / 2.0);
+    let found = mean(&scene, &paths(512, (24, 16), 0));
+    near(
+        &mut verdict,
+        "mesh and lamp",
+        found,
+        expected,
+        0.004 * expected,
+    );
+    verdict.close();
 }

@@ -46,8 +46,8 @@ fn bad_command_lines_exit_2_and_say_why() {
             "[possible values: vulkan, metal, dx12, gl]",
         ),
         (
-            "--integrator path",
-            "[possible values: whitted, normals, depth, ids, uv, heat, samples]",
+            "--integrator rays",
+            "[possible values: whitted, path, normals, depth, ids, uv, heat, samples]",
         ),
         (
             "--filter lanczos",

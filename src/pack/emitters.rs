@@ -1,0 +1,146 @@
+//! Emissive triangles, which paths sample as lights: each with a chance in proportion to its power.
+
+use super::PackedScene;
+use crate::layout::{NO_INSTANCE, PackedEmitter, PackedInstance, PackedMaterial, SHAPE};
+use crate::scene::{Pattern, Scene, Texture};
+use glam::{Mat3, Vec3};
+
+/// Rec. 709.
+const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
+
+/// A triangle whose material emits at some time.
+#[derive(Clone, Copy, Debug)]
+pub struct Emissive {
+    /// Its index in the triangles array.
+    triangle: u32,
+    material: u32,
+    /// Two of its edges, in render space or in the space of its BLAS.
+    edges: [Vec3; 2],
+}
+
+/// The emitters of a view, and their share of its light.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Emitters {
+    /// Their chances follow those of the lights and reach 1.
+    pub rows: Vec<PackedEmitter>,
+    /// The sum of radiance times area, in luminance, divided by the chance of all emitters together: radiance divided
+    /// by it is a chance per area. 0 if there are none.
+    pub power: f64,
+    /// The chance of all of them together.
+    pub share: f64,
+}
+
+/// The mean luminance of the texture of each material's emission; 1 without one.
+pub fn mean_glow(scene: &Scene) -> Vec<f32> {
+    let mut known = vec![None; scene.textures.len()];
+    let mut mean = |index: usize| {
+        *known[index].get_or_insert_with(|| mean_luminance(scene, &scene.textures[index]))
+    };
+    let materials = scene.materials.iter();
+    (materials.map(|material| material.textures.emission.map_or(1.0, &mut mean))).collect()
+}
+
+fn mean_luminance(scene: &Scene, texture: &Texture) -> f32 {
+    match texture.pattern {
+        Pattern::Checker { a, b }
+        | Pattern::Stripes { a, b }
+        | Pattern::Gradient { a, b }
+        | Pattern::Noise { a, b, .. } => LUMINANCE.dot(a + b) / 2.0,
+        Pattern::Picture { picture, .. } => {
+            let picture = &scene.pictures[picture];
+            let texels = picture
+                .linear()
+                .map(|texel| f64::from(LUMINANCE.dot(texel.truncate())));
+            (texels.sum::<f64>() / picture.texels.len().max(1) as f64) as f32
+        }
+    }
+}
+
+impl PackedScene {
+    /// The triangles whose material `emits`, by material index.
+    pub(super) fn emissive(&self, emits: &[bool]) -> Vec<Emissive> {
+        if !emits.contains(&true) {
+            return Vec::new();
+        }
+        let materials: Vec<u32> = (self.vertices.iter())
+            .map(|vertex| vertex.material)
+            .collect();
+        let mut found = Vec::new();
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            let material = materials[triangle.i0 as usize];
+            if emits.get(material as usize) == Some(&true) {
+                let [v0, v1, v2] = [triangle.v0, triangle.v1, triangle.v2].map(Vec3::from);
+                found.push(Emissive {
+                    triangle: index as u32,
+                    material,
+                    edges: [v1 - v0, v2 - v0],
+                });
+            }
+        }
+        found
+    }
+
+    /// The emitters of a view with these instances and materials, beside lights of the given power.
+    pub(super) fn emitters(
+        &self,
+        instances: &[PackedInstance],
+        materials: &[PackedMaterial],
+        lights: f64,
+    ) -> Emitters {
+        let within = |from: u32, to: u32| {
+            let start = self.emissive.partition_point(|one| one.triangle < from);
+            let end = self.emissive.partition_point(|one| one.triangle < to);
+            &self.emissive[start..end]
+        };
+        let strength = |one: &Emissive| {
+            let material = &materials[one.material as usize];
+            f64::from(LUMINANCE.dot(material.emission.into()) * material.layers.glow)
+        };
+        let mut weighted = Vec::new();
+        let mut add = |instance: u32, linear: Mat3, list: &[Emissive]| {
+            for one in list {
+                let [a, b] = one.edges.map(|edge| linear * edge);
+                let weight = strength(one) * f64::from(a.cross(b).length()) / 2.0;
+                if weight > 0.0 {
+                    weighted.push((one.triangle, instance, weight));
+                }
+            }
+        };
+        add(
+            NO_INSTANCE,
+            Mat3::IDENTITY,
+            within(self.first_baked_triangle, u32::MAX),
+        );
+        for (index, instance) in instances.iter().enumerate() {
+            if instance.first & SHAPE == 0 {
+                let rows = [instance.linear_x, instance.linear_y, instance.linear_z];
+                let linear = Mat3::from_cols_array_2d(&rows).transpose();
+                let list = within(instance.first, instance.first + instance.count);
+                add(index as u32, linear, list);
+            }
+        }
+        let total: f64 = weighted.iter().map(|(.., weight)| weight).sum();
+        if total <= 0.0 {
+            return Emitters::default();
+        }
+        // A surface of radiance 1 and area 1 sends as much as a light of strength 1/π per steradian.
+        let own = total / std::f64::consts::PI;
+        let share = own / (own + lights);
+        let power = total / share;
+        let mut end = 1.0 - share;
+        let rows = weighted.into_iter().map(|(triangle, instance, weight)| {
+            end += weight / power;
+            PackedEmitter {
+                triangle,
+                instance,
+                chance: (weight / power) as f32,
+                end: end as f32,
+            }
+        });
+        Emitters {
+            rows: rows.collect(),
+            power,
+            share,
+        }
+    }
+}
