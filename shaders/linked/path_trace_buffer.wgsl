@@ -3888,6 +3888,7 @@ fn bsdf__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers_
 		bsdf.encloses = met.encloses;
 		bsdf.bends = met.is_boundary && met.encloses;
 		bsdf.eta = met.ior / select(layers.ior, met.ior_behind, met.encloses);
+		bsdf.boundary_alpha *= select(1.0, 0.0, bsdf.bends && abs(bsdf.eta - 1.0) < 0.0001);
 		seen = bsdf__split_at(bsdf, bsdf.wo.z);
 	}
 	bsdf.f0 = inside * layers.f0;
@@ -3930,7 +3931,18 @@ fn bsdf__bsdf_eval(bsdf: bsdf__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 			pdf += bsdf.chances.z * bsdf__reflection_chance(split) * boundary.y;
 		}
 	}
-	return bsdf__BsdfValue(select(vec3f(0.0), value, dot(direction, bsdf.ng) > 0.0), pdf);
+	else if (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) {
+		var boundary = bsdf_ggx__ggx_eval(bsdf.wo, vec3f(wi.xy, -wi.z), bsdf.boundary_alpha, false);
+		var h = normalize(bsdf.wo + vec3f(wi.xy, -wi.z));
+		if (bsdf.bends) {
+			boundary = bsdf_ggx_transmission__ggx_transmission(bsdf.wo, wi, bsdf.boundary_alpha, bsdf.eta);
+			h = bsdf_ggx_transmission__transmission_half(bsdf.wo, wi, bsdf.eta);
+		}
+		let split = bsdf__split_at(bsdf, dot(bsdf.wo, h));
+		value = boundary.x * split.transmit;
+		pdf = bsdf.chances.z * (1.0 - bsdf__reflection_chance(split)) * boundary.y;
+	}
+	return bsdf__BsdfValue(select(vec3f(0.0), value, (dot(direction, bsdf.ng) > 0.0) == (wi.z > 0.0)), pdf);
 }
 
 fn bsdf__bsdf_sample(bsdf: bsdf__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
@@ -3954,7 +3966,7 @@ fn bsdf__boundary_sample(bsdf: bsdf__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfS
 	let reflects = choice < chance;
 	var wi = bsdf__reflected_at(bsdf.wo, h);
 	if (!reflects) {
-		wi = -bsdf.wo;
+		wi = vec3f(wi.xy, -wi.z);
 		if (bsdf.bends) {
 			wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
 		}
@@ -4101,12 +4113,30 @@ fn bsdf_ggx__ggx_normal(wo: vec3f, alpha: vec2f, u: vec2f) -> vec3f {
 }
 
 fn bsdf_ggx__ggx_eval(wo: vec3f, wi: vec3f, alpha: vec2f, separable: bool) -> vec2f {
-	let h = normalize(wo + wi);
+	let h = normalize(vec3f(wo.xy + wi.xy, max(wo.z, 0.0) + max(wi.z, 1e-6)));
 	let seen = 1.0 + bsdf_ggx__ggx_lambda(wo, alpha);
 	let lit = 1.0 + bsdf_ggx__ggx_lambda(wi, alpha);
 	let facets = bsdf_ggx__ggx_distribution(h, alpha) / (4.0 * max(wo.z, 1e-6));
 	let shadowed = select(seen + lit - 1.0, seen * lit, separable);
 	return select(vec2f(0.0), vec2f(facets / shadowed, facets / seen), wo.z > 0.0 && wi.z > 0.0);
+}
+
+fn bsdf_ggx_transmission__transmission_half(wo: vec3f, wi: vec3f, eta: f32) -> vec3f {
+	let sum = eta * wo + wi;
+	let squared = dot(sum, sum);
+	let h = sum * select(1.0, -1.0, sum.z < 0.0) / sqrt(max(squared, 1e-20));
+	let refracts = squared > 1e-12 && dot(wo, h) > 0.0 && dot(wi, h) < 0.0;
+	return select(vec3f(0.0), h, refracts);
+}
+
+fn bsdf_ggx_transmission__ggx_transmission(wo: vec3f, wi: vec3f, alpha: vec2f, eta: f32) -> vec2f {
+	let h = bsdf_ggx_transmission__transmission_half(wo, wi, eta);
+	let sum = eta * wo + wi;
+	let seen = 1.0 + bsdf_ggx__ggx_lambda(wo, alpha);
+	let lit = 1.0 + bsdf_ggx__ggx_lambda(wi, alpha);
+	let refracted_density = abs(dot(wo, h) * dot(wi, h)) / (max(wo.z, 1e-6) * max(dot(sum, sum), 1e-12));
+	let pdf = bsdf_ggx__ggx_distribution(h, alpha) * refracted_density / seen;
+	return select(vec2f(0.0), vec2f(pdf / lit, pdf), wo.z > 0.0 && wi.z < 0.0);
 }
 
 fn direct__shadow_ray(surface: types__Surface, arriving: types__Incident) -> types__Ray {
