@@ -449,6 +449,8 @@ packed! {
         /// Samples whose ray tree overflowed its stack, had too many rays, or a ray inside too many
         /// dielectric volumes.
         cut_off_trees: u32,
+        /// 256 times the sum of the throughputs of paths that the limit of bounces cut off.
+        cut_throughput: u32,
         /// Camera rays. This and the following are kept where override `COUNT_RAYS` is on.
         primary: u32,
         /// Camera rays that hit something.

@@ -128,6 +128,7 @@ struct types__PackedCounters {
 	nonfinite_samples: atomic<u32>,
 	cut_off_paths: atomic<u32>,
 	cut_off_trees: atomic<u32>,
+	cut_throughput: atomic<u32>,
 	primary: atomic<u32>,
 	primary_hits: atomic<u32>,
 	shadow: atomic<u32>,

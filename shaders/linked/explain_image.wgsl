@@ -591,6 +591,7 @@ struct types__PackedCounters {
 	nonfinite_samples: atomic<u32>,
 	cut_off_paths: atomic<u32>,
 	cut_off_trees: atomic<u32>,
+	cut_throughput: atomic<u32>,
 	primary: atomic<u32>,
 	primary_hits: atomic<u32>,
 	shadow: atomic<u32>,
@@ -935,6 +936,8 @@ struct dispatch__RayCounts {
 
 var<private> dispatch__counts: dispatch__RayCounts;
 
+var<private> dispatch__cut_throughput: f32 = 0.0;
+
 struct dispatch__Batch {
 	camera: types__PackedCamera,
 	background: vec3f,
@@ -1032,6 +1035,10 @@ fn dispatch__add_counts(lane: u32) {
 	}
 	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) && ray_stack__cut_off_trees > 0u) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
+	}
+	if (bindings__HAS_LAYERS && dispatch__cut_throughput > 0.0) {
+		let chance = rng__unit_float(rng__hash(bitcast<u32>(dispatch__cut_throughput)));
+		atomicAdd(&bindings__dispatch.counters.cut_throughput, u32(256.0 * dispatch__cut_throughput + chance));
 	}
 	if (loops__cut_off) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);

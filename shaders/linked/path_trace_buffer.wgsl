@@ -49,14 +49,11 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	let layers = layers__layers_at(surface, optics);
 	let weight = emitters__emission_weight(batch, surface, path.origin, ray.direction, distance(path.origin, surface.p), path.pdf);
 	path.radiance += path.throughput * weight * emitters__emitted(surface, optics, layers.glow);
-	if (path.bounces > batch.max_depth || path.passes > path__MAX_PASSES) {
-		return path__ended(path);
-	}
 	let bsdf = bsdf__bsdf_at(surface, optics, layers, met, ray.direction);
-	if (bindings__HAS_LIGHTS || bindings__HAS_EMITTERS) {
+	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS) && path.bounces <= batch.max_depth) {
 		path.radiance += path.throughput * lamp_light(batch, path, surface, bsdf, met);
 	}
-	return scattered(path, surface, bsdf, met);
+	return scattered(batch, path, surface, bsdf, met);
 }
 
 fn lamp_light(batch: dispatch__Batch, path: path__Path, surface: types__Surface, bsdf: bsdf__Bsdf, met: interface__Interface) -> vec3f {
@@ -72,10 +69,14 @@ fn lamp_light(batch: dispatch__Batch, path: path__Path, surface: types__Surface,
 	return unshadowed * wide__vector_at(shadow__light_through(rays, ray_states__Media(media.x, media.y, media.z, media.w)), 0u);
 }
 
-fn scattered(before: path__Path, surface: types__Surface, bsdf: bsdf__Bsdf, met: interface__Interface) -> path__Path {
+fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: bsdf__Bsdf, met: interface__Interface) -> path__Path {
 	var path = before;
 	let next = bsdf__bsdf_sample(bsdf, path__random_1d(path, dimensions__SCATTER_CHOICE), path__random_2d(path, dimensions__SCATTER_DIRECTION));
 	path.throughput *= next.weight;
+	if (path.bounces > batch.max_depth || path.passes > path__MAX_PASSES) {
+		dispatch__cut_throughput += dot(path.throughput, tone__LUMINANCE_REC709);
+		return path__ended(path);
+	}
 	let chance = select(1.0, mis__survival_chance(path.throughput), path.bounces >= ROULETTE_START);
 	if (path__random_1d(path, dimensions__ROULETTE) >= chance || all(path.throughput <= vec3f(0.0))) {
 		return path__ended(path);
@@ -115,6 +116,8 @@ struct dispatch__RayCounts {
 }
 
 var<private> dispatch__counts: dispatch__RayCounts;
+
+var<private> dispatch__cut_throughput: f32 = 0.0;
 
 fn dispatch__place_of(lane: u32, k: u32) -> u32 {
 	{
@@ -243,6 +246,10 @@ fn dispatch__add_counts(lane: u32) {
 	}
 	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) && ray_stack__cut_off_trees > 0u) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
+	}
+	if (bindings__HAS_LAYERS && dispatch__cut_throughput > 0.0) {
+		let chance = rng__unit_float(rng__hash(bitcast<u32>(dispatch__cut_throughput)));
+		atomicAdd(&bindings__dispatch.counters.cut_throughput, u32(256.0 * dispatch__cut_throughput + chance));
 	}
 	if (loops__cut_off) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
@@ -610,6 +617,7 @@ struct types__PackedCounters {
 	nonfinite_samples: atomic<u32>,
 	cut_off_paths: atomic<u32>,
 	cut_off_trees: atomic<u32>,
+	cut_throughput: atomic<u32>,
 	primary: atomic<u32>,
 	primary_hits: atomic<u32>,
 	shadow: atomic<u32>,

@@ -16,7 +16,7 @@ use crate::cli::report::{
 };
 use crate::gpu::{AdapterReport, Gpu};
 use crate::output;
-use crate::render::{ExecutionPolicy, RenderSettings, Stats, Tone};
+use crate::render::{ExecutionPolicy, Integrator, RenderSettings, Stats, Tone};
 use crate::scene::Scene;
 use std::path::Path;
 use std::time::Instant;
@@ -160,6 +160,7 @@ impl Job<'_> {
         let stats = outcome.stats;
         let (width, height) = outcome.size;
         let samples = outcome.pictures as f64 * f64::from(width) * f64::from(height);
+        let of_paths = settings.integrator == Integrator::Path;
         let report = Report {
             glimray: Report::VERSION,
             command: draft.command,
@@ -175,6 +176,8 @@ impl Job<'_> {
             submissions: stats.into(),
             nonfinite_samples: stats.nonfinite_samples,
             cut_off_trees: stats.cut_off_trees,
+            paths: of_paths.then_some(stats.samples),
+            energy_cut: of_paths.then(|| stats.energy_cut()),
             memory: Memory {
                 gpu_bytes: stats.gpu_bytes,
                 host_peak_bytes: report::host_peak_bytes(),

@@ -33,6 +33,12 @@ pub struct Report {
     /// Samples whose ray tree was truncated: it overflowed its stack, had too many rays, or had a ray inside
     /// too many transparent objects at once.
     pub cut_off_trees: u64,
+    /// Number of paths; present for path-traced pictures, as the next.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub paths: Option<u64>,
+    /// The estimated share of the light that the limit of bounces removed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_cut: Option<f64>,
     pub memory: Memory,
     /// Present for `animate` and `turntable`.
     #[serde(skip_serializing_if = "Option::is_none")]

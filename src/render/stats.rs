@@ -30,6 +30,8 @@ pub struct Stats {
     /// nested volumes than its list of media holds. Cut-off rays are missing in the picture, and the media
     /// behind omitted volumes are wrong.
     pub cut_off_trees: u64,
+    /// The sum of the throughputs, in luminance, of paths that the limit of bounces cut off.
+    pub cut_throughput: f64,
     /// Planned memory in bytes, of the largest frame; see [`super::ExecutionPolicy::memory_limit_bytes`].
     pub gpu_bytes: u64,
     /// Number of device losses.
@@ -86,6 +88,7 @@ impl Stats {
     pub(super) fn add(&mut self, counters: &PackedCounters) {
         self.nonfinite_samples += u64::from(counters.nonfinite_samples);
         self.cut_off_trees += u64::from(counters.cut_off_trees);
+        self.cut_throughput += f64::from(counters.cut_throughput) / 256.0;
         if let Some(rays) = &mut self.rays {
             rays.primary += u64::from(counters.primary);
             rays.primary_hits += u64::from(counters.primary_hits);
@@ -96,6 +99,12 @@ impl Stats {
             rays.refraction += u64::from(counters.refraction);
             rays.refraction_hits += u64::from(counters.refraction_hits);
         }
+    }
+
+    /// The share of the light that the limit of bounces removed from path-traced pictures: an estimate, which takes
+    /// what the cut-off paths would have found to be as bright as the picture. 0 without samples.
+    pub fn energy_cut(&self) -> f64 {
+        self.cut_throughput / (self.samples as f64).max(1.0)
     }
 
     /// Counts a device failure; fails if there are too many in one picture. `earlier` failures belong to

@@ -117,6 +117,11 @@ fn a_closed_room_of_even_light_sums_all_bounces() {
                 expected,
                 0.004 * expected,
             );
+            // What is left of the series is the reported share.
+            let (_, stats) = render(&scene, &paths(256, (16, 16), bounces as u32));
+            let cut = f64::from(albedo).powi(bounces + 2);
+            let what = format!("albedo {albedo}, share cut after {bounces} bounces");
+            near(&mut verdict, what, stats.energy_cut(), cut, 0.01 * cut + 1e-5);
         }
     }
     verdict.close();
