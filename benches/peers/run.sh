@@ -60,3 +60,4 @@ for pass in 1 2; do
 	done
 done
 "$python" $peers/report.py "${results[@]}" | tee "$out/report.md"
+"$python" $peers/path_tracing.py --glimray "$glimray" --rounds $((4 * rounds)) | tee -a "$out/report.md"

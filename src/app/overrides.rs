@@ -2,7 +2,8 @@
 
 use super::error::AppError;
 use crate::render::{
-    Antialias, Integrator, Levels, Quantity, RayOffset, RenderSettings, Shows, Tone, TriangleTest,
+    Antialias, Integrator, Levels, PATH_DEPTH, PATH_SAMPLES, Quantity, RayOffset, RenderSettings,
+    Shows, Tone, TriangleTest,
 };
 use crate::scene::{
     Background, Camera, CameraProperty, Filter, OutputDefaults, Scene, Shutter, Target, ToneCurve,
@@ -109,10 +110,6 @@ pub struct TimingOverrides {
     /// When the shutter is open, in frames.
     pub shutter: Option<Shutter>,
 }
-
-/// Samples and bounces of path-traced pictures, unless told otherwise.
-const PATH_SAMPLES: u32 = 64;
-const PATH_DEPTH: u32 = 16;
 
 impl PictureOverrides {
     /// The settings of a picture: the overrides, else the values of `scene`.

@@ -7,6 +7,12 @@ use std::{fmt, ops::Range, str::FromStr};
 /// The default minimum throughput of rays: half of the smallest 8-bit step.
 pub const MIN_THROUGHPUT: f32 = 1.0 / 512.0;
 
+/// Default samples per pixel of path-traced pictures, where a scene has fewer.
+pub const PATH_SAMPLES: u32 = 64;
+
+/// Default bounces after the first hit of path-traced pictures.
+pub const PATH_DEPTH: u32 = 16;
+
 /// Settings of one picture. Together with scene and frame they determine every pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderSettings {

@@ -1,5 +1,7 @@
 //! The path tracer against closed forms and against the classical integrator.
 
+mod references;
+
 use crate::reference::compare::{render, sized};
 use crate::reference::scenes::Build;
 use crate::support::verdict::Verdict;
@@ -121,7 +123,13 @@ fn a_closed_room_of_even_light_sums_all_bounces() {
             let (_, stats) = render(&scene, &paths(256, (16, 16), bounces as u32));
             let cut = f64::from(albedo).powi(bounces + 2);
             let what = format!("albedo {albedo}, share cut after {bounces} bounces");
-            near(&mut verdict, what, stats.energy_cut(), cut, 0.01 * cut + 1e-5);
+            near(
+                &mut verdict,
+                what,
+                stats.energy_cut(),
+                cut,
+                0.01 * cut + 1e-5,
+            );
         }
     }
     verdict.close();

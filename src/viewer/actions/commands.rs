@@ -100,6 +100,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::CopyCamera => files::cameras::copy(session, ctx),
         Action::PasteCamera => files::paste_camera(session, ctx),
         Action::IntegratorWhitted
+        | Action::IntegratorPath
         | Action::IntegratorNormals
         | Action::IntegratorDepth
         | Action::IntegratorIds

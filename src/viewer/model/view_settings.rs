@@ -1,6 +1,8 @@
 //! Render and view settings that do not change the scene.
 
-use crate::render::{Antialias, Integrator, Levels, RenderSettings, Shows, Tone};
+use crate::render::{
+    Antialias, Integrator, Levels, PATH_DEPTH, PATH_SAMPLES, RenderSettings, Shows, Tone,
+};
 use crate::scene::{Background, OutputDefaults, ToneCurve};
 use crate::viewer::model::gallery::StillId;
 use crate::viewer::model::playback::Playback;
@@ -249,10 +251,27 @@ impl ViewSettings {
             Some(region) => Some(pixels(region, size)),
             None => (self.settings.crop).filter(|_| !self.fits && size == self.settings.size),
         };
+        let (own, usual) = (&self.settings, &self.scene_settings);
+        let is_path = integrator == Integrator::Path;
+        // Paths need more samples and bounces than trees of rays, unless others were chosen.
+        let (mut samples, mut antialias, mut max_depth) =
+            (own.samples, own.antialias, own.max_depth);
+        if is_path && samples == usual.samples && antialias == usual.antialias {
+            samples = samples.max(PATH_SAMPLES);
+            if antialias == Antialias::None {
+                antialias = Antialias::Stratified;
+            }
+        }
+        if is_path && max_depth == usual.max_depth {
+            max_depth = PATH_DEPTH;
+        }
         RenderSettings {
             size,
             crop,
             integrator,
+            samples,
+            antialias,
+            max_depth,
             ..self.settings.clone()
         }
     }

@@ -149,6 +149,7 @@ actions! {
     }
     ViewSettings {
         IntegratorWhitted "integrator-whitted" Press "Show the full render",
+        IntegratorPath "integrator-path" Press "Show the path-traced picture",
         IntegratorNormals "integrator-normals" Press "Show shading normals",
         IntegratorDepth "integrator-depth" Press "Show depth",
         IntegratorIds "integrator-ids" Press "Show primitive IDs",

@@ -107,6 +107,7 @@ pub(super) const GLIMRAY: &str = "
     integrator-uv: Shift+5
     integrator-heat: Shift+6
     integrator-samples: Shift+7
+    integrator-path: Shift+8
     split-wipe: X
     side-by-side: Shift+X
     show-difference: Y
@@ -198,6 +199,7 @@ pub(super) const BLENDER: &str = "
     integrator-uv: Alt+5
     integrator-heat: Alt+6
     integrator-samples: Alt+7
+    integrator-path: Alt+8
     split-wipe: W
     side-by-side: Shift+W
     swap-sides: Alt+W

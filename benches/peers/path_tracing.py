@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+"""Path-traces the same boxes with Mitsuba (variant scalar_rgb) and glimray.
+
+Prints samples per second of both, measured in turn, and how well the pictures agree: the ratio of their means, and the
+share of pixels whose difference is within the noise. With --references it writes pictures of Mitsuba's mean and of the
+variance of that mean, and the scenes, for the tests (tests/golden/paths).
+"""
+
+import argparse
+import json
+import subprocess
+import tempfile
+import time
+from math import pi, sqrt
+from pathlib import Path
+from statistics import NormalDist, median
+
+import mitsuba as mi
+import numpy as np
+
+import tables
+
+mi.set_variant("scalar_rgb")
+
+LAMP = {"edge_u": 0.4, "edge_v": 0.35, "strength": [2.6, 2.08, 1.56]}
+CAMERA = {"look_from": [0, 1, 4.9], "look_at": [0, 1, 0], "fov_y_deg": 28.6}
+MATTE = {"white": [0.73, 0.72, 0.69], "red": [0.62, 0.06, 0.05], "green": [0.13, 0.45, 0.09]}
+WALLS = [
+    ([0, 0, 0], [0, 1, 0], "white"),
+    ([0, 2, 0], [0, -1, 0], "white"),
+    ([0, 1, -1], [0, 0, 1], "white"),
+    ([-1, 1, 0], [1, 0, 0], "red"),
+    ([1, 1, 0], [-1, 0, 0], "green"),
+]
+# For each scene its spheres, and the bounces after the first hit; None is without a limit.
+SCENES = {
+    "matte": ([([0.42, 0.36, 0.3], 0.36, "white"), ([-0.42, 0.5, -0.3], 0.5, "white")], 4),
+    "glass": ([([0.42, 0.36, 0.3], 0.36, "glass"), ([-0.42, 0.5, -0.3], 0.5, "mirror")], None),
+}
+
+
+def native(name):
+    """The scene in glimray's format."""
+    spheres, _ = SCENES[name]
+    lines = ["# Written by benches/peers/path_tracing.py.", "[camera]"]
+    lines += [f"{key} = {value}" for key, value in CAMERA.items()]
+    lines += [
+        "[[lights]]",
+        f"rectangle = {{ center = [0, 1.98, 0], edge_u = [{LAMP['edge_u']}, 0, 0], edge_v = [0, 0, {LAMP['edge_v']}], "
+        f"color = {LAMP['strength']} }}",
+        "[materials]",
+    ]
+    lines += [f"{key} = {{ phong = {{ diffuse = {value} }} }}" for key, value in MATTE.items()]
+    lines += [
+        'glass = { refract = { ior = 1.5 } }',
+        'mirror = { phong = { diffuse = [0, 0, 0] }, reflect = { color = [0.9, 0.9, 0.9] } }',
+    ]
+    for center, normal, material in WALLS:
+        lines += [
+            "[[objects]]",
+            f"rectangle = {{ center = {center}, normal = {normal}, size = [2, 2] }}",
+            f'material = "{material}"',
+        ]
+    for center, radius, material in spheres:
+        lines += [
+            "[[objects]]",
+            f"sphere = {{ center = {center}, radius = {radius} }}",
+            f'material = "{material}"',
+        ]
+    return "\n".join(lines) + "\n"
+
+
+def rgb(values):
+    return {"type": "rgb", "value": values}
+
+
+def bsdf(material):
+    if material == "glass":
+        return {"type": "dielectric", "int_ior": 1.5, "ext_ior": 1.0}
+    if material == "mirror":
+        return {"type": "conductor", "material": "none", "specular_reflectance": rgb([0.9, 0.9, 0.9])}
+    return {"type": "diffuse", "reflectance": rgb(MATTE[material])}
+
+
+def rectangle(center, normal, half, material, **more):
+    up = [0, 0, 1] if abs(normal[1]) > 0.5 else [0, 1, 0]
+    origin = mi.ScalarPoint3f(*center)
+    place = mi.ScalarTransform4f().look_at(origin=origin, target=origin + mi.ScalarVector3f(*normal), up=up)
+    return {"type": "rectangle", "to_world": place @ mi.ScalarTransform4f().scale([*half, 1]), "bsdf": material, **more}
+
+
+def peer(name, side):
+    """The scene for Mitsuba."""
+    spheres, bounces = SCENES[name]
+    # Mitsuba counts the segments of a path: the camera's, and that to the light.
+    depth = -1 if bounces is None else bounces + 2
+    area = 4 * LAMP["edge_u"] * LAMP["edge_v"]
+    radiance = [strength * pi / area for strength in LAMP["strength"]]
+    camera = mi.ScalarTransform4f().look_at(origin=CAMERA["look_from"], target=CAMERA["look_at"], up=[0, 1, 0])
+    film = {"type": "hdrfilm", "width": side, "height": side, "rfilter": {"type": "box"}, "pixel_format": "rgb",
+            "component_format": "float32"}
+    scene = {
+        "type": "scene",
+        "integrator": {"type": "path", "max_depth": depth},
+        "sensor": {"type": "perspective", "fov": CAMERA["fov_y_deg"], "fov_axis": "y", "to_world": camera, "film": film,
+                   "sampler": {"type": "independent"}},
+        "lamp": rectangle([0, 1.98, 0], [0, -1, 0], [LAMP["edge_u"], LAMP["edge_v"]], bsdf("white"),
+                          emitter={"type": "area", "radiance": rgb(radiance)}),
+    }
+    # A visible lamp of glimray reflects nothing.
+    scene["lamp"]["bsdf"] = {"type": "diffuse", "reflectance": rgb([0, 0, 0])}
+    for i, (center, normal, material) in enumerate(WALLS):
+        scene[f"wall{i}"] = rectangle(center, normal, [1, 1], bsdf(material))
+    for i, (center, radius, material) in enumerate(spheres):
+        scene[f"sphere{i}"] = {"type": "sphere", "center": center, "radius": radius, "bsdf": bsdf(material)}
+    return mi.load_dict(scene)
+
+
+def rendered(program, file, name, side, samples, seed):
+    """Picture and seconds of tracing of glimray."""
+    _, bounces = SCENES[name]
+    with tempfile.TemporaryDirectory() as folder:
+        picture, report = Path(folder, "a.exr"), Path(folder, "a.json")
+        subprocess.run(
+            [program, "render", file, "--integrator", "path", "--size", f"{side}x{side}", "--samples", str(samples),
+             "--max-depth", str(1000 if bounces is None else bounces), "--seed", str(seed), "--quiet", "--report", report,
+             "-o", picture],
+            check=True,
+        )
+        bitmap = mi.Bitmap(str(picture)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
+        return np.array(bitmap, dtype=np.float64), json.loads(report.read_text())["seconds"]["trace"]
+
+
+def moments(pictures):
+    """Mean of independent pictures, and the variance of that mean."""
+    pictures = np.array(pictures)
+    return pictures.mean(axis=0), pictures.var(axis=0, ddof=1) / len(pictures)
+
+
+def compare(program, side, samples, rounds):
+    rows = []
+    for name in SCENES:
+        scene = peer(name, side)
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, f"{name}.toml")
+            file.write_text(native(name))
+            rendered(program, file, name, side, 1, 0)
+            theirs, ours, seconds, own_seconds = [], [], [], []
+            for seed in range(1, rounds + 1):
+                start = time.perf_counter()
+                theirs.append(np.array(mi.render(scene, spp=samples, seed=seed), dtype=np.float64))
+                seconds.append(time.perf_counter() - start)
+                picture, took = rendered(program, file, name, side, samples, seed)
+                ours.append(picture)
+                own_seconds.append(took)
+        (a, a_variance), (b, b_variance) = moments(ours), moments(theirs)
+        z = (a - b) / np.sqrt(a_variance + b_variance + 1e-20)
+        # So that all pixels of equal pictures pass with a chance of 99 %.
+        limit = NormalDist().inv_cdf(1 - (1 - 0.99 ** (1 / z.size)) / 2) * sqrt(rounds / max(rounds - 3, 1))
+        rate = [side * side * samples / 1e6 / median(times) for times in (own_seconds, seconds)]
+        ratios = [b / a for a, b in zip(own_seconds, seconds)]
+        rows.append([name, f"{rate[0]:.2f}", f"{rate[1]:.2f}", tables.spread(ratios), f"{a.mean() / b.mean():.4f}",
+                     f"{100 * (abs(z) < limit).mean():.2f} %"])
+    print(tables.table(["scene", "glimray, Msamples/s", "Mitsuba", "ratio", "ratio of means", "pixels within noise"], rows))
+
+
+def write_references(folder, side, samples, rounds):
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in SCENES:
+        scene = peer(name, side)
+        pictures = [np.array(mi.render(scene, spp=samples, seed=seed)) for seed in range(1, rounds + 1)]
+        mean, variance = moments(pictures)
+        for kind, picture in (("mean", mean), ("variance", variance)):
+            mi.Bitmap(picture.astype(np.float32)).write(str(folder / f"{name}-{kind}.exr"))
+        (folder / f"{name}.toml").write_text(native(name))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--glimray", default="target/release/glimray")
+    parser.add_argument("--side", type=int, default=128, help="width and height in pixels")
+    parser.add_argument("--samples", type=int, default=64)
+    parser.add_argument("--rounds", type=int, default=8)
+    parser.add_argument("--references", type=Path, help="write them here instead")
+    parsed = parser.parse_args()
+    if parsed.references:
+        write_references(parsed.references, parsed.side, parsed.samples, parsed.rounds)
+    else:
+        compare(parsed.glimray, parsed.side, parsed.samples, parsed.rounds)
+
+
+if __name__ == "__main__":
+    main()

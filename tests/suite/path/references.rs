@@ -1,0 +1,71 @@
+//! Path-traced boxes against Mitsuba's pictures of them, which `benches/peers/path_tracing.py --references` wrote with
+//! Mitsuba 3.9.1: for each pixel the mean and the variance of that mean.
+
+use super::paths;
+use crate::reference::compare::render;
+use crate::support::verdict::Verdict;
+use glimray::import;
+use glimray::render::RenderSettings;
+use std::path::Path;
+
+const SIDE: u32 = 32;
+const ROUNDS: usize = 16;
+
+/// The channels of an OpenEXR file.
+fn channels(name: &str) -> Vec<f64> {
+    let path = Path::new("tests/golden/paths").join(name);
+    let picture = image::open(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let picture = picture.into_rgb32f();
+    assert_eq!(picture.dimensions(), (SIDE, SIDE), "{name}");
+    picture.into_raw().into_iter().map(f64::from).collect()
+}
+
+#[test]
+fn boxes_are_those_of_mitsuba_within_the_noise() {
+    let mut verdict = Verdict::on("path-traced boxes");
+    for (name, bounces) in [("matte", 4), ("glass", 1000)] {
+        let path = format!("tests/golden/paths/{name}.toml");
+        let scene = import::load(Path::new(&path)).unwrap_or_else(|error| panic!("{error}"));
+        let count = (3 * SIDE * SIDE) as usize;
+        let (mut sum, mut squares) = (vec![0.0; count], vec![0.0; count]);
+        for seed in 0..ROUNDS {
+            let settings = RenderSettings {
+                seed: seed as u32,
+                ..paths(128, (SIDE, SIDE), bounces)
+            };
+            let (image, _) = render(&scene, &settings);
+            let values = image.pixels.iter().flat_map(|pixel| pixel[..3].to_vec());
+            for (i, value) in values.map(f64::from).enumerate() {
+                sum[i] += value;
+                squares[i] += value * value;
+            }
+        }
+        let rounds = ROUNDS as f64;
+        let (means, variances) = (
+            channels(&format!("{name}-mean.exr")),
+            channels(&format!("{name}-variance.exr")),
+        );
+        // With few rounds the variance is uncertain: Student's t of 15 degrees of freedom, for a chance of
+        // 1 - 0.99^(1/3072) per channel.
+        let limit = 6.1;
+        let mut far = 0;
+        for i in 0..count {
+            let mean = sum[i] / rounds;
+            let variance = (squares[i] / rounds - mean * mean).max(0.0) / (rounds - 1.0);
+            let z = (mean - means[i]) / (variance + variances[i]).sqrt().max(1e-9);
+            far += usize::from(z.abs() > limit);
+        }
+        let share = far as f64 / count as f64;
+        verdict.that(
+            format!("{name}: pixels within the noise"),
+            share <= 0.0025,
+            || format!("{far} of {count} are not"),
+        );
+        let (found, expected): (f64, f64) = (sum.iter().sum::<f64>() / rounds, means.iter().sum());
+        let ratio = found / expected;
+        verdict.that(format!("{name}: mean"), (ratio - 1.0).abs() < 0.003, || {
+            format!("{ratio} times Mitsuba's")
+        });
+    }
+    verdict.close();
+}
