@@ -61,6 +61,7 @@ mod scene;
 mod scene_animation;
 mod scene_motion;
 mod scene_turntable;
+mod shader_albedo;
 mod shader_area_light;
 mod shader_camera;
 mod shader_canonical;
