@@ -1,10 +1,13 @@
 //! Compresses the kernels in `shaders/linked` for the program to embed: plain WGSL, once for each variant;
 //! `explain` is the kernel `whitted` with the feature `record`. The build fails if a source has changed since
-//! they were linked; with the feature `link` it links them first.
+//! they were linked; with the feature `link` it links them first. It also computes the tables of albedos.
 
 #[cfg(feature = "link")]
 #[path = "shaders/link.rs"]
 mod link;
+
+#[path = "src/pack/albedo/table.rs"]
+mod albedo;
 
 use std::{env, error::Error, fs, path::Path, process::ExitCode};
 
@@ -16,6 +19,7 @@ const LEVEL: u8 = 6;
 
 fn main() -> ExitCode {
     println!("cargo::rerun-if-changed=shaders");
+    println!("cargo::rerun-if-changed=src/pack/albedo/table.rs");
     match run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -26,6 +30,8 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), Box<dyn Error>> {
+    let words = format!("{:?}", albedo::words());
+    fs::write(Path::new(&env::var("OUT_DIR")?).join("albedo.txt"), words)?;
     let mut sources = Vec::new();
     list(Path::new("shaders"), &mut sources)?;
     sources.sort();

@@ -1,6 +1,7 @@
 //! Packs the scene into the arrays that the GPU reads. Packing is pure: it uses no device, and the same scene
 //! gives the same bytes.
 
+pub mod albedo;
 mod blas;
 mod deform;
 mod emitters;

@@ -1,0 +1,114 @@
+//! Computes the tables of directional albedos that `lib/albedo.wesl` reads. `build.rs` includes this file, so it may
+//! use only the standard library.
+
+use std::f64::consts::PI;
+
+/// Entries along each side of a table; `ALBEDO_SIDE` in `lib/albedo.wesl`.
+pub const SIDE: usize = 32;
+
+/// Angles and heights at which an integral is evaluated.
+const ANGLES: usize = 24;
+const HEIGHTS: usize = 96;
+
+/// The cosine of the direction at which an integrand of the first column is evaluated: at 0 itself nothing is seen.
+const GRAZING: f64 = 1e-6;
+
+/// The smallest width α; below, distributions of sheen are too narrow for the integrals.
+const NARROWEST: f64 = 1e-3;
+
+/// Both tables: microfacets, then sheen. Rows are of ∜α from 0 to 1, columns of ∜cos θ from 0 to 1.
+pub fn words() -> Vec<u32> {
+    let mut words = Vec::with_capacity(2 * SIDE * SIDE);
+    for entry in [ggx as fn(f64, f64) -> [f64; 2], sheen] {
+        for row in 0..SIDE {
+            for column in 0..SIDE {
+                let [cos_o, alpha] = [column, row].map(|i| (i as f64 / (SIDE - 1) as f64).powi(4));
+                let [low, high] = entry(cos_o.max(GRAZING), alpha.max(NARROWEST));
+                words.push(u32::from(half(low)) | u32::from(half(high)) << 16);
+            }
+        }
+    }
+    words
+}
+
+/// The sums of (1 - (1 - cos)⁵) and (1 - cos)⁵ over visible microfacets that reflect light from a direction with cosine
+/// `cos_o` out of the surface, weighted with the part that is not shadowed: factors of f0 and f90. The distribution is
+/// that of Trowbridge and Reitz with Smith's height-correlated shadowing (Heitz 2014), the normals those of Dupuy and
+/// Benyoub 2023.
+fn ggx(cos_o: f64, alpha: f64) -> [f64; 2] {
+    let sin_o = (1.0 - cos_o * cos_o).sqrt();
+    let lambda = |cos: f64| {
+        let slope2 = alpha * alpha * (1.0 - cos * cos).max(0.0) / (cos * cos);
+        0.5 * ((1.0 + slope2).sqrt() - 1.0)
+    };
+    let length = (alpha * alpha * sin_o * sin_o + cos_o * cos_o).sqrt();
+    let (x, z) = (alpha * sin_o / length, cos_o / length);
+    let mut sums = [0.0; 2];
+    for i in 0..ANGLES {
+        // The other half circle is its mirror image.
+        let (sin, cos) = (PI * (i as f64 + 0.5) / ANGLES as f64).sin_cos();
+        for j in 0..HEIGHTS {
+            // Finer at the lower end, where normals are tilted most.
+            let root = (j as f64 + 0.5) / HEIGHTS as f64;
+            let height = root * root * (1.0 + z) - z;
+            let radius = (1.0 - height * height).max(0.0).sqrt();
+            let normal = [alpha * (radius * cos + x), alpha * radius * sin, height + z];
+            let size = normal.iter().map(|part| part * part).sum::<f64>().sqrt();
+            let cos_h = (sin_o * normal[0] + cos_o * normal[2]) / size;
+            let cos_i = 2.0 * cos_h * normal[2] / size - cos_o;
+            if cos_i > 0.0 {
+                let seen = 1.0 + lambda(cos_o);
+                let lit = 2.0 * root * seen / (seen + lambda(cos_i));
+                let grazing = (1.0 - cos_h.clamp(0.0, 1.0)).powi(5);
+                sums[0] += lit * (1.0 - grazing);
+                sums[1] += lit * grazing;
+            }
+        }
+    }
+    sums.map(|sum| sum / (ANGLES * HEIGHTS) as f64)
+}
+
+/// The albedo of the sheen of Estevez and Kulla 2017, which `half` limits to 1, and by what to multiply the sheen to
+/// reflect no more than everything: narrow sheen would, at grazing angles.
+fn sheen(cos_o: f64, alpha: f64) -> [f64; 2] {
+    let sin_o = (1.0 - cos_o * cos_o).sqrt();
+    let between = (1.0 - alpha).powi(2);
+    let mix = |rough: f64, smooth: f64| rough + (smooth - rough) * between;
+    let shape = |x: f64| {
+        mix(21.5473, 25.3245) / (1.0 + mix(3.82987, 3.32435) * x.powf(mix(0.19823, 0.16801)))
+            + mix(-1.97760, -1.27393) * x
+            + mix(-4.32054, -4.85967)
+    };
+    let lambda = |cos: f64| match cos {
+        cos if cos < 0.5 => shape(cos).exp(),
+        cos => (2.0 * shape(0.5) - shape(1.0 - cos)).exp(),
+    };
+    let seen = 1.0 + lambda(cos_o);
+    let mut sum = 0.0;
+    for j in 0..HEIGHTS {
+        // Cosines that are evenly spaced in their square root.
+        let root = (j as f64 + 0.5) / HEIGHTS as f64;
+        let cos_i = root * root;
+        let sin_i = (1.0 - cos_i * cos_i).sqrt();
+        let shadowed = seen + lambda(cos_i);
+        for i in 0..ANGLES {
+            let (sin, cos) = (PI * (i as f64 + 0.5) / ANGLES as f64).sin_cos();
+            let half = [sin_o + sin_i * cos, sin_i * sin, cos_o + cos_i];
+            let sin2 = half[0] * half[0] + half[1] * half[1];
+            let sin2 = sin2 / (sin2 + half[2] * half[2]);
+            let density = (2.0 + 1.0 / alpha) * sin2.powf(0.5 / alpha) / (2.0 * PI);
+            sum += 2.0 * root * density / (4.0 * cos_o * shadowed);
+        }
+    }
+    let albedo = 2.0 * PI * sum / (ANGLES * HEIGHTS) as f64;
+    [albedo, albedo.max(1.0).recip()]
+}
+
+/// The nearest half float of a number from 0 to 1.
+fn half(value: f64) -> u16 {
+    let value = value.clamp(0.0, 1.0);
+    let exponent = value.log2().floor().clamp(-14.0, 0.0);
+    let steps = (value / exponent.exp2() * 1024.0).round() as u16;
+    // The implicit bit of a normal number is the lowest bit of its exponent.
+    steps + ((exponent as i16 + 14) as u16) * 1024
+}

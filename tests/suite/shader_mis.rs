@@ -1,0 +1,84 @@
+//! `lib/mis.wesl` and `lib/dimensions.wesl`: weights and random numbers of paths.
+
+use crate::support::{
+    harness::gpu,
+    verdict::{Tolerance, Verdict},
+};
+use std::collections::BTreeSet;
+
+#[test]
+fn weights_of_two_techniques_add_up_to_one() {
+    let densities = [0.0, 1e-30, 1e-6, 0.3, 1.0, 7.0, 1e6, 1e20, 1e30];
+    let pairs: Vec<(f32, f32)> = densities
+        .iter()
+        .flat_map(|&own| densities.map(|other| (own, other)))
+        .collect();
+    let swapped: Vec<_> = pairs.iter().map(|&(own, other)| (other, own)).collect();
+    let weights: Vec<f32> = gpu().map("lib::mis::power_heuristic", &pairs);
+    let others: Vec<f32> = gpu().map("lib::mis::power_heuristic", &swapped);
+    let mut verdict = Verdict::on("power_heuristic");
+    for ((&(own, other), weight), rest) in pairs.iter().zip(&weights).zip(&others) {
+        let (p, q) = (f64::from(own), f64::from(other));
+        let sum = if p + q > 0.0 { 1.0 } else { 0.0 };
+        let expected = if p > 0.0 {
+            p * p / (p * p + q * q)
+        } else {
+            0.0
+        };
+        let name = format!("{own:e} and {other:e}");
+        verdict.near(&name, weight, &expected, Tolerance::Absolute(1e-6));
+        verdict.near(&name, &(weight + rest), &sum, Tolerance::Absolute(1e-6));
+    }
+    verdict.close();
+}
+
+#[test]
+fn dark_paths_end_and_bright_ones_may_too() {
+    gpu().check(
+        "lib::mis::survival_chance",
+        Tolerance::Absolute(1e-7),
+        &[
+            ("black", [0.0f32, 0.0, 0.0], 0.0),
+            ("the largest channel counts", [0.1, 0.4, 0.2], 0.4),
+            ("white", [1.0, 1.0, 1.0], 0.95),
+            ("more than white", [5.0, 0.0, 0.0], 0.95),
+        ],
+    );
+}
+
+#[test]
+fn no_random_number_of_a_path_is_used_twice() {
+    let mut verdict = Verdict::on("dimension_key");
+    for pixel in [0, 1, 0x1234_5678, 0x9e37_79b9, u32::MAX] {
+        let rows: Vec<(u32, u32, u32)> = (0..128)
+            .flat_map(|segment| (0..8).map(move |purpose| (pixel, segment, purpose)))
+            .collect();
+        let keys: Vec<u32> = gpu().map("lib::dimensions::dimension_key", &rows);
+        let mut distinct: BTreeSet<u32> = keys.iter().copied().collect();
+        distinct.insert(pixel);
+        let count = distinct.len();
+        // The mix of a word with a fixed one is a bijection, so all differ. The pixel's own key is among them with a
+        // chance of one in four million.
+        verdict.that(format!("{pixel:#x}"), count == rows.len() + 1, || count);
+    }
+    verdict.close();
+}
+
+#[test]
+fn purposes_of_a_segment_do_not_reach_into_the_next() {
+    let source = "
+        import package::lib::dimensions::{COVERAGE_CHOICE, DIMENSIONS, LIGHT_CHOICE, LIGHT_POINT_ON, ROULETTE,
+            SCATTER_CHOICE, SCATTER_DIRECTION};
+        fn probe(_unused: u32) -> vec4u {
+            var used = 0u;
+            let purposes = array<u32, 6>(COVERAGE_CHOICE, LIGHT_CHOICE, LIGHT_POINT_ON, ROULETTE, SCATTER_CHOICE,
+                SCATTER_DIRECTION);
+            for (var i = 0u; i < 6u; i += 1u) { used |= 1u << purposes[i]; }
+            return vec4u(used, countOneBits(used), DIMENSIONS, 0u);
+        }";
+    let [[used, count, dimensions, _]] = gpu().map_source::<u32, [u32; 4]>(source, &[0])[..] else {
+        panic!("one row");
+    };
+    assert_eq!(count, 6, "purposes {used:#b} are distinct");
+    assert!(used < 1 << dimensions && dimensions == 8, "{used:#b}");
+}
