@@ -27,6 +27,8 @@ mod archive;
 mod budget;
 mod course;
 mod crease;
+#[cfg(not(target_arch = "wasm32"))]
+mod environment;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
 mod folder;
@@ -63,7 +65,7 @@ pub use error::{Excerpt, Fault, ImportError, Position};
 pub use folder::Folder;
 pub use formats::{SCENE_FORMATS, SceneFormat};
 pub use gltf::{GLTF_EXTENSIONS, Support};
-pub use options::{Axis, Options, Staging};
+pub use options::{Axis, Environment, EnvironmentSource, Options, Staging};
 pub use resolver::{FileError, Memory, Resolver};
 #[cfg(not(target_arch = "wasm32"))]
 pub use step::Step;
@@ -285,12 +287,15 @@ fn load_seen(
         report,
     };
     let scene = format.scene(path, bytes, options, &Files::of(&files));
-    for file in folder.requested() {
+    let own = options.environment.file().map(Path::to_owned);
+    for file in folder.requested().into_iter().chain(own) {
         if !seen.contains(&file) {
             seen.push(file);
         }
     }
-    scene
+    let mut scene = scene?;
+    environment::apply(&mut scene, path, options, report)?;
+    Ok(scene)
 }
 
 /// Loads the scene `name` from `resolver`, which also provides the files that it refers to. Only the

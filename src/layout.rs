@@ -393,6 +393,14 @@ packed! {
         emitter_count: u32,
         /// Radiance divided by this is the chance per area with which a path samples a point of an emitter.
         emitter_power: f32,
+        /// The first word of the table from which paths sample a picture in the background, among the texels.
+        environment_first: u32,
+        /// Columns of that table, a power of two from 4 on; it has half as many rows. 0 without a table.
+        environment_width: u32,
+        /// The chance with which a light sample is one of the background; 0 without a table.
+        environment_share: f32,
+        #[doc(hidden)]
+        _pad0: u32,
     }
     /// The parameters of one dispatch: which workgroups of which film tile, which samples. `counters` is its
     /// result.

@@ -5,6 +5,7 @@ pub mod albedo;
 mod blas;
 mod deform;
 mod emitters;
+mod environment;
 mod frame;
 mod geometry;
 mod instance;
@@ -41,6 +42,7 @@ use crate::{
 };
 use bytemuck::cast_slice;
 use deform::DeformingMesh;
+use environment::Environment;
 use geometry::Flat;
 use glam::DVec3;
 use instance::{Instance, InstancedBlas, Plan, TransformSource};
@@ -85,6 +87,7 @@ pub struct PackedScene {
     /// The words of the texels of all pictures, concatenated: red, green, blue and alpha in 8 bits each, lowest
     /// first, or two words of half floats. Before the first texel of a picture with a mipmap the words -k say where its
     /// level k starts, counted from there.
+    /// The table of [`crate::layout::PackedFrame::environment_first`] is at the end.
     pub texels: Segments<u32>,
     /// The first word with its `PICTURE_` bits, width and height of each picture.
     pub pictures: Vec<[u32; 3]>,
@@ -102,6 +105,8 @@ pub struct PackedScene {
     deforming: Arc<[DeformingMesh]>,
     tlas_source: Arc<TlasSource>,
     packed_pictures: Vec<PackedPicture>,
+    /// The table of the picture in the background.
+    environment: Option<Environment>,
     /// The scene's materials if visible lights or a track may change some.
     animated_materials: Option<AnimatedMaterials>,
     /// Maps packed primitives back to scene objects.
@@ -288,6 +293,11 @@ fn pack(
 
     let before = previous.map_or(&[][..], |previous| &previous.packed_pictures);
     let (packed_pictures, pictures) = picture::pictures(scene, before)?;
+    let before = previous.and_then(|previous| previous.environment.as_ref());
+    let environment = environment::of_scene(scene, before);
+    let table = environment.iter().map(|table| table.words.clone());
+    let words = packed_pictures.iter().map(|packed| packed.words.clone());
+    let texels: Segments<u32> = words.chain(table).collect();
     let bounded = joint.shapes.iter().chain(&*instanced_shapes);
     let features = Features {
         shape_kinds: bounded.fold(0, |kinds, shape| kinds | 1 << shape.kind),
@@ -318,7 +328,7 @@ fn pack(
         },
         materials,
         textures: material::textures(scene, origin, &pictures)?,
-        texels: (packed_pictures.iter().map(|packed| packed.words.clone())).collect(),
+        texels,
         pictures,
         features,
         volumes: media::volumes(scene, &meshes),
@@ -331,6 +341,7 @@ fn pack(
         trees,
         tlas_source,
         packed_pictures,
+        environment,
         animated_materials,
         origin,
         build_seconds,

@@ -27,6 +27,7 @@ mod output;
 mod picture;
 mod posed;
 mod shape;
+pub mod sky;
 mod texture;
 mod transform;
 mod turntable;

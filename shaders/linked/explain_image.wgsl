@@ -560,7 +560,11 @@ struct types__PackedFrame {
 	deformation_key_count: u32,
 	emitter_row: u32,
 	emitter_count: u32,
-	emitter_power: f32
+	emitter_power: f32,
+	environment_first: u32,
+	environment_width: u32,
+	environment_share: f32,
+	_pad0: u32
 }
 
 struct types__PackedDispatch {
@@ -957,13 +961,16 @@ struct dispatch__Batch {
 	footprint: f32,
 	camera_media: vec4u,
 	emitter_count: u32,
-	emitter_power: f32
+	emitter_power: f32,
+	environment_first: u32,
+	environment_width: u32,
+	environment_share: f32
 }
 
 fn dispatch__load_batch() -> dispatch__Batch {
 	fetch__load_starts();
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {

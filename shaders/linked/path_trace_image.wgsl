@@ -32,7 +32,8 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	}
 	dispatch__count_hit(path.kind, hit);
 	if (hit.primitive == types__NONE) {
-		path.radiance += path.throughput * background__background(batch, ray.direction);
+		let weight = environment__background_weight(batch, ray.direction, path.pdf);
+		path.radiance += path.throughput * weight * background__background(batch, ray.direction);
 		return path__ended(path);
 	}
 	let contact = contact__contact_at(ray, hit, path.cone);
@@ -50,7 +51,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	let weight = emitters__emission_weight(batch, surface, path.origin, ray.direction, distance(path.origin, surface.p), path.pdf);
 	path.radiance += path.throughput * weight * emitters__emitted(surface, optics, layers.glow);
 	let bsdf = bsdf__bsdf_at(surface, optics, layers, met, ray.direction);
-	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS) && path.bounces <= batch.max_depth) {
+	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
 		path.radiance += path.throughput * lamp_light(batch, path, surface, bsdf, met);
 	}
 	return scattered(batch, path, surface, bsdf, met);
@@ -168,13 +169,16 @@ struct dispatch__Batch {
 	footprint: f32,
 	camera_media: vec4u,
 	emitter_count: u32,
-	emitter_power: f32
+	emitter_power: f32,
+	environment_first: u32,
+	environment_width: u32,
+	environment_share: f32
 }
 
 fn dispatch__load_batch() -> dispatch__Batch {
 	fetch__load_starts();
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
@@ -586,7 +590,11 @@ struct types__PackedFrame {
 	deformation_key_count: u32,
 	emitter_row: u32,
 	emitter_count: u32,
-	emitter_power: f32
+	emitter_power: f32,
+	environment_first: u32,
+	environment_width: u32,
+	environment_share: f32,
+	_pad0: u32
 }
 
 struct types__PackedDispatch {
@@ -900,6 +908,8 @@ override bindings__COUNT_STEPS: bool = false;
 override bindings__HAS_LIGHTS: bool = true;
 
 override bindings__HAS_EMITTERS: bool = false;
+
+override bindings__HAS_ENVIRONMENT: bool = false;
 
 override bindings__SHAPE_KINDS: u32 = 4294967295u;
 
@@ -2663,17 +2673,59 @@ fn node__sort4(keys: vec4u) -> vec4u {
 	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
-fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
-	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
-		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
+struct environment__EnvironmentSample {
+	direction: vec3f,
+	pdf: f32
+}
+
+fn environment__sample_environment(batch: dispatch__Batch, u: vec2f) -> environment__EnvironmentSample {
+	let width = batch.environment_width;
+	var place = quad_warp__quad_root(picture__load_texel_word(batch.environment_first), u);
+	var first = batch.environment_first + 1u;
+	var columns = 2u;
+	loop {
+		place = quad_warp__quad_step(picture__load_texel_word(first + place.cell.y * columns + place.cell.x), place);
+		first += columns * columns / 2u;
+		columns *= 2u;
+		continuing {
+		
+			break if columns >= width;
+		}
 	}
-	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE) {
-		let size = batch.background_size;
-		let uv = picture__equirectangular(direction, batch.background_rotation);
-		let color = picture__blend_texels(batch.background_picture, size.x, size.y, picture__neighbours(uv.x, size.x, false, types__WRAP_REPEAT), picture__neighbours(uv.y, size.y, false, types__WRAP_CLAMP));
-		return batch.background * color.xyz;
+	loops__cut_off |= columns < width;
+	let uv = (vec2f(place.cell) + place.u) / vec2f(f32(width), f32(width / 2u));
+	let direction = picture__equirectangular_direction(uv, batch.background_rotation);
+	return environment__EnvironmentSample(direction, environment__density_at(batch, place.cell, direction));
+}
+
+fn environment__environment_pdf(batch: dispatch__Batch, direction: vec3f) -> f32 {
+	let size = vec2u(batch.environment_width, batch.environment_width / 2u);
+	let uv = picture__equirectangular(direction, batch.background_rotation);
+	let place = vec2f(fract(uv.x), clamp(uv.y, 0.0, 1.0)) * vec2f(size);
+	return environment__density_at(batch, min(vec2u(place), size - 1u), direction);
+}
+
+fn environment__background_weight(batch: dispatch__Batch, direction: vec3f, pdf: f32) -> f32 {
+	if (!bindings__HAS_ENVIRONMENT || pdf <= 0.0) {
+		return 1.0;
 	}
-	return batch.background;
+	return mis__power_heuristic(pdf, batch.environment_share * environment__environment_pdf(batch, direction));
+}
+
+fn environment__density_at(batch: dispatch__Batch, cell: vec2u, direction: vec3f) -> f32 {
+	let height = batch.environment_width / 2u;
+	let first = batch.environment_first + 1u + 2u * ((height * height - 1u) / 3u);
+	let density = bitcast<f32>(picture__load_texel_word(first + cell.y * batch.environment_width + cell.x));
+	return density / (2.0 * picture__PI * picture__PI * max(length(direction.xz), 1e-6));
+}
+
+fn mis__power_heuristic(own: f32, other: f32) -> f32 {
+	let ratio = other / max(own, 1e-30);
+	return select(0.0, 1.0 / (1.0 + min(ratio * ratio, 1e30)), own > 0.0);
+}
+
+fn mis__survival_chance(throughput: vec3f) -> f32 {
+	return min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
 }
 
 const picture__PI: f32 = 3.14159265;
@@ -2727,6 +2779,12 @@ fn picture__equirectangular(direction: vec3f, rotation: f32) -> vec2f {
 	return vec2f(0.5 + (around + rotation) / (2.0 * picture__PI), 0.5 + atan2(direction.y, level) / picture__PI);
 }
 
+fn picture__equirectangular_direction(uv: vec2f, rotation: f32) -> vec3f {
+	let around = (uv.x - 0.5) * 2.0 * picture__PI - rotation;
+	let up = (uv.y - 0.5) * picture__PI;
+	return vec3f(cos(up) * sin(around), sin(up), -cos(up) * cos(around));
+}
+
 fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec4f {
 	let lower = (height - 1u - rows.first) * width;
 	let upper = (height - 1u - rows.second) * width;
@@ -2748,6 +2806,19 @@ fn picture__load_texel_word(index: u32) -> u32 {
 	let row = index >> types__IMAGE_WIDTH_LOG2;
 	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
 	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
+}
+
+fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
+	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
+		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
+	}
+	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE) {
+		let size = batch.background_size;
+		let uv = picture__equirectangular(direction, batch.background_rotation);
+		let color = picture__blend_texels(batch.background_picture, size.x, size.y, picture__neighbours(uv.x, size.x, false, types__WRAP_REPEAT), picture__neighbours(uv.y, size.y, false, types__WRAP_CLAMP));
+		return batch.background * color.xyz;
+	}
+	return batch.background;
 }
 
 const contact__NEAR: f32 = 1e-5;
@@ -3652,6 +3723,12 @@ struct emitters__LightSample {
 }
 
 fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
+	if (bindings__HAS_ENVIRONMENT && (!(bindings__HAS_LIGHTS || bindings__HAS_EMITTERS) || choice >= 1.0 - batch.environment_share)) {
+		let found = environment__sample_environment(batch, u);
+		let pdf = batch.environment_share * found.pdf;
+		let radiance = background__background(batch, found.direction) / max(pdf, 1e-30);
+		return emitters__LightSample(types__Incident(found.direction, camera__T_FAR, radiance), pdf);
+	}
 	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || choice >= fetch__load_light_end(batch.light_count - 1u))) {
 		return emitters__sample_emitter(batch, p, choice, u);
 	}
@@ -3836,15 +3913,6 @@ fn area_light__short_of(distance: f32, reach: f32, cosine: f32) -> f32 {
 
 fn area_light__max_abs(v: vec3f) -> f32 {
 	return max(abs(v.x), max(abs(v.y), abs(v.z)));
-}
-
-fn mis__power_heuristic(own: f32, other: f32) -> f32 {
-	let ratio = other / max(own, 1e-30);
-	return select(0.0, 1.0 / (1.0 + min(ratio * ratio, 1e30)), own > 0.0);
-}
-
-fn mis__survival_chance(throughput: vec3f) -> f32 {
-	return min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
 }
 
 struct bsdf__Bsdf {
@@ -4073,6 +4141,42 @@ fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
 fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f {
 	let cos_i = -dot(direction, n);
 	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
+}
+
+const quad_warp__CHANCE_BITS: u32 = 10u;
+
+const quad_warp__CHANCE_STEPS: f32 = 1023.0;
+
+struct quad_warp__QuadPlace {
+	cell: vec2u,
+	u: vec2f
+}
+
+struct quad_warp__Half {
+	index: u32,
+	u: f32
+}
+
+fn quad_warp__quad_root(word: u32, u: vec2f) -> quad_warp__QuadPlace {
+	let column = quad_warp__half_of(quad_warp__chance_of(word, 0u), u.x);
+	return quad_warp__QuadPlace(vec2u(column.index, 0u), vec2f(column.u, u.y));
+}
+
+fn quad_warp__quad_step(word: u32, place: quad_warp__QuadPlace) -> quad_warp__QuadPlace {
+	let row = quad_warp__half_of(quad_warp__chance_of(word, 0u), place.u.y);
+	let column = quad_warp__half_of(quad_warp__chance_of(word, 1u + row.index), place.u.x);
+	return quad_warp__QuadPlace(2u * place.cell + vec2u(column.index, row.index), vec2f(column.u, row.u));
+}
+
+fn quad_warp__chance_of(word: u32, index: u32) -> f32 {
+	return f32((word >> (quad_warp__CHANCE_BITS * index)) & 1023u) / quad_warp__CHANCE_STEPS;
+}
+
+fn quad_warp__half_of(chance: f32, u: f32) -> quad_warp__Half {
+	let is_second = u >= chance;
+	let start = select(0.0, chance, is_second);
+	let size = select(chance, 1.0 - chance, is_second);
+	return quad_warp__Half(select(0u, 1u, is_second), clamp((u - start) / max(size, 1e-9), 0.0, 0.99999994));
 }
 
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {

@@ -338,7 +338,11 @@ struct types__PackedFrame {
 	deformation_key_count: u32,
 	emitter_row: u32,
 	emitter_count: u32,
-	emitter_power: f32
+	emitter_power: f32,
+	environment_first: u32,
+	environment_width: u32,
+	environment_share: f32,
+	_pad0: u32
 }
 
 struct types__PackedDispatch {

@@ -6,7 +6,7 @@ use std::ops::Neg;
 use std::path::PathBuf;
 
 /// Options for importing a scene file.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// Folders besides the scene's own whose files the scene may refer to, for [`super::load_with`].
     pub allow_dirs: Vec<PathBuf>,
@@ -31,6 +31,33 @@ pub struct Options {
     pub size: Option<(u32, u32)>,
     /// What is added to a model that lacks it.
     pub staging: Staging,
+    /// Replaces or changes the background.
+    pub environment: Environment,
+}
+
+/// What replaces or changes the background of a scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Environment {
+    /// Replaces the background; `None` keeps it.
+    pub source: Option<EnvironmentSource>,
+    /// Factor on the radiance of the background, 0 or more; `None` is 1.
+    pub strength: Option<f32>,
+    /// Turns the picture of the background about +Y, in degrees, counter-clockwise seen from above.
+    pub rotation_deg: Option<f64>,
+}
+
+/// Where the picture of an environment comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EnvironmentSource {
+    /// An equirectangular picture: PNG, JPEG, WebP, HDR or EXR.
+    File(PathBuf),
+    /// The clear sky of [`crate::scene::sky`].
+    Sky {
+        /// Angle of the sun above the horizon in degrees, 0 to 90.
+        elevation_deg: f64,
+        /// Angle of the sun from −Z towards +X in degrees.
+        azimuth_deg: f64,
+    },
 }
 
 /// A coordinate axis.

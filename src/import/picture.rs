@@ -158,6 +158,44 @@ fn decode(bytes: &[u8], name: &str, roles: &[Role]) -> Result<Vec<Picture>, Refu
     Ok(pictures)
 }
 
+/// The picture of the environment in `bytes`, which messages call `name`, and how many of its texels were not finite or
+/// below 0: they became 0.
+///
+/// # Errors
+/// It is empty, damaged, too large, of an unsupported kind, or not twice as wide as high.
+pub(super) fn environment(bytes: &[u8], name: &str) -> Result<(Picture, usize), Refused> {
+    let unfit = Unfit { name };
+    if bytes.is_empty() {
+        return Err(unfit.damaged("is empty"));
+    }
+    let mut image = open(bytes, name)?;
+    let (width, height) = (image.width(), image.height());
+    if u64::from(width) != 2 * u64::from(height) {
+        let why = format!("has {width} × {height} texels, but must be twice as wide as high");
+        return Err(unfit.as_it_is(&why, "Name an equirectangular panorama"));
+    }
+    let mut repaired = 0;
+    let mut repair = |texel: &mut [f32]| {
+        if texel.iter().any(|c| !c.is_finite() || *c < 0.0) {
+            texel.fill(0.0);
+            repaired += 1;
+        }
+    };
+    match &mut image {
+        DynamicImage::ImageRgb32F(texels) => texels.pixels_mut().for_each(|p| repair(&mut p.0)),
+        DynamicImage::ImageRgba32F(texels) => {
+            texels.pixels_mut().for_each(|p| repair(&mut p.0[..3]));
+        }
+        _ => {}
+    }
+    let picture = Picture {
+        width,
+        height,
+        texels: texels(image, Role::Color),
+    };
+    Ok((picture, repaired))
+}
+
 /// The number of texels that the header of an image announces, times four if it has floats; 0 if it is invalid.
 fn dimensions(bytes: &[u8]) -> u64 {
     let texels = |(width, height)| u64::from(width) * u64::from(height);

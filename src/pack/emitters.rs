@@ -56,6 +56,18 @@ fn mean_luminance(scene: &Scene, texture: &Texture) -> f32 {
     }
 }
 
+impl Emitters {
+    /// Leaves the last `share` of all chances, 0 to 1, to other lights.
+    pub fn leave(&mut self, share: f64) {
+        let rest = 1.0 - share;
+        self.power /= rest.max(f64::MIN_POSITIVE);
+        for row in &mut self.rows {
+            row.chance *= rest as f32;
+            row.end *= rest as f32;
+        }
+    }
+}
+
 impl PackedScene {
     /// The triangles whose material `emits`, by material index.
     pub(super) fn emissive(&self, emits: &[bool]) -> Vec<Emissive> {

@@ -110,8 +110,18 @@ impl PackedScene {
             false => &materials,
         };
         let powers = light::powers(&first.lights, self.radius);
-        let emitters = self.emitters(&tlas.instances, lit, powers.iter().sum());
-        light::set_chances(&mut lights, &powers, 1.0 - emitters.share);
+        let mut emitters = self.emitters(&tlas.instances, lit, powers.iter().sum());
+        let has_lights = lights.iter().any(|light| light.color != [0.0; 3]);
+        let has_others = has_lights || !emitters.rows.is_empty();
+        let environment = self.environment_of(&first.background);
+        let environment_share = match environment {
+            None => 0.0,
+            Some(_) if has_others => 0.5,
+            Some(_) => 1.0,
+        };
+        emitters.leave(environment_share);
+        let lights_share = (1.0 - environment_share) * (1.0 - emitters.share);
+        light::set_chances(&mut lights, &powers, lights_share);
         let moving = if tlas.moves { MOVING } else { 0 };
         let instance_row = NODE_ROWS * (tlas.first_node + tlas.nodes.len() as u32);
         let key_row = instance_row + INSTANCE_ROWS * tlas.instances.len() as u32;
@@ -150,6 +160,9 @@ impl PackedScene {
                 emitter_row: camera_row + CAMERA_ROWS * camera_key_rows,
                 emitter_count: emitters.rows.len() as u32,
                 emitter_power: emitters.power as f32,
+                environment_first: environment.map_or(0, |(first, _)| first),
+                environment_width: environment.map_or(0, |(_, width)| width),
+                environment_share: environment_share as f32,
                 ..self.background(&first.background)
             },
             background: match first.background {
@@ -158,7 +171,7 @@ impl PackedScene {
                 Background::Picture { .. } => BACKGROUND_PICTURE,
             },
             orthographic: first.camera.orthographic_height.is_some(),
-            has_lights: lights.iter().any(|light| light.color != [0.0; 3]),
+            has_lights,
             emitters: emitters.rows,
             has_area_lights: lights.iter().any(|light| light.kind >= LIGHT_RECTANGLE),
             lights,

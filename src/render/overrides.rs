@@ -99,6 +99,10 @@ pub fn of(task: Task) -> Overrides {
         ("HAS_EMISSION", flag(features.emission)),
         ("HAS_LAYERS", flag(is_path)),
         ("HAS_EMITTERS", flag(is_path && !view.emitters.is_empty())),
+        (
+            "HAS_ENVIRONMENT",
+            flag(is_path && view.frame.environment_share > 0.0),
+        ),
         ("ADAPTIVE", flag(settings.is_adaptive())),
         ("CAMERA_MOTION", flag(!view.cameras.is_empty())),
         ("LIGHT_MOTION", flag(view.frame.light_key_count > 1)),

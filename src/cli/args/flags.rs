@@ -164,7 +164,7 @@ pub struct CameraFlags {
     /// z for .stl, else y]
     #[arg(long, value_name = "X,Y,Z|x|y|z", allow_hyphen_values = true, value_parser = values::up)]
     pub up: Option<Up>,
-    /// Background colour: linear radiance, 0 or more per channel
+    /// Background colour: linear radiance, 0 or more per channel; wins over --environment
     #[arg(long, value_name = "R,G,B", allow_hyphen_values = true, value_parser = values::color)]
     pub background: Option<Vec3>,
 }
@@ -195,6 +195,16 @@ pub struct SceneFlags {
     /// [default: no limit; all pictures together take at most 2.75 GiB]
     #[arg(long, value_name = "PIXELS", allow_hyphen_values = true, value_parser = values::texture_limit)]
     pub texture_limit: Option<NonZero<u32>>,
+    /// Replace the background: an equirectangular picture (.hdr, .exr, .png, .jpg, .webp), or a clear sky with the sun
+    /// at this elevation, 0 to 90, and azimuth from -z towards +x, in degrees [default of sky: 45,-135]
+    #[arg(long, value_name = "FILE|sky[:ELEVATION[,AZIMUTH]]", value_parser = values::environment)]
+    pub environment: Option<import::EnvironmentSource>,
+    /// Factor on the radiance of the background, 0 to 1e6
+    #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = values::environment_strength)]
+    pub environment_strength: Option<f32>,
+    /// Turn the picture of the background about +y by this angle in degrees, counter-clockwise seen from above
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = values::angle)]
+    pub environment_rotation: Option<f64>,
     /// Add nothing to a model: no camera that frames it, no lights, no background, no ground
     #[arg(long)]
     pub bare: bool,
@@ -241,6 +251,11 @@ impl SceneFlags {
             texture_limit: self.texture_limit,
             size,
             staging,
+            environment: import::Environment {
+                source: self.environment.clone(),
+                strength: self.environment_strength,
+                rotation_deg: self.environment_rotation,
+            },
         }
     }
 }

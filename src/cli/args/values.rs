@@ -3,7 +3,7 @@
 use crate::app::value_names::ValueNames;
 use crate::cli::args::{ProgressMode, Range, SequenceFormat};
 use crate::gpu::Backend;
-use crate::import::Axis;
+use crate::import::{Axis, EnvironmentSource};
 use crate::output::Format;
 use crate::output::video::VideoFormat;
 use crate::scene::Shutter;
@@ -154,6 +154,41 @@ pub fn orthographic(text: &str) -> Result<f64, String> {
 pub fn texture_limit(text: &str) -> Result<NonZero<u32>, String> {
     let limit = within(text, 1, MAX_SIDE, "it")?;
     Ok(NonZero::new(limit).unwrap_or(NonZero::<u32>::MIN))
+}
+
+pub fn environment_strength(text: &str) -> Result<f32, String> {
+    within(text, 0.0, 1e6, "it")
+}
+
+pub fn angle(text: &str) -> Result<f64, String> {
+    within(text, -1e6, 1e6, "it")
+}
+
+/// A file, or a sky with the place of its sun.
+pub fn environment(text: &str) -> Result<EnvironmentSource, String> {
+    let place = match text.strip_prefix("sky") {
+        Some("") => Some(""),
+        Some(rest) => rest.strip_prefix(':'),
+        None => None,
+    };
+    let Some(place) = place else {
+        return match text {
+            "" => Err("a file name or `sky` is expected".to_owned()),
+            _ => Ok(EnvironmentSource::File(text.into())),
+        };
+    };
+    let (elevation, azimuth) = place.split_once(',').unwrap_or((place, ""));
+    let or = |text: &str, default: f64, parse: fn(&str) -> Result<f64, String>| match text {
+        "" => Ok(default),
+        text => parse(text),
+    };
+    let of_sun = |text: &str| within(text, 0.0, 90.0, "the elevation");
+    Ok(EnvironmentSource::Sky {
+        elevation_deg: or(elevation, 45.0, of_sun)?,
+        azimuth_deg: or(azimuth, -135.0, |text| {
+            within(text, -360.0, 360.0, "the azimuth")
+        })?,
+    })
 }
 
 pub fn filter_radius(text: &str) -> Result<f32, String> {

@@ -7,7 +7,7 @@ mod flags;
 
 use crate::app::clock::Clock;
 use crate::app::window::{ParsePicture, PictureRequest};
-use crate::import::Staging;
+use crate::import::{EnvironmentSource, Staging};
 use crate::render::{RenderSettings, Tone};
 use crate::scene::{Background, Camera, Scene, Shutter, Target};
 use std::borrow::Cow;
@@ -96,6 +96,27 @@ pub fn copy(shown: &Shown) -> CommandLine {
     }
     if let Some(limit) = shown.options.texture_limit {
         arguments.extend(["--texture-limit".to_owned(), limit.to_string()]);
+    }
+    let environment = &shown.options.environment;
+    let source = environment.source.as_ref().map(|source| match source {
+        EnvironmentSource::File(path) => file(path),
+        EnvironmentSource::Sky {
+            elevation_deg,
+            azimuth_deg,
+        } => format!("sky:{elevation_deg},{azimuth_deg}"),
+    });
+    for (flag, value) in [
+        ("--environment", source),
+        (
+            "--environment-strength",
+            environment.strength.map(|factor| factor.to_string()),
+        ),
+        (
+            "--environment-rotation",
+            environment.rotation_deg.map(|angle| angle.to_string()),
+        ),
+    ] {
+        arguments.extend(value.map(|value| format!("{flag}={value}")));
     }
     for folder in &shown.options.allow_dirs {
         arguments.extend(["--allow-dir".to_owned(), file(folder)]);

@@ -1,0 +1,440 @@
+//! Pictures in the background as lights of paths, the sky, and the files of environments.
+
+use crate::reference::compare::{render, sized};
+use crate::reference::scenes::Build;
+use crate::support::random::Random;
+use crate::support::verdict::Verdict;
+use glam::{DVec3, Vec3, dvec3};
+use glimray::import::{self, Environment, EnvironmentSource, ImportError, Options};
+use glimray::pack;
+use glimray::render::{Integrator, RenderSettings};
+use glimray::scene::{
+    Antialias, Attenuation, Background, Camera, Light, LightKind, Material, Picture, Scene, sky,
+};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::path::Path;
+use std::sync::Arc;
+
+const ALBEDO: f64 = 0.6;
+
+fn paths(samples: u32, side: u32) -> RenderSettings {
+    RenderSettings {
+        integrator: Integrator::Path,
+        samples,
+        antialias: Antialias::Stratified,
+        max_depth: 0,
+        ..sized(side, side)
+    }
+}
+
+/// A scene under a picture. The camera looks straight at a matte plane through the origin with this normal.
+fn plane_under(picture: Picture, normal: DVec3, rotation: f64) -> Scene {
+    let mut scene = Scene {
+        cameras: vec![Camera {
+            look_from: 3.0 * normal,
+            look_at: DVec3::ZERO,
+            up: normal.any_orthogonal_vector(),
+            fov_y: 0.4,
+            ..Camera::default()
+        }],
+        materials: vec![Material {
+            diffuse: Vec3::splat(ALBEDO as f32),
+            ..Material::default()
+        }],
+        pictures: vec![Arc::new(picture)],
+        background: Background::Picture {
+            picture: 0,
+            strength: 1.5,
+            rotation,
+        },
+        ..Scene::default()
+    };
+    scene.add_plane(DVec3::ZERO, normal, 0);
+    scene
+}
+
+fn greys(scene: &Scene, settings: &RenderSettings) -> Vec<f64> {
+    let (image, stats) = render(scene, settings);
+    assert_eq!(stats.nonfinite_samples, 0);
+    (image.pixels.iter().map(|pixel| f64::from(pixel[1]))).collect()
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// The direction of a place in an equirectangular picture, in parts of its width and from its lower edge.
+fn direction(u: f64, v: f64, rotation: f64) -> DVec3 {
+    let (around, up) = (TAU * (u - 0.5) - rotation, PI * (v - 0.5));
+    dvec3(up.cos() * around.sin(), up.sin(), -up.cos() * around.cos())
+}
+
+/// The irradiance of a surface with this normal under a picture that is looked up with bilinear filtering: the midpoint
+/// rule with `STEPS` × `STEPS` points per texel.
+fn irradiance(picture: &Picture, normal: DVec3, rotation: f64) -> f64 {
+    const STEPS: u32 = 6;
+    let (width, height) = (picture.width, picture.height);
+    let texels: Vec<f64> = picture.linear().map(|texel| f64::from(texel.y)).collect();
+    // Rows from the top.
+    let texel = |x: i64, y: i64| {
+        let x = x.rem_euclid(i64::from(width));
+        let y = y.clamp(0, i64::from(height) - 1);
+        texels[(y * i64::from(width) + x) as usize]
+    };
+    let mut sum = 0.0;
+    for y in 0..height * STEPS {
+        let row = (f64::from(y) + 0.5) / f64::from(STEPS);
+        let v = 1.0 - row / f64::from(height);
+        let area = TAU * PI * (PI * (v - 0.5)).cos() / f64::from(width * height * STEPS * STEPS);
+        let (y, wy) = ((row - 0.5).floor(), (row - 0.5).rem_euclid(1.0));
+        for x in 0..width * STEPS {
+            let column = (f64::from(x) + 0.5) / f64::from(STEPS);
+            let cosine = normal.dot(direction(column / f64::from(width), v, rotation));
+            if cosine > 0.0 {
+                let (x, wx) = ((column - 0.5).floor(), (column - 0.5).rem_euclid(1.0));
+                let (x, y) = (x as i64, y as i64);
+                let upper = (1.0 - wx) * texel(x, y) + wx * texel(x + 1, y);
+                let lower = (1.0 - wx) * texel(x, y + 1) + wx * texel(x + 1, y + 1);
+                sum += area * cosine * ((1.0 - wy) * upper + wy * lower);
+            }
+        }
+    }
+    sum
+}
+
+fn grey(width: u32, height: u32, value: impl Fn(u32, u32) -> f32) -> Picture {
+    let all = (0..width * height).map(|i| Vec3::splat(value(i % width, i / width)));
+    Picture::opaque(width, height, all)
+}
+
+/// Random texels between 0 and 1, cubed, so that they differ much.
+fn random_picture(width: u32, height: u32) -> Picture {
+    let mut random = Random::new(u64::from(width));
+    let values: Vec<_> = (0..width * height)
+        .map(|_| random.between(0.0, 1.0).powi(3) as f32)
+        .collect();
+    grey(width, height, |x, y| values[(y * width + x) as usize])
+}
+
+#[test]
+fn a_plane_has_the_irradiance_of_the_picture_around_it_however_it_is_turned() {
+    let mut verdict = Verdict::on("matte planes under pictures");
+    let normal = dvec3(0.6, 0.64, 0.48);
+    for (width, height) in [(1, 1), (3, 2), (8, 4), (37, 21), (64, 32)] {
+        for rotation in [0.0, 2.0] {
+            let picture = random_picture(width, height);
+            let expected = 1.5 * ALBEDO / PI * irradiance(&picture, normal, rotation);
+            let scene = plane_under(picture, normal, rotation);
+            let found = mean(&greys(&scene, &paths(64, 24)));
+            let name = format!("{width} × {height}, rotation {rotation}");
+            verdict.that(name, (found / expected - 1.0).abs() < 0.005, || {
+                format!("{found}, expected {expected}")
+            });
+        }
+    }
+    verdict.close();
+}
+
+/// Without light samples a path finds the sun with the chance cosine × solid angle / π, so that the relative variance
+/// of the mean of n paths is (π / (cosine × solid angle) − 1) / n.
+#[test]
+fn a_small_sun_is_found_by_few_samples() {
+    let sun = |x: u32, y: u32| {
+        if (100..102).contains(&x) && (30..32).contains(&y) {
+            5000.0
+        } else {
+            0.0
+        }
+    };
+    let picture = grey(256, 128, sun);
+    let expected = 1.5 * ALBEDO / PI * irradiance(&picture, DVec3::Y, 0.0);
+    let found = greys(&plane_under(picture, DVec3::Y, 0.0), &paths(16, 48));
+    let errors: Vec<_> = found
+        .iter()
+        .map(|value| (value / expected - 1.0).powi(2))
+        .collect();
+    let elevation = PI * (0.5 - 31.0 / 128.0);
+    let solid_angle = elevation.cos() * (TAU * 2.0 / 256.0).powi(2);
+    let without = (PI / (elevation.sin() * solid_angle) - 1.0) / 16.0;
+    assert!(
+        mean(&errors) < without / 20.0,
+        "{} against {without}",
+        mean(&errors)
+    );
+    assert!(
+        (mean(&found) / expected - 1.0).abs() < 0.005,
+        "{}, expected {expected}",
+        mean(&found)
+    );
+}
+
+#[test]
+fn a_lamp_and_a_picture_add_their_light() {
+    let lamp = Light {
+        kind: LightKind::Sphere {
+            center: dvec3(1.0, 2.0, 0.0),
+            radius: 0.3,
+        },
+        color: Vec3::splat(2.0),
+        attenuation: Attenuation::InverseSquare,
+        samples: 1,
+        visible: true,
+        node: None,
+    };
+    let with = |picture: f32, lamps: &[Light]| {
+        let mut scene = plane_under(grey(16, 8, |x, _| picture * x as f32), DVec3::Y, 0.0);
+        scene.lights = lamps.to_vec();
+        mean(&greys(&scene, &paths(256, 24)))
+    };
+    let lamps = [lamp];
+    let (both, parts) = (with(0.1, &lamps), [with(0.0, &lamps), with(0.1, &[])]);
+    assert!(parts.iter().all(|part| *part > 0.1 * both), "{parts:?}");
+    let sum: f64 = parts.iter().sum();
+    assert!((both / sum - 1.0).abs() < 0.005, "{both}, {parts:?}");
+}
+
+#[test]
+fn a_white_ball_in_a_white_picture_is_invisible() {
+    let mut scene = plane_under(grey(32, 16, |_, _| 1.0), DVec3::Y, 0.3);
+    scene.shapes.clear();
+    scene.cameras[0] = Camera {
+        look_from: 5.0 * DVec3::Z,
+        look_at: DVec3::ZERO,
+        fov_y: 0.6,
+        ..Camera::default()
+    };
+    scene.materials[0].diffuse = Vec3::ONE;
+    scene.add_sphere(DVec3::ZERO, 1.0, 0);
+    let found = greys(&scene, &paths(256, 24));
+    assert!((mean(&found) / 1.5 - 1.0).abs() < 0.003, "{}", mean(&found));
+}
+
+/// The densities of a table: its columns, and those of the cells from the lowest row on.
+fn densities(picture: Picture) -> (usize, Vec<f64>) {
+    let scene = plane_under(picture, DVec3::Y, 0.0);
+    let packed = pack::scene(&scene).expect("a packed scene");
+    let frame = packed.frame(&scene.frame(0.0)).expect("a view").frame;
+    let width = frame.environment_width as usize;
+    let words: Vec<u32> = packed.texels.iter().copied().collect();
+    let cells = words[words.len() - width * width / 2..].iter();
+    (
+        width,
+        cells.map(|bits| f64::from(f32::from_bits(*bits))).collect(),
+    )
+}
+
+#[test]
+fn densities_are_in_proportion_to_the_light_of_the_cells() {
+    let mut verdict = Verdict::on("tables of pictures");
+    for (width, height) in [(1, 1), (5, 3), (37, 21), (256, 128), (1500, 750)] {
+        let (columns, found) = densities(random_picture(width, height));
+        let sum = mean(&found);
+        verdict.that(
+            format!("sum of {width} × {height}"),
+            (sum - 1.0).abs() < 1e-5,
+            || format!("{sum}"),
+        );
+        let (columns, found) = match columns {
+            0 => panic!("no table"),
+            _ => densities(grey(width, height, |_, _| 0.7)),
+        };
+        // The light of an even sky in a row is in proportion to the difference of the sines of its edges.
+        let rows = columns / 2;
+        for (index, density) in found.iter().enumerate() {
+            let sine = |edge: usize| (PI * (edge as f64 / rows as f64 - 0.5)).sin();
+            let row = index / columns;
+            let expected = (sine(row + 1) - sine(row)) / 2.0 * rows as f64;
+            let name = format!("row {row} of {width} × {height}");
+            verdict.that(name, (density / expected - 1.0).abs() < 0.03, || {
+                format!("{density}, expected {expected}")
+            });
+        }
+    }
+    verdict.close();
+}
+
+#[test]
+fn every_cell_that_looks_bright_has_a_density() {
+    // Bilinear lookups spread a texel over half of its neighbours, around the edge too.
+    for (at, others) in [((0, 3), [15, 0, 1]), ((9, 4), [8, 9, 10])] {
+        let (columns, found) = densities(grey(16, 8, |x, y| f32::from((x, y) == at)));
+        for y in [at.1 - 1, at.1, at.1 + 1] {
+            for x in others {
+                assert!(found[(7 - y as usize) * columns + x] > 0.0, "({x}, {y})");
+            }
+        }
+        assert_eq!(found.iter().filter(|density| **density > 0.0).count(), 9);
+    }
+}
+
+#[test]
+fn black_pictures_and_other_integrators_have_no_table_and_no_trouble() {
+    let black = plane_under(grey(4, 2, |_, _| 0.0), DVec3::Y, 0.0);
+    assert_eq!(mean(&greys(&black, &paths(4, 8))), 0.0);
+    let classical = RenderSettings {
+        integrator: Integrator::Whitted,
+        ..paths(4, 8)
+    };
+    let lit = plane_under(random_picture(8, 4), DVec3::Y, 0.0);
+    assert_eq!(mean(&greys(&lit, &classical)), 0.0);
+}
+
+#[test]
+fn the_picture_of_the_sky_has_all_light_of_the_sun() {
+    let mut verdict = Verdict::on("sky");
+    for degrees in [5.0_f64, 20.0, 45.0, 70.0, 89.0] {
+        let (elevation, azimuth) = (degrees.to_radians(), -2.0);
+        let picture = sky::picture(elevation, azimuth);
+        let (width, height) = (f64::from(picture.width), f64::from(picture.height));
+        let sun = sky::towards_sun(elevation, azimuth);
+        let (mut disc, mut disc_area) = (DVec3::ZERO, 0.0);
+        let (mut ring, mut ring_area) = (DVec3::ZERO, 0.0);
+        let mut most = 0.0_f32;
+        for (index, texel) in picture.linear().enumerate() {
+            most = most.max(texel.max_element());
+            let (x, y) = (index as u32 % picture.width, index as u32 / picture.width);
+            let v = 1.0 - (f64::from(y) + 0.5) / height;
+            let towards = direction((f64::from(x) + 0.5) / width, v, 0.0);
+            let area = TAU / width * PI / height * (PI * (v - 0.5)).cos();
+            let angle = towards.angle_between(sun).to_degrees();
+            if angle < 1.5 {
+                disc += area * texel.truncate().as_dvec3();
+                disc_area += area;
+            } else if angle < 2.0 {
+                ring += area * texel.truncate().as_dvec3();
+                ring_area += area;
+            }
+        }
+        let found = disc - ring * disc_area / ring_area;
+        let expected = sky::sun_irradiance(elevation);
+        let ratio = found / expected;
+        verdict.that(
+            format!("sun at {degrees}°"),
+            (ratio - 1.0).abs().max_element() < 0.005,
+            || format!("{found}, expected {expected}"),
+        );
+        // The largest half float.
+        verdict.that(format!("maximum at {degrees}°"), most <= 65504.0, || {
+            format!("{most}")
+        });
+    }
+    verdict.close();
+}
+
+/// A clear sky with a high sun gives a level surface about 100,000 lux, about a tenth to a quarter of it from the sky.
+#[test]
+fn the_sky_is_as_bright_as_a_clear_day() {
+    let elevation = FRAC_PI_2 - 0.5;
+    let picture = sky::picture(elevation, 0.0);
+    let total = sky::UNIT * irradiance(&picture, DVec3::Y, 0.0);
+    let direct = sky::UNIT * elevation.sin() * sky::sun_irradiance(elevation).y;
+    assert!((80e3..120e3).contains(&total), "{total} lux");
+    let share = 1.0 - direct / total;
+    assert!((0.08..0.3).contains(&share), "{share}");
+}
+
+fn with_environment(
+    source: Option<&Path>,
+    change: Environment,
+    scene: &str,
+) -> Result<Scene, ImportError> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, scene).expect("a file");
+    let options = Options {
+        environment: Environment {
+            source: source.map(|path| EnvironmentSource::File(path.to_owned())),
+            ..change
+        },
+        texture_limit: std::num::NonZero::new(16),
+        ..Options::default()
+    };
+    import::load_with(&path, &options)
+}
+
+const BALL: &str =
+    "background = [0.25, 0.5, 1.0]\n[[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n";
+
+#[test]
+fn files_of_environments_replace_the_background_or_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str| folder.path().join(name);
+    let save = |name: &str, width: u32, height: u32, bad: f32| {
+        let mut image = image::Rgb32FImage::from_pixel(width, height, image::Rgb([0.5; 3]));
+        image.put_pixel(1, 0, image::Rgb([0.5, bad, 0.5]));
+        image.save(file(name)).expect("a picture");
+    };
+    save("good.exr", 8, 4, 0.5);
+    save("nan.exr", 8, 4, f32::NAN);
+    save("negative.exr", 8, 4, -1.0);
+    save("infinite.exr", 8, 4, f32::INFINITY);
+    save("large.exr", 64, 32, 0.5);
+    save("square.exr", 8, 8, 0.5);
+    std::fs::write(file("empty.hdr"), "").expect("a file");
+    std::fs::write(file("text.hdr"), "no picture").expect("a file");
+    let load = |name: &str| with_environment(Some(&file(name)), Environment::default(), BALL);
+
+    let good = load("good.exr").expect("a scene");
+    assert!(good.skipped.is_empty(), "{:?}", good.skipped);
+    assert!(matches!(
+        good.background,
+        Background::Picture { strength: 1.0, .. }
+    ));
+    for name in ["nan.exr", "negative.exr", "infinite.exr"] {
+        let scene = load(name).expect("a scene");
+        assert_eq!(scene.skipped.len(), 1, "{name}: {:?}", scene.skipped);
+        assert!(scene.skipped[0].contains("1 texels"), "{:?}", scene.skipped);
+        let texels: Vec<_> = scene.pictures[0].linear().collect();
+        assert_eq!(texels[1].truncate(), Vec3::ZERO, "{name}");
+        assert_eq!(texels[2].truncate(), Vec3::splat(0.5), "{name}");
+    }
+    let large = load("large.exr").expect("a scene");
+    assert_eq!((large.pictures[0].width, large.skipped.len()), (16, 1));
+    for (name, why) in [
+        ("square.exr", "twice as wide"),
+        ("empty.hdr", "empty"),
+        ("text.hdr", "supported"),
+    ] {
+        let error = load(name).expect_err(name);
+        assert!(matches!(error, ImportError::Malformed(_)), "{error:?}");
+        assert!(error.to_string().contains(why), "{error}");
+    }
+    let error = load("missing.hdr").expect_err("an error");
+    assert!(matches!(error, ImportError::Unreadable(_)), "{error:?}");
+}
+
+#[test]
+fn strength_scales_any_background_and_only_pictures_turn() {
+    let change = |strength, rotation_deg| Environment {
+        source: None,
+        strength,
+        rotation_deg,
+    };
+    let scene = with_environment(None, change(Some(2.0), None), BALL).expect("a scene");
+    assert_eq!(
+        scene.background,
+        Background::Color(Vec3::new(0.5, 1.0, 2.0))
+    );
+    let error = with_environment(None, change(None, Some(90.0)), BALL).expect_err("an error");
+    assert!(matches!(error, ImportError::Malformed(_)), "{error:?}");
+    let sky = Options {
+        environment: Environment {
+            source: Some(EnvironmentSource::Sky {
+                elevation_deg: 30.0,
+                azimuth_deg: 0.0,
+            }),
+            strength: Some(0.5),
+            rotation_deg: Some(90.0),
+        },
+        ..Options::default()
+    };
+    let scene = import::load_with(Path::new("assets/scenes/glass_and_mirrors.toml"), &sky)
+        .expect("a scene");
+    let Background::Picture {
+        strength, rotation, ..
+    } = scene.background
+    else {
+        panic!("{:?}", scene.background);
+    };
+    assert_eq!((strength, rotation), (0.5, FRAC_PI_2));
+}
