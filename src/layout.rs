@@ -399,8 +399,8 @@ packed! {
         environment_width: u32,
         /// The chance with which a light sample is one of the background; 0 without a table.
         environment_share: f32,
-        #[doc(hidden)]
-        _pad0: u32,
+        /// Index of the first word of the tables of albedos among those of the texels.
+        albedo_first: u32,
     }
     /// The parameters of one dispatch: which workgroups of which film tile, which samples. `counters` is its
     /// result.

@@ -49,7 +49,7 @@ use instance::{Instance, InstancedBlas, Plan, TransformSource};
 use mesh::CachedMesh;
 use object::Origins;
 use picture::PackedPicture;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use surfaces::AnimatedMaterials;
 use tlas::TlasSource;
 use trees::Trees;
@@ -139,6 +139,8 @@ pub struct Features {
     pub filtered_shadows: bool,
     /// Some transparent material is a thin wall.
     pub thin_walls: bool,
+    /// Some material has a clear coat, sheen, a thin film or diffuse transmission.
+    pub coatings: bool,
     /// There are textures.
     pub textures: bool,
     /// Some mesh has a second set of texture coordinates.
@@ -297,7 +299,8 @@ fn pack(
     let environment = environment::of_scene(scene, before);
     let table = environment.iter().map(|table| table.words.clone());
     let words = packed_pictures.iter().map(|packed| packed.words.clone());
-    let texels: Segments<u32> = words.chain(table).collect();
+    let albedos = [albedo_words()];
+    let texels: Segments<u32> = words.chain(albedos).chain(table).collect();
     let bounded = joint.shapes.iter().chain(&*instanced_shapes);
     let features = Features {
         shape_kinds: bounded.fold(0, |kinds, shape| kinds | 1 << shape.kind),
@@ -348,6 +351,12 @@ fn pack(
     };
     packed.emissive = packed.emissive(&material::may_emit(scene));
     Ok(packed)
+}
+
+/// The tables of albedos, which all scenes share.
+fn albedo_words() -> Arc<[u32]> {
+    static WORDS: OnceLock<Arc<[u32]>> = OnceLock::new();
+    WORDS.get_or_init(|| albedo::words().into()).clone()
 }
 
 /// Moving shapes, each with its own BLAS. Their indices start at `first`.

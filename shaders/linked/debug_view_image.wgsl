@@ -114,6 +114,9 @@ struct dispatch__Batch {
 
 fn dispatch__load_batch() -> dispatch__Batch {
 	fetch__load_starts();
+	if (bindings__HAS_LAYERS) {
+		albedo__albedo_first = bindings__frame.albedo_first;
+	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
 	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share);
 }
@@ -416,7 +419,7 @@ struct types__PackedFrame {
 	environment_first: u32,
 	environment_width: u32,
 	environment_share: f32,
-	_pad0: u32
+	albedo_first: u32
 }
 
 struct types__PackedDispatch {
@@ -736,6 +739,8 @@ override bindings__HAS_SECOND_UVS: bool = true;
 override bindings__FILM_ROWS: u32 = 1u;
 
 override bindings__SQUARES_ROW: u32 = 1u;
+
+var<private> albedo__albedo_first: u32;
 
 const tile__GROUP_SIDE: u32 = 8u;
 

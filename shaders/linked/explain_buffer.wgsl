@@ -208,6 +208,8 @@ override bindings__HAS_EMISSION: bool = true;
 
 override bindings__HAS_LAYERS: bool = false;
 
+override bindings__HAS_COATINGS: bool = false;
+
 override bindings__HAS_INSTANCES: bool = true;
 
 override bindings__HAS_MOTION: bool = true;
@@ -321,6 +323,22 @@ const types__SLOT_F0: u32 = 2u;
 const types__SLOT_TRANSMISSION: u32 = 3u;
 
 const types__SLOT_F90: u32 = 4u;
+
+const types__SLOT_COAT: u32 = 5u;
+
+const types__SLOT_COAT_ROUGHNESS: u32 = 6u;
+
+const types__SLOT_SHEEN: u32 = 7u;
+
+const types__SLOT_SHEEN_ROUGHNESS: u32 = 8u;
+
+const types__SLOT_IRIDESCENCE: u32 = 10u;
+
+const types__SLOT_FILM_THICKNESS: u32 = 11u;
+
+const types__SLOT_DIFFUSE_TRANSMISSION: u32 = 12u;
+
+const types__SLOT_DIFFUSE_TRANSMISSION_COLOR: u32 = 13u;
 
 const types__SLOT_REFLECT: u32 = 14u;
 
@@ -564,7 +582,7 @@ struct types__PackedFrame {
 	environment_first: u32,
 	environment_width: u32,
 	environment_share: f32,
-	_pad0: u32
+	albedo_first: u32
 }
 
 struct types__PackedDispatch {
@@ -969,6 +987,9 @@ struct dispatch__Batch {
 
 fn dispatch__load_batch() -> dispatch__Batch {
 	fetch__load_starts();
+	if (bindings__HAS_LAYERS) {
+		albedo__albedo_first = bindings__frame.albedo_first;
+	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
 	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share);
 }
@@ -1174,6 +1195,8 @@ fn fetch__vertex_row(row: u32) -> vec4u {
 fn fetch__material_row(row: u32) -> vec4u {
 	return bindings__materials[row];
 }
+
+var<private> albedo__albedo_first: u32;
 
 fn rng__hash(x: u32) -> u32 {
 	var h = x;
@@ -4260,15 +4283,24 @@ struct layers__Layers {
 	diffuse: vec3f,
 	f0: vec3f,
 	f90: vec3f,
-	coat_f0: vec3f,
-	coat_f90: vec3f,
+	over_f0: vec3f,
+	over_f90: vec3f,
 	alpha: f32,
 	reflect: vec3f,
 	transmit: vec3f,
 	boundary_alpha: f32,
 	fresnel: u32,
 	ior: f32,
-	glow: vec3f
+	glow: vec3f,
+	coat: f32,
+	coat_roughness: f32,
+	sheen: vec3f,
+	sheen_roughness: f32,
+	film: f32,
+	film_ior: f32,
+	film_thickness: f32,
+	diffuse_transmission: f32,
+	diffuse_transmission_color: vec3f
 }
 
 fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
@@ -4277,6 +4309,7 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 	var reflect = surface.phong.reflect;
 	var transmit = optics.transmit;
 	var glow = vec3f(1.0);
+	var thickness = 1.0;
 	if (bindings__HAS_TEXTURES) {
 		var rest = own.slots;
 		loop {
@@ -4291,6 +4324,16 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
 			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
 			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			if (bindings__HAS_COATINGS) {
+				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
+				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
+				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
+				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
+				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
+				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
+				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
+				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
+			}
 			rest &= rest - 1u;
 			continuing {
 			
@@ -4299,22 +4342,59 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 		}
 		loops__cut_off |= rest != 0u;
 	}
+	var layers: layers__Layers;
 	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
-		return layers__metallic_roughness(own, glow);
+		layers = layers__metallic_roughness(own);
 	}
-	return layers__Layers(own.base, own.f0, own.f0, own.f0, own.f0, own.roughness * own.roughness, reflect, transmit, 0.0, optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK), own.ior, glow);
+	else {
+		layers.diffuse = own.base;
+		layers.f0 = own.f0;
+		layers.f90 = own.f0;
+		layers.over_f0 = own.f0;
+		layers.over_f90 = own.f0;
+		layers.alpha = own.roughness * own.roughness;
+		layers.reflect = reflect;
+		layers.transmit = transmit;
+		layers.fresnel = optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK);
+		layers.ior = own.ior;
+	}
+	layers.glow = glow;
+	if (bindings__HAS_COATINGS) {
+		layers.coat = own.coat;
+		layers.coat_roughness = own.coat_roughness;
+		layers.sheen = own.sheen;
+		layers.sheen_roughness = own.sheen_roughness;
+		layers.film = own.iridescence;
+		layers.film_ior = own.iridescence_ior;
+		layers.film_thickness = mix(own.film_thinnest, own.film_thickest, thickness);
+		layers.diffuse_transmission = own.diffuse_transmission;
+		layers.diffuse_transmission_color = own.diffuse_transmission_color;
+	}
+	return layers;
 }
 
-fn layers__metallic_roughness(own: types__PackedLayers, glow: vec3f) -> layers__Layers {
-	let alpha = own.roughness * own.roughness;
+fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
+	var layers: layers__Layers;
+	layers.alpha = own.roughness * own.roughness;
+	layers.ior = own.ior;
 	let body = 1.0 - own.metallic;
-	let metal = own.metallic * own.base;
+	layers.diffuse = body * own.base;
 	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
 		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
-		let tint = min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
-		return layers__Layers((body * (1.0 - own.transmission)) * own.base, metal, vec3f(own.metallic), vec3f(0.0), vec3f(0.0), alpha, body * tint, (body * own.transmission) * own.base, alpha, types__MATERIAL_FRESNEL, own.ior, glow);
+		layers.diffuse *= 1.0 - own.transmission;
+		layers.f0 = own.metallic * own.base;
+		layers.f90 = vec3f(own.metallic);
+		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
+		layers.transmit = (body * own.transmission) * own.base;
+		layers.boundary_alpha = layers.alpha;
+		layers.fresnel = types__MATERIAL_FRESNEL;
+		return layers;
 	}
-	return layers__Layers(body * own.base, mix(own.f0, own.base, own.metallic), vec3f(mix(own.f90, 1.0, own.metallic)), own.f0, vec3f(own.f90), alpha, vec3f(0.0), vec3f(0.0), 0.0, 0u, own.ior, glow);
+	layers.f0 = mix(own.f0, own.base, own.metallic);
+	layers.f90 = vec3f(mix(own.f90, 1.0, own.metallic));
+	layers.over_f0 = own.f0;
+	layers.over_f90 = vec3f(own.f90);
+	return layers;
 }
 
 fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {

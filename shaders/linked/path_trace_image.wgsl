@@ -50,14 +50,14 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	let layers = layers__layers_at(surface, optics);
 	let weight = emitters__emission_weight(batch, surface, path.origin, ray.direction, distance(path.origin, surface.p), path.pdf);
 	path.radiance += path.throughput * weight * emitters__emitted(surface, optics, layers.glow);
-	let bsdf = bsdf__bsdf_at(surface, optics, layers, met, ray.direction);
+	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
 	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
 		path.radiance += path.throughput * lamp_light(batch, path, surface, bsdf, met);
 	}
 	return scattered(batch, path, surface, bsdf, met);
 }
 
-fn lamp_light(batch: dispatch__Batch, path: path__Path, surface: types__Surface, bsdf: bsdf__Bsdf, met: interface__Interface) -> vec3f {
+fn lamp_light(batch: dispatch__Batch, path: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> vec3f {
 	let light = emitters__sample_light(batch, surface.p, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
 	let found = bsdf__bsdf_eval(bsdf, light.incident.direction);
 	let weight = select(1.0, mis__power_heuristic(light.pdf, found.pdf), light.pdf > 0.0);
@@ -70,7 +70,7 @@ fn lamp_light(batch: dispatch__Batch, path: path__Path, surface: types__Surface,
 	return unshadowed * wide__vector_at(shadow__light_through(rays, ray_states__Media(media.x, media.y, media.z, media.w)), 0u);
 }
 
-fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: bsdf__Bsdf, met: interface__Interface) -> path__Path {
+fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
 	var path = before;
 	let next = bsdf__bsdf_sample(bsdf, path__random_1d(path, dimensions__SCATTER_CHOICE), path__random_2d(path, dimensions__SCATTER_DIRECTION));
 	path.throughput *= next.weight;
@@ -177,6 +177,9 @@ struct dispatch__Batch {
 
 fn dispatch__load_batch() -> dispatch__Batch {
 	fetch__load_starts();
+	if (bindings__HAS_LAYERS) {
+		albedo__albedo_first = bindings__frame.albedo_first;
+	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
 	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share);
 }
@@ -358,6 +361,22 @@ const types__SLOT_F0: u32 = 2u;
 const types__SLOT_TRANSMISSION: u32 = 3u;
 
 const types__SLOT_F90: u32 = 4u;
+
+const types__SLOT_COAT: u32 = 5u;
+
+const types__SLOT_COAT_ROUGHNESS: u32 = 6u;
+
+const types__SLOT_SHEEN: u32 = 7u;
+
+const types__SLOT_SHEEN_ROUGHNESS: u32 = 8u;
+
+const types__SLOT_IRIDESCENCE: u32 = 10u;
+
+const types__SLOT_FILM_THICKNESS: u32 = 11u;
+
+const types__SLOT_DIFFUSE_TRANSMISSION: u32 = 12u;
+
+const types__SLOT_DIFFUSE_TRANSMISSION_COLOR: u32 = 13u;
 
 const types__SLOT_REFLECT: u32 = 14u;
 
@@ -594,7 +613,7 @@ struct types__PackedFrame {
 	environment_first: u32,
 	environment_width: u32,
 	environment_share: f32,
-	_pad0: u32
+	albedo_first: u32
 }
 
 struct types__PackedDispatch {
@@ -957,6 +976,8 @@ override bindings__HAS_EMISSION: bool = true;
 
 override bindings__HAS_LAYERS: bool = false;
 
+override bindings__HAS_COATINGS: bool = false;
+
 override bindings__ADAPTIVE: bool = false;
 
 override bindings__HAS_INSTANCES: bool = true;
@@ -978,6 +999,14 @@ override bindings__HAS_SECOND_UVS: bool = true;
 override bindings__FILM_ROWS: u32 = 1u;
 
 override bindings__SQUARES_ROW: u32 = 1u;
+
+var<private> albedo__albedo_first: u32;
+
+fn albedo__albedo_of(table: u32, cos_o: f32, alpha: f32) -> vec2f {
+	let place = albedo__albedo_lookup(table, cos_o, alpha);
+	let words = place.words + vec4u(albedo__albedo_first);
+	return albedo__blended_albedo(vec4u(picture__load_texel_word(words.x), picture__load_texel_word(words.y), picture__load_texel_word(words.z), picture__load_texel_word(words.w)), place.weights);
+}
 
 struct pixels__Pixels {
 	film_index: wide__Words,
@@ -3582,15 +3611,24 @@ struct layers__Layers {
 	diffuse: vec3f,
 	f0: vec3f,
 	f90: vec3f,
-	coat_f0: vec3f,
-	coat_f90: vec3f,
+	over_f0: vec3f,
+	over_f90: vec3f,
 	alpha: f32,
 	reflect: vec3f,
 	transmit: vec3f,
 	boundary_alpha: f32,
 	fresnel: u32,
 	ior: f32,
-	glow: vec3f
+	glow: vec3f,
+	coat: f32,
+	coat_roughness: f32,
+	sheen: vec3f,
+	sheen_roughness: f32,
+	film: f32,
+	film_ior: f32,
+	film_thickness: f32,
+	diffuse_transmission: f32,
+	diffuse_transmission_color: vec3f
 }
 
 fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
@@ -3599,6 +3637,7 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 	var reflect = surface.phong.reflect;
 	var transmit = optics.transmit;
 	var glow = vec3f(1.0);
+	var thickness = 1.0;
 	if (bindings__HAS_TEXTURES) {
 		var rest = own.slots;
 		loop {
@@ -3613,6 +3652,16 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
 			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
 			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			if (bindings__HAS_COATINGS) {
+				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
+				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
+				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
+				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
+				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
+				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
+				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
+				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
+			}
 			rest &= rest - 1u;
 			continuing {
 			
@@ -3621,22 +3670,59 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 		}
 		loops__cut_off |= rest != 0u;
 	}
+	var layers: layers__Layers;
 	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
-		return layers__metallic_roughness(own, glow);
+		layers = layers__metallic_roughness(own);
 	}
-	return layers__Layers(own.base, own.f0, own.f0, own.f0, own.f0, own.roughness * own.roughness, reflect, transmit, 0.0, optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK), own.ior, glow);
+	else {
+		layers.diffuse = own.base;
+		layers.f0 = own.f0;
+		layers.f90 = own.f0;
+		layers.over_f0 = own.f0;
+		layers.over_f90 = own.f0;
+		layers.alpha = own.roughness * own.roughness;
+		layers.reflect = reflect;
+		layers.transmit = transmit;
+		layers.fresnel = optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK);
+		layers.ior = own.ior;
+	}
+	layers.glow = glow;
+	if (bindings__HAS_COATINGS) {
+		layers.coat = own.coat;
+		layers.coat_roughness = own.coat_roughness;
+		layers.sheen = own.sheen;
+		layers.sheen_roughness = own.sheen_roughness;
+		layers.film = own.iridescence;
+		layers.film_ior = own.iridescence_ior;
+		layers.film_thickness = mix(own.film_thinnest, own.film_thickest, thickness);
+		layers.diffuse_transmission = own.diffuse_transmission;
+		layers.diffuse_transmission_color = own.diffuse_transmission_color;
+	}
+	return layers;
 }
 
-fn layers__metallic_roughness(own: types__PackedLayers, glow: vec3f) -> layers__Layers {
-	let alpha = own.roughness * own.roughness;
+fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
+	var layers: layers__Layers;
+	layers.alpha = own.roughness * own.roughness;
+	layers.ior = own.ior;
 	let body = 1.0 - own.metallic;
-	let metal = own.metallic * own.base;
+	layers.diffuse = body * own.base;
 	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
 		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
-		let tint = min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
-		return layers__Layers((body * (1.0 - own.transmission)) * own.base, metal, vec3f(own.metallic), vec3f(0.0), vec3f(0.0), alpha, body * tint, (body * own.transmission) * own.base, alpha, types__MATERIAL_FRESNEL, own.ior, glow);
+		layers.diffuse *= 1.0 - own.transmission;
+		layers.f0 = own.metallic * own.base;
+		layers.f90 = vec3f(own.metallic);
+		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
+		layers.transmit = (body * own.transmission) * own.base;
+		layers.boundary_alpha = layers.alpha;
+		layers.fresnel = types__MATERIAL_FRESNEL;
+		return layers;
 	}
-	return layers__Layers(body * own.base, mix(own.f0, own.base, own.metallic), vec3f(mix(own.f90, 1.0, own.metallic)), own.f0, vec3f(own.f90), alpha, vec3f(0.0), vec3f(0.0), 0.0, 0u, own.ior, glow);
+	layers.f0 = mix(own.f0, own.base, own.metallic);
+	layers.f90 = vec3f(mix(own.f90, 1.0, own.metallic));
+	layers.over_f0 = own.f0;
+	layers.over_f90 = vec3f(own.f90);
+	return layers;
 }
 
 fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
@@ -3915,7 +4001,7 @@ fn area_light__max_abs(v: vec3f) -> f32 {
 	return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
-struct bsdf__Bsdf {
+struct lobes__Bsdf {
 	normal: vec3f,
 	ng: vec3f,
 	wo: vec3f,
@@ -3931,33 +4017,25 @@ struct bsdf__Bsdf {
 	bends: bool,
 	encloses: bool,
 	flags: u32,
-	chances: vec3f
+	through: vec3f,
+	coating: coating__Coating,
+	chances: vec3f,
+	coating_chances: vec2f
 }
 
-struct bsdf__BsdfValue {
-	value: vec3f,
-	pdf: f32
-}
-
-struct bsdf__BsdfSample {
-	direction: vec3f,
-	weight: vec3f,
-	pdf: f32
-}
-
-struct bsdf__Split {
+struct lobes__Split {
 	reflect: vec3f,
 	transmit: vec3f
 }
 
-fn bsdf__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers__Layers, met: interface__Interface, direction: vec3f) -> bsdf__Bsdf {
-	var bsdf: bsdf__Bsdf;
+fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers__Layers, met: interface__Interface, direction: vec3f) -> lobes__Bsdf {
+	var bsdf: lobes__Bsdf;
 	bsdf.ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
 	let n = select(surface.n, -surface.n, dot(surface.n, bsdf.ng) < 0.0);
 	bsdf.normal = select(bsdf.ng, n, dot(n, direction) < -0.001);
-	bsdf.wo = bsdf__to_frame(bsdf.normal, -direction);
+	bsdf.wo = lobes__to_frame(bsdf.normal, -direction);
 	bsdf.alpha = vec2f(max(layers.alpha, layers__SMOOTH));
-	var seen = bsdf__Split(vec3f(0.0), vec3f(0.0));
+	var seen = lobes__Split(vec3f(0.0), vec3f(0.0));
 	var inside = 1.0;
 	if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
 		inside = select(0.0, 1.0, met.is_boundary);
@@ -3969,139 +4047,101 @@ fn bsdf__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers_
 		bsdf.bends = met.is_boundary && met.encloses;
 		bsdf.eta = met.ior / select(layers.ior, met.ior_behind, met.encloses);
 		bsdf.boundary_alpha *= select(1.0, 0.0, bsdf.bends && abs(bsdf.eta - 1.0) < 0.0001);
-		seen = bsdf__split_at(bsdf, bsdf.wo.z);
+		seen = lobes__split_at(bsdf, bsdf.wo.z);
 	}
 	bsdf.f0 = inside * layers.f0;
 	bsdf.f90 = inside * layers.f90;
-	let albedo = bsdf__albedo_at(bsdf.wo.z, bsdf.alpha.x);
-	let glossy = albedo.x * bsdf.f0 + albedo.y * bsdf.f90;
-	var left = 1.0 - numeric__max_component(albedo.x * layers.coat_f0 + albedo.y * layers.coat_f90);
+	var over = layers.over_f0;
+	if (bindings__HAS_COATINGS) {
+		let film = lobes__film_f0_at(layers, bsdf.f0, bsdf.wo.z);
+		bsdf.f0 = mix(bsdf.f0, inside * film, layers.film);
+		over = mix(over, film, layers.film * numeric__max_component(layers.over_f90));
+	}
+	let albedo = albedo__albedo_of(albedo__GGX_ALBEDO, bsdf.wo.z, bsdf.alpha.x);
+	let boost = albedo__multiple_scattering(bsdf.f0, albedo);
+	let glossy = boost * (albedo.x * bsdf.f0 + albedo.y * bsdf.f90);
+	var left = 1.0 - numeric__max_component(boost * (albedo.x * over + albedo.y * layers.over_f90));
 	if ((optics.flags & types__MATERIAL_SUM) == 0u) {
 		left *= optics.opacity * (1.0 - numeric__max_component(seen.reflect));
 	}
 	bsdf.diffuse = (inside * max(left, 0.0)) * layers.diffuse;
-	let scale = 1.0 / max(numeric__max_component(bsdf.diffuse + glossy + seen.reflect + seen.transmit), 1.0);
+	var scale = 1.0 / max(numeric__max_component(bsdf.diffuse + glossy + seen.reflect + seen.transmit), 1.0);
+	if (bindings__HAS_COATINGS) {
+		bsdf.coating = coating__coating_at(layers, bsdf.wo.z);
+		bsdf.coating.albedos *= inside;
+		scale *= mix(1.0, bsdf.coating.left, inside);
+		bsdf.through = scale * layers.diffuse_transmission * bsdf.diffuse * layers.diffuse_transmission_color;
+		bsdf.diffuse *= 1.0 - layers.diffuse_transmission;
+	}
 	bsdf.diffuse *= scale;
-	bsdf.gain = vec3f(scale);
+	bsdf.gain = scale * boost;
 	bsdf.reflect *= scale;
 	bsdf.transmit *= scale;
-	let weights = vec3f(dot(bsdf.diffuse, tone__LUMINANCE_REC709), scale * dot(glossy, tone__LUMINANCE_REC709), scale * dot(seen.reflect + seen.transmit, tone__LUMINANCE_REC709));
-	bsdf.chances = weights / max(weights.x + weights.y + weights.z, 1e-30);
+	let weights = vec3f(dot(bsdf.diffuse + bsdf.through, tone__LUMINANCE_REC709), scale * dot(glossy, tone__LUMINANCE_REC709), scale * dot(seen.reflect + seen.transmit, tone__LUMINANCE_REC709));
+	let total = max(weights.x + weights.y + weights.z + bsdf.coating.albedos.x + bsdf.coating.albedos.y, 1e-30);
+	bsdf.chances = weights / total;
+	bsdf.coating_chances = bsdf.coating.albedos / total;
 	return bsdf;
 }
 
-fn bsdf__has_rough_boundary(bsdf: bsdf__Bsdf) -> bool {
-	return (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && bsdf.chances.z > 0.0 && bsdf.boundary_alpha.x >= layers__SMOOTH;
+fn lobes__film_f0_at(layers: layers__Layers, base_f0: vec3f, cos_o: f32) -> vec3f {
+	let x = 1.0 - cos_o;
+	let x5 = min(x * x * x * x * x, 0.999);
+	let film = thin_film__thin_film(cos_o, 1.0, layers.film_ior, layers.film_thickness, min(base_f0, vec3f(1.0)));
+	return clamp((film - x5) / (1.0 - x5), vec3f(0.0), vec3f(1.0));
 }
 
-fn bsdf__bsdf_eval(bsdf: bsdf__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
-	let wi = bsdf__to_frame(bsdf.normal, direction);
-	var value = vec3f(0.0);
-	var pdf = 0.0;
-	if (wi.z > 0.0) {
-		let diffuse = bsdf_diffuse__diffuse_eval(wi);
-		let glossy = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.alpha, false);
-		let cos_h = dot(bsdf.wo, normalize(bsdf.wo + wi));
-		value = diffuse * bsdf.diffuse + glossy.x * (bsdf.gain * bsdf__schlick_between(bsdf.f0, bsdf.f90, cos_h));
-		pdf = bsdf.chances.x * diffuse + bsdf.chances.y * glossy.y;
-		if (bsdf__has_rough_boundary(bsdf)) {
-			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, false);
-			let split = bsdf__split_at(bsdf, cos_h);
-			value += boundary.x * split.reflect;
-			pdf += bsdf.chances.z * bsdf__reflection_chance(split) * boundary.y;
-		}
-	}
-	else if (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) {
-		var boundary = bsdf_ggx__ggx_eval(bsdf.wo, vec3f(wi.xy, -wi.z), bsdf.boundary_alpha, false);
-		var h = normalize(bsdf.wo + vec3f(wi.xy, -wi.z));
-		if (bsdf.bends) {
-			boundary = bsdf_ggx_transmission__ggx_transmission(bsdf.wo, wi, bsdf.boundary_alpha, bsdf.eta);
-			h = bsdf_ggx_transmission__transmission_half(bsdf.wo, wi, bsdf.eta);
-		}
-		let split = bsdf__split_at(bsdf, dot(bsdf.wo, h));
-		value = boundary.x * split.transmit;
-		pdf = bsdf.chances.z * (1.0 - bsdf__reflection_chance(split)) * boundary.y;
-	}
-	return bsdf__BsdfValue(select(vec3f(0.0), value, (dot(direction, bsdf.ng) > 0.0) == (wi.z > 0.0)), pdf);
-}
-
-fn bsdf__bsdf_sample(bsdf: bsdf__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
-	let chances = bsdf.chances;
-	let is_diffuse = choice < chances.x;
-	let is_glossy = !is_diffuse && choice < chances.x + chances.y;
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && !is_diffuse && !is_glossy && chances.z > 0.0) {
-		return bsdf__boundary_sample(bsdf, clamp((choice - chances.x - chances.y) / chances.z, 0.0, 1.0), u);
-	}
-	let h = bsdf_ggx__ggx_normal(bsdf.wo, bsdf.alpha, u);
-	let wi = select(bsdf__reflected_at(bsdf.wo, h), bsdf_diffuse__diffuse_sample(u), is_diffuse);
-	return bsdf__rough_sample(bsdf, wi);
-}
-
-fn bsdf__boundary_sample(bsdf: bsdf__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
-	let is_smooth = bsdf.boundary_alpha.x < layers__SMOOTH;
-	let h = select(bsdf_ggx__ggx_normal(bsdf.wo, max(bsdf.boundary_alpha, vec2f(layers__SMOOTH)), u), vec3f(0.0, 0.0, 1.0), is_smooth);
-	let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
-	let split = bsdf__split_at(bsdf, cos_h);
-	let chance = bsdf__reflection_chance(split);
-	let reflects = choice < chance;
-	var wi = bsdf__reflected_at(bsdf.wo, h);
-	if (!reflects) {
-		wi = vec3f(wi.xy, -wi.z);
-		if (bsdf.bends) {
-			wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
-		}
-	}
-	if (is_smooth) {
-		let fraction = select(split.transmit / max(1.0 - chance, 1e-6), split.reflect / max(chance, 1e-6), reflects);
-		let direction = warp__turn_to(bsdf.normal, wi);
-		let stays = (dot(direction, bsdf.ng) > 0.0) == reflects;
-		return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
-	}
-	return bsdf__rough_sample(bsdf, wi);
-}
-
-fn bsdf__rough_sample(bsdf: bsdf__Bsdf, wi: vec3f) -> bsdf__BsdfSample {
-	let direction = warp__turn_to(bsdf.normal, wi);
-	let found = bsdf__bsdf_eval(bsdf, direction);
-	return bsdf__BsdfSample(direction, found.value / max(found.pdf, 1e-30), found.pdf);
-}
-
-fn bsdf__split_at(bsdf: bsdf__Bsdf, cos_i: f32) -> bsdf__Split {
+fn lobes__split_at(bsdf: lobes__Bsdf, cos_i: f32) -> lobes__Split {
 	let boundary = boundary__boundary_at(bsdf.flags, clamp(cos_i, 0.0, 1.0), bsdf.eta);
 	if ((bsdf.flags & types__MATERIAL_FRESNEL) != 0u) {
-		return bsdf__Split(boundary.reflectance * bsdf.reflect, (1.0 - boundary.reflectance) * bsdf.transmit);
+		return lobes__Split(boundary.reflectance * bsdf.reflect, (1.0 - boundary.reflectance) * bsdf.transmit);
 	}
 	if (boundary.total && bsdf.bends) {
-		return bsdf__Split(bsdf.reflect + select(bsdf.transmit, vec3f(0.0), (bsdf.flags & types__MATERIAL_SUM) != 0u), vec3f(0.0));
+		return lobes__Split(bsdf.reflect + select(bsdf.transmit, vec3f(0.0), (bsdf.flags & types__MATERIAL_SUM) != 0u), vec3f(0.0));
 	}
-	return bsdf__Split(bsdf.reflect, bsdf.transmit);
+	return lobes__Split(bsdf.reflect, bsdf.transmit);
 }
 
-fn bsdf__reflection_chance(split: bsdf__Split) -> f32 {
-	let reflected = dot(split.reflect, tone__LUMINANCE_REC709);
-	return reflected / max(reflected + dot(split.transmit, tone__LUMINANCE_REC709), 1e-30);
-}
-
-fn bsdf__schlick_between(f0: vec3f, f90: vec3f, cos_h: f32) -> vec3f {
-	let x = 1.0 - clamp(cos_h, 0.0, 1.0);
-	let x2 = x * x;
-	return mix(f0, f90, x2 * x2 * x);
-}
-
-fn bsdf__reflected_at(wo: vec3f, h: vec3f) -> vec3f {
-	return normalize(2.0 * dot(wo, h) * h - wo);
-}
-
-fn bsdf__to_frame(n: vec3f, direction: vec3f) -> vec3f {
+fn lobes__to_frame(n: vec3f, direction: vec3f) -> vec3f {
 	let x = warp__turn_to(n, vec3f(1.0, 0.0, 0.0));
 	let y = warp__turn_to(n, vec3f(0.0, 1.0, 0.0));
 	return vec3f(dot(direction, x), dot(direction, y), dot(direction, n));
 }
 
-fn bsdf__albedo_at(cos_o: f32, alpha: f32) -> vec2f {
-	let r = sqrt(alpha) * vec4f(-1.0, -0.0275, -0.572, 0.022) + vec4f(1.0, 0.0425, 1.04, -0.04);
-	let a = min(r.x * r.x, exp2(-9.28 * cos_o)) * r.x + r.y;
-	return vec2f(-1.04, 1.04) * a + r.zw;
+const coating__COAT_F0: f32 = 0.04;
+
+struct coating__Coating {
+	coat: f32,
+	coat_alpha: f32,
+	sheen: vec3f,
+	sheen_alpha: f32,
+	left: f32,
+	albedos: vec2f
+}
+
+fn coating__coating_at(layers: layers__Layers, cos_o: f32) -> coating__Coating {
+	let coat_alpha = max(layers.coat_roughness * layers.coat_roughness, layers__SMOOTH);
+	let sheen_alpha = max(layers.sheen_roughness * layers.sheen_roughness, 0.001);
+	let of_coat = albedo__albedo_of(albedo__GGX_ALBEDO, cos_o, coat_alpha);
+	let of_sheen = albedo__albedo_of(albedo__SHEEN_ALBEDO, cos_o, sheen_alpha);
+	let coat_albedo = layers.coat * (coating__COAT_F0 * of_coat.x + of_coat.y);
+	let below_coat = 1.0 - coat_albedo;
+	let sheen = (below_coat * of_sheen.y) * layers.sheen;
+	return coating__Coating(layers.coat, coat_alpha, sheen, sheen_alpha, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
+}
+
+fn coating__coating_eval(coating: coating__Coating, wo: vec3f, wi: vec3f, chances: vec2f) -> vec4f {
+	let cos_h = clamp(dot(wo, normalize(wo + wi)), 0.0, 1.0);
+	let x = 1.0 - cos_h;
+	let reflectance = coating.coat * mix(coating__COAT_F0, 1.0, x * x * x * x * x);
+	let coat = bsdf_ggx__ggx_eval(wo, wi, vec2f(coating.coat_alpha), false);
+	let sheen = bsdf_sheen__sheen_eval(wo, wi, coating.sheen_alpha);
+	return vec4f(reflectance * coat.x + sheen.x * coating.sheen, dot(chances, vec2f(coat.y, sheen.y)));
+}
+
+fn coating__coating_sample(coating: coating__Coating, wo: vec3f, u: vec2f, is_coat: bool) -> vec3f {
+	let h = bsdf_ggx__ggx_normal(wo, vec2f(coating.coat_alpha), u);
+	return select(bsdf_sheen__sheen_sample(u), normalize(2.0 * dot(wo, h) * h - wo), is_coat);
 }
 
 fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
@@ -4141,6 +4181,75 @@ fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
 fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f {
 	let cos_i = -dot(direction, n);
 	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
+}
+
+const thin_film__XYZ_TO_RGB: mat3x3f = mat3x3f(vec3f(3.2404542, -0.969266, 0.0556434), vec3f(-1.5371385, 1.8760108, -0.2040259), vec3f(-0.4985314, 0.041556, 1.0572252));
+
+fn thin_film__film_schlick(f0: vec3f, cos_theta: f32) -> vec3f {
+	let x = 1.0 - clamp(cos_theta, 0.0, 1.0);
+	let x2 = x * x;
+	return f0 + (1.0 - f0) * (x2 * x2 * x);
+}
+
+fn thin_film__film_f0(n1: vec3f, n2: vec3f) -> vec3f {
+	let ratio = (n1 - n2) / (n1 + n2);
+	return ratio * ratio;
+}
+
+fn thin_film__film_spectrum(path: f32) -> vec3f {
+	let phase = 2.0 * warp__PI * path * 1e-9;
+	let height = vec3f(5.4856e-13, 4.4201e-13, 5.2481e-13);
+	let middle = vec3f(1681000.0, 1795300.0, 2208400.0);
+	let variance = vec3f(4327800000.0, 9304600000.0, 6612100000.0);
+	let main = height * sqrt(2.0 * warp__PI * variance) * cos(middle * phase) * exp(-phase * phase * variance);
+	let blue = 9.747e-14 * sqrt(2.0 * warp__PI * 4528200000.0) * cos(2239900.0 * phase) * exp(-phase * phase * 4528200000.0);
+	return thin_film__XYZ_TO_RGB * (main + vec3f(blue, 0.0, 0.0)) / 1.0685e-7;
+}
+
+fn thin_film__thin_film(cos_i: f32, outside: f32, film_ior: f32, thickness: f32, base_f0: vec3f) -> vec3f {
+	let ior = mix(outside, film_ior, smoothstep(0.0, 0.03, thickness));
+	let above = fresnel__fresnel(cos_i, outside / ior);
+	let root = sqrt(clamp(base_f0, vec3f(0.0), vec3f(0.9999)));
+	let base_ior = (1.0 + root) / (1.0 - root);
+	let r12 = above.reflectance;
+	let r23 = thin_film__film_schlick(thin_film__film_f0(vec3f(ior), base_ior), above.cos_t);
+	let once = sqrt(r12 * r23);
+	let through = (1.0 - r12) * (1.0 - r23) / max(1.0 - r12 * r23, vec3f(1e-6));
+	let sign = select(vec3f(1.0), vec3f(-1.0), base_ior < vec3f(ior)) * select(-1.0, 1.0, ior < outside);
+	let path = 2.0 * ior * thickness * above.cos_t;
+	let harmonics = sign * once * thin_film__film_spectrum(path) + once * once * thin_film__film_spectrum(2.0 * path);
+	let reflected = clamp(1.0 - through - 2.0 * through * harmonics, vec3f(0.0), vec3f(1.0));
+	return select(reflected, vec3f(1.0), above.total);
+}
+
+const albedo__ALBEDO_SIDE: u32 = 32u;
+
+const albedo__GGX_ALBEDO: u32 = 0u;
+
+const albedo__SHEEN_ALBEDO: u32 = 1024u;
+
+struct albedo__AlbedoLookup {
+	words: vec4u,
+	weights: vec4f
+}
+
+fn albedo__albedo_lookup(table: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
+	let last = f32(albedo__ALBEDO_SIDE - 1u);
+	let place = last * sqrt(sqrt(clamp(vec2f(cos_o, alpha), vec2f(0.0), vec2f(1.0))));
+	let cell = min(floor(place), vec2f(last - 1.0));
+	let part = place - cell;
+	let first = table + u32(cell.y) * albedo__ALBEDO_SIDE + u32(cell.x);
+	let rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
+	return albedo__AlbedoLookup(vec4u(first, first + 1u, first + albedo__ALBEDO_SIDE, first + albedo__ALBEDO_SIDE + 1u), rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+}
+
+fn albedo__blended_albedo(entries: vec4u, weights: vec4f) -> vec2f {
+	return weights.x * picture__halves(entries.x) + weights.y * picture__halves(entries.y) + weights.z * picture__halves(entries.z) + weights.w * picture__halves(entries.w);
+}
+
+fn albedo__multiple_scattering(f0: vec3f, albedo: vec2f) -> vec3f {
+	let single = clamp(albedo.x + albedo.y, 0.001, 1.0);
+	return 1.0 + f0 * ((1.0 - single) / single);
 }
 
 const quad_warp__CHANCE_BITS: u32 = 10u;
@@ -4199,6 +4308,134 @@ fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
 	return types__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
 }
 
+struct bsdf__BsdfValue {
+	value: vec3f,
+	pdf: f32
+}
+
+struct bsdf__BsdfSample {
+	direction: vec3f,
+	weight: vec3f,
+	pdf: f32
+}
+
+fn bsdf__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
+	return (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && bsdf.chances.z > 0.0 && bsdf.boundary_alpha.x >= layers__SMOOTH;
+}
+
+fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
+	let wi = lobes__to_frame(bsdf.normal, direction);
+	var value = vec3f(0.0);
+	var pdf = 0.0;
+	if (wi.z > 0.0) {
+		let diffuse = bsdf_diffuse__diffuse_eval(wi);
+		let glossy = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.alpha, false);
+		let cos_h = dot(bsdf.wo, normalize(bsdf.wo + wi));
+		value = diffuse * bsdf.diffuse + glossy.x * (bsdf.gain * bsdf__schlick_between(bsdf.f0, bsdf.f90, cos_h));
+		pdf = bsdf.chances.x * (1.0 - bsdf__through_share(bsdf)) * diffuse + bsdf.chances.y * glossy.y;
+		if (bindings__HAS_COATINGS) {
+			let coating = coating__coating_eval(bsdf.coating, bsdf.wo, wi, bsdf.coating_chances);
+			value += coating.xyz;
+			pdf += coating.w;
+		}
+		if (bsdf__has_rough_boundary(bsdf)) {
+			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, false);
+			let split = lobes__split_at(bsdf, cos_h);
+			value += boundary.x * split.reflect;
+			pdf += bsdf.chances.z * bsdf__reflection_chance(split) * boundary.y;
+		}
+	}
+	else if (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) {
+		var boundary = bsdf_ggx__ggx_eval(bsdf.wo, vec3f(wi.xy, -wi.z), bsdf.boundary_alpha, false);
+		var h = normalize(bsdf.wo + vec3f(wi.xy, -wi.z));
+		if (bsdf.bends) {
+			boundary = bsdf_ggx_transmission__ggx_transmission(bsdf.wo, wi, bsdf.boundary_alpha, bsdf.eta);
+			h = bsdf_ggx_transmission__transmission_half(bsdf.wo, wi, bsdf.eta);
+		}
+		let split = lobes__split_at(bsdf, dot(bsdf.wo, h));
+		value = boundary.x * split.transmit;
+		pdf = bsdf.chances.z * (1.0 - bsdf__reflection_chance(split)) * boundary.y;
+	}
+	if (bindings__HAS_COATINGS && wi.z < 0.0) {
+		let through = bsdf_diffuse__diffuse_eval(-wi);
+		value += through * bsdf.through;
+		pdf += bsdf.chances.x * bsdf__through_share(bsdf) * through;
+	}
+	return bsdf__BsdfValue(select(vec3f(0.0), value, (dot(direction, bsdf.ng) > 0.0) == (wi.z > 0.0)), pdf);
+}
+
+fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
+	let chances = bsdf.chances;
+	let is_diffuse = choice < chances.x;
+	let is_glossy = !is_diffuse && choice < chances.x + chances.y;
+	let first = chances.x + chances.y + bsdf.coating_chances.x + bsdf.coating_chances.y;
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && choice >= first && chances.z > 0.0) {
+		return bsdf__boundary_sample(bsdf, clamp((choice - first) / chances.z, 0.0, 1.0), u);
+	}
+	let h = bsdf_ggx__ggx_normal(bsdf.wo, bsdf.alpha, u);
+	var wi = select(bsdf__reflected_at(bsdf.wo, h), bsdf_diffuse__diffuse_sample(u), is_diffuse);
+	if (bindings__HAS_COATINGS) {
+		if (!is_diffuse && !is_glossy) {
+			let is_coat = choice < chances.x + chances.y + bsdf.coating_chances.x;
+			wi = coating__coating_sample(bsdf.coating, bsdf.wo, u, is_coat);
+		}
+		wi.z *= select(1.0, -1.0, is_diffuse && choice < chances.x * bsdf__through_share(bsdf));
+	}
+	return bsdf__rough_sample(bsdf, wi);
+}
+
+fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
+	if (!bindings__HAS_COATINGS) {
+		return 0.0;
+	}
+	let through = dot(bsdf.through, tone__LUMINANCE_REC709);
+	return through / max(through + dot(bsdf.diffuse, tone__LUMINANCE_REC709), 1e-30);
+}
+
+fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
+	let is_smooth = bsdf.boundary_alpha.x < layers__SMOOTH;
+	let h = select(bsdf_ggx__ggx_normal(bsdf.wo, max(bsdf.boundary_alpha, vec2f(layers__SMOOTH)), u), vec3f(0.0, 0.0, 1.0), is_smooth);
+	let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
+	let split = lobes__split_at(bsdf, cos_h);
+	let chance = bsdf__reflection_chance(split);
+	let reflects = choice < chance;
+	var wi = bsdf__reflected_at(bsdf.wo, h);
+	if (!reflects) {
+		wi = vec3f(wi.xy, -wi.z);
+		if (bsdf.bends) {
+			wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
+		}
+	}
+	if (is_smooth) {
+		let fraction = select(split.transmit / max(1.0 - chance, 1e-6), split.reflect / max(chance, 1e-6), reflects);
+		let direction = warp__turn_to(bsdf.normal, wi);
+		let stays = (dot(direction, bsdf.ng) > 0.0) == reflects;
+		return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
+	}
+	return bsdf__rough_sample(bsdf, wi);
+}
+
+fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f) -> bsdf__BsdfSample {
+	let direction = warp__turn_to(bsdf.normal, wi);
+	let found = bsdf__bsdf_eval(bsdf, direction);
+	return bsdf__BsdfSample(direction, found.value / max(found.pdf, 1e-30), found.pdf);
+}
+
+fn bsdf__reflection_chance(split: lobes__Split) -> f32 {
+	let reflected = dot(split.reflect, tone__LUMINANCE_REC709);
+	return reflected / max(reflected + dot(split.transmit, tone__LUMINANCE_REC709), 1e-30);
+}
+
+fn bsdf__schlick_between(f0: vec3f, f90: vec3f, cos_h: f32) -> vec3f {
+	let x = 1.0 - clamp(cos_h, 0.0, 1.0);
+	let x2 = x * x;
+	return mix(f0, f90, x2 * x2 * x);
+}
+
+fn bsdf__reflected_at(wo: vec3f, h: vec3f) -> vec3f {
+	return normalize(2.0 * dot(wo, h) * h - wo);
+}
+
 fn bsdf_diffuse__diffuse_eval(wi: vec3f) -> f32 {
 	return max(wi.z, 0.0) / warp__PI;
 }
@@ -4235,6 +4472,40 @@ fn bsdf_ggx__ggx_eval(wo: vec3f, wi: vec3f, alpha: vec2f, separable: bool) -> ve
 	let facets = bsdf_ggx__ggx_distribution(h, alpha) / (4.0 * max(wo.z, 1e-6));
 	let shadowed = select(seen + lit - 1.0, seen * lit, separable);
 	return select(vec2f(0.0), vec2f(facets / shadowed, facets / seen), wo.z > 0.0 && wi.z > 0.0);
+}
+
+fn bsdf_sheen__charlie_distribution(h: vec3f, alpha: f32) -> f32 {
+	let exponent = 1.0 / alpha;
+	let sin2 = clamp(dot(h.xy, h.xy), 1e-12, 1.0);
+	return (2.0 + exponent) * pow(sin2, 0.5 * exponent) / (2.0 * warp__PI);
+}
+
+fn bsdf_sheen__charlie_shape(x: f32, alpha: f32) -> f32 {
+	let smooth_part = (1.0 - alpha) * (1.0 - alpha);
+	let a = mix(21.5473, 25.3245, smooth_part);
+	let b = mix(3.82987, 3.32435, smooth_part);
+	let c = mix(0.19823, 0.16801, smooth_part);
+	let d = mix(-1.9776, -1.27393, smooth_part);
+	let e = mix(-4.32054, -4.85967, smooth_part);
+	return a / (1.0 + b * pow(max(x, 1e-9), c)) + d * x + e;
+}
+
+fn bsdf_sheen__charlie_lambda(cos_theta: f32, alpha: f32) -> f32 {
+	let near = exp(bsdf_sheen__charlie_shape(cos_theta, alpha));
+	let far = exp(2.0 * bsdf_sheen__charlie_shape(0.5, alpha) - bsdf_sheen__charlie_shape(1.0 - cos_theta, alpha));
+	return select(far, near, cos_theta < 0.5);
+}
+
+fn bsdf_sheen__sheen_eval(wo: vec3f, wi: vec3f, alpha: f32) -> vec2f {
+	let h = normalize(vec3f(wo.xy + wi.xy, max(wo.z, 0.0) + max(wi.z, 1e-6)));
+	let cosines = clamp(vec2f(wo.z, wi.z), vec2f(1e-6), vec2f(1.0));
+	let lambda = bsdf_sheen__charlie_lambda(cosines.x, alpha) + bsdf_sheen__charlie_lambda(cosines.y, alpha);
+	let value = bsdf_sheen__charlie_distribution(h, alpha) / (4.0 * cosines.x * (1.0 + lambda));
+	return select(vec2f(0.0), vec2f(value, 0.5 / warp__PI), wo.z > 0.0 && wi.z > 0.0);
+}
+
+fn bsdf_sheen__sheen_sample(u: vec2f) -> vec3f {
+	return warp__cone_from_square(u, 1.0);
 }
 
 fn bsdf_ggx_transmission__transmission_half(wo: vec3f, wi: vec3f, eta: f32) -> vec3f {

@@ -325,7 +325,7 @@ struct types__PackedFrame {
 	environment_first: u32,
 	environment_width: u32,
 	environment_share: f32,
-	_pad0: u32
+	albedo_first: u32
 }
 
 struct types__PackedDispatch {

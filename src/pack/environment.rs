@@ -58,6 +58,15 @@ pub fn of_scene(scene: &Scene, before: Option<&Environment>) -> Option<Environme
 
 impl PackedScene {
     /// The first word and the columns of the table of a background; `None` if there is none, or no light in it.
+    /// The index of the first word of the tables of albedos, which come before that of the environment.
+    pub(super) fn albedo_first(&self) -> u32 {
+        let table = self
+            .environment
+            .as_ref()
+            .map_or(0, |table| table.words.len());
+        (self.texels.len() - table - super::albedo::words().len()) as u32
+    }
+
     pub(super) fn environment_of(&self, background: &Background) -> Option<(u32, u32)> {
         let table = self.environment.as_ref()?;
         match *background {

@@ -163,6 +163,7 @@ impl PackedScene {
                 environment_first: environment.map_or(0, |(first, _)| first),
                 environment_width: environment.map_or(0, |(_, width)| width),
                 environment_share: environment_share as f32,
+                albedo_first: self.albedo_first(),
                 ..self.background(&first.background)
             },
             background: match first.background {

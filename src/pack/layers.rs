@@ -2,8 +2,10 @@
 
 use crate::{
     layout::{
-        NO_TEXTURE, NONE, PackedLayers, SLOT_BASE, SLOT_EMISSION, SLOT_F0, SLOT_F90,
-        SLOT_METALLIC_ROUGHNESS, SLOT_REFLECT, SLOT_TRANSMISSION,
+        NO_TEXTURE, NONE, PackedLayers, SLOT_BASE, SLOT_COAT, SLOT_COAT_ROUGHNESS,
+        SLOT_DIFFUSE_TRANSMISSION, SLOT_DIFFUSE_TRANSMISSION_COLOR, SLOT_EMISSION, SLOT_F0,
+        SLOT_F90, SLOT_FILM_THICKNESS, SLOT_IRIDESCENCE, SLOT_METALLIC_ROUGHNESS, SLOT_REFLECT,
+        SLOT_SHEEN, SLOT_SHEEN_ROUGHNESS, SLOT_TRANSMISSION,
     },
     scene::{Material, MetallicRoughness},
 };
@@ -99,6 +101,17 @@ fn slots(material: &Material) -> [Option<usize>; 16] {
             set(SLOT_TRANSMISSION, layers.transmission);
             set(SLOT_F0, layers.specular_color);
             set(SLOT_F90, layers.specular);
+            set(SLOT_COAT, layers.clearcoat);
+            set(SLOT_COAT_ROUGHNESS, layers.clearcoat_roughness);
+            set(SLOT_SHEEN, layers.sheen_color);
+            set(SLOT_SHEEN_ROUGHNESS, layers.sheen_roughness);
+            set(SLOT_IRIDESCENCE, layers.iridescence);
+            set(SLOT_FILM_THICKNESS, layers.iridescence_thickness);
+            set(SLOT_DIFFUSE_TRANSMISSION, layers.diffuse_transmission);
+            set(
+                SLOT_DIFFUSE_TRANSMISSION_COLOR,
+                layers.diffuse_transmission_color,
+            );
         }
     }
     slots

@@ -165,6 +165,9 @@ pub fn features(scene: &Scene) -> Features {
             || has_total_reflection(scene)
             || !refraction && has_thin_material(scene),
         refraction,
+        coatings: (scene.materials.iter())
+            .filter_map(|material| material.metallic_roughness.as_ref())
+            .any(|model| model.is_coated()),
         thin_walls: (may_transmit(scene).into_iter().zip(&scene.materials))
             .any(|(transmits, material)| transmits && material.thin),
         textures: !scene.textures.is_empty(),

@@ -20,7 +20,8 @@ impl Fingerprint {
             contact,
             priorities,
             filtered_shadows,
-            // Follows from the materials.
+            // These follow from the materials.
+            coatings: _,
             thin_walls: _,
             textures,
             second_uvs,

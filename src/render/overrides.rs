@@ -98,6 +98,7 @@ pub fn of(task: Task) -> Overrides {
         ("HAS_OPTICS_TEXTURES", flag(features.optics_textures)),
         ("HAS_EMISSION", flag(features.emission)),
         ("HAS_LAYERS", flag(is_path)),
+        ("HAS_COATINGS", flag(is_path && features.coatings)),
         ("HAS_EMITTERS", flag(is_path && !view.emitters.is_empty())),
         (
             "HAS_ENVIRONMENT",

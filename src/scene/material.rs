@@ -79,6 +79,22 @@ pub struct LayerTextures {
     pub specular: Option<usize>,
     /// Of [`MetallicRoughness::specular_color`].
     pub specular_color: Option<usize>,
+    /// Of [`MetallicRoughness::clearcoat`], in red.
+    pub clearcoat: Option<usize>,
+    /// Of [`MetallicRoughness::clearcoat_roughness`], in green.
+    pub clearcoat_roughness: Option<usize>,
+    /// Of [`MetallicRoughness::sheen_color`].
+    pub sheen_color: Option<usize>,
+    /// Of [`MetallicRoughness::sheen_roughness`], in alpha.
+    pub sheen_roughness: Option<usize>,
+    /// Of [`MetallicRoughness::iridescence`], in red.
+    pub iridescence: Option<usize>,
+    /// The place in [`MetallicRoughness::iridescence_thickness`], in green.
+    pub iridescence_thickness: Option<usize>,
+    /// Of [`MetallicRoughness::diffuse_transmission`], in alpha.
+    pub diffuse_transmission: Option<usize>,
+    /// Of [`MetallicRoughness::diffuse_transmission_color`].
+    pub diffuse_transmission_color: Option<usize>,
 }
 
 impl LayerTextures {
@@ -90,6 +106,14 @@ impl LayerTextures {
             transmission,
             specular,
             specular_color,
+            clearcoat,
+            clearcoat_roughness,
+            sheen_color,
+            sheen_roughness,
+            iridescence,
+            iridescence_thickness,
+            diffuse_transmission,
+            diffuse_transmission_color,
         } = self;
         for index in [
             base_color,
@@ -97,6 +121,14 @@ impl LayerTextures {
             transmission,
             specular,
             specular_color,
+            clearcoat,
+            clearcoat_roughness,
+            sheen_color,
+            sheen_roughness,
+            iridescence,
+            iridescence_thickness,
+            diffuse_transmission,
+            diffuse_transmission_color,
         ] {
             *index = index.map(|index| index + first);
         }

@@ -171,6 +171,19 @@ impl MetallicRoughness {
         }
     }
 
+    /// Whether it has a clear coat, sheen, a thin film or diffuse transmission.
+    pub fn is_coated(&self) -> bool {
+        let sheen = self.sheen_color.max_element();
+        [
+            self.clearcoat,
+            sheen,
+            self.iridescence,
+            self.diffuse_transmission,
+        ]
+        .iter()
+        .any(|part| *part > 0.0)
+    }
+
     /// Whether light that passes through the surface is refracted.
     fn is_refractive(&self) -> bool {
         self.transmission > 0.0 && self.thickness > 0.0

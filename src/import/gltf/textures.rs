@@ -84,21 +84,7 @@ impl Reader<'_> {
             material.textures.alpha = Some(self.texture(picture, map, space));
         }
         if !model.unlit {
-            let specular = extensions.and_then(|e| e.specular.as_ref());
-            let mut of = |info: Option<&TextureInfo>, has_values| match info {
-                Some(info) => self.other(info, has_values, &mut sets, here),
-                None => Ok(None),
-            };
-            material.layer_textures = LayerTextures {
-                base_color: of(infos[0], false)?,
-                metallic_roughness: of(infos[1], true)?,
-                transmission: of(infos[2], true)?,
-                specular: of(specular.and_then(|it| it.specular_texture.as_deref()), true)?,
-                specular_color: of(
-                    specular.and_then(|it| it.specular_color_texture.as_deref()),
-                    false,
-                )?,
-            };
+            material.layer_textures = self.layer_textures(source, infos, &mut sets, here)?;
         }
         if let Some(info) = source.emissive_texture.as_deref()
             && model.emission != Vec3::ZERO
@@ -119,6 +105,48 @@ impl Reader<'_> {
             material.occlusion_strength = info.strength.unwrap_or(1.0).clamp(0.0, 1.0) as f32;
         }
         Ok(sets)
+    }
+
+    /// The textures of the layers of a material, the first three of which are `main`.
+    fn layer_textures(
+        &mut self,
+        source: &Source,
+        main: [Option<&TextureInfo>; 3],
+        sets: &mut Vec<u32>,
+        here: &str,
+    ) -> Result<LayerTextures, ImportError> {
+        let mut of = |info: Option<&TextureInfo>, has_values| match info {
+            Some(info) => self.other(info, has_values, sets, here),
+            None => Ok(None),
+        };
+        macro_rules! map {
+            ($extension:ident $texture:ident) => {
+                (source.extensions.as_deref())
+                    .and_then(|it| it.$extension.as_ref())
+                    .and_then(|it| it.$texture.as_deref())
+            };
+        }
+        Ok(LayerTextures {
+            base_color: of(main[0], false)?,
+            metallic_roughness: of(main[1], true)?,
+            transmission: of(main[2], true)?,
+            specular: of(map!(specular specular_texture), true)?,
+            specular_color: of(map!(specular specular_color_texture), false)?,
+            clearcoat: of(map!(clearcoat clearcoat_texture), true)?,
+            clearcoat_roughness: of(map!(clearcoat clearcoat_roughness_texture), true)?,
+            sheen_color: of(map!(sheen sheen_color_texture), false)?,
+            sheen_roughness: of(map!(sheen sheen_roughness_texture), true)?,
+            iridescence: of(map!(iridescence iridescence_texture), true)?,
+            iridescence_thickness: of(map!(iridescence iridescence_thickness_texture), true)?,
+            diffuse_transmission: of(
+                map!(diffuse_transmission diffuse_transmission_texture),
+                true,
+            )?,
+            diffuse_transmission_color: of(
+                map!(diffuse_transmission diffuse_transmission_color_texture),
+                false,
+            )?,
+        })
     }
 
     /// The place of a map's texture coordinates in the meshes of its material, whose sets so far are `sets`; `None`
