@@ -59,7 +59,9 @@ impl Job<'_> {
         for skipped in &self.scene.skipped {
             console::warning(skipped);
         }
-        if self.scene.is_unlit() {
+        // Only paths find the light of the background on every surface.
+        let is_path = self.settings().integrator == Integrator::Path;
+        if self.scene.is_unlit() && !(is_path && self.scene.background.shines()) {
             console::warning(UNLIT);
         }
     }

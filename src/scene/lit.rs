@@ -46,12 +46,7 @@ impl Scene {
                 || changes(|t| matches!(t, Target::Material(_, MaterialProperty::Ambient))));
         let emits = any_material(|material| material.emission)
             || changes(|target| matches!(target, Target::Material(_, MaterialProperty::Emission)));
-        let has_background = match self.background {
-            Background::Color(color) => is_lit(color),
-            Background::Gradient { bottom, top } => is_lit(bottom) || is_lit(top),
-            Background::Picture { strength, .. } => strength > 0.0,
-        };
-        let shows_background = has_background
+        let shows_background = self.background.shines()
             && (any_material(|material| material.reflect + material.transmit)
                 || changes(|target| {
                     use MaterialProperty::{Reflect, Transmit};
@@ -59,5 +54,17 @@ impl Scene {
                 }));
         let has_surfaces = !(self.shapes.is_empty() && self.instances.is_empty());
         has_surfaces && !(has_lights || has_ambient || emits || shows_background)
+    }
+}
+
+impl Background {
+    /// Whether it is not black, as far as that is known without looking into its picture.
+    pub fn shines(&self) -> bool {
+        let is_lit = |color: &Vec3| color.max_element() > 0.0;
+        match self {
+            Self::Color(color) => is_lit(color),
+            Self::Gradient { bottom, top } => is_lit(bottom) || is_lit(top),
+            Self::Picture { strength, .. } => *strength > 0.0,
+        }
     }
 }
