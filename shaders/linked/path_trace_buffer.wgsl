@@ -84,7 +84,7 @@ fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface
 	}
 	path.throughput /= chance;
 	let crosses = dot(next.direction, bsdf.ng) < 0.0;
-	let is_straight = crosses && next.pdf == 0.0 && !bsdf.bends;
+	let is_straight = crosses && next.pdf == 0.0 && !(bindings__SOLID_GLASS && bsdf.encloses);
 	path.kind = select(ray_states__KIND_REFLECTED, ray_states__KIND_REFRACTED, crosses);
 	path.media = select(path.media, met.media, vec4<bool>(crosses));
 	path.ray = leaving__leaving_ray(surface, next.direction, camera__T_FAR);

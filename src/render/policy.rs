@@ -70,7 +70,7 @@ impl Default for Slicing {
         Self {
             target_seconds: 0.1,
             max_groups: u32::MAX,
-            max_samples: 16,
+            max_samples: 32,
             tile_side: 2048,
         }
     }

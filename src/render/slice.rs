@@ -155,11 +155,12 @@ impl Planner {
         }
     }
 
-    /// Samples per pixel of the next sweep. More than one only if a slice covers the whole film tile; that
-    /// saves submissions.
-    pub fn sweep_samples(&self, group_count: u32, samples_left: u32) -> u32 {
+    /// Samples per pixel of the next sweep: `wanted`, or more if a slice covers the whole film tile, which saves
+    /// submissions.
+    pub fn sweep_samples(&self, group_count: u32, wanted: u32, samples_left: u32) -> u32 {
         let fitting = (self.budget / f64::from(group_count)) as u32;
-        fitting.clamp(1, self.max_samples).min(samples_left)
+        let most = self.max_samples;
+        fitting.clamp(wanted.min(most), most).min(samples_left)
     }
 
     /// Updates the plan with the duration of a finished slice.

@@ -1,14 +1,17 @@
 //! Submits work to the GPU slice by slice and collects the results.
 
 use super::{
-    Cursor, RenderError, Renderer, device::Readback, effort::LongPath, film_tile::FilmTile,
-    film_tiles::FilmTiles, policy::Fetch, slice::Slice, sums::SAMPLE_BLOCK,
+    Cursor, Integrator, RenderError, Renderer, device::Readback, effort::LongPath,
+    film_tile::FilmTile, film_tiles::FilmTiles, policy::Fetch, slice::Slice, sums::SAMPLE_BLOCK,
 };
 use crate::{
     clock::Instant,
     gpu::{GpuError, Reading},
     layout::PackedCounters,
 };
+
+/// Paths that a lane traces in one submission.
+const PATHS_PER_LANE: u32 = 32;
 
 /// The state of the work that [`Renderer::submit`] submitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,7 +110,14 @@ impl Renderer {
         if self.cursor.group == 0 {
             let left = tile.samples.end - self.cursor.sample;
             let in_block = SAMPLE_BLOCK - self.cursor.sample % SAMPLE_BLOCK;
-            self.cursor.sweep_samples = self.planner.sweep_samples(group_count, left.min(in_block));
+            // A lane whose path ends goes on with its next sample: with more of them lanes wait less for each other.
+            // The first picture does not wait for that.
+            let wanted = match self.settings.integrator {
+                Integrator::Path if self.cursor.sample > 0 => PATHS_PER_LANE,
+                _ => 1,
+            };
+            self.cursor.sweep_samples =
+                (self.planner).sweep_samples(group_count, wanted, left.min(in_block));
         }
         let Cursor {
             group,

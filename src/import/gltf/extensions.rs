@@ -11,7 +11,9 @@ use crate::import::source::quote;
 pub enum Support {
     /// It is shown.
     Full,
-    /// Its parameters are kept in the scene, but the classical integrator does not show them.
+    /// The path tracer shows it, the classical integrator does not.
+    Paths,
+    /// Its parameters are kept in the scene, but no integrator shows them.
     Kept,
     /// It says nothing about the picture: it is for programs that edit or describe models.
     Irrelevant,
@@ -42,11 +44,11 @@ pub const GLTF_EXTENSIONS: &[(&str, Support)] = &[
     ("KHR_texture_basisu", Support::Full),
     ("KHR_texture_transform", Support::Full),
     ("KHR_materials_anisotropy", Support::Kept),
-    ("KHR_materials_clearcoat", Support::Kept),
-    ("KHR_materials_diffuse_transmission", Support::Kept),
+    ("KHR_materials_clearcoat", Support::Paths),
+    ("KHR_materials_diffuse_transmission", Support::Paths),
     ("KHR_materials_dispersion", Support::Kept),
-    ("KHR_materials_iridescence", Support::Kept),
-    ("KHR_materials_sheen", Support::Kept),
+    ("KHR_materials_iridescence", Support::Paths),
+    ("KHR_materials_sheen", Support::Paths),
     ("EXT_mesh_manifold", Support::Irrelevant),
     ("KHR_xmp", Support::Irrelevant),
     ("KHR_xmp_json_ld", Support::Irrelevant),
@@ -86,6 +88,12 @@ pub(super) fn check(
         let quoted = || quote(name.as_bytes());
         match support(name) {
             Some(Support::Full | Support::Irrelevant) => {}
+            Some(Support::Paths) => notes.add("extensions without effect", || {
+                format!(
+                    "the extension {} is shown by --integrator path only",
+                    quoted()
+                )
+            }),
             Some(Support::Kept) => notes.add("extensions without effect", || {
                 format!("the extension {} is kept, but not shown", quoted())
             }),

@@ -181,13 +181,30 @@ impl Reader<'_> {
             });
             if !SHOWN_MAPS.contains(&parameter) {
                 self.notes.add("maps that are not shown", || {
-                    format!("{place} is not shown")
+                    match PATH_MAPS.contains(&parameter) {
+                        true => format!("{place} is shown by --integrator path only"),
+                        false => format!("{place} is not shown"),
+                    }
                 });
             }
         }
         Ok(())
     }
 }
+
+/// The maps that have an effect on path-traced pictures only.
+const PATH_MAPS: [&str; 10] = [
+    "specularTexture",
+    "specularColorTexture",
+    "clearcoatTexture",
+    "clearcoatRoughnessTexture",
+    "sheenColorTexture",
+    "sheenRoughnessTexture",
+    "iridescenceTexture",
+    "iridescenceThicknessTexture",
+    "diffuseTransmissionTexture",
+    "diffuseTransmissionColorTexture",
+];
 
 /// The maps that have an effect on the picture.
 pub(super) const SHOWN_MAPS: [&str; 8] = [

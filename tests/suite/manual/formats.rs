@@ -27,6 +27,10 @@ pub fn extensions() -> String {
     for (support, effect) in [
         (Support::Full, "supported"),
         (
+            Support::Paths,
+            "shown by `--integrator path`, kept by the classical one",
+        ),
+        (
             Support::Kept,
             "partly: read and kept in the scene, not shown",
         ),
