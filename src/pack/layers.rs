@@ -95,7 +95,8 @@ fn slots(material: &Material) -> [Option<usize>; 16] {
             set(SLOT_REFLECT, textures.reflect);
         }
         Some(_) => {
-            let layers = &material.layer_textures;
+            let layers = material.layer_textures.as_deref().copied();
+            let layers = layers.unwrap_or_default();
             set(SLOT_BASE, layers.base_color);
             set(SLOT_METALLIC_ROUGHNESS, layers.metallic_roughness);
             set(SLOT_TRANSMISSION, layers.transmission);

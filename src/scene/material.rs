@@ -61,8 +61,9 @@ pub struct Material {
     pub metallic_roughness: Option<Arc<MetallicRoughness>>,
     /// The colour of the vertex, which multiplies the base colour of `metallic_roughness`.
     pub tint: Vec3,
-    /// Textures that multiply parameters of `metallic_roughness`. Its emission has that of `textures`.
-    pub layer_textures: LayerTextures,
+    /// Textures that multiply parameters of `metallic_roughness`, if there are any. Its emission has that of
+    /// `textures`. Boxed, as few of many materials have them.
+    pub layer_textures: Option<Box<LayerTextures>>,
 }
 
 /// For parameters of a [`MetallicRoughness`] the index in [`super::Scene::textures`] of the texture that multiplies
@@ -291,7 +292,7 @@ impl Default for Material {
             alpha: 1.0,
             metallic_roughness: None,
             tint: Vec3::ONE,
-            layer_textures: LayerTextures::default(),
+            layer_textures: None,
         }
     }
 }

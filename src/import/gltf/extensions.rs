@@ -89,10 +89,7 @@ pub(super) fn check(
         match support(name) {
             Some(Support::Full | Support::Irrelevant) => {}
             Some(Support::Paths) => notes.add("extensions without effect", || {
-                format!(
-                    "the extension {} is shown by --integrator path only",
-                    quoted()
-                )
+                format!("the extension {} is shown by path tracing only", quoted())
             }),
             Some(Support::Kept) => notes.add("extensions without effect", || {
                 format!("the extension {} is kept, but not shown", quoted())

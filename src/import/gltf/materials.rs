@@ -182,7 +182,7 @@ impl Reader<'_> {
             if !SHOWN_MAPS.contains(&parameter) {
                 self.notes.add("maps that are not shown", || {
                     match PATH_MAPS.contains(&parameter) {
-                        true => format!("{place} is shown by --integrator path only"),
+                        true => format!("{place} is shown by path tracing only"),
                         false => format!("{place} is not shown"),
                     }
                 });

@@ -84,7 +84,9 @@ impl Reader<'_> {
             material.textures.alpha = Some(self.texture(picture, map, space));
         }
         if !model.unlit {
-            material.layer_textures = self.layer_textures(source, infos, &mut sets, here)?;
+            let layers = self.layer_textures(source, infos, &mut sets, here)?;
+            material.layer_textures =
+                (layers != LayerTextures::default()).then(|| Box::new(layers));
         }
         if let Some(info) = source.emissive_texture.as_deref()
             && model.emission != Vec3::ZERO

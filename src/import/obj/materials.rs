@@ -10,7 +10,7 @@ use crate::import::paths::Refusal;
 use crate::import::picture::{self, Place, Refused, Role};
 use crate::import::source::{Source, Token, quote};
 use crate::import::tint::{self, Rgb};
-use crate::scene::{Coverage, Material, Minify, Pattern, Space, Texture, Wrap};
+use crate::scene::{Coverage, LayerTextures, Material, Minify, Pattern, Space, Texture, Wrap};
 use glam::Vec3;
 use std::path::Path;
 
@@ -186,7 +186,12 @@ impl<'s> Reader<'s> {
             return;
         }
         material.textures.diffuse = self.picture(maps.diffuse, Role::Color, file);
-        material.layer_textures.base_color = material.textures.diffuse;
+        if material.metallic_roughness.is_some() && material.textures.diffuse.is_some() {
+            material.layer_textures = Some(Box::new(LayerTextures {
+                base_color: material.textures.diffuse,
+                ..LayerTextures::default()
+            }));
+        }
         material.textures.specular = self.picture(maps.specular, Role::Color, file);
         // Few exporters write an ambient texture, and all use the diffuse one.
         material.textures.ambient = match maps.ambient {

@@ -307,7 +307,9 @@ impl Builder<'_> {
                 let first = self.textures.textures.len();
                 for material in &mut model.materials {
                     material.textures.shift(first);
-                    material.layer_textures.shift(first);
+                    if let Some(layers) = &mut material.layer_textures {
+                        layers.shift(first);
+                    }
                 }
                 self.textures.textures.append(&mut model.textures);
                 self.scene.materials.append(&mut model.materials);

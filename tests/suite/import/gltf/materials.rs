@@ -406,9 +406,9 @@ fn what_is_not_shown_is_named() {
     assert_eq!(
         scene.skipped,
         [
-            "the extension `KHR_materials_sheen` is shown by --integrator path only",
+            "the extension `KHR_materials_sheen` is shown by path tracing only",
             "the extension `EXT_unheard_of` is not supported and was ignored",
-            "materials[0].clearcoatTexture is shown by --integrator path only",
+            "materials[0].clearcoatTexture is shown by path tracing only",
         ]
     );
     let maps = &metallic_roughness(&scene.materials[0]).maps;
