@@ -106,8 +106,7 @@ fn own_light(batch: dispatch__Batch, surface: types__Surface, glow: vec3f) -> ve
 	var color = batch.ambient * surface.phong.ambient;
 	record__record_ambient(color);
 	if (bindings__HAS_EMISSION) {
-		let shines = surface.outside || (material__load_optics(surface.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
-		let emission = select(vec3f(0.0), glow * material__load_emission(surface.material), shines);
+		let emission = emitters__emitted(surface, material__load_optics(surface.material), glow);
 		color += emission;
 		record__record_emission(emission);
 	}
@@ -4073,6 +4072,14 @@ fn coverage__coverage_at(surface: types__Surface) -> f32 {
 	}
 	let masked = select(0.0, 1.0, alpha >= 0.999999);
 	return select(clamp(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
+}
+
+fn emitters__emitted(surface: types__Surface, optics: types__Optics, glow: vec3f) -> vec3f {
+	if (!bindings__HAS_EMISSION) {
+		return vec3f(0.0);
+	}
+	let shines = surface.outside || (optics.flags & types__MATERIAL_TWO_SIDED) != 0u;
+	return select(vec3f(0.0), glow * material__load_emission(surface.material), shines);
 }
 
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {

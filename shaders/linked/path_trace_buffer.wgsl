@@ -4137,7 +4137,7 @@ fn coating__coating_eval(coating: coating__Coating, wo: vec3f, wi: vec3f, chance
 
 fn coating__coating_sample(coating: coating__Coating, wo: vec3f, u: vec2f, is_coat: bool) -> vec3f {
 	let h = bsdf_ggx__ggx_normal(wo, vec2f(coating.coat_alpha), u);
-	return select(bsdf_sheen__sheen_sample(u), normalize(2.0 * dot(wo, h) * h - wo), is_coat);
+	return select(bsdf_sheen__sheen_sample(u), bsdf__reflected_at(wo, h), is_coat);
 }
 
 fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {

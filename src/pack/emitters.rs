@@ -5,8 +5,8 @@ use crate::layout::{NO_INSTANCE, PackedEmitter, PackedInstance, PackedMaterial, 
 use crate::scene::{Pattern, Scene, Texture};
 use glam::{Mat3, Vec3};
 
-/// Rec. 709.
-const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
+/// The luminance of linear Rec. 709 colours is the dot product with this.
+pub(super) const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 /// A triangle whose material emits at some time.
 #[derive(Clone, Copy, Debug)]

@@ -3,15 +3,12 @@
 //! It is a tree of sums over a grid of directions, see `shaders/lib/quad_warp.wesl`: the word of the root, the words of
 //! each level row by row from the lowest elevation on, and then the density of each cell as a float.
 
-use super::PackedScene;
+use super::{PackedScene, emitters::LUMINANCE};
 use crate::scene::{Background, Picture, Scene};
 use glam::Vec3;
 use half::f16;
 use std::f64::consts::PI;
 use std::sync::Arc;
-
-/// Rec. 709.
-const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 /// The grid has at most 2 to this power rows.
 const MAX_LEVELS: u32 = 9;
@@ -57,7 +54,6 @@ pub fn of_scene(scene: &Scene, before: Option<&Environment>) -> Option<Environme
 }
 
 impl PackedScene {
-    /// The first word and the columns of the table of a background; `None` if there is none, or no light in it.
     /// The index of the first word of the tables of albedos, which come before that of the environment.
     pub(super) fn albedo_first(&self) -> u32 {
         let table = self
@@ -67,6 +63,7 @@ impl PackedScene {
         (self.texels.len() - table - super::albedo::words().len()) as u32
     }
 
+    /// The first word and the columns of the table of a background; `None` if there is none, or no light in it.
     pub(super) fn environment_of(&self, background: &Background) -> Option<(u32, u32)> {
         let table = self.environment.as_ref()?;
         match *background {
