@@ -9,6 +9,7 @@ mod device;
 mod effort;
 mod error;
 mod explain;
+mod exposure;
 mod film;
 mod film_tile;
 mod film_tiles;
@@ -42,9 +43,7 @@ pub use layers::{Layer, LayerKind};
 pub use levels::{Levels, Quantity};
 pub use policy::{ExecutionPolicy, Fetch, Slicing};
 pub use query::{QueryHit, QueryRay, RayBatch, RayQuery, RaySteps, RayTest};
-pub use settings::{
-    MIN_THROUGHPUT, PATH_DEPTH, PATH_SAMPLES, RayOffset, RenderSettings, TriangleTest,
-};
+pub use settings::{MIN_THROUGHPUT, RayOffset, RenderSettings, TriangleTest};
 pub use show::Screen;
 pub use stats::{Rays, Stats, Uploads};
 pub use sums::SAMPLE_BLOCK;

@@ -47,7 +47,7 @@ pub use mesh::{Mesh, Repairs, area_normal};
 pub use metallic_roughness::{Lobes, Map, MetallicRoughness, SurfacePoint};
 pub use node::Node;
 pub use object::ObjectRef;
-pub use output::{Antialias, Filter, OutputDefaults, Shutter, ToneCurve, Transfer};
+pub use output::{Antialias, Filter, LightTransport, OutputDefaults, Shutter, ToneCurve, Transfer};
 pub use picture::{Picture, SrgbCurve, Texels, linear_from_srgb};
 pub use shape::{CanonicalShape, Geometry, Shape};
 pub use texture::{Minify, Pattern, Space, Texture, Wrap};

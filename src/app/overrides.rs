@@ -2,8 +2,7 @@
 
 use super::error::AppError;
 use crate::render::{
-    Antialias, Integrator, Levels, PATH_DEPTH, PATH_SAMPLES, Quantity, RayOffset, RenderSettings,
-    Shows, Tone, TriangleTest,
+    Antialias, Integrator, Levels, Quantity, RayOffset, RenderSettings, Shows, Tone, TriangleTest,
 };
 use crate::scene::{
     Background, Camera, CameraProperty, Filter, OutputDefaults, Scene, Shutter, Target, ToneCurve,
@@ -68,12 +67,21 @@ pub struct PictureOverrides {
 /// How a picture is developed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ToneOverrides {
-    /// Exposure in stops.
-    pub exposure_ev: Option<f32>,
+    /// Exposure.
+    pub exposure: Option<Exposure>,
     /// Tone curve.
     pub curve: Option<ToneCurve>,
     /// Transfer function.
     pub transfer: Option<Transfer>,
+}
+
+/// An exposure as users give it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Exposure {
+    /// Whether it adds to one that makes the picture's average a medium grey.
+    pub is_auto: bool,
+    /// In stops.
+    pub stops: f32,
 }
 
 /// The choice of a camera, and changes to it.
@@ -116,11 +124,9 @@ pub struct TimingOverrides {
 impl PictureOverrides {
     /// The settings of a picture: the overrides, else the values of `scene`.
     pub fn settings(&self, scene: &OutputDefaults) -> RenderSettings {
-        let integrator = self.integrator.unwrap_or_default();
-        let samples = match integrator {
-            Integrator::Path => scene.samples.max(PATH_SAMPLES),
-            _ => scene.samples,
-        };
+        let integrator = self.integrator.unwrap_or(scene.integrator.into());
+        let said = (scene.samples, scene.max_depth);
+        let (samples, max_depth) = scene.integrator.converted(integrator.into(), said);
         let output = OutputDefaults {
             samples: self.samples.unwrap_or(samples),
             antialias: self.antialias.or(scene.antialias),
@@ -142,10 +148,7 @@ impl PictureOverrides {
             offset: self.offset.unwrap_or(defaults.offset),
             brute_force: self.brute_force,
             seed: self.seed,
-            max_depth: self.max_depth.unwrap_or(match integrator {
-                Integrator::Path => PATH_DEPTH,
-                _ => defaults.max_depth,
-            }),
+            max_depth: self.max_depth.unwrap_or(max_depth),
             min_throughput: self.min_throughput.unwrap_or(defaults.min_throughput),
             transparent_shadows: self.transparent_shadows,
             clamp_indirect: self.clamp_indirect,
@@ -182,26 +185,31 @@ impl ToneOverrides {
     ) -> Tone {
         let shows = integrator.entry().shows;
         let default = if linear_format || shows != Shows::Radiance {
-            (0.0, ToneCurve::None, Transfer::Linear)
+            Tone::LINEAR
         } else {
-            (scene.exposure_ev, scene.tone, scene.transfer)
+            Tone::of_scene(scene, integrator)
         };
+        let exposure = self.exposure.unwrap_or(Exposure {
+            is_auto: default.auto_exposure,
+            stops: default.exposure_ev,
+        });
         let tone = Tone {
-            exposure_ev: self.exposure_ev.unwrap_or(default.0),
-            curve: self.curve.unwrap_or(default.1),
-            transfer: self.transfer.unwrap_or(default.2),
+            exposure_ev: exposure.stops,
+            auto_exposure: exposure.is_auto && shows == Shows::Radiance,
+            curve: self.curve.unwrap_or(default.curve),
+            transfer: self.transfer.unwrap_or(default.transfer),
             levels: Levels::Raw,
         };
-        match (shows, self.exposure_ev) {
+        match (shows, self.exposure) {
             _ if linear_format => tone,
             (Shows::Quantity(_), None) => Tone {
                 levels: Levels::Found,
                 ..tone
             },
             // Exposure scales the number of steps, not the colours.
-            (Shows::Quantity(Quantity::Work), Some(exposure_ev)) => Tone {
+            (Shows::Quantity(Quantity::Work), Some(exposure)) => Tone {
                 exposure_ev: 0.0,
-                levels: Levels::Fixed([0.0, FULL_HEAT * (-exposure_ev).exp2()]),
+                levels: Levels::Fixed([0.0, FULL_HEAT * (-exposure.stops).exp2()]),
                 ..tone
             },
             _ => tone,

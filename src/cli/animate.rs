@@ -73,9 +73,11 @@ pub fn with_report(
 
 fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {
     let size = arguments.picture.size.size;
-    let options = arguments
-        .reading
-        .import_options(arguments.camera.model_axis(), size);
+    let options = arguments.reading.import_options(
+        arguments.camera.model_axis(),
+        size,
+        arguments.picture.integrator,
+    );
     let mut scene = draft.load(&arguments.scene, &options, arguments.reading.strict)?;
     arguments.camera.overrides().apply(&mut scene)?;
     let clock = Clock::new(&scene.output, &arguments.motion.overrides());

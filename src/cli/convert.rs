@@ -10,7 +10,9 @@ use std::path::PathBuf;
 
 pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
     Interrupt::install()?;
-    let options = arguments.reading.import_options(arguments.axis.up, None);
+    let options = arguments
+        .reading
+        .import_options(arguments.axis.up, None, None);
     let (scene, inputs) = scene_file::load(&arguments.scene, &options, arguments.reading.strict);
     let scene = scene?;
     let stem = arguments.scene.file_stem().unwrap_or("scene".as_ref());

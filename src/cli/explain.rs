@@ -20,7 +20,11 @@ use std::ops::Range;
 pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     Interrupt::install()?;
     let size = arguments.picture.size.size;
-    let options = (arguments.reading).import_options(arguments.camera.model_axis(), size);
+    let options = (arguments.reading).import_options(
+        arguments.camera.model_axis(),
+        size,
+        arguments.picture.integrator,
+    );
     let (scene, inputs) = scene_file::load(&arguments.scene, &options, arguments.reading.strict);
     let mut scene = scene?;
     arguments.camera.overrides().apply(&mut scene)?;

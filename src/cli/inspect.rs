@@ -11,6 +11,7 @@ use crate::cli::args::InspectArgs;
 use crate::cli::job::UNLIT;
 use crate::cli::report::SceneReport;
 use crate::cli::scene_file;
+use crate::render::{Integrator, Tone};
 use crate::scene::{Attenuation, Background, Camera, Light, LightKind, Material, Scene};
 use glam::{DVec3, Vec3};
 use serde_json::{Value, json};
@@ -20,7 +21,9 @@ use std::fmt::{self, Write};
 const MAX_LISTED: usize = 20;
 
 pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
-    let options = arguments.reading.import_options(arguments.axis.up, None);
+    let options = arguments
+        .reading
+        .import_options(arguments.axis.up, None, None);
     let scene = scene_file::load(&arguments.scene, &options, arguments.reading.strict).0?;
     let path = arguments.scene.display().to_string();
     if arguments.json {
@@ -54,9 +57,10 @@ fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
     value["background"] = background_json(&scene.background);
     value["ambient"] = json!(scene.ambient.to_array());
     value["output"] = json!({
-        "size": output.size, "samples": output.samples, "max_depth": output.max_depth,
-        "exposure_ev": output.exposure_ev,
-        "tone": TONES.name(&output.tone), "transfer": TRANSFERS.name(&output.transfer),
+        "size": output.size, "integrator": Integrator::from(output.integrator).entry().name,
+        "samples": output.samples, "max_depth": output.max_depth,
+        "exposure_ev": output.exposure_ev, "auto_exposure": output.auto_exposure,
+        "tone": TONES.name(&Tone::from(output).curve), "transfer": TRANSFERS.name(&output.transfer),
     });
     value["animation"] = motion::to_json(scene);
     value["clips"] = deforming::clips_json(scene);
@@ -177,13 +181,19 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
     let output = &scene.output;
     writeln!(
         out,
-        "picture    {}×{}, {} sample(s), depth {}, exposure {} EV, tone {}, transfer {}",
+        "picture    {}×{}, integrator {}, {} sample(s), depth {}, exposure {}{} EV, tone {}, transfer {}",
         output.size.0,
         output.size.1,
+        Integrator::from(output.integrator).entry().name,
         output.samples,
         output.max_depth,
+        if output.auto_exposure {
+            "auto and "
+        } else {
+            ""
+        },
         output.exposure_ev,
-        TONES.name(&output.tone),
+        TONES.name(&Tone::from(output).curve),
         TRANSFERS.name(&output.transfer),
     )?;
     writeln!(

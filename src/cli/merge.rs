@@ -50,7 +50,8 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
     } = film.header();
     let said = OutputDefaults {
         exposure_ev: tone.exposure_ev,
-        tone: tone.curve,
+        auto_exposure: tone.auto_exposure,
+        tone: Some(tone.curve),
         transfer: tone.transfer,
         ..OutputDefaults::default()
     };

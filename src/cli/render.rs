@@ -27,9 +27,11 @@ fn render(
     draft: &mut Draft,
 ) -> Result<(), AppError> {
     let size = arguments.picture.size.size;
-    let options = arguments
-        .reading
-        .import_options(arguments.camera.model_axis(), size);
+    let options = arguments.reading.import_options(
+        arguments.camera.model_axis(),
+        size,
+        arguments.picture.integrator,
+    );
     let mut scene = draft.load(&arguments.scene, &options, arguments.reading.strict)?;
     arguments.camera.overrides().apply(&mut scene)?;
     let clock = Clock::new(&scene.output, &arguments.motion.overrides());

@@ -28,7 +28,10 @@ pub fn run(arguments: &TurntableArgs, started: Instant) -> Result<(), AppError> 
 
 fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {
     let size = arguments.picture.size.size;
-    let options = arguments.reading.import_options(arguments.axis.up, size);
+    let options =
+        arguments
+            .reading
+            .import_options(arguments.axis.up, size, arguments.picture.integrator);
     let mut scene = draft.load(&arguments.scene, &options, arguments.reading.strict)?;
     let turn = &arguments.turn;
     if scene.output.samples == 1 {

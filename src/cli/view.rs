@@ -40,8 +40,11 @@ fn request_of(arguments: &ViewArgs) -> ViewRequest {
             moment: arguments.moment.moment(),
             timing: arguments.motion.overrides(),
         },
-        import: (arguments.reading)
-            .import_options(arguments.camera.model_axis(), arguments.picture.size.size),
+        import: (arguments.reading).import_options(
+            arguments.camera.model_axis(),
+            arguments.picture.size.size,
+            arguments.picture.integrator,
+        ),
         recording: RecordingRequest {
             record: recording.record.clone(),
             replay: recording.replay.clone(),

@@ -3,7 +3,9 @@
 use super::pictures::Role;
 use super::text::{Table, color, list, number, number32};
 use super::{ExportError, Writer, exact};
-use crate::scene::{Antialias, Background, Filter, OutputDefaults, Shadows, ToneCurve, Transfer};
+use crate::scene::{
+    Antialias, Background, Filter, LightTransport, OutputDefaults, Shadows, ToneCurve, Transfer,
+};
 use glam::Vec3;
 
 impl Writer<'_> {
@@ -69,6 +71,7 @@ impl Writer<'_> {
         let plain = OutputDefaults::default();
         let OutputDefaults {
             size,
+            integrator,
             samples,
             antialias,
             filter,
@@ -77,6 +80,7 @@ impl Writer<'_> {
             light_samples,
             max_depth,
             exposure_ev,
+            auto_exposure,
             tone,
             transfer,
             fps,
@@ -86,6 +90,8 @@ impl Writer<'_> {
         let mut table = Table::default();
         let size_text = list([size.0.to_string(), size.1.to_string()]);
         table.put_if(size != plain.size, "size", size_text);
+        let is_path = integrator == LightTransport::Path;
+        table.put_if(is_path, "integrator", "\"path\"");
         let is_said = samples != self.scene.default_samples();
         table.put_if(is_said, "samples", samples.to_string());
         if let Some(antialias) = antialias {
@@ -100,7 +106,7 @@ impl Writer<'_> {
         }
         table.put_if(noise != plain.noise, "noise", number32(noise));
         table.put_if(
-            max_depth != plain.max_depth,
+            max_depth != integrator.max_depth(),
             "max_depth",
             max_depth.to_string(),
         );
@@ -129,16 +135,18 @@ impl Writer<'_> {
             "exposure_ev",
             number32(exposure_ev),
         );
-        table.put_if(
-            tone != plain.tone,
-            "tone",
-            match tone {
-                ToneCurve::None => "\"none\"",
-                ToneCurve::Aces => "\"aces\"",
-                ToneCurve::Agx => "\"agx\"",
-                ToneCurve::Reinhard => "\"reinhard\"",
-            },
-        );
+        table.put_if(auto_exposure, "auto_exposure", "true");
+        if let Some(tone) = tone {
+            table.put(
+                "tone",
+                match tone {
+                    ToneCurve::None => "\"none\"",
+                    ToneCurve::Aces => "\"aces\"",
+                    ToneCurve::Agx => "\"agx\"",
+                    ToneCurve::Reinhard => "\"reinhard\"",
+                },
+            );
+        }
         table.put_if(
             transfer != plain.transfer,
             "transfer",

@@ -24,7 +24,7 @@ use super::source::{Source, Token};
 use super::suggest;
 use crate::scene::{
     Background, Camera, Geometry, Instance, Light, LightKind, Mesh, OutputDefaults, Scene, Shape,
-    ToneCurve, Transfer,
+    Transfer,
 };
 use area::Area;
 use glam::{DAffine3, DVec3, Vec3};
@@ -81,7 +81,6 @@ pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
             background: Background::Color(Vec3::ONE),
             cameras: vec![Camera::default()],
             output: OutputDefaults {
-                tone: ToneCurve::None,
                 transfer: Transfer::Linear,
                 max_depth: 0,
                 ..OutputDefaults::default()

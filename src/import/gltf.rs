@@ -33,7 +33,7 @@ use super::notes::Notes;
 use super::paths::Files;
 use super::source::{Source, quote};
 use super::{Axis, Options, stage, suggest};
-use crate::scene::{Clip, OutputDefaults, Scene, Shadows};
+use crate::scene::{Clip, LightTransport, OutputDefaults, Scene, Shadows};
 use accessor::Accessors;
 use blame::{Blame, Ledger};
 use buffers::Buffers;
@@ -52,9 +52,6 @@ use store::Store;
 
 /// Bytes that an object of the JSON may take in memory.
 const PER_OBJECT: u64 = 400;
-
-/// Largest number of bounces: a glass wall takes two, and thin walls one each.
-const MAX_DEPTH: u32 = 8;
 
 /// The state of an import.
 struct Reader<'a> {
@@ -142,8 +139,8 @@ pub(super) fn read(
             shadows: Shadows::Filtered,
             output: OutputDefaults {
                 size: (800, 600),
-                samples: 4,
-                max_depth: MAX_DEPTH,
+                integrator: LightTransport::Path,
+                max_depth: LightTransport::Path.max_depth(),
                 ..OutputDefaults::default()
             },
             ..Scene::default()

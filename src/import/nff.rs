@@ -30,7 +30,7 @@ use super::source::{Source, Token};
 use super::{number, suggest};
 use crate::scene::{
     Background, CanonicalShape, Fresnel, Geometry, Light, LightKind, Material, Mixing,
-    OutputDefaults, Scene, Shape, ToneCurve, Transfer,
+    OutputDefaults, Scene, Shape, Transfer,
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use mesh::Surface;
@@ -92,7 +92,6 @@ pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
         entity: 0,
         scene: Scene {
             output: OutputDefaults {
-                tone: ToneCurve::None,
                 transfer: Transfer::Linear,
                 ..OutputDefaults::default()
             },

@@ -1,5 +1,6 @@
 //! Options for importing a scene or model file.
 
+use crate::scene::LightTransport;
 use glam::{DAffine3, DMat3, DVec3};
 use std::num::NonZero;
 use std::ops::Neg;
@@ -29,6 +30,9 @@ pub struct Options {
     /// Width and height of the picture that a model without a camera is framed for; `None` for the scene's
     /// own size.
     pub size: Option<(u32, u32)>,
+    /// The integrator that the scene will be rendered with, for which a model without lights is lit; `None` for the
+    /// scene's own.
+    pub integrator: Option<LightTransport>,
     /// What is added to a model that lacks it.
     pub staging: Staging,
     /// Replaces or changes the background.
@@ -94,9 +98,9 @@ impl Axis {
 pub struct Staging {
     /// A camera that frames the model. Without it the camera is at the origin and looks along −Z.
     pub camera: bool,
-    /// Lights and ambient light.
+    /// Lights and ambient light; for path tracing, together with the background, a sky with a sun.
     pub lights: bool,
-    /// A gradient behind the model; black without it.
+    /// A gradient behind the model, or that sky; black without it.
     pub background: bool,
     /// A ground below the model that receives its shadow.
     pub ground: bool,

@@ -1,11 +1,13 @@
-//! View and light for models that have none: a camera that frames the model, two soft lights, a gradient and
-//! a ground that receives the model's shadow.
+//! View and light for models that have none: a camera that frames the model; two soft lights and a gradient, or a sky
+//! with a sun where paths are traced; and a ground that receives the model's shadow.
 
 use super::{Options, Staging};
 use crate::scene::{
-    Attenuation, Background, Camera, Framing, Geometry, Light, LightKind, Material, Scene, Shape,
+    Attenuation, Background, Camera, Framing, Geometry, Light, LightKind, LightTransport, Material,
+    Scene, Shape, sky,
 };
 use glam::{DVec3, Vec3};
+use std::sync::Arc;
 
 /// The field of view of the camera, in radians.
 const FOV_Y: f64 = 32.0 * std::f64::consts::PI / 180.0;
@@ -28,7 +30,8 @@ pub(super) fn complete(scene: &mut Scene, options: &Options) {
         }];
     }
     if scene.lights.is_empty() {
-        light(scene, staging);
+        let integrator = options.integrator.unwrap_or(scene.output.integrator);
+        light(scene, staging, integrator);
     }
     scene.output.samples = scene.default_samples().max(4);
 }
@@ -66,20 +69,31 @@ const LIGHTS: [(DVec3, f64, u32, Vec3); 2] = [
 ];
 const AMBIENT: Vec3 = Vec3::new(0.19, 0.20, 0.22);
 
+/// Where the sun stands, in degrees; see [`sky::towards_sun`].
+const SUN_ELEVATION: f64 = 45.0;
+const SUN_AZIMUTH: f64 = -135.0;
+
+/// The exposure in stops that makes white paper in this sun nearly white with the tone curve of paths.
+const SKY_EXPOSURE: f32 = 0.5;
+
 /// Colours of the background straight down and straight up.
 const BOTTOM: Vec3 = Vec3::new(0.30, 0.30, 0.305);
 const TOP: Vec3 = Vec3::new(0.60, 0.60, 0.61);
 
 /// Adds lights, a background and a ground around the bounds of `scene`. Lights come from the side of the
 /// default camera and do not fade, so that large and small models are lit alike.
-fn light(scene: &mut Scene, staging: Staging) {
+fn light(scene: &mut Scene, staging: Staging, integrator: LightTransport) {
     let bounds = scene.bounds_over_time();
     let (min, max) = bounds.unwrap_or((DVec3::NEG_ONE, DVec3::ONE));
     let center = min.midpoint(max);
     // Never 0, not even for a single point far from the origin.
     let radius = (max - min).length() / 2.0;
     let radius = radius.max(1e-6 * center.abs().max_element().max(1e-6));
-    if staging.lights {
+    let has_sky = integrator == LightTransport::Path && staging.lights && staging.background;
+    if has_sky {
+        scene.background = sky(scene);
+        scene.output.exposure_ev = SKY_EXPOSURE;
+    } else if staging.lights {
         let distance = DISTANCE * radius;
         let soft = |(towards, size, samples, color): (DVec3, f64, u32, Vec3)| {
             let normal = -towards.normalize();
@@ -99,7 +113,7 @@ fn light(scene: &mut Scene, staging: Staging) {
         scene.lights = LIGHTS.map(soft).into();
         scene.ambient = AMBIENT;
     }
-    if staging.background {
+    if staging.background && !has_sky {
         scene.background = Background::Gradient {
             bottom: BOTTOM,
             top: TOP,
@@ -108,7 +122,10 @@ fn light(scene: &mut Scene, staging: Staging) {
     if staging.ground && bounds.is_some() {
         // Slightly below the model, so that its own flat bottom does not coincide with it.
         let point = DVec3::new(center.x, min.y - 1e-3 * radius, center.z);
-        let color = ground_color();
+        let color = match has_sky {
+            true => Vec3::splat(sky::GROUND_ALBEDO as f32),
+            false => ground_color(),
+        };
         scene.materials.push(Material {
             name: "ground".to_owned(),
             diffuse: color,
@@ -125,6 +142,19 @@ fn light(scene: &mut Scene, staging: Staging) {
         });
     }
     scene.staged = staging.lights || staging.background || staging.ground;
+}
+
+/// A clear sky with the sun at the left behind the default camera.
+fn sky(scene: &mut Scene) -> Background {
+    scene.pictures.push(Arc::new(sky::picture(
+        SUN_ELEVATION.to_radians(),
+        SUN_AZIMUTH.to_radians(),
+    )));
+    Background::Picture {
+        picture: scene.pictures.len() - 1,
+        strength: 1.0,
+        rotation: 0.0,
+    }
 }
 
 /// The colour of a ground that these lights make as bright as the background at the horizon, where the two

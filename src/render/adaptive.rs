@@ -1,6 +1,7 @@
 //! Adaptive sampling: decides after each round which pixels need more samples.
 
 use super::{
+    Integrator,
     film_tile::FilmTile,
     layers::{self, Layer, SQUARES},
     settings::RenderSettings,
@@ -9,6 +10,9 @@ use std::{collections::BTreeMap, ops::Range};
 
 /// Samples in the first round; each later round doubles the samples of a pixel.
 const FIRST_SAMPLES: u32 = 4;
+
+/// The same for paths: few of them find a small lamp, and those that do not agree with each other.
+const FIRST_PATHS: u32 = 16;
 
 /// A pixel with this many times fewer samples than a noisy neighbour needs more.
 const BEHIND: u32 = 4;
@@ -30,7 +34,11 @@ pub struct Adaptive {
     /// The requested part, in the same coordinates.
     crop: [u32; 4],
     noise: f64,
+    /// The brightness of a luminance, on which noise is measured.
+    brightness: fn(f64) -> f64,
     samples: u32,
+    /// Samples in the first round.
+    first_samples: u32,
     /// Rounds after the first.
     rounds: u32,
     /// Maximum number of pixels of a film tile.
@@ -54,8 +62,13 @@ struct PixelStatistics {
 impl Adaptive {
     pub fn new(settings: &RenderSettings, tile_side: u32) -> Self {
         let crop = settings.region();
+        let (first_samples, brightness): (_, fn(f64) -> f64) = match settings.integrator {
+            Integrator::Path => (FIRST_PATHS, compressed),
+            _ => (FIRST_SAMPLES, f64::sqrt),
+        };
+        let first_samples = first_samples.min(settings.samples);
         // With so few samples there is only the first round.
-        let has_rounds = settings.samples > FIRST_SAMPLES;
+        let has_rounds = settings.samples > first_samples;
         let margin = if has_rounds { NEIGHBOUR_ROUNDS } else { 0 };
         let region = widened(crop, margin, settings.size);
         let [.., width, height] = region;
@@ -65,10 +78,12 @@ impl Adaptive {
             crop,
             rounds: 0,
             noise: f64::from(settings.noise),
+            brightness,
             samples: settings.samples,
+            first_samples,
             tile_pixels: side * side,
             layers: layers::of_sampling(settings),
-            front: 0..FIRST_SAMPLES.min(settings.samples),
+            front: 0..first_samples,
             pixels: vec![PixelStatistics::default(); width as usize * height as usize],
         }
     }
@@ -85,7 +100,7 @@ impl Adaptive {
 
     /// Film tiles over all pixels.
     pub fn first_round(&self, pixels: Vec<[u32; 2]>) -> Vec<FilmTile> {
-        self.tiles(pixels, 0..FIRST_SAMPLES.min(self.samples))
+        self.tiles(pixels, 0..self.first_samples)
     }
 
     /// Film tiles over the pixels that need more samples, grouped by sample count; empty when all are done. A
@@ -206,13 +221,21 @@ impl Adaptive {
         if statistics.count >= self.samples || self.steps_to_crop(x, y) > rounds_left {
             return false;
         }
+        let brightness = |of: &PixelStatistics| (self.brightness)(of.luminance());
         let missed = |other: &PixelStatistics| {
-            let differs = (other.brightness() - statistics.brightness()).abs() > self.noise;
-            let is_ahead = other.count >= BEHIND * statistics.count && other.error() > self.noise;
-            differs && (statistics.count <= FIRST_SAMPLES || is_ahead)
+            let differs = (brightness(other) - brightness(statistics)).abs() > self.noise;
+            let is_ahead = other.count >= BEHIND * statistics.count && self.is_noisy(other);
+            differs && (statistics.count <= self.first_samples || is_ahead)
         };
         let looks_at_neighbours = self.rounds <= NEIGHBOUR_ROUNDS;
-        statistics.error() > self.noise || (looks_at_neighbours && self.around(x, y).any(missed))
+        self.is_noisy(statistics) || (looks_at_neighbours && self.around(x, y).any(missed))
+    }
+
+    /// Whether one standard error changes the brightness of a pixel by more than the threshold.
+    fn is_noisy(&self, statistics: &PixelStatistics) -> bool {
+        let mean = statistics.luminance();
+        let change = (self.brightness)(mean + statistics.error()) - (self.brightness)(mean);
+        change > self.noise
     }
 
     /// Distance in pixels from a pixel of the region to the crop; 0 inside it.
@@ -267,16 +290,17 @@ impl PixelStatistics {
         (sum * self.scale()).max(0.0)
     }
 
-    /// The square root of luminance, which is closer to perceived brightness.
-    fn brightness(&self) -> f64 {
-        self.luminance().sqrt()
-    }
-
-    /// The change of brightness by one standard error.
+    /// The standard error of the luminance.
     fn error(&self) -> f64 {
         let count = f64::from(self.count);
         let mean = self.luminance();
         let variance = (self.squares / count - mean * mean).max(0.0) / (count - 1.0).max(1.0);
-        (mean + variance.sqrt()).sqrt() - mean.sqrt()
+        variance.sqrt()
     }
+}
+
+/// Brightness for pictures of any range: as the square root of a small luminance, which is close to what the eye sees,
+/// and 1 for an infinite one, since tone curves show all highlights as white.
+fn compressed(luminance: f64) -> f64 {
+    (luminance / (1.0 + luminance)).sqrt()
 }

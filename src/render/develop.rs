@@ -18,16 +18,21 @@ use crate::{
         PackedDispatch, PackedFrame, PackedLight, PackedTone, TONE_ACES, TONE_AGX, TONE_NONE,
         TONE_REINHARD, TRANSFER_LINEAR, TRANSFER_SRGB,
     },
-    scene::{OutputDefaults, ToneCurve, Transfer},
+    scene::{LightTransport, OutputDefaults, ToneCurve, Transfer},
 };
 use bytemuck::{bytes_of, cast_slice};
 use wgpu::BufferUsages;
+
+/// The bit of [`Tone::auto_exposure`] in the number of [`Tone::levels`].
+const AUTO_EXPOSURE_BIT: u32 = 8;
 
 /// How linear radiance is developed to a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tone {
     /// Exposure in stops; each doubles the brightness.
     pub exposure_ev: f32,
+    /// Whether the exposure adds to one that makes the picture's average a medium grey: [`Renderer::exposure`].
+    pub auto_exposure: bool,
     /// Tone curve, applied after the exposure.
     pub curve: ToneCurve,
     /// Transfer function, applied last.
@@ -37,14 +42,9 @@ pub struct Tone {
 }
 
 impl From<&OutputDefaults> for Tone {
-    /// The output defaults of the scene, for pictures of radiance.
+    /// The tone of a scene for pictures by its own integrator.
     fn from(output: &OutputDefaults) -> Self {
-        Self {
-            exposure_ev: output.exposure_ev,
-            curve: output.tone,
-            transfer: output.transfer,
-            ..Self::LINEAR
-        }
+        Self::of_scene(output, output.integrator.into())
     }
 }
 
@@ -52,10 +52,23 @@ impl Tone {
     /// Keeps radiance unchanged.
     pub const LINEAR: Self = Self {
         exposure_ev: 0.0,
+        auto_exposure: false,
         curve: ToneCurve::None,
         transfer: Transfer::Linear,
         levels: Levels::Raw,
     };
+
+    /// The tone of a scene for pictures of radiance by an integrator.
+    pub fn of_scene(output: &OutputDefaults, integrator: Integrator) -> Self {
+        let curve = (output.tone).unwrap_or(LightTransport::from(integrator).tone());
+        Self {
+            exposure_ev: output.exposure_ev,
+            auto_exposure: output.auto_exposure,
+            curve,
+            transfer: output.transfer,
+            levels: Levels::Raw,
+        }
+    }
 
     /// A fingerprint of all members: see [`RenderSettings::fingerprint`].
     pub fn fingerprint(&self) -> Fingerprint {
@@ -70,6 +83,7 @@ impl Tone {
     pub(super) fn numbers(&self) -> [u32; 6] {
         let Self {
             exposure_ev,
+            auto_exposure,
             curve,
             transfer,
             levels,
@@ -94,7 +108,7 @@ impl Tone {
             exposure,
             curve,
             transfer,
-            kind,
+            kind | u32::from(auto_exposure) << AUTO_EXPOSURE_BIT,
             least.to_bits(),
             most.to_bits(),
         ]
@@ -102,9 +116,11 @@ impl Tone {
 
     /// The tone with these numbers; `None` if [`Self::numbers`] gives them for no tone.
     pub(super) fn from_numbers(numbers: [u32; 6]) -> Option<Self> {
-        let [exposure, curve, transfer, kind, least, most] = numbers;
+        let [exposure, curve, transfer, kinds, least, most] = numbers;
+        let kind = kinds & !(1 << AUTO_EXPOSURE_BIT);
         let tone = Self {
             exposure_ev: f32::from_bits(exposure),
+            auto_exposure: kinds != kind,
             curve: match curve {
                 0 => ToneCurve::None,
                 1 => ToneCurve::Aces,
@@ -137,7 +153,9 @@ impl Tone {
         let region = [0, 0, width, height];
         let pixels = image.pixels.iter();
         let sums: Vec<_> = pixels.clone().map(|&[r, g, b, _]| [r, g, b, 1.0]).collect();
-        let tone = self.packed(Integrator::Whitted, None, 1);
+        let tone = self
+            .exposed(|| sums.iter())
+            .packed(Integrator::Whitted, None, 1);
         let mut developed = develop_sums(gpu, region, &sums, &tone)?;
         for (developed, pixel) in developed.pixels.iter_mut().zip(pixels) {
             developed[3] = pixel[3];
@@ -220,6 +238,7 @@ impl Renderer {
             true => self.wait()?,
             false => self.fetch_film()?,
         }
+        let tone = &self.exposed(tone)?;
         let range = self.range_of(tone)?;
         let region = self.settings.region();
         if self.settings.integrator.quantity() == Some(Quantity::Samples) {

@@ -6,6 +6,7 @@ use super::levels::Quantity;
 use crate::{
     gpu::Kernel,
     layout::{VIEW_DEPTH, VIEW_HEAT, VIEW_IDS, VIEW_NORMALS, VIEW_UV},
+    scene::LightTransport,
 };
 
 /// What a camera ray computes.
@@ -183,6 +184,25 @@ impl Integrator {
         match self.entry().shows {
             Shows::Quantity(quantity) => Some(quantity),
             Shows::Radiance | Shows::Colors => None,
+        }
+    }
+}
+
+impl From<LightTransport> for Integrator {
+    fn from(transport: LightTransport) -> Self {
+        match transport {
+            LightTransport::Whitted => Self::Whitted,
+            LightTransport::Path => Self::Path,
+        }
+    }
+}
+
+impl From<Integrator> for LightTransport {
+    /// Debug views count as classical.
+    fn from(integrator: Integrator) -> Self {
+        match integrator {
+            Integrator::Path => Self::Path,
+            _ => Self::Whitted,
         }
     }
 }

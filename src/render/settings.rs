@@ -1,17 +1,11 @@
 //! Render settings.
 
 use super::{Fingerprint, Integrator, fingerprint::Encoder};
-use crate::scene::{Antialias, Filter, OutputDefaults};
+use crate::scene::{Antialias, Filter, LightTransport, OutputDefaults};
 use std::{fmt, ops::Range, str::FromStr};
 
 /// The default minimum throughput of rays: half of the smallest 8-bit step.
 pub const MIN_THROUGHPUT: f32 = 1.0 / 512.0;
-
-/// Default samples per pixel of path-traced pictures, where a scene has fewer.
-pub const PATH_SAMPLES: u32 = 64;
-
-/// Default bounces after the first hit of path-traced pictures.
-pub const PATH_DEPTH: u32 = 16;
 
 /// Settings of one picture. Together with scene and frame they determine every pixel.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,7 +71,7 @@ impl Default for RenderSettings {
             offset: RayOffset::Bound,
             brute_force: false,
             seed: 0,
-            max_depth: 5,
+            max_depth: LightTransport::Whitted.max_depth(),
             min_throughput: MIN_THROUGHPUT,
             transparent_shadows: false,
             clamp_indirect: None,
@@ -101,6 +95,7 @@ impl From<&OutputDefaults> for RenderSettings {
             filter: output.filter,
             filter_radius: (output.filter_radius).unwrap_or(output.filter.default_radius()),
             light_samples: output.light_samples,
+            integrator: output.integrator.into(),
             max_depth: output.max_depth,
             ..Self::default()
         }

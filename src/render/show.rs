@@ -162,8 +162,9 @@ impl Renderer {
 
     /// Develops the samples so far to a screen of the size of the picture: pixels with samples get the result
     /// of [`Self::develop`], rounded to 8 bits. Returns the range over which a quantity is shown. If it
-    /// [`Self::shows_directly`] and needs no range, it does not wait for the GPU.
+    /// [`Self::shows_directly`] and needs neither a range nor an exposure, it does not wait for the GPU.
     pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
+        let tone = &self.exposed(tone)?;
         let range = self.range_of(tone)?;
         if self.shows_directly() {
             let tone = tone.packed(

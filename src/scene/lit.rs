@@ -1,15 +1,17 @@
 //! Default samples per pixel, and whether a scene has any light.
 
-use super::{Background, LightProperty, MaterialProperty, OutputDefaults, Scene, Target};
+use super::{
+    Background, LightProperty, LightTransport, MaterialProperty, OutputDefaults, Scene, Target,
+};
 use glam::Vec3;
 
-/// Samples per pixel for scenes that are noisy with one.
-const SAMPLES: u32 = 16;
-
 impl Scene {
-    /// Default samples per pixel: 16 if a lens, an area light or an open shutter makes the rays of a
-    /// pixel random, otherwise 1.
+    /// Default samples per pixel: 64 of a scene for path tracing; 16 if a lens, an area light or an open shutter
+    /// makes the rays of a pixel random; otherwise 1.
     pub fn default_samples(&self) -> u32 {
+        if self.output.integrator == LightTransport::Path {
+            return LightTransport::Path.samples();
+        }
         let has_lens = self.cameras.iter().any(|camera| camera.lens.is_some());
         let is_large = self
             .lights
@@ -18,7 +20,7 @@ impl Scene {
         let shutter = self.output.shutter;
         let is_blurred = shutter.open < shutter.close && !self.tracks.is_empty();
         match has_lens || is_large || is_blurred {
-            true => SAMPLES,
+            true => LightTransport::Whitted.samples(),
             false => OutputDefaults::default().samples,
         }
     }

@@ -5,6 +5,8 @@
 pub struct OutputDefaults {
     /// Width and height in pixels.
     pub size: (u32, u32),
+    /// The integrator that the scene is made for. Samples and bounces are meant for it.
+    pub integrator: LightTransport,
     /// Samples per pixel, at least 1.
     pub samples: u32,
     /// Sample placement; `None`: at the pixel's centre for one sample, otherwise stratified.
@@ -21,8 +23,10 @@ pub struct OutputDefaults {
     pub max_depth: u32,
     /// Exposure in stops; each doubles the brightness.
     pub exposure_ev: f32,
-    /// Tone curve, applied after the exposure.
-    pub tone: ToneCurve,
+    /// Whether the exposure adds to one that makes the picture's average a medium grey.
+    pub auto_exposure: bool,
+    /// Tone curve, applied after the exposure; `None`: [`LightTransport::tone`].
+    pub tone: Option<ToneCurve>,
     /// Transfer function, applied last.
     pub transfer: Transfer,
     /// Frames per second of an animation, above 0.
@@ -47,19 +51,73 @@ impl Default for OutputDefaults {
     fn default() -> Self {
         Self {
             size: (640, 480),
+            integrator: LightTransport::Whitted,
             samples: 1,
             antialias: None,
             filter: Filter::Box,
             filter_radius: None,
             noise: 0.01,
             light_samples: 1.0,
-            max_depth: 5,
+            max_depth: LightTransport::Whitted.max_depth(),
             exposure_ev: 0.0,
-            tone: ToneCurve::None,
+            auto_exposure: false,
+            tone: None,
             transfer: Transfer::Srgb,
             fps: 24.0,
             duration: None,
             shutter: Shutter::default(),
+        }
+    }
+}
+
+/// How light is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LightTransport {
+    /// Phong's illumination with shadow rays, and recursive reflection and refraction (Whitted 1980).
+    #[default]
+    Whitted,
+    /// Path tracing (Kajiya 1986).
+    Path,
+}
+
+/// Most bounces of a classical picture of a scene that is made for path tracing: trees of rays double with each, and a
+/// glass wall takes two.
+const MOST_BOUNCES: u32 = 8;
+
+impl LightTransport {
+    /// Default samples per pixel, of scenes whose single samples are noisy.
+    pub const fn samples(self) -> u32 {
+        match self {
+            Self::Whitted => 16,
+            Self::Path => 64,
+        }
+    }
+
+    /// Default number of bounces after the first hit.
+    pub const fn max_depth(self) -> u32 {
+        match self {
+            Self::Whitted => 5,
+            Self::Path => 16,
+        }
+    }
+
+    /// Samples per pixel and bounces for a scene that says these for `self`, if it is rendered with `other`.
+    pub fn converted(self, other: Self, (samples, max_depth): (u32, u32)) -> (u32, u32) {
+        match (self, other) {
+            (Self::Whitted, Self::Path) => (samples.max(other.samples()), other.max_depth()),
+            (Self::Path, Self::Whitted) => {
+                (samples.min(other.samples()), max_depth.min(MOST_BOUNCES))
+            }
+            _ => (samples, max_depth),
+        }
+    }
+
+    /// The tone curve of pictures whose scene has none: clamping for the classical integrator, as in the course; AgX
+    /// for paths, whose light has a much wider range.
+    pub fn tone(self) -> ToneCurve {
+        match self {
+            Self::Whitted => ToneCurve::None,
+            Self::Path => ToneCurve::Agx,
         }
     }
 }

@@ -29,7 +29,7 @@ const SUN_ILLUMINANCE: f64 = 128_000.0;
 const WAVELENGTHS: DVec3 = dvec3(0.61, 0.55, 0.465);
 
 /// Albedo of the ground.
-const ALBEDO: f64 = 0.2;
+pub const GROUND_ALBEDO: f64 = 0.2;
 
 /// Steps in each direction within a texel at the edge of the sun.
 const SUBDIVISIONS: u32 = 16;
@@ -71,7 +71,7 @@ pub fn picture(elevation: f64, azimuth: f64) -> Picture {
             colors[(y * WIDTH + x) as usize] = color;
         }
     }
-    let ground = ALBEDO / PI * irradiance;
+    let ground = GROUND_ALBEDO / PI * irradiance;
     colors[(WIDTH * HEIGHT / 2) as usize..].fill(ground);
     paint_sun(&mut colors, sun, elevation);
     Picture::opaque(WIDTH, HEIGHT, colors.into_iter().map(DVec3::as_vec3))

@@ -45,12 +45,7 @@ impl Screen {
             camera: scene.frame(0.0).camera,
             background: scene.background.clone(),
             settings: RenderSettings::from(output),
-            tone: Tone {
-                exposure_ev: output.exposure_ev,
-                curve: output.tone,
-                transfer: output.transfer,
-                ..Tone::LINEAR
-            },
+            tone: Tone::from(output),
             time: 0.0,
             fps: output.fps,
             shutter: output.shutter,
@@ -118,7 +113,7 @@ fn scene() -> Scene {
         output: OutputDefaults {
             samples: 4,
             exposure_ev: 0.5,
-            tone: ToneCurve::Aces,
+            tone: Some(ToneCurve::Aces),
             ..OutputDefaults::default()
         },
         ..Scene::default()

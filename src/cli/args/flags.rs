@@ -1,7 +1,7 @@
 //! Flags that several commands share, grouped as in their help.
 
 use super::values::{self, BACKENDS, FORMATS, PROGRESS, Up};
-use crate::app::overrides::{CameraOverrides, PictureOverrides, ToneOverrides};
+use crate::app::overrides::{CameraOverrides, Exposure, PictureOverrides, ToneOverrides};
 use crate::app::value_names::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
 use crate::gpu::{AdapterChoice, Backend};
 use crate::import;
@@ -53,8 +53,8 @@ pub struct SizeFlags {
     /// Width and height in pixels [default: the scene's, else 640x480]
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = values::size)]
     pub size: Option<(u32, u32)>,
-    /// Samples per pixel, 1 to 65536 [default: the scene's; else 16 with a lens, an area light or motion
-    /// blur; else 1]
+    /// Samples per pixel, 1 to 65536 [default: the scene's; else 64 for --integrator path, 16 with a lens, an area
+    /// light or motion blur; else 1]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub samples: Option<u32>,
 }
@@ -101,7 +101,7 @@ pub struct PictureFlags {
     /// Multiply the sample count of every area light by this, 0.001 to 1000 [default: the scene's, else 1]
     #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = values::light_samples)]
     pub light_samples: Option<f32>,
-    /// Integrator or debug view [default: whitted]
+    /// Integrator or debug view [default: the scene's, else path for glTF and whitted for other formats]
     #[arg(long, value_parser = values::one_of(&INTEGRATORS))]
     pub integrator: Option<Integrator>,
     /// Ray–triangle intersection algorithm [default: watertight]
@@ -137,9 +137,11 @@ pub struct PictureFlags {
 #[command(next_help_heading = "Picture")]
 pub struct DevelopFlags {
     /// Exposure: multiply radiance by 2^EV, -64 to 64 [default: the scene's, else 0; 0 for .exr and .hdr]
-    #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = values::exposure)]
-    pub exposure: Option<f32>,
-    /// Tone curve [default: the scene's, else none; none for .exr, .hdr and debug views]
+    ///
+    /// auto makes the picture's average a medium grey, frame by frame; auto+1 is a stop brighter, auto-1 darker.
+    #[arg(long, value_name = "EV|auto", allow_hyphen_values = true, value_parser = values::exposure)]
+    pub exposure: Option<Exposure>,
+    /// Tone curve [default: the scene's, else agx for paths and none for whitted; none for .exr, .hdr and debug views]
     #[arg(long, value_parser = values::one_of(&TONES))]
     pub tone: Option<ToneCurve>,
     /// Transfer function [default: the scene's, else srgb; linear for .exr, .hdr and debug views]
@@ -214,10 +216,10 @@ pub struct SceneFlags {
     /// Add nothing to a model: no camera that frames it, no lights, no background, no ground
     #[arg(long)]
     pub bare: bool,
-    /// Add no lights to a model without lights
+    /// Add no lights to a model without lights, and no sky where paths are traced
     #[arg(long)]
     pub no_lights: bool,
-    /// Add no background to a model without lights
+    /// Add no background to a model without lights; where paths are traced, lights take the place of the sky
     #[arg(long)]
     pub no_background: bool,
     /// Add no ground to a model without lights
@@ -235,11 +237,12 @@ pub struct AxisFlags {
 }
 
 impl SceneFlags {
-    /// `up` is the axis of a model that points up; `size` is that of the picture, if it is known.
+    /// `up` is the axis of a model that points up; `size` and `integrator` are those of the picture, if they are known.
     pub fn import_options(
         &self,
         up: Option<import::Axis>,
         size: Option<(u32, u32)>,
+        integrator: Option<Integrator>,
     ) -> import::Options {
         let staging = import::Staging {
             camera: !self.bare,
@@ -256,6 +259,7 @@ impl SceneFlags {
             up,
             texture_limit: self.texture_limit,
             size,
+            integrator: integrator.map(Into::into),
             staging,
             environment: import::Environment {
                 source: self.environment.clone(),
@@ -326,7 +330,7 @@ impl PictureFlags {
 impl DevelopFlags {
     pub fn overrides(&self) -> ToneOverrides {
         ToneOverrides {
-            exposure_ev: self.exposure,
+            exposure: self.exposure,
             curve: self.tone,
             transfer: self.transfer,
         }

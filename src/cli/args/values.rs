@@ -1,5 +1,6 @@
 //! Parsers for the values of flags, with their error messages.
 
+use crate::app::overrides::Exposure;
 use crate::app::value_names::ValueNames;
 use crate::cli::args::{ProgressMode, Range, SequenceFormat};
 use crate::gpu::Backend;
@@ -143,8 +144,23 @@ pub fn fraction(text: &str) -> Result<f32, String> {
     within(text, 0.0, 1.0, "it")
 }
 
-pub fn exposure(text: &str) -> Result<f32, String> {
-    within(text, -64.0, 64.0, "it")
+/// `EV`, `auto`, or `auto+EV` and `auto-EV`.
+pub fn exposure(text: &str) -> Result<Exposure, String> {
+    let stops = |text: &str| within(text, -64.0, 64.0, "it");
+    match text.trim().strip_prefix("auto") {
+        Some("") => Ok(Exposure {
+            is_auto: true,
+            stops: 0.0,
+        }),
+        Some(change) if change.starts_with(['+', '-']) => Ok(Exposure {
+            is_auto: true,
+            stops: stops(change)?,
+        }),
+        Some(_) | None => Ok(Exposure {
+            is_auto: false,
+            stops: stops(text)?,
+        }),
+    }
 }
 
 pub fn fov_y(text: &str) -> Result<f64, String> {

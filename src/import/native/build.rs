@@ -14,7 +14,7 @@ use crate::import::notes::Notes;
 use crate::import::number::in_range;
 use crate::import::paths::Files;
 use crate::import::{Options, stage};
-use crate::scene::{Material, OutputDefaults, Scene, Shutter};
+use crate::scene::{LightTransport, Material, OutputDefaults, Scene, Shutter};
 use glam::DAffine3;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
@@ -245,17 +245,21 @@ impl<'a> Builder<'a> {
 fn output(table: &OutputTable) -> OutputDefaults {
     let [width, height] = table.size.0;
     let [open, close] = table.shutter.0;
+    let integrator = LightTransport::from(table.integrator);
+    let max_depth = table.max_depth.map(|bounces| bounces.0);
     OutputDefaults {
         size: (width, height),
+        integrator,
         samples: table.samples.map_or(1, |count| count.0),
         antialias: table.antialias.map(Into::into),
         noise: table.noise.0,
-        max_depth: table.max_depth.0,
+        max_depth: max_depth.unwrap_or(integrator.max_depth()),
         filter: table.filter.into(),
         filter_radius: table.filter_radius.map(|radius| radius.0),
         light_samples: table.light_samples.0,
         exposure_ev: table.exposure_ev.0,
-        tone: table.tone.into(),
+        auto_exposure: table.auto_exposure,
+        tone: table.tone.map(Into::into),
         transfer: table.transfer.into(),
         fps: table.fps.0,
         duration: table.duration.map(|duration| duration.0),

@@ -31,8 +31,8 @@ pub(super) use textures::{
 };
 
 use super::values::{
-    AntialiasName, Bounces, Color, Count, Duration, Factor, FilterName, FrameRate, Noise, Radius,
-    ShadowsName, ShutterTimes, Size, Stops, ToneName, TransferName,
+    AntialiasName, Bounces, Color, Count, Duration, Factor, FilterName, FrameRate, IntegratorName,
+    Noise, Radius, ShadowsName, ShutterTimes, Size, Stops, ToneName, TransferName,
 };
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -112,7 +112,9 @@ pub(super) struct SceneFile {
 pub(super) struct OutputTable {
     /// Width and height in pixels; default [640, 480].
     pub size: Size,
-    /// Samples per pixel; default 16 with a lens, an area light or an open shutter, otherwise 1.
+    /// The integrator that samples and bounces are meant for: whitted or path; default whitted.
+    pub integrator: IntegratorName,
+    /// Samples per pixel; default 64 for paths, 16 with a lens, an area light or an open shutter, otherwise 1.
     pub samples: Option<Count>,
     /// Sample placement: none (all at the centre), stratified, or adaptive, which takes up to `samples`
     /// where there is noise. Default stratified for more than one sample.
@@ -120,8 +122,8 @@ pub(super) struct OutputTable {
     /// Noise threshold of adaptive sampling: it continues where the estimated error is larger. Measured
     /// on the square root of luminance, where 1 is white; default 0.01.
     pub noise: Noise,
-    /// Bounces after the first hit, 0 to 1000; 0 is local shading only; default 5.
-    pub max_depth: Bounces,
+    /// Bounces after the first hit, 0 to 1000; 0 is local shading only; default 16 for paths, otherwise 5.
+    pub max_depth: Option<Bounces>,
     /// The reconstruction filter; default box.
     pub filter: FilterName,
     /// The filter's radius in pixels; default 0.5 for box, 1 for tent, 2 for mitchell and 1.5 for the
@@ -131,8 +133,10 @@ pub(super) struct OutputTable {
     pub light_samples: Factor,
     /// Exposure in stops, before the tone curve; default 0.
     pub exposure_ev: Stops,
-    /// The tone curve; default none.
-    pub tone: ToneName,
+    /// Whether `exposure_ev` adds to an exposure that makes the picture's average a medium grey; default false.
+    pub auto_exposure: bool,
+    /// The tone curve; default agx for paths, otherwise none.
+    pub tone: Option<ToneName>,
     /// The transfer function of stored values; default srgb.
     pub transfer: TransferName,
     /// Frames per second of an animation; default 24.
@@ -149,15 +153,17 @@ impl Default for OutputTable {
     fn default() -> Self {
         Self {
             size: Size([640, 480]),
+            integrator: IntegratorName::Whitted,
             samples: None,
             antialias: None,
             noise: Noise(0.01),
-            max_depth: Bounces(5),
+            max_depth: None,
             filter: FilterName::Box,
             filter_radius: None,
             light_samples: Factor(1.0),
             exposure_ev: Stops(0.0),
-            tone: ToneName::None,
+            auto_exposure: false,
+            tone: None,
             transfer: TransferName::Srgb,
             fps: FrameRate(24.0),
             duration: None,

@@ -8,8 +8,8 @@ pub(super) use moving::{
     ShutterTimes, Time,
 };
 pub(super) use names::{
-    AntialiasName, AttenuationName, FilterName, FresnelName, MixingName, ShadowsName, ToneName,
-    TransferName,
+    AntialiasName, AttenuationName, FilterName, FresnelName, IntegratorName, MixingName,
+    ShadowsName, ToneName, TransferName,
 };
 pub(super) use places::{AxisRadians, Length, Matrix, Upwards, ViewRadians};
 

@@ -33,8 +33,14 @@ impl Film {
                 range,
             ));
         }
-        let tone = tone.packed(self.header.integrator, range, 1);
-        develop_sums(gpu, region, &self.layer(LayerKind::Weighted), &tone)
+        let sums = self.layer(LayerKind::Weighted);
+        let tone = tone.exposed(|| sums.iter());
+        develop_sums(
+            gpu,
+            region,
+            &sums,
+            &tone.packed(self.header.integrator, range, 1),
+        )
     }
 
     /// The minimum and maximum, without [`Quantity::outliers`]; see [`crate::render::Renderer::range`].

@@ -1,9 +1,7 @@
 //! Render and view settings that do not change the scene.
 
-use crate::render::{
-    Antialias, Integrator, Levels, PATH_DEPTH, PATH_SAMPLES, RenderSettings, Shows, Tone,
-};
-use crate::scene::{Background, OutputDefaults, ToneCurve};
+use crate::render::{Antialias, Integrator, Levels, RenderSettings, Shows, Tone};
+use crate::scene::{Background, LightTransport, OutputDefaults, ToneCurve};
 use crate::viewer::model::gallery::StillId;
 use crate::viewer::model::playback::Playback;
 use glam::Vec3;
@@ -194,10 +192,14 @@ impl ViewSettings {
         };
     }
 
-    /// The output defaults of a scene that looks like this. Settings that scenes do not store, such as the
-    /// integrator, are left out.
+    /// The output defaults of a scene that looks like this. Settings that scenes do not store, such as debug views,
+    /// are left out.
     pub fn output(&self, before: &OutputDefaults, playback: &Playback) -> OutputDefaults {
         let settings = &self.settings;
+        let integrator = match settings.integrator.entry().is_lit {
+            true => settings.integrator.into(),
+            false => before.integrator,
+        };
         let usual = RenderSettings::from(&OutputDefaults {
             samples: settings.samples,
             ..OutputDefaults::default()
@@ -208,6 +210,7 @@ impl ViewSettings {
             } else {
                 settings.size
             },
+            integrator,
             samples: settings.samples,
             antialias: (settings.antialias != usual.antialias).then_some(settings.antialias),
             filter: settings.filter,
@@ -217,7 +220,9 @@ impl ViewSettings {
             light_samples: settings.light_samples,
             max_depth: settings.max_depth,
             exposure_ev: self.tone.exposure_ev,
-            tone: self.tone.curve,
+            auto_exposure: self.tone.auto_exposure,
+            tone: Some(self.tone.curve)
+                .filter(|curve| before.tone.is_some() || *curve != integrator.tone()),
             transfer: self.tone.transfer,
             fps: playback.clock.fps,
             duration: before.duration,
@@ -252,18 +257,19 @@ impl ViewSettings {
             None => (self.settings.crop).filter(|_| !self.fits && size == self.settings.size),
         };
         let (own, usual) = (&self.settings, &self.scene_settings);
-        let is_path = integrator == Integrator::Path;
-        // Paths need more samples and bounces than trees of rays, unless others were chosen.
         let (mut samples, mut antialias, mut max_depth) =
             (own.samples, own.antialias, own.max_depth);
-        if is_path && samples == usual.samples && antialias == usual.antialias {
-            samples = samples.max(PATH_SAMPLES);
-            if antialias == Antialias::None {
+        // Another integrator than the scene's needs other samples and bounces, unless the user has chosen them.
+        let from = LightTransport::from(usual.integrator);
+        let fitting = from.converted(integrator.into(), (samples, max_depth));
+        if samples == usual.samples && antialias == usual.antialias {
+            samples = fitting.0;
+            if antialias == Antialias::None && samples > 1 {
                 antialias = Antialias::Stratified;
             }
         }
-        if is_path && max_depth == usual.max_depth {
-            max_depth = PATH_DEPTH;
+        if max_depth == usual.max_depth {
+            max_depth = fitting.1;
         }
         RenderSettings {
             size,

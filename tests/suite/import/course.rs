@@ -3,8 +3,7 @@
 use super::{messages, scene};
 use glam::{DVec3, Vec3};
 use glimray::scene::{
-    Attenuation, Background, Camera, Geometry, Light, LightKind, Material, Mixing, Shape,
-    ToneCurve, Transfer,
+    Attenuation, Background, Camera, Geometry, Light, LightKind, Material, Mixing, Shape, Transfer,
 };
 use insta::assert_snapshot;
 
@@ -80,7 +79,7 @@ fn the_output_settings_are_those_of_the_course() {
     assert_eq!(scene.background, Background::Color(Vec3::ONE));
     assert_eq!(scene.output.size, (640, 480));
     assert_eq!(scene.output.samples, 1);
-    assert_eq!(scene.output.tone, ToneCurve::None);
+    assert_eq!(scene.output.tone, None);
     assert_eq!(scene.output.transfer, Transfer::Linear);
     assert_eq!(
         scene.materials.len(),

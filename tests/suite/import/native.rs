@@ -97,7 +97,7 @@ fn every_key_is_heard() {
         size: (320, 200),
         samples: 9,
         exposure_ev: -1.5,
-        tone: ToneCurve::Agx,
+        tone: Some(ToneCurve::Agx),
         transfer: Transfer::Linear,
         ..OutputDefaults::default()
     };
@@ -293,7 +293,7 @@ fn overrides_replace_and_add_values() {
     assert_eq!(scene.cameras[0].fov_y, 30_f64.to_radians());
     assert_eq!(scene.cameras[0].look_from.z, 9.0);
     assert_eq!(sphere(&scene, 0).1, 2.0);
-    assert_eq!(scene.output.tone, ToneCurve::Aces);
+    assert_eq!(scene.output.tone, Some(ToneCurve::Aces));
     assert_eq!(scene.output.transfer, Transfer::Linear);
     assert_eq!(scene.background, Background::Color(Vec3::ONE));
     assert!(!scene.materials[0].two_sided);

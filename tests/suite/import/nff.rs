@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
 use glimray::scene::{
     Background, Camera, CanonicalShape, Fresnel, Geometry, Light, LightKind, Material, Mixing,
-    Scene, Shape, ToneCurve, Transfer,
+    Scene, Shape, Transfer,
 };
 use insta::assert_snapshot;
 
@@ -65,7 +65,7 @@ fn a_plain_file_reads_as_written() {
     assert_eq!(scene.output.size, (320, 200));
     assert_eq!(scene.output.samples, 1);
     assert_eq!(scene.output.max_depth, 5);
-    assert_eq!(scene.output.tone, ToneCurve::None);
+    assert_eq!(scene.output.tone, None);
     assert_eq!(scene.output.transfer, Transfer::Linear);
     assert_eq!(scene.skipped, [""; 0]);
 }

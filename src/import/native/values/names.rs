@@ -1,6 +1,8 @@
 //! Enumerations of a native scene.
 
-use crate::scene::{Antialias, Attenuation, Filter, Fresnel, Mixing, Shadows, ToneCurve, Transfer};
+use crate::scene::{
+    Antialias, Attenuation, Filter, Fresnel, LightTransport, Mixing, Shadows, ToneCurve, Transfer,
+};
 use schemars::JsonSchema;
 
 /// How local, reflected and transmitted light are combined.
@@ -40,6 +42,25 @@ impl From<TransferName> for Transfer {
         match name {
             TransferName::Srgb => Self::Srgb,
             TransferName::Linear => Self::Linear,
+        }
+    }
+}
+
+/// How light is computed.
+#[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(in crate::import::native) enum IntegratorName {
+    /// The classical ray tracer.
+    Whitted,
+    /// The path tracer.
+    Path,
+}
+
+impl From<IntegratorName> for LightTransport {
+    fn from(name: IntegratorName) -> Self {
+        match name {
+            IntegratorName::Whitted => Self::Whitted,
+            IntegratorName::Path => Self::Path,
         }
     }
 }

@@ -226,10 +226,13 @@ fn look(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
             background,
         ),
         one(
-            wanted.exposure_ev != tone.exposure_ev,
+            (wanted.exposure_ev, wanted.auto_exposure) != (tone.exposure_ev, tone.auto_exposure),
             "the exposure",
             "--exposure",
-            wanted.exposure_ev.to_string(),
+            match wanted.auto_exposure {
+                true => format!("auto{:+}", wanted.exposure_ev),
+                false => wanted.exposure_ev.to_string(),
+            },
         ),
         one(
             wanted.curve != tone.curve,

@@ -4,7 +4,7 @@ use crate::app::clock::Clock;
 use crate::app::error::AppError;
 use crate::app::overrides::{CameraOverrides, Moment, picture_size};
 use crate::app::showcase;
-use crate::render::{Integrator, RenderSettings};
+use crate::render::RenderSettings;
 use crate::scene::Scene;
 use crate::viewer::model::camera::CameraController;
 use crate::viewer::model::document::Document;
@@ -104,7 +104,7 @@ impl Session {
         self.request.overrides.camera.apply(&mut scene)?;
         let settings = self.settings_of(&scene);
         let overrides = &self.request.overrides;
-        let mut tone = (overrides.tone).tone(&scene.output, Integrator::Whitted, false);
+        let mut tone = (overrides.tone).tone(&scene.output, settings.integrator, false);
         if let (None, Some(curve)) = (overrides.tone.curve, self.preferences.tone) {
             tone.curve = curve;
         }

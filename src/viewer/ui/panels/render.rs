@@ -244,6 +244,16 @@ fn developing(ui: &mut Ui, look: &mut ViewSettings) {
     line(
         ui,
         (
+            "Auto exposure",
+            "Adds the exposure that makes the picture's average a medium grey",
+        ),
+        &mut tone.auto_exposure,
+        &usual.auto_exposure,
+        |ui, value| ui.checkbox(value, ""),
+    );
+    line(
+        ui,
+        (
             "Exposure",
             "Exposure in stops, -64 to 64. Each stop doubles the brightness",
         ),

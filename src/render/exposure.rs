@@ -1,0 +1,96 @@
+//! Automatic exposure: the exposure that makes the average of a picture a medium grey, by the log-average of its
+//! luminance (Reinhard, Stark, Shirley, Ferwerda 2002, Photographic Tone Reproduction for Digital Images, section 3.1).
+
+use super::{RenderError, Renderer, Tone};
+
+/// The luminance that the average becomes: a medium grey.
+const KEY: f64 = 0.18;
+
+/// Luminance of linear Rec. 709, as `LUMINANCE_REC709` in `lib/tone.wesl`.
+const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
+
+/// Luminances are counted in steps of this fraction of a stop. Sums of whole numbers do not depend on the order of the
+/// pixels, so films in any tiles and parts have the same exposure.
+const STEPS: f32 = 64.0;
+
+/// The stops around 1 that are told apart.
+const MOST_STOPS: f32 = 64.0;
+
+/// The share of the pixels that is left out at either end: lamps and what lies in the dark.
+const OUTLIERS: f64 = 0.05;
+
+impl Tone {
+    /// The tone with a fixed exposure. `rows` are sums of radiance, weighted by their fourth component.
+    pub(super) fn exposed<'a, I>(&self, rows: impl FnOnce() -> I) -> Self
+    where
+        I: Iterator<Item = &'a [f32; 4]>,
+    {
+        match self.auto_exposure {
+            true => Self {
+                exposure_ev: self.exposure_ev + average_exposure(rows()),
+                auto_exposure: false,
+                ..*self
+            },
+            false => *self,
+        }
+    }
+}
+
+impl Renderer {
+    /// The tone with a fixed exposure, for the samples so far.
+    pub(super) fn exposed(&mut self, tone: &Tone) -> Result<Tone, RenderError> {
+        if !tone.auto_exposure {
+            return Ok(*tone);
+        }
+        Ok(Tone {
+            exposure_ev: tone.exposure_ev + self.exposure()?,
+            auto_exposure: false,
+            ..*tone
+        })
+    }
+
+    /// The exposure in stops that makes the average of the picture so far a medium grey: 0.18. The average is that of
+    /// the logarithm of luminance, without the darkest and the brightest 5 % of the pixels that are not black. 0 for a
+    /// black picture.
+    ///
+    /// # Errors
+    /// The device failed during readback of the film.
+    pub fn exposure(&mut self) -> Result<f32, RenderError> {
+        self.fetch_film()?;
+        let tiles = self.tiles.developable(self.policy.slicing.tile_side);
+        let rows =
+            (tiles.iter()).flat_map(|(tile, rows)| rows.iter().step_by(tile.rows_per_pixel()));
+        Ok(average_exposure(rows))
+    }
+}
+
+/// The exposure for sums of radiance, weighted by their fourth component.
+fn average_exposure<'a>(rows: impl Iterator<Item = &'a [f32; 4]>) -> f32 {
+    let mut counts = vec![0_u64; (2.0 * MOST_STOPS * STEPS) as usize];
+    for &[r, g, b, weight] in rows {
+        let luminance = (LUMINANCE[0] * r + LUMINANCE[1] * g + LUMINANCE[2] * b) / weight;
+        // Padding and pixels without samples have no weight, which gives no number.
+        if luminance > 0.0 && luminance.is_finite() {
+            let step = (STEPS * (luminance.log2() + MOST_STOPS)).round();
+            let last = counts.len() - 1;
+            counts[(step.max(0.0) as usize).min(last)] += 1;
+        }
+    }
+    let total: u64 = counts.iter().sum();
+    let skipped = (total as f64 * OUTLIERS) as u64;
+    let (mut sum, mut passed) = (0_i128, 0);
+    for (step, &count) in counts.iter().enumerate() {
+        // Those of this step that are neither among the first nor among the last ones.
+        let first = skipped.max(passed);
+        passed += count;
+        let inside = passed.min(total - skipped).saturating_sub(first);
+        sum += i128::from(inside) * step as i128;
+    }
+    match total - 2 * skipped {
+        0 => 0.0,
+        count => {
+            let mean = sum as f64 / count as f64 / f64::from(STEPS) - f64::from(MOST_STOPS);
+            (KEY.log2() - mean) as f32
+        }
+    }
+}
