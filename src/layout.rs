@@ -558,13 +558,13 @@ packed! {
         flags: u32,
         /// Its own contribution to the sample.
         contribution: [f32; 3],
-        /// Shadow ray: index of its light; otherwise [`NONE`].
+        /// Shadow ray: index of its light, or of its [`PackedEmitter`]; otherwise [`NONE`].
         light: u32,
         /// Ambient part; shadow ray: the light's unshadowed contribution.
         ambient: [f32; 3],
         /// Material of the medium that it travels in, or [`NONE`].
         medium: u32,
-        /// Emitted part.
+        /// Emitted part; path: the radiance that it found at its end, or the light sample's, divided by its density.
         emission: [f32; 3],
         /// Material of the medium behind the surface, or [`NONE`].
         medium_behind: u32,
@@ -584,7 +584,23 @@ packed! {
         t_max: f32,
         /// Shadow ray: number of surfaces that it crossed.
         crossings: u32,
-        #[doc(hidden)]
-        _pad: u32,
+        /// The rest is of paths. [`LOBE_DIFFUSE`] and so on; light sample: [`SOURCE_LIGHT`] and so on.
+        lobe: u32,
+        /// BSDF times cosine, per steradian, of the direction that the path chose, or of the light sample.
+        value: [f32; 3],
+        /// Density of the direction that the path chose, per steradian; 0 if there was no choice.
+        pdf: f32,
+        /// Factor on its throughput.
+        weight: [f32; 3],
+        /// Chance of Russian roulette; light sample: chance of its light.
+        chance: f32,
+        /// Density with which the ray was chosen; light sample: that of the light sample.
+        own_pdf: f32,
+        /// Density with which a light sample would have been this ray; light sample: that of the BSDF.
+        other_pdf: f32,
+        /// Weight of what it found.
+        mis_weight: f32,
+        /// [`STEP_SCATTERED`] and so on.
+        step: u32,
     }
 }

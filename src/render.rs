@@ -35,7 +35,10 @@ pub use crate::scene::{Antialias, Filter};
 pub use develop::Tone;
 pub use effort::LongPath;
 pub use error::RenderError;
-pub use explain::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
+pub use explain::{
+    LightSample, LightSource, Lobe, PathStep, RayHit, RayKind, RaySplit, RayTree, SampleTree,
+    ShadowRay, Sharing, StepOutcome, TracedRay,
+};
 pub use film::{Film, FilmError, FilmHeader, Missing};
 pub use fingerprint::Fingerprint;
 pub use integrator::{Integrator, IntegratorEntry, Shows, TABLE as INTEGRATORS};

@@ -419,7 +419,7 @@ const types__RAY_TOTAL: u32 = 8u;
 
 const types__PROBE_ROWS: u32 = 3u;
 
-const types__RAY_ROWS: u32 = 14u;
+const types__RAY_ROWS: u32 = 17u;
 
 struct types__PackedTriangle {
 	v0: vec3f,
@@ -671,7 +671,15 @@ struct types__PackedRay {
 	ior_behind: f32,
 	t_max: f32,
 	crossings: u32,
-	_pad: u32
+	lobe: u32,
+	value: vec3f,
+	pdf: f32,
+	weight: vec3f,
+	chance: f32,
+	own_pdf: f32,
+	other_pdf: f32,
+	mis_weight: f32,
+	step: u32
 }
 
 struct types__Ray {
@@ -946,7 +954,10 @@ fn record__store_ray(index: u32, ray: types__PackedRay) {
 		bindings__records[row + 10u] = bitcast<vec4u>(vec4f(ray.reflect, ray.reflectance));
 		bindings__records[row + 11u] = bitcast<vec4u>(vec4f(ray.transmit, ray.ior));
 		bindings__records[row + 12u] = ray.media;
-		bindings__records[row + 13u] = vec4u(bitcast<vec2u>(vec2f(ray.ior_behind, ray.t_max)), ray.crossings, 0u);
+		bindings__records[row + 13u] = vec4u(bitcast<vec2u>(vec2f(ray.ior_behind, ray.t_max)), ray.crossings, ray.lobe);
+		bindings__records[row + 14u] = bitcast<vec4u>(vec4f(ray.value, ray.pdf));
+		bindings__records[row + 15u] = bitcast<vec4u>(vec4f(ray.weight, ray.chance));
+		bindings__records[row + 16u] = vec4u(bitcast<vec3u>(vec3f(ray.own_pdf, ray.other_pdf, ray.mis_weight)), ray.step);
 	}
 }
 

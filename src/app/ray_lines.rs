@@ -19,9 +19,11 @@ pub fn of(tree: &RayTree) -> String {
             (RayKind::Primary, "primary"),
             (RayKind::Reflection, "reflection"),
             (RayKind::Refraction, "refraction"),
+            (RayKind::Passage, "passage"),
             (RayKind::Shadow, "shadow"),
         ] {
-            let mut of_kind = sample.rays.iter().filter(|ray| ray.kind == kind).peekable();
+            let is_line = |ray: &&TracedRay| ray.kind == kind && ray.is_traced();
+            let mut of_kind = sample.rays.iter().filter(is_line).peekable();
             if of_kind.peek().is_some() {
                 let _ = writeln!(out, "g {name}");
             }

@@ -1,7 +1,11 @@
 //! Formats a ray tree as text.
 
+pub mod path;
+
 use crate::app::error::AppError;
-use crate::render::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
+use crate::render::{
+    Integrator, RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay,
+};
 use crate::scene::ObjectRef;
 use glam::{DVec3, Vec3};
 use serde_json::json;
@@ -13,7 +17,7 @@ pub fn of(tree: &RayTree, (width, height): (u32, u32)) -> Result<String, fmt::Er
     let [x, y] = tree.pixel;
     writeln!(out, "pixel {x},{y} of {width}×{height}")?;
     for sample in &tree.samples {
-        write_sample(&mut out, sample)?;
+        write_sample(&mut out, sample, tree.integrator)?;
     }
     let count = tree.samples.len();
     let sum = color(weighted_sum(tree).as_vec3().into());
@@ -52,7 +56,7 @@ pub fn ray_sum(sample: &SampleTree) -> DVec3 {
     sample.rays.iter().map(of).sum()
 }
 
-fn write_sample(out: &mut String, sample: &SampleTree) -> fmt::Result {
+fn write_sample(out: &mut String, sample: &SampleTree, integrator: Integrator) -> fmt::Result {
     let SampleTree {
         sample: index,
         weight,
@@ -66,8 +70,10 @@ fn write_sample(out: &mut String, sample: &SampleTree) -> fmt::Result {
         write!(out, ", at {} of the shutter interval", short(*time))?;
     }
     writeln!(out)?;
-    if !rays.is_empty() {
-        write_ray(out, rays, 0, "", true)?;
+    match integrator {
+        Integrator::Path => path::write(out, rays)?,
+        _ if rays.is_empty() => {}
+        _ => write_ray(out, rays, 0, "", true)?,
     }
     if rays.len() < *ray_count {
         writeln!(out, "  only the first {} rays are listed", rays.len())?;
@@ -129,12 +135,7 @@ fn write_shadow(
     hit: Option<&RayHit>,
     ray: &TracedRay,
 ) -> fmt::Result {
-    write!(
-        out,
-        " to light {}{}",
-        shadow.light,
-        quoted(&shadow.light_name)
-    )?;
+    write!(out, " to {}", target(shadow))?;
     if let Some(distance) = shadow.distance {
         write!(out, ", {} away", short(distance))?;
     }
@@ -221,19 +222,46 @@ pub fn kind(kind: RayKind) -> &'static str {
         RayKind::Shadow => "shadow",
         RayKind::Reflection => "reflection",
         RayKind::Refraction => "refraction",
+        RayKind::Passage => "passage",
+    }
+}
+
+/// Name of the kind of a ray, with the lobe that it left in.
+pub fn way(ray: &TracedRay) -> String {
+    let kind = kind(ray.kind);
+    match ray.lobe {
+        Some(lobe) => format!("{} {kind}", path::lobe_name(lobe)),
+        None => kind.to_owned(),
+    }
+}
+
+/// What a shadow ray aims at: the number of a light or an object, and its name if it has one.
+pub fn target(shadow: &ShadowRay) -> String {
+    let emitter = shadow.sample.as_ref().and_then(|sample| {
+        let triangle = sample.primitive?;
+        Some(named(sample.emitter, &sample.emitter_name, triangle))
+    });
+    match (shadow.light, emitter) {
+        (Some(light), _) => format!("light {light}{}", quoted(&shadow.light_name)),
+        (None, Some(emitter)) => emitter,
+        (None, None) => "the background".to_owned(),
     }
 }
 
 /// The hit object's number, and its name if it has one.
 pub fn object(hit: &RayHit) -> String {
-    let name = quoted(&hit.name);
-    match hit.object {
+    named(hit.object, &hit.name, hit.primitive)
+}
+
+fn named(object: Option<ObjectRef>, name: &Option<String>, primitive: u32) -> String {
+    let name = quoted(name);
+    match object {
         Some(ObjectRef::Instance(index)) => {
-            format!("instance {index}{name} (triangle {})", hit.primitive)
+            format!("instance {index}{name} (triangle {primitive})")
         }
         Some(ObjectRef::Shape(index)) => format!("shape {index}{name}"),
         Some(ObjectRef::Light(index)) => format!("light {index}{name}"),
-        None => format!("primitive {}", hit.primitive),
+        None => format!("primitive {primitive}"),
     }
 }
 

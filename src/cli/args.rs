@@ -111,14 +111,16 @@ pub enum Command {
     /// The list ends with everything that the importer skipped.
     #[command(after_help = "Example: glimray inspect scene.toml --json")]
     Inspect(InspectArgs),
-    /// Show the ray tree of one pixel.
+    /// Show all rays of one pixel.
     ///
     /// For every ray it lists the hit, how the surface splits the light, the throughput and the
-    /// contribution.
+    /// contribution. With --integrator path it lists the path of each sample: the light samples, the
+    /// densities and weights, Russian roulette.
     #[command(after_help = "Examples:\n  \
             glimray explain scene.toml --pixel 320,240\n  \
             glimray explain scene.toml --pixel 320,240 --sample 0 --json\n  \
-            glimray explain scene.toml --size 96x54 --samples 1 --pixel 40,30 --obj rays.obj\n\n\
+            glimray explain scene.toml --size 96x54 --samples 1 --pixel 40,30 --obj rays.obj\n  \
+            glimray explain scene.toml --integrator path --pixel 320,240 --sample 0\n\n\
             The contributions of a sample's rays add up to the sample's colour. The weighted mean of all \
             samples is the pixel, in linear light. Pass the flags that the picture was rendered with.")]
     Explain(Box<ExplainArgs>),

@@ -1,4 +1,4 @@
-//! `glimray explain SCENE --pixel X,Y`: the ray tree of a pixel as text, JSON or OBJ lines.
+//! `glimray explain SCENE --pixel X,Y`: the ray tree or the paths of a pixel as text, JSON or OBJ lines.
 
 use crate::app::clock::Clock;
 use crate::app::console;
@@ -60,12 +60,12 @@ pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     console::print(&text)
 }
 
-/// Refuses a pixel outside the picture, and integrators without a ray tree.
+/// Refuses a pixel outside the picture, and views that trace camera rays only.
 fn check(pixel: [u32; 2], settings: &RenderSettings) -> Result<(), AppError> {
-    if settings.integrator != Integrator::Whitted {
+    if !matches!(settings.integrator, Integrator::Whitted | Integrator::Path) {
         let name = INTEGRATORS.name(&settings.integrator);
         return Err(AppError::Usage(format!(
-            "cannot explain (--integrator {name}): only whitted has a ray tree. Omit --integrator."
+            "cannot explain (--integrator {name}): only whitted and path trace rays. Choose one of them."
         )));
     }
     picture_size(settings)?;

@@ -31,8 +31,8 @@ pub(crate) struct Compiled {
 /// A compute kernel: linked WGSL from `shaders/linked`, and its entry point.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel {
-    /// The name of the kernel, its entry point and its file in `shaders/kernels/`; `explain` is `whitted` with
-    /// recording.
+    /// The name of the kernel, its entry point and its file in `shaders/kernels/`; `explain` and `explain_path`
+    /// are `whitted` and `path_trace` with recording.
     pub name: &'static str,
     /// Its variants, and their sources as `build.rs` compressed them.
     compressed: &'static [(Variant, &'static [u8])],
@@ -73,6 +73,8 @@ impl Kernel {
         DEBUG_VIEW "debug_view" Image "image", Buffer "buffer";
         /// Records all rays of single samples of [`crate::render::Integrator::Whitted`].
         EXPLAIN "explain" Image "image", Buffer "buffer";
+        /// Records all rays of single samples of [`crate::render::Integrator::Path`].
+        EXPLAIN_PATH "explain_path" Image "image", Buffer "buffer";
         /// Develops the film to a picture.
         DEVELOP "develop" Buffer "buffer";
         /// Develops the film to a texture for display.

@@ -246,7 +246,35 @@ pub const RAY_TRANSPARENT: u32 = 2;
 pub const RAY_BOUNDARY: u32 = 4;
 /// Bit of [`super::PackedRay::flags`]: total internal reflection.
 pub const RAY_TOTAL: u32 = 8;
+/// Bit of [`super::PackedRay::flags`]: a light sample of which the surface scatters nothing.
+pub const RAY_UNTRACED: u32 = 16;
+/// [`super::PackedRay::lobe`]: diffuse.
+pub const LOBE_DIFFUSE: u32 = 0;
+/// [`super::PackedRay::lobe`]: microfacets of a metal or a dielectric.
+pub const LOBE_GLOSSY: u32 = 1;
+/// [`super::PackedRay::lobe`]: clear coat.
+pub const LOBE_COAT: u32 = 2;
+/// [`super::PackedRay::lobe`]: sheen.
+pub const LOBE_SHEEN: u32 = 3;
+/// [`super::PackedRay::lobe`]: mirror or glass, smooth or rough.
+pub const LOBE_BOUNDARY: u32 = 4;
+/// [`super::PackedRay::step`]: the path goes on in the direction that it chose.
+pub const STEP_SCATTERED: u32 = 0;
+/// [`super::PackedRay::step`]: it goes straight on, through a hole, a thin wall or between equal media.
+pub const STEP_PASSED: u32 = 1;
+/// [`super::PackedRay::step`]: Russian roulette ends it.
+pub const STEP_ROULETTE: u32 = 2;
+/// [`super::PackedRay::step`]: the limit of bounces ends it.
+pub const STEP_LIMIT: u32 = 3;
+/// [`super::PackedRay::step`]: the surface reflects nothing in that direction.
+pub const STEP_ABSORBED: u32 = 4;
+/// [`super::PackedRay::lobe`] of a light sample: a light.
+pub const SOURCE_LIGHT: u32 = 0;
+/// [`super::PackedRay::lobe`] of a light sample: an emissive triangle.
+pub const SOURCE_EMITTER: u32 = 1;
+/// [`super::PackedRay::lobe`] of a light sample: the background.
+pub const SOURCE_ENVIRONMENT: u32 = 2;
 /// Rows of 16 bytes of a [`super::PackedProbe`].
 pub const PROBE_ROWS: u32 = 3;
 /// Rows of 16 bytes of a [`super::PackedRay`].
-pub const RAY_ROWS: u32 = 14;
+pub const RAY_ROWS: u32 = 17;

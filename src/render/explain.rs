@@ -1,11 +1,13 @@
-//! Records all rays of a pixel: `kernels/whitted.wesl` with the feature `record`.
+//! Records all rays of a pixel: `kernels/whitted.wesl` or `kernels/path_trace.wesl` with the feature `record`.
 //!
 //! The same kernel that rendered the picture, compiled a second time with recording enabled, runs once more for
 //! each sample with the same random numbers. It writes to its own buffer, so the film, which may still be
 //! growing, is not changed.
 
+mod path;
 mod tree;
 
+pub use path::{LightSample, LightSource, Lobe, PathStep, Sharing, StepOutcome};
 pub use tree::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
 
 use super::{
@@ -52,8 +54,8 @@ impl Renderer {
     /// If there are too many rays, only the first are recorded, and [`SampleTree::ray_count`] is their full
     /// number.
     ///
-    /// This can be called at any time and does not change the film. The rays are those of
-    /// [`Integrator::Whitted`], whatever integrator the settings specify.
+    /// This can be called at any time and does not change the film. The rays are those of [`Integrator::Path`] if
+    /// the settings specify it, and otherwise those of [`Integrator::Whitted`].
     ///
     /// # Errors
     /// The device failed, or the driver ends the loops of a shader early even for one sample.
@@ -63,7 +65,8 @@ impl Renderer {
         samples: Range<u32>,
     ) -> Result<RayTree, RenderError> {
         let wanted = samples.map(|sample| (pixel, sample)).collect();
-        Ok(RayTree::new(pixel, self.explain_samples(wanted)?))
+        let samples = self.explain_samples(wanted)?;
+        Ok(RayTree::new(pixel, self.explained(), samples))
     }
 
     /// Like [`Self::explain`] for several pixels, with fewer submissions.
@@ -79,8 +82,10 @@ impl Renderer {
             samples.clone().map(of)
         });
         let mut traced = self.explain_samples(places.collect())?.into_iter();
+        let integrator = self.explained();
         let tree = |(pixel, samples): &([u32; 2], Range<u32>)| {
-            RayTree::new(*pixel, traced.by_ref().take(samples.len()).collect())
+            let own = traced.by_ref().take(samples.len()).collect();
+            RayTree::new(*pixel, integrator, own)
         };
         Ok(pixels.iter().map(tree).collect())
     }
@@ -93,6 +98,14 @@ impl Renderer {
         match within(pixel[0], x, width) && within(pixel[1], y, height) {
             true => self.tiles.samples_at(pixel),
             false => 0,
+        }
+    }
+
+    /// The integrator whose rays are recorded. Debug views show the surfaces of the classical tree.
+    fn explained(&self) -> Integrator {
+        match self.settings.integrator {
+            Integrator::Path => Integrator::Path,
+            _ => Integrator::Whitted,
         }
     }
 
@@ -126,7 +139,7 @@ impl Renderer {
                 let (now, later) = rest.split_at_mut(probes_that_fit(rest));
                 let record_count = assign_rows(now);
                 let records = self.record(now, record_count)?;
-                let reader = Reader::new(&self.scene, &self.view);
+                let reader = Reader::new(&self.scene, &self.view, self.explained());
                 let mut rays = &records.rays[..];
                 for probe in &records.probes {
                     let (own, others) = rays.split_at(probe.ray_limit as usize);
@@ -156,7 +169,7 @@ impl Renderer {
     /// The pipeline of the recording kernel.
     fn recorder(&self) -> Result<wgpu::ComputePipeline, GpuError> {
         let settings = RenderSettings {
-            integrator: Integrator::Whitted,
+            integrator: self.explained(),
             ..self.settings.clone()
         };
         let task = Task {
@@ -178,7 +191,10 @@ impl Renderer {
             gpu,
             pipelines::portable(*fetch),
             layouts,
-            Kernel::EXPLAIN,
+            match settings.integrator {
+                Integrator::Path => Kernel::EXPLAIN_PATH,
+                _ => Kernel::EXPLAIN,
+            },
             overrides,
         )?;
         Ok(compiled.pipeline)

@@ -10,7 +10,8 @@ use crate::{
 };
 
 /// What a camera ray computes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Integrator {
     /// Phong's illumination with shadow rays, and recursive reflection and refraction.
     #[default]

@@ -52,7 +52,7 @@ fn project_scenes() -> Vec<(String, Scene)> {
 }
 
 /// A renderer of the scene's first frame, with the scene's shutter.
-fn renderer(scene: &Scene, settings: &impl Wanted) -> Renderer {
+pub(crate) fn renderer(scene: &Scene, settings: &impl Wanted) -> Renderer {
     let packed = Arc::new(pack::scene(scene).expect("packed"));
     let (shutter, fps) = (scene.output.shutter, scene.output.fps);
     let frames = scene.motion_samples(shutter.open / fps, shutter.close / fps);
@@ -60,13 +60,13 @@ fn renderer(scene: &Scene, settings: &impl Wanted) -> Renderer {
     start_packed(packed, &view, settings)
 }
 
-fn finish(renderer: &mut Renderer) {
+pub(crate) fn finish(renderer: &mut Renderer) {
     while !renderer.is_done() {
         renderer.step().expect("a step");
     }
 }
 
-fn random_pixels((width, height): (u32, u32), count: usize, seed: u64) -> Vec<[u32; 2]> {
+pub(crate) fn random_pixels((width, height): (u32, u32), count: usize, seed: u64) -> Vec<[u32; 2]> {
     let mut random = Random(seed);
     let mut below = |count: u32| random.below(count.into()) as u32;
     (0..count).map(|_| [below(width), below(height)]).collect()
@@ -90,7 +90,7 @@ fn sum_of(sample: &SampleTree) -> Vec3 {
 }
 
 /// Checks that a tree adds up to `value`, its pixel in the picture.
-fn check_sums(tree: &RayTree, value: Vec3) -> Result<(), String> {
+pub(crate) fn check_sums(tree: &RayTree, value: Vec3) -> Result<(), String> {
     let (mut sum, mut weights) = (Vec3::ZERO, 0.0);
     for sample in &tree.samples {
         let (own, color) = (sum_of(sample), Vec3::from(sample.color));
@@ -125,7 +125,7 @@ fn check_sums(tree: &RayTree, value: Vec3) -> Result<(), String> {
 }
 
 /// Checks the parent links and kinds of a sample's rays.
-fn check_shape(sample: &SampleTree) -> Result<(), String> {
+pub(crate) fn check_shape(sample: &SampleTree) -> Result<(), String> {
     for (index, ray) in sample.rays.iter().enumerate() {
         let kind = ray.kind;
         let parent = ray.parent.map(|parent| &sample.rays[parent]);
@@ -397,7 +397,7 @@ fn compare(sample: &SampleTree, at: usize, nodes: &[Node], node: usize) -> Resul
         let shadow = sample.rays[child].shadow.as_ref().expect("a shadow ray");
         let other = others
             .iter()
-            .find(|&&other| nodes[other].light == Some(shadow.light));
+            .find(|&&other| nodes[other].light == shadow.light);
         let hit = other.map(|&other| nodes[other].hit);
         let is_same = hit.is_some_and(|hit| {
             shadow.blocked == hit.is_some() && same_hit(&sample.rays[child], hit, 4.0 * slack)
@@ -635,7 +635,7 @@ fn a_shadow_ray_names_its_occluder() {
         let of = |ray: &&TracedRay| {
             ray.shadow
                 .as_ref()
-                .is_some_and(|shadow| shadow.light == light)
+                .is_some_and(|shadow| shadow.light == Some(light))
         };
         rays.iter().find(of).expect("a ray to each light")
     });

@@ -1,11 +1,13 @@
 //! The rays of a pixel as plain data, in world space, with the names of the objects they hit.
 
+use super::path::{LightSample, LightSource, Lobe, PathStep, Sharing, StepOutcome};
 use crate::{
     layout::{
         MATERIAL_FRESNEL, NONE, PackedProbe, PackedRay, RAY_BOUNDARY, RAY_OUTSIDE, RAY_PRIMARY,
         RAY_REFLECTION, RAY_REFRACTION, RAY_TOTAL, RAY_TRANSPARENT, SHAPE,
     },
     pack::{PackedScene, PackedView},
+    render::Integrator,
     scene::ObjectRef,
 };
 use glam::{DVec3, Vec3};
@@ -19,6 +21,9 @@ const FAR: f32 = 1e30;
 pub struct RayTree {
     /// Column and row in the picture.
     pub pixel: [u32; 2],
+    /// [`Integrator::Whitted`], whose samples are trees of rays, or [`Integrator::Path`], whose samples are paths
+    /// with light samples.
+    pub integrator: Integrator,
     /// Linear radiance, as in the film for these samples: the weighted mean of the sample colours. Negative
     /// values are clamped to 0, and the value is 0 if the weights cancel.
     pub value: [f32; 3],
@@ -41,7 +46,8 @@ pub struct SampleTree {
     pub dropped: bool,
     /// Whether rays are missing in the picture because the tree exceeded a limit.
     pub cut_off: bool,
-    /// Number of traced rays; more than in `rays` if there was no room to record all of them.
+    /// Number of rays, light samples that were not traced included; more than in `rays` if there was no room to
+    /// record all of them.
     pub ray_count: usize,
     /// In spawn order, so that parents come before their children; the first is the primary ray.
     pub rays: Vec<TracedRay>,
@@ -52,6 +58,8 @@ pub struct SampleTree {
 pub struct TracedRay {
     /// Its kind.
     pub kind: RayKind,
+    /// In a path: the lobe in which it left the surface at its origin; `None` if it did not scatter there.
+    pub lobe: Option<Lobe>,
     /// Index in [`SampleTree::rays`] of the parent; `None` for the primary ray.
     pub parent: Option<usize>,
     /// Indices of its child rays, in spawn order.
@@ -75,8 +83,16 @@ pub struct TracedRay {
     /// The throughput at its end, after absorption or shadowing.
     pub arriving: [f32; 3],
     /// The radiance it adds to the sample: ambient light and emission of the surface, the background, or for a
-    /// shadow ray the light that passes.
+    /// shadow ray the light that passes. In a path it is weighted by [`Self::sharing`].
     pub contribution: [f32; 3],
+    /// Linear radiance of the background, before the throughput; `None` if the ray hit something, and in trees of
+    /// the classical integrator.
+    pub background: Option<[f32; 3]>,
+    /// In a path: how the light that the ray found, or its light sample, is shared with the other way to find it.
+    /// `None` if there is no light.
+    pub sharing: Option<Sharing>,
+    /// In a path: how it goes on at the surface.
+    pub step: Option<PathStep>,
 }
 
 /// The kind of a ray.
@@ -89,8 +105,10 @@ pub enum RayKind {
     Shadow,
     /// Reflected.
     Reflection,
-    /// Refracted, or continued through a surface that does not refract.
+    /// Transmitted. In a tree of the classical integrator also continued through a surface that does not refract.
     Refraction,
+    /// The ray of a path that goes straight through a hole, a smooth thin wall, or between equal media.
+    Passage,
 }
 
 /// A surface that a ray hit.
@@ -120,7 +138,8 @@ pub struct RayHit {
     pub ambient: [f32; 3],
     /// Linear radiance of emission, before the throughput of the ray.
     pub emission: [f32; 3],
-    /// How it scatters light; `None` if the scene has no holes, and no reflection and no refraction or the depth is 0.
+    /// How its boundary divides light. `None` where a path passes a hole, and in trees of the classical integrator if
+    /// the scene has no holes, and no reflection and no refraction or the depth is 0.
     pub split: Option<RaySplit>,
 }
 
@@ -152,8 +171,8 @@ pub struct RaySplit {
 /// The result of a shadow ray.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShadowRay {
-    /// Index into [`crate::scene::Scene::lights`].
-    pub light: usize,
+    /// Index into [`crate::scene::Scene::lights`]; `None` for emissive triangles and the background.
+    pub light: Option<usize>,
     /// The name of the light, if it has one.
     pub light_name: Option<String>,
     /// Distance to the light, in scene units; `None` if it is infinitely far away.
@@ -166,10 +185,23 @@ pub struct ShadowRay {
     pub unshadowed: [f32; 3],
     /// Number of surfaces that it crossed.
     pub crossings: u32,
+    /// In a path: what was chosen.
+    pub sample: Option<LightSample>,
+}
+
+impl TracedRay {
+    /// Whether the ray exists: a light sample of which the surface scatters nothing has none.
+    pub fn is_traced(&self) -> bool {
+        let sample = self
+            .shadow
+            .as_ref()
+            .and_then(|shadow| shadow.sample.as_ref());
+        sample.is_none_or(|sample| sample.traced)
+    }
 }
 
 impl RayTree {
-    pub(super) fn new(pixel: [u32; 2], samples: Vec<SampleTree>) -> Self {
+    pub(super) fn new(pixel: [u32; 2], integrator: Integrator, samples: Vec<SampleTree>) -> Self {
         let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
         for sample in samples.iter().filter(|sample| !sample.dropped) {
             let weight = f64::from(sample.weight);
@@ -183,6 +215,7 @@ impl RayTree {
         };
         Self {
             pixel,
+            integrator,
             value: value.as_vec3().into(),
             samples,
         }
@@ -193,19 +226,33 @@ impl RayTree {
 pub struct Reader<'a> {
     scene: &'a PackedScene,
     view: &'a PackedView,
+    is_path: bool,
 }
 
 impl<'a> Reader<'a> {
-    pub fn new(scene: &'a PackedScene, view: &'a PackedView) -> Self {
-        Self { scene, view }
+    pub fn new(scene: &'a PackedScene, view: &'a PackedView, integrator: Integrator) -> Self {
+        let is_path = integrator == Integrator::Path;
+        Self {
+            scene,
+            view,
+            is_path,
+        }
     }
 
     /// The tree of one sample.
     pub fn sample(&self, probe: &PackedProbe, records: &[PackedRay]) -> SampleTree {
         let mut rays: Vec<_> = records.iter().map(|record| self.ray(record)).collect();
         for index in 0..rays.len() {
-            if let Some(parent) = rays[index].parent {
-                rays[parent].children.push(index);
+            let Some(parent) = rays[index].parent else {
+                continue;
+            };
+            rays[parent].children.push(index);
+            let step = rays[parent].step.as_ref();
+            let step = step.filter(|_| rays[index].kind != RayKind::Shadow);
+            match step.map(|step| (step.outcome, step.lobe)) {
+                Some((StepOutcome::Passed, _)) => rays[index].kind = RayKind::Passage,
+                Some((_, lobe)) => rays[index].lobe = lobe,
+                None => {}
             }
         }
         SampleTree {
@@ -230,12 +277,21 @@ impl<'a> Reader<'a> {
         let shadow = (kind == RayKind::Shadow).then(|| self.shadow(record));
         let hit = (record.primitive != NONE).then(|| self.hit(record, shadow.is_some()));
         let reaches_light = shadow.as_ref().is_some_and(|shadow| !shadow.blocked);
+        let is_segment = self.is_path && kind != RayKind::Shadow;
+        let sharing = match (self.is_path, kind) {
+            (false, _) => None,
+            (true, RayKind::Shadow) => Some(Sharing::sampled(record)),
+            (true, _) => {
+                (hit.is_none() || record.emission != [0.0; 3]).then(|| Sharing::found(record))
+            }
+        };
         let end = match &hit {
             Some(hit) if !reaches_light => Some(hit.position),
             _ => (record.t_max < FAR).then(|| self.along(record, record.t_max)),
         };
         TracedRay {
             kind,
+            lobe: None,
             parent: (record.parent != NONE).then_some(record.parent as usize),
             children: Vec::new(),
             origin: self.point(record.origin),
@@ -249,6 +305,9 @@ impl<'a> Reader<'a> {
             throughput: record.throughput,
             arriving: record.arriving,
             contribution: record.contribution,
+            background: (is_segment && record.primitive == NONE).then_some(record.emission),
+            sharing,
+            step: (is_segment && record.primitive != NONE).then(|| PathStep::of(record)),
         }
     }
 
@@ -274,7 +333,7 @@ impl<'a> Reader<'a> {
             geometric_normal: vector(record.ng),
             outside: record.flags & RAY_OUTSIDE != 0,
             ambient: if is_shadow { [0.0; 3] } else { record.ambient },
-            emission: record.emission,
+            emission: if is_shadow { [0.0; 3] } else { record.emission },
             split: is_split.then(|| self.split(record)),
         }
     }
@@ -304,8 +363,10 @@ impl<'a> Reader<'a> {
     }
 
     fn shadow(&self, record: &PackedRay) -> ShadowRay {
-        let light = record.light as usize;
-        let name = self.scene.object_name(ObjectRef::Light(light));
+        let sample = self.is_path.then(|| self.light_sample(record));
+        let is_light = |sample: &LightSample| sample.source == LightSource::Light;
+        let light = (sample.as_ref().is_none_or(is_light)).then_some(record.light as usize);
+        let name = light.and_then(|light| self.scene.object_name(ObjectRef::Light(light)));
         ShadowRay {
             light,
             light_name: name.map(str::to_owned),
@@ -314,6 +375,25 @@ impl<'a> Reader<'a> {
             transmittance: record.transmit,
             unshadowed: record.ambient,
             crossings: record.crossings,
+            sample,
+        }
+    }
+
+    fn light_sample(&self, record: &PackedRay) -> LightSample {
+        let sample = LightSample::of(record);
+        let emitter = (sample.source == LightSource::Emitter)
+            .then(|| self.view.emitters.get(record.light as usize))
+            .flatten();
+        let Some(emitter) = emitter else {
+            return sample;
+        };
+        let object = (self.scene).object_at(self.view, emitter.triangle, emitter.instance);
+        let name = object.and_then(|object| self.scene.object_name(object));
+        LightSample {
+            emitter: object,
+            emitter_name: name.map(str::to_owned),
+            primitive: Some(emitter.triangle),
+            ..sample
         }
     }
 

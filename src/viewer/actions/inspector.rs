@@ -122,9 +122,12 @@ pub fn is_stale(session: &Session) -> bool {
     let now = orders.pictures[PictureSlot::Main as usize].as_ref();
     match (inspected, now) {
         (Some(inspected), Some(now)) => {
-            // Debug views show the same surfaces.
+            // Debug views show the surfaces of the classical tree.
             let settings = |order: &RenderRequest| crate::render::RenderSettings {
-                integrator: Integrator::Whitted,
+                integrator: match order.settings.integrator {
+                    Integrator::Path => Integrator::Path,
+                    _ => Integrator::Whitted,
+                },
                 ..order.settings.clone()
             };
             !inspected.order.shows_same(now) || settings(&inspected.order) != settings(now)

@@ -70,6 +70,49 @@ fn explain_writes_text_json_and_obj_lines() {
 }
 
 #[test]
+fn explain_lists_the_rays_of_a_path_one_after_the_other() {
+    let workspace = Workspace::new();
+    let line = "explain a.scene --size 9x9 --pixel 4,4 --integrator path --samples 1";
+    let run = workspace.run(line).expect(0);
+    insta::assert_snapshot!(run.text(), @r"
+    pixel 4,4 of 9×9
+    sample 0: 3 ray(s), weight 1
+    ├ primary hits shape 0 at distance 2, material 0
+    │ at (0, 0, -2), normal (0, 0, 1), from outside
+    │ reflects 0.2 0.2 0.2
+    │ throughput 1 1 1, contribution 0 0 0
+    │ samples light 0, chance 1, 4.123 away: unoccluded
+    │   radiance per density 3.142 3.142 3.142, BSDF 0.1288 0.01967 0.01967, weight 1, path density 0.1079, contribution 0.4046 0.06181 0.06181
+    │ goes on: diffuse, BSDF 0.1395 0.02182 0.02182, density 0.1178, factor 1.184 0.1852 0.1852
+    └ diffuse reflection towards (0.3959, -0.4767, 0.7848) hits nothing
+      throughput 1.184 0.1852 0.1852, contribution 1.184 0.1852 0.1852 (background 1 1 1, weight 1, path density 0.1178)
+      sum 1.589 0.247 0.247, colour 1.589 0.247 0.247
+    sum    1.589 0.247 0.247, the weighted mean of 1 sample(s)
+    pixel  1.589 0.247 0.247 (linear)
+    ");
+    let json = workspace.run(&format!("{line} --json")).expect(0).json();
+    assert_eq!(json["integrator"], "path");
+    let rays = &json["samples"][0]["rays"];
+    let shadow = &rays[1];
+    assert_eq!(
+        (&shadow["kind"], &shadow["parent"]),
+        (&"shadow".into(), &0.into())
+    );
+    // A lamp without extent is found by light samples only.
+    assert_eq!(shadow["sharing"]["light_pdf"], Value::Null);
+    assert_eq!(shadow["sharing"]["light_weight"], 1.0);
+    assert_eq!(shadow["shadow"]["sample"]["source"], "light");
+    assert_eq!(shadow["shadow"]["sample"]["chance"], 1.0);
+    let step = &rays[0]["step"];
+    assert_eq!(
+        (&step["outcome"], &step["survival"]),
+        (&"scattered".into(), &1.0.into())
+    );
+    assert_eq!(rays[2]["lobe"], step["lobe"]);
+    assert_eq!(rays[2]["throughput"], step["throughput"]);
+}
+
+#[test]
 fn explaining_a_missing_pixel_or_sample_exits_2_with_one_line() {
     let workspace = Workspace::new();
     let run = |flags: &str| {
@@ -81,7 +124,7 @@ fn explaining_a_missing_pixel_or_sample_exits_2_with_one_line() {
     };
     insta::assert_snapshot!(run("--pixel 9,0"), @"error: no such pixel (--pixel 9,0): the picture has columns 0 to 8 and rows 0 to 8. Choose a pixel inside.");
     insta::assert_snapshot!(run("--pixel 0,0 --crop 2,3,5,6"), @"error: no such pixel (--pixel 0,0): the --crop region has columns 2 to 4 and rows 3 to 5. Choose a pixel inside.");
-    insta::assert_snapshot!(run("--pixel 0,0 --integrator depth"), @"error: cannot explain (--integrator depth): only whitted has a ray tree. Omit --integrator.");
+    insta::assert_snapshot!(run("--pixel 0,0 --integrator depth"), @"error: cannot explain (--integrator depth): only whitted and path trace rays. Choose one of them.");
     insta::assert_snapshot!(run("--pixel 0,0 --sample 4 --samples 4"), @"error: no such sample (--sample 4): the pixel has 4, from 0 to 3. Choose one of these, or raise --samples.");
     workspace.run("explain a.scene").expect(2);
     workspace.run("explain a.scene --pixel 1").expect(2);

@@ -7,6 +7,7 @@ use eframe::egui::{self, Key};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{SnapshotError, SnapshotOptions, try_image_snapshot_options};
 use glimray::scene::{Geometry, ObjectRef};
+use glimray::viewer::actions::inspector;
 use glimray::viewer::model::objects::Id;
 use glimray::viewer::model::preferences::Theme;
 use glimray::viewer::model::tool::Tool;
@@ -96,6 +97,22 @@ fn the_rays_of_a_pixel_are_a_tree_and_lines_in_space() {
     let mut window = open();
     inspect_the_centre(&mut window);
     check(&mut window, "rays");
+}
+
+#[test]
+fn the_paths_of_a_pixel_are_lists_and_lines_in_space() {
+    let scene = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/assets/scenes/cornell_box.toml"
+    );
+    let mut window = Window::open(&[scene, "--size", "240x240", "--integrator", "path"]);
+    window.harness.set_size(egui::vec2(1280.0, 1000.0));
+    window.session().shows_statistics = false;
+    window.settle();
+    inspect_the_centre(&mut window);
+    // Through the glass ball.
+    inspector::inspect(&mut window.session(), [165, 183]);
+    check(&mut window, "rays_path");
 }
 
 /// Takes the ray inspector and clicks the centre of the picture.

@@ -1,5 +1,7 @@
 //! The rays of a pixel in the window: shown, folded, drawn in space and saved.
 
+mod paths;
+
 use super::harness::Window;
 use crate::support::effort;
 use eframe::egui;
@@ -526,7 +528,7 @@ fn rays_name_things_as_the_outline_does() {
         let headline = ray_labels::headline(inspected, ray);
         let object = ray.hit.as_ref().and_then(|hit| hit.object);
         let light = ray.shadow.as_ref();
-        let light = light.map(|shadow| ObjectRef::Light(shadow.light));
+        let light = light.and_then(|shadow| shadow.light.map(ObjectRef::Light));
         if let Some(met) = light.or(object) {
             let label = session.label(Id::Object(met));
             assert!(headline.contains(&label), "{headline}: no {label}");

@@ -2,7 +2,7 @@
 
 use crate::app::{ray_lines, ray_text};
 use crate::output;
-use crate::render::{Integrator, RenderSettings};
+use crate::render::RenderSettings;
 use crate::viewer::model::command_line;
 use crate::viewer::model::command_line::{CommandLine, Shown};
 use crate::viewer::model::file_dialog::{self, Kind, Reply, Request};
@@ -107,7 +107,7 @@ pub fn command(session: &Session, sample: Option<u32>) -> Result<CommandLine, St
         );
     };
     let settings = RenderSettings {
-        integrator: Integrator::Whitted,
+        integrator: inspected.tree.integrator,
         ..inspected.order.settings.clone()
     };
     let background = session.view.background.as_ref();

@@ -78,7 +78,7 @@ pub fn shown<'a>(
         let rays = inspected.tree.samples[sample].rays.iter().enumerate();
         rays.map(move |(ray, traced)| ((sample, ray), traced))
     });
-    rays.filter(|(id, _)| filter.has(inspected, *id))
+    rays.filter(|(id, ray)| filter.has(inspected, *id) && ray.is_traced())
 }
 
 /// A ray in the ray view.

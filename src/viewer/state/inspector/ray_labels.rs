@@ -1,7 +1,10 @@
 //! Describes a ray: a headline and its properties.
 
-use crate::app::ray_text::{color, kind, short, vector};
-use crate::render::{RayHit, RaySplit, RayTree, ShadowRay, TracedRay};
+use crate::app::ray_text::path::{lobe_of, outcome};
+use crate::app::ray_text::{color, short, vector, way};
+use crate::render::{
+    LightSample, PathStep, RayHit, RaySplit, RayTree, ShadowRay, Sharing, TracedRay,
+};
 use crate::scene::ObjectRef;
 use crate::viewer::model::objects::Id;
 use crate::viewer::state::inspector::Inspected;
@@ -15,14 +18,22 @@ pub fn hit_by(tree: &RayTree) -> BTreeSet<Id> {
             ids.extend(hit.object.map(Id::Object));
             ids.extend(hit.material.map(Id::Material));
         }
-        ids.extend(ray.shadow.as_ref().map(light_of));
+        ids.extend(ray.shadow.as_ref().and_then(light_of));
         ids.extend(ray.media.iter().copied().map(Id::Material));
     }
     ids
 }
 
-fn light_of(shadow: &ShadowRay) -> Id {
-    Id::Object(ObjectRef::Light(shadow.light))
+/// The light or the emissive object that a shadow ray aims at; `None` for the background.
+fn light_of(shadow: &ShadowRay) -> Option<Id> {
+    let emitter = |sample: &LightSample| sample.emitter;
+    let light = shadow.light.map(ObjectRef::Light);
+    let object = light.or_else(|| shadow.sample.as_ref().and_then(emitter));
+    object.map(Id::Object)
+}
+
+fn light_name<'a>(inspected: &'a Inspected, shadow: &ShadowRay) -> &'a str {
+    light_of(shadow).map_or("background", |id| inspected.label(id))
 }
 
 fn object(inspected: &Inspected, hit: &RayHit) -> String {
@@ -34,10 +45,10 @@ fn object(inspected: &Inspected, hit: &RayHit) -> String {
 
 /// The headline of a ray.
 pub fn headline(inspected: &Inspected, ray: &TracedRay) -> String {
-    let kind = kind(ray.kind);
+    let kind = way(ray);
     match (&ray.shadow, &ray.hit) {
         (Some(shadow), hit) => {
-            let light = inspected.label(light_of(shadow));
+            let light = light_name(inspected, shadow);
             match hit {
                 Some(hit) if shadow.blocked => {
                     format!("{light} blocked by {}", object(inspected, hit))
@@ -86,7 +97,13 @@ pub fn details(inspected: &Inspected, ray: &TracedRay) -> Vec<(&'static str, Str
     if ray.arriving != ray.throughput {
         details.push(("throughput at end", color(ray.arriving)));
     }
+    if let Some(sharing) = &ray.sharing {
+        shares(&mut details, sharing);
+    }
     details.push(("contribution", color(ray.contribution)));
+    if let Some(step) = &ray.step {
+        goes_on(&mut details, step);
+    }
     details
 }
 
@@ -140,8 +157,32 @@ fn divides(details: &mut Details, split: &RaySplit) {
     }
 }
 
+/// The direction that a path chose, and what becomes of it.
+fn goes_on(details: &mut Details, step: &PathStep) {
+    details.push(("path", outcome(step.outcome).to_owned()));
+    details.push(("lobe", lobe_of(step).to_owned()));
+    if let (Some(bsdf), Some(pdf)) = (step.bsdf, step.pdf) {
+        details.push(("BSDF times cosine", color(bsdf)));
+        details.push(("density", short(pdf)));
+    }
+    details.push(("factor", color(step.weight)));
+    if step.survival < 1.0 {
+        details.push(("chance of roulette", short(step.survival)));
+    }
+}
+
+/// The densities of both ways to find a light, and their weights.
+fn shares(details: &mut Details, sharing: &Sharing) {
+    let density = |pdf: Option<f32>| pdf.map_or("none".to_owned(), short);
+    let both = |light: String, path: String| format!("light sample {light}, path {path}");
+    let [light, path] = [sharing.light_pdf, sharing.bsdf_pdf].map(density);
+    details.push(("densities", both(light, path)));
+    let [light, path] = [sharing.light_weight, sharing.bsdf_weight].map(short);
+    details.push(("weights", both(light, path)));
+}
+
 fn light(inspected: &Inspected, details: &mut Details, shadow: &ShadowRay, hit: Option<&RayHit>) {
-    details.push(("to", inspected.label(light_of(shadow)).to_owned()));
+    details.push(("to", light_name(inspected, shadow).to_owned()));
     let distance = shadow.distance.map_or("infinite".to_owned(), short);
     details.push(("light distance", distance));
     if let Some(hit) = hit.filter(|_| shadow.blocked) {
@@ -150,6 +191,11 @@ fn light(inspected: &Inspected, details: &mut Details, shadow: &ShadowRay, hit: 
     }
     if shadow.crossings > 0 {
         details.push(("surfaces crossed", shadow.crossings.to_string()));
+    }
+    if let Some(sample) = &shadow.sample {
+        details.push(("chance of the light", short(sample.chance)));
+        details.push(("radiance per density", color(sample.radiance)));
+        details.push(("BSDF times cosine", color(sample.bsdf)));
     }
     details.push(("transmittance", color(shadow.transmittance)));
     details.push(("unshadowed", color(shadow.unshadowed)));

@@ -1,6 +1,6 @@
 //! The rows of a ray tree, and the contribution of each bounce.
 
-use crate::render::{RayKind, SampleTree, TracedRay};
+use crate::render::{Integrator, RayKind, SampleTree, TracedRay};
 use crate::viewer::state::inspector::Inspected;
 use crate::viewer::state::inspector::ray_labels;
 use glam::{DVec3, Vec3};
@@ -74,7 +74,8 @@ pub enum Row {
     },
 }
 
-/// The rows of the list, from the top.
+/// The rows of the list, from the top. The rays of a path follow each other at the same level, because a path does
+/// not branch; only their light samples are below them.
 pub fn rows(
     inspected: &Inspected,
     filter: &Filter,
@@ -83,6 +84,7 @@ pub fn rows(
 ) -> Vec<Row> {
     let mut rows = Vec::new();
     let has_headings = filter.sample.is_none();
+    let is_path = inspected.tree.integrator == Integrator::Path;
     for sample in filter.samples(inspected) {
         if has_headings {
             rows.push(Row::Sample(sample));
@@ -96,7 +98,10 @@ pub fn rows(
                 continue;
             }
             let shown = |&&child: &&usize| filter.has(inspected, (sample, child));
-            let children: Vec<_> = rays[ray].children.iter().filter(shown).collect();
+            let follows = |child: &usize| is_path && rays[*child].kind != RayKind::Shadow;
+            let (next, children): (Vec<usize>, Vec<usize>) =
+                (rays[ray].children.iter().filter(shown)).partition(|child| follows(child));
+            ahead.extend(next.iter().map(|&next| (next, level)));
             rows.push(Row::Ray {
                 id,
                 level,
@@ -108,19 +113,19 @@ pub fn rows(
                 rows.extend(details);
             }
             if !folded.contains(&id) {
-                ahead.extend(children.iter().rev().map(|&&child| (child, level + 1)));
+                ahead.extend(children.iter().rev().map(|&child| (child, level + 1)));
             }
         }
     }
     rows
 }
 
-/// The number of bounces before each ray of a sample. A shadow ray has the number of its parent.
+/// The number of bounces before each ray of a sample. Shadow rays and passages have the number of their parent.
 pub fn bounces(sample: &SampleTree) -> Vec<u32> {
     let mut bounces: Vec<u32> = Vec::with_capacity(sample.rays.len());
     for ray in &sample.rays {
         let before = (ray.parent).and_then(|parent| bounces.get(parent).copied());
-        let own = u32::from(ray.kind != RayKind::Shadow);
+        let own = u32::from(!matches!(ray.kind, RayKind::Shadow | RayKind::Passage));
         bounces.push(before.map_or(0, |before| before + own));
     }
     bounces

@@ -23,7 +23,7 @@ pub fn list(ui: &mut egui::Ui, session: &mut Session) {
             session.inspector.fold_all(false);
         }
         let fold = ui.small_button("Collapse all");
-        if fold.on_hover_text("Show only the first ray").clicked() {
+        if fold.on_hover_text("Hide the rays below others").clicked() {
             session.inspector.fold_all(true);
         }
     });

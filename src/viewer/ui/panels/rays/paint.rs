@@ -15,6 +15,7 @@ pub fn colour(kind: RayKind, blocked: bool, is_dark: bool) -> Color32 {
         RayKind::Primary => [(240, 240, 240), (48, 48, 48)],
         RayKind::Reflection => [(255, 160, 56), (178, 88, 0)],
         RayKind::Refraction => [(84, 190, 255), (0, 104, 178)],
+        RayKind::Passage => [(186, 150, 255), (104, 60, 190)],
     };
     let (red, green, blue) = if is_dark { dark } else { light };
     Color32::from_rgb(red, green, blue)
@@ -94,8 +95,8 @@ pub fn fold(ui: &mut egui::Ui, is_folded: bool, id: RayId, width: f32) -> Respon
     response
 }
 
-/// The icon of a ray: a disc for camera rays, an angle for reflection, a bend for refraction, a ring for
-/// unblocked and a cross for blocked shadow rays.
+/// The icon of a ray: a disc for camera rays, an angle for reflection, a bend for refraction, a line for what goes
+/// straight on, a ring for unblocked and a cross for blocked shadow rays.
 pub fn icon(ui: &mut egui::Ui, ray: RayKind, blocked: bool) {
     let (rect, response) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::hover());
     let stroke = Stroke::new(1.8, colour(ray, blocked, ui.visuals().dark_mode));
@@ -118,6 +119,7 @@ fn sign(painter: &egui::Painter, rect: Rect, ray: RayKind, blocked: bool, stroke
         RayKind::Refraction => {
             _ = painter.line(vec![at(-5.0, -4.0), at(0.0, -0.5), at(1.5, 5.0)], stroke)
         }
+        RayKind::Passage => _ = painter.line(vec![at(-5.0, -5.0), at(5.0, 5.0)], stroke),
         RayKind::Shadow if blocked => {
             painter.line_segment([at(-3.5, -3.5), at(3.5, 3.5)], stroke);
             painter.line_segment([at(-3.5, 3.5), at(3.5, -3.5)], stroke);

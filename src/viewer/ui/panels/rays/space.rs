@@ -1,6 +1,6 @@
 //! The ray view: the scene from a second camera, with the rays of a pixel.
 
-use crate::render::RayKind;
+use crate::render::{Integrator, RayKind};
 use crate::viewer::actions::inspector::hidden;
 use crate::viewer::actions::inspector::outside;
 use crate::viewer::actions::inspector::outside::Line;
@@ -169,15 +169,21 @@ fn controls(ui: &mut egui::Ui, session: &mut Session) {
         ui.checkbox(&mut outside.plain, "Plain")
             .on_hover_text("Shade the scene by its normals, without lighting");
     });
+    let inspected = session.inspector.inspected.as_ref();
+    let is_path = inspected.is_some_and(|it| it.tree.integrator == Integrator::Path);
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        for (kind, blocked, name) in [
+        let kinds = [
             (RayKind::Primary, false, "primary"),
             (RayKind::Reflection, false, "reflection"),
             (RayKind::Refraction, false, "refraction"),
+            (RayKind::Passage, false, "passage"),
             (RayKind::Shadow, false, "unblocked"),
             (RayKind::Shadow, true, "blocked"),
-        ] {
+        ];
+        // Only paths tell what goes straight on from what is refracted.
+        let is_shown = |kind: RayKind| is_path || kind != RayKind::Passage;
+        for (kind, blocked, name) in kinds.into_iter().filter(|(kind, ..)| is_shown(*kind)) {
             crate::viewer::ui::panels::rays::paint::icon(ui, kind, blocked);
             ui.label(egui::RichText::new(name).small());
         }

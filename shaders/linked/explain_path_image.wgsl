@@ -1,0 +1,4866 @@
+const ROULETTE_START: u32 = 3u;
+
+@compute @workgroup_size(64, 1, 1)
+fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+	let index = 64u * (group.y * bindings__dispatch.grid_width + group.x) + lane;
+	var probe = record__load_probe(index);
+	let batch = dispatch__load_batch();
+	if (probe.pixel_x != types__NONE) {
+		let pixel = vec2u(probe.pixel_x, probe.pixel_y);
+		record__start_record(probe);
+		let key = rng__pixel_key(batch.seed, pixel);
+		var path = path__path_along(batch, dispatch__sample_ray(batch, pixel, key, probe.sample), key, probe.sample);
+		loop {
+			path = traced(batch, path);
+			record__close_ray();
+			record__sender = record__traced_index;
+			continuing {
+			
+				break if !path__is_going(path);
+			}
+		}
+		loops__cut_off |= path__is_going(path);
+		probe.color = path.radiance;
+		probe.weight = dispatch__sample_weight(key, probe.sample);
+		probe.time = shutter__shutter_time;
+		probe.cut_off = ray_stack__cut_off_trees;
+		record__store_probe(index, probe);
+	}
+	dispatch__add_counts(lane);
+}
+
+fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
+	var path = before;
+	let ray = path.ray;
+	let hit = rays__hit_at(rays__closest_hits(rays__ray_set(rays__dead_rays(), 0u, ray)), 0u);
+	if (ray.t_max < 0.0) {
+		return path;
+	}
+	dispatch__count_hit(path.kind, hit);
+	record__open_ray(ray, hit, path.kind, path.throughput, path.media);
+	record_path__record_density(path.pdf);
+	if (hit.primitive == types__NONE) {
+		let weight = environment__background_weight(batch, ray.direction, path.pdf);
+		let seen = background__background(batch, ray.direction);
+		record_path__record_found(seen, weight);
+		return path__ended(path__gained(path, weight * seen, path.bounces));
+	}
+	let contact = contact__contact_at(ray, hit, path.cone);
+	let surface = contact.surface;
+	let optics = material__load_optics(surface.material);
+	let met = interface__interface_at(path.media, contact, optics);
+	path.cone = ray_cone__cone_at(path.cone, hit.t);
+	if (bindings__HAS_REFRACTION) {
+		path.throughput *= medium__transmittance(medium__medium_of(met.here), hit.t);
+	}
+	record__record_surface(surface);
+	record__record_arriving(path.throughput);
+	if (bindings__HAS_COVERAGE && path.passes < path__MAX_PASSES && path__random_1d(path, dimensions__COVERAGE_CHOICE) >= coverage__coverage_at(surface)) {
+		record_path__record_passing();
+		return path__passed(path, surface);
+	}
+	let layers = layers__layers_at(surface, optics);
+	let weight = emitters__emission_weight(batch, surface, path.origin, ray.direction, distance(path.origin, surface.p), path.pdf);
+	let emission = emitters__emitted(surface, optics, layers.glow);
+	record_path__record_found(emission, weight);
+	path = path__gained(path, weight * emission, path.bounces);
+	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
+	record_path__record_interface(met, bsdf);
+	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
+		path = path__gained(path, lamp_light(batch, path, surface, bsdf, met), path.bounces + 1u);
+	}
+	return scattered(batch, path, surface, bsdf, met);
+}
+
+fn lamp_light(batch: dispatch__Batch, path: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> vec3f {
+	let light = emitters__sample_light(batch, surface.p, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
+	let found = bsdf__bsdf_eval(bsdf, light.incident.direction);
+	let weight = select(1.0, mis__power_heuristic(light.pdf, found.pdf), light.pdf > 0.0);
+	let unshadowed = weight * found.value * light.incident.radiance;
+	var rays = rays__dead_rays();
+	if (any(unshadowed > vec3f(0.0))) {
+		rays = rays__ray_set(rays, 0u, direct__shadow_ray(surface, light.incident));
+	}
+	let media = select(path.media, met.media, vec4<bool>(dot(light.incident.direction, bsdf.ng) < 0.0));
+	let through = wide__vector_at(shadow__light_through(rays, ray_states__Media(media.x, media.y, media.z, media.w)), 0u);
+	record_path__record_light_sample(surface, rays__ray_at(rays, 0u), light, found, weight, unshadowed, through);
+	return unshadowed * through;
+}
+
+fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
+	var path = before;
+	let next = bsdf__bsdf_sample(bsdf, path__random_1d(path, dimensions__SCATTER_CHOICE), path__random_2d(path, dimensions__SCATTER_DIRECTION));
+	path.throughput *= next.weight;
+	record_path__record_step(next);
+	if (path.bounces > batch.max_depth || path.passes > path__MAX_PASSES) {
+		dispatch__cut_throughput += dot(path.throughput, tone__LUMINANCE_REC709);
+		record_path__record_limit();
+		return path__ended(path);
+	}
+	let chance = select(1.0, mis__survival_chance(path.throughput), path.bounces >= ROULETTE_START);
+	let ends = path__random_1d(path, dimensions__ROULETTE) >= chance || all(path.throughput <= vec3f(0.0));
+	record_path__record_roulette(path.throughput, chance, ends);
+	if (ends) {
+		return path__ended(path);
+	}
+	path.throughput /= chance;
+	let crosses = dot(next.direction, bsdf.ng) < 0.0;
+	let is_straight = crosses && next.pdf == 0.0 && !(bindings__SOLID_GLASS && bsdf.encloses);
+	record_path__record_straight(crosses && next.pdf == 0.0 && !bsdf.bends);
+	path.kind = select(ray_states__KIND_REFLECTED, ray_states__KIND_REFRACTED, crosses);
+	path.media = select(path.media, met.media, vec4<bool>(crosses));
+	path.ray = leaving__leaving_ray(surface, next.direction, camera__T_FAR);
+	path.origin = select(surface.p, path.origin, is_straight);
+	path.pdf = select(next.pdf, path.pdf, is_straight);
+	if (crosses && next.pdf == 0.0) {
+		path.passes += 1u;
+	}
+	else {
+		path.bounces += 1u;
+	}
+	return path;
+}
+
+@group(0) @binding(0)
+var bindings__nodes: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(1)
+var bindings__triangles: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(2)
+var bindings__vertices: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(3)
+var bindings__materials: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(4)
+var bindings__texels: texture_2d_array<u32>;
+
+@group(1) @binding(0)
+var<storage, read> bindings__frame: types__PackedFrame;
+
+@group(1) @binding(1)
+var<storage, read_write> bindings__dispatch: types__PackedDispatch;
+
+@group(2) @binding(0)
+var<storage, read_write> bindings__records: array<vec4u>;
+
+override bindings__TRIANGLE_TEST: u32 = types__TRIANGLE_TEST_WATERTIGHT;
+
+override bindings__HAS_TRIANGLES: bool = true;
+
+override bindings__HAS_SHAPES: bool = true;
+
+override bindings__HAS_PLANES: bool = true;
+
+override bindings__MIXED_MATERIALS: bool = true;
+
+override bindings__BRUTE_FORCE: bool = false;
+
+override bindings__FIXED_OFFSET: f32 = 0.0;
+
+override bindings__STRATIFIED: bool = false;
+
+override bindings__COUNT_RAYS: bool = false;
+
+override bindings__COUNT_STEPS: bool = false;
+
+override bindings__HAS_LIGHTS: bool = true;
+
+override bindings__HAS_EMITTERS: bool = false;
+
+override bindings__HAS_ENVIRONMENT: bool = false;
+
+override bindings__SHAPE_KINDS: u32 = 4294967295u;
+
+override bindings__HAS_REFLECTION: bool = true;
+
+override bindings__HAS_REFRACTION: bool = true;
+
+override bindings__HAS_CONTACT: bool = true;
+
+override bindings__HAS_PRIORITIES: bool = true;
+
+override bindings__FILTERED_SHADOWS: bool = false;
+
+override bindings__SOLID_GLASS: bool = false;
+
+override bindings__HAS_AREA_LIGHTS: bool = true;
+
+override bindings__HAS_LENS: bool = true;
+
+override bindings__FILTER: u32 = types__FILTER_BOX;
+
+override bindings__FILTER_RADIUS: f32 = 0.5;
+
+override bindings__BACKGROUND: u32 = types__BACKGROUND_COLOR;
+
+override bindings__HAS_TEXTURES: bool = true;
+
+override bindings__HAS_NOISE: bool = true;
+
+override bindings__HAS_PICTURES: bool = true;
+
+override bindings__HAS_FOOTPRINTS: bool = true;
+
+override bindings__HAS_COVERAGE: bool = true;
+
+override bindings__HAS_NORMAL_MAPS: bool = true;
+
+override bindings__HAS_BYTE_TEXELS: bool = true;
+
+override bindings__HAS_HALF_TEXELS: bool = true;
+
+override bindings__HAS_OPTICS_TEXTURES: bool = true;
+
+override bindings__HAS_EMISSION: bool = true;
+
+override bindings__HAS_LAYERS: bool = false;
+
+override bindings__CLAMP_INDIRECT: f32 = 0.0;
+
+override bindings__HAS_COATINGS: bool = false;
+
+override bindings__HAS_INSTANCES: bool = true;
+
+override bindings__HAS_MOTION: bool = true;
+
+override bindings__CAMERA_MOTION: bool = true;
+
+override bindings__LIGHT_MOTION: bool = true;
+
+override bindings__HAS_DEFORMATION: bool = true;
+
+override bindings__ORTHOGRAPHIC: bool = false;
+
+override bindings__HAS_UVS: bool = true;
+
+override bindings__HAS_SECOND_UVS: bool = true;
+
+const types__NONE: u32 = 4294967295u;
+
+const types__LEAF: u32 = 2147483648u;
+
+const types__SHAPE: u32 = 1073741824u;
+
+const types__LEAF_COUNT_ONE: u32 = 134217728u;
+
+const types__LEAF_COUNT_MASK: u32 = 939524096u;
+
+const types__LEAF_FIRST_MASK: u32 = 134217727u;
+
+const types__INSTANCE: u32 = 4160749568u;
+
+const types__MOVING: u32 = 1073741824u;
+
+const types__STACK_SIZE: u32 = 96u;
+
+const types__NO_INSTANCE: u32 = 1048575u;
+
+const types__NODE_ROWS: u32 = 4u;
+
+const types__INSTANCE_ROWS: u32 = 10u;
+
+const types__KEY_ROWS: u32 = 4u;
+
+const types__LIGHT_ROWS: u32 = 6u;
+
+const types__CAMERA_ROWS: u32 = 4u;
+
+const types__SHAPE_ROWS: u32 = 5u;
+
+const types__IMAGE_WIDTH_LOG2: u32 = 12u;
+
+const types__LAYER_ROWS_LOG2: u32 = 10u;
+
+const types__SHAPE_SPHERE: u32 = 0u;
+
+const types__SHAPE_PLANE: u32 = 1u;
+
+const types__SHAPE_DISC: u32 = 2u;
+
+const types__SHAPE_RECTANGLE: u32 = 3u;
+
+const types__SHAPE_BOX: u32 = 4u;
+
+const types__SHAPE_CONE: u32 = 5u;
+
+const types__SHAPE_TORUS: u32 = 6u;
+
+const types__SHAPE_ELLIPSOID: u32 = 7u;
+
+const types__SHAPE_GLOBE: u32 = 8u;
+
+const types__SHAPE_CAPPED: u32 = 1u;
+
+const types__LIGHT_DIRECTIONAL: u32 = 1u;
+
+const types__LIGHT_SPOT: u32 = 2u;
+
+const types__LIGHT_RECTANGLE: u32 = 3u;
+
+const types__LIGHT_SPHERE: u32 = 5u;
+
+const types__ATTENUATION_INVERSE_SQUARE: u32 = 1u;
+
+const types__MATERIAL_TWO_SIDED: u32 = 1u;
+
+const types__MATERIAL_FRESNEL: u32 = 2u;
+
+const types__MATERIAL_SCHLICK: u32 = 4u;
+
+const types__MATERIAL_SUM: u32 = 8u;
+
+const types__MATERIAL_COVERAGE: u32 = 32u;
+
+const types__MATERIAL_MASK: u32 = 64u;
+
+const types__MATERIAL_THIN: u32 = 128u;
+
+const types__MATERIAL_METALLIC_ROUGHNESS: u32 = 256u;
+
+const types__MATERIAL_ROWS: u32 = 19u;
+
+const types__LAYERS_ROW: u32 = 9u;
+
+const types__SLOT_BASE: u32 = 0u;
+
+const types__SLOT_METALLIC_ROUGHNESS: u32 = 1u;
+
+const types__SLOT_F0: u32 = 2u;
+
+const types__SLOT_TRANSMISSION: u32 = 3u;
+
+const types__SLOT_F90: u32 = 4u;
+
+const types__SLOT_COAT: u32 = 5u;
+
+const types__SLOT_COAT_ROUGHNESS: u32 = 6u;
+
+const types__SLOT_SHEEN: u32 = 7u;
+
+const types__SLOT_SHEEN_ROUGHNESS: u32 = 8u;
+
+const types__SLOT_IRIDESCENCE: u32 = 10u;
+
+const types__SLOT_FILM_THICKNESS: u32 = 11u;
+
+const types__SLOT_DIFFUSE_TRANSMISSION: u32 = 12u;
+
+const types__SLOT_DIFFUSE_TRANSMISSION_COLOR: u32 = 13u;
+
+const types__SLOT_REFLECT: u32 = 14u;
+
+const types__SLOT_EMISSION: u32 = 15u;
+
+const types__TEXTURE_ROWS: u32 = 6u;
+
+const types__NO_TEXTURE: u32 = 65535u;
+
+const types__PATTERN_STRIPES: u32 = 1u;
+
+const types__PATTERN_GRADIENT: u32 = 2u;
+
+const types__PATTERN_NOISE: u32 = 3u;
+
+const types__PATTERN_PICTURE: u32 = 4u;
+
+const types__TEXTURE_UV: u32 = 1u;
+
+const types__TEXTURE_NEAREST: u32 = 2u;
+
+const types__TEXTURE_MINIFY_NEAREST: u32 = 64u;
+
+const types__TEXTURE_LEVELS: u32 = 128u;
+
+const types__TEXTURE_BETWEEN_LEVELS: u32 = 256u;
+
+const types__TEXTURE_SECOND_UV: u32 = 512u;
+
+const types__TEXTURE_WRAP_U_SHIFT: u32 = 2u;
+
+const types__TEXTURE_WRAP_V_SHIFT: u32 = 4u;
+
+const types__WRAP_REPEAT: u32 = 0u;
+
+const types__WRAP_CLAMP: u32 = 1u;
+
+const types__WRAP_MIRROR: u32 = 2u;
+
+const types__PICTURE_HALF: u32 = 2147483648u;
+
+const types__PICTURE_SRGB: u32 = 1073741824u;
+
+const types__PICTURE_FIRST_MASK: u32 = 1073741823u;
+
+const types__BACKGROUND_COLOR: u32 = 0u;
+
+const types__BACKGROUND_GRADIENT: u32 = 1u;
+
+const types__BACKGROUND_PICTURE: u32 = 2u;
+
+const types__FILTER_BOX: u32 = 0u;
+
+const types__FILTER_TENT: u32 = 1u;
+
+const types__FILTER_GAUSSIAN: u32 = 2u;
+
+const types__FILTER_BLACKMAN_HARRIS: u32 = 3u;
+
+const types__FILTER_MITCHELL: u32 = 4u;
+
+const types__TRIANGLE_TEST_PLANE: u32 = 0u;
+
+const types__TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
+
+const types__TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
+
+const types__RAY_SHADOW: u32 = 3u;
+
+const types__RAY_OUTSIDE: u32 = 1u;
+
+const types__RAY_TRANSPARENT: u32 = 2u;
+
+const types__RAY_BOUNDARY: u32 = 4u;
+
+const types__RAY_TOTAL: u32 = 8u;
+
+const types__RAY_UNTRACED: u32 = 16u;
+
+const types__LOBE_DIFFUSE: u32 = 0u;
+
+const types__LOBE_GLOSSY: u32 = 1u;
+
+const types__LOBE_COAT: u32 = 2u;
+
+const types__LOBE_SHEEN: u32 = 3u;
+
+const types__LOBE_BOUNDARY: u32 = 4u;
+
+const types__STEP_SCATTERED: u32 = 0u;
+
+const types__STEP_PASSED: u32 = 1u;
+
+const types__STEP_ROULETTE: u32 = 2u;
+
+const types__STEP_LIMIT: u32 = 3u;
+
+const types__STEP_ABSORBED: u32 = 4u;
+
+const types__SOURCE_LIGHT: u32 = 0u;
+
+const types__SOURCE_EMITTER: u32 = 1u;
+
+const types__SOURCE_ENVIRONMENT: u32 = 2u;
+
+const types__PROBE_ROWS: u32 = 3u;
+
+const types__RAY_ROWS: u32 = 17u;
+
+struct types__PackedTriangle {
+	v0: vec3f,
+	i0: u32,
+	v1: vec3f,
+	i1: u32,
+	v2: vec3f,
+	i2: u32
+}
+
+struct types__PackedVertex {
+	normal: vec3f,
+	material: u32
+}
+
+struct types__PackedShape {
+	position: vec3f,
+	kind: u32,
+	row_x: vec3f,
+	size0: f32,
+	row_y: vec3f,
+	size1: f32,
+	row_z: vec3f,
+	flags: u32,
+	material: u32,
+	id: u32,
+	_pad0: u32,
+	_pad1: u32
+}
+
+struct types__PackedInstance {
+	translation: vec3f,
+	root: u32,
+	inverse_x: vec3f,
+	first: u32,
+	inverse_y: vec3f,
+	count: u32,
+	inverse_z: vec3f,
+	key_count: u32,
+	linear_x: vec3f,
+	first_key: u32,
+	linear_y: vec3f,
+	id: u32,
+	linear_z: vec3f,
+	next_key: u32,
+	pattern_x: vec4f,
+	pattern_y: vec4f,
+	pattern_z: vec4f
+}
+
+struct types__PackedKey {
+	translation: vec3f,
+	_pad0: u32,
+	rotation: vec4f,
+	stretch: vec3f,
+	_pad1: u32,
+	shear: vec3f,
+	_pad2: u32
+}
+
+struct types__PackedLayers {
+	base: vec3f,
+	metallic: f32,
+	f0: vec3f,
+	f90: f32,
+	roughness: f32,
+	transmission: f32,
+	coat: f32,
+	coat_roughness: f32,
+	sheen: vec3f,
+	sheen_roughness: f32,
+	anisotropy: f32,
+	anisotropy_rotation: f32,
+	iridescence: f32,
+	iridescence_ior: f32,
+	film_thinnest: f32,
+	film_thickest: f32,
+	dispersion: f32,
+	diffuse_transmission: f32,
+	diffuse_transmission_color: vec3f,
+	ior: f32,
+	light: u32,
+	glow: f32,
+	slots: u32,
+	_pad: u32,
+	textures: vec4u,
+	more_textures: vec4u
+}
+
+struct types__PackedTexture {
+	color_a: vec3f,
+	kind: u32,
+	color_b: vec3f,
+	flags: u32,
+	row_x: vec4f,
+	row_y: vec4f,
+	row_z: vec4f,
+	picture: u32,
+	width: u32,
+	height: u32,
+	octaves: u32
+}
+
+struct types__PackedLight {
+	position: vec3f,
+	kind: u32,
+	direction: vec3f,
+	attenuation: u32,
+	color: vec3f,
+	cos_inner: f32,
+	edge_u: vec3f,
+	cos_outer: f32,
+	edge_v: vec3f,
+	radius: f32,
+	sample_count: u32,
+	chance: f32,
+	cumulative: f32,
+	visible: u32
+}
+
+struct types__PackedEmitter {
+	triangle: u32,
+	instance: u32,
+	chance: f32,
+	end: f32
+}
+
+struct types__PackedCamera {
+	origin: vec3f,
+	lens_radius: f32,
+	forward: vec3f,
+	focus_distance: f32,
+	right: vec3f,
+	blade_rotation: f32,
+	up: vec3f,
+	blade_count: u32
+}
+
+struct types__PackedFrame {
+	camera: types__PackedCamera,
+	background: vec3f,
+	light_count: u32,
+	ambient: vec3f,
+	triangle_count: u32,
+	shape_count: u32,
+	plane_count: u32,
+	vertex_count: u32,
+	material_count: u32,
+	background_top: vec3f,
+	background_rotation: f32,
+	background_picture: u32,
+	background_width: u32,
+	background_height: u32,
+	root: u32,
+	camera_media: vec4u,
+	instance_row: u32,
+	instance_count: u32,
+	key_row: u32,
+	light_row: u32,
+	camera_key_count: u32,
+	light_key_count: u32,
+	first_triangle: u32,
+	shape_row: u32,
+	deformation_key_count: u32,
+	emitter_row: u32,
+	emitter_count: u32,
+	emitter_power: f32,
+	environment_first: u32,
+	environment_width: u32,
+	environment_share: f32,
+	albedo_first: u32
+}
+
+struct types__PackedDispatch {
+	picture_width: u32,
+	picture_height: u32,
+	tile_x: u32,
+	tile_y: u32,
+	tile_width: u32,
+	tile_height: u32,
+	group_columns: u32,
+	group_count: u32,
+	group_stride: u32,
+	first_group: u32,
+	end_group: u32,
+	grid_width: u32,
+	first_sample: u32,
+	end_sample: u32,
+	seed: u32,
+	max_depth: u32,
+	min_throughput: f32,
+	light_samples: f32,
+	footprint: f32,
+	counters: types__PackedCounters
+}
+
+struct types__PackedCounters {
+	groups_done: atomic<u32>,
+	nonfinite_samples: atomic<u32>,
+	cut_off_paths: atomic<u32>,
+	cut_off_trees: atomic<u32>,
+	cut_throughput: atomic<u32>,
+	clamped_light: atomic<u32>,
+	clamped_light_high: atomic<u32>,
+	kept_light: atomic<u32>,
+	kept_light_high: atomic<u32>,
+	primary: atomic<u32>,
+	primary_hits: atomic<u32>,
+	shadow: atomic<u32>,
+	shadow_blocked: atomic<u32>,
+	reflection: atomic<u32>,
+	reflection_hits: atomic<u32>,
+	refraction: atomic<u32>,
+	refraction_hits: atomic<u32>
+}
+
+struct types__PackedProbe {
+	pixel_x: u32,
+	pixel_y: u32,
+	sample: u32,
+	first_row: u32,
+	ray_limit: u32,
+	ray_count: u32,
+	weight: f32,
+	time: f32,
+	color: vec3f,
+	cut_off: u32
+}
+
+struct types__PackedRay {
+	origin: vec3f,
+	kind: u32,
+	direction: vec3f,
+	t: f32,
+	p: vec3f,
+	primitive: u32,
+	n: vec3f,
+	instance: u32,
+	ng: vec3f,
+	material: u32,
+	throughput: vec3f,
+	parent: u32,
+	arriving: vec3f,
+	flags: u32,
+	contribution: vec3f,
+	light: u32,
+	ambient: vec3f,
+	medium: u32,
+	emission: vec3f,
+	medium_behind: u32,
+	reflect: vec3f,
+	reflectance: f32,
+	transmit: vec3f,
+	ior: f32,
+	media: vec4u,
+	ior_behind: f32,
+	t_max: f32,
+	crossings: u32,
+	lobe: u32,
+	value: vec3f,
+	pdf: f32,
+	weight: vec3f,
+	chance: f32,
+	own_pdf: f32,
+	other_pdf: f32,
+	mis_weight: f32,
+	step: u32
+}
+
+struct types__Ray {
+	origin: vec3f,
+	t_max: f32,
+	direction: vec3f,
+	leaving: u32,
+	leaving_instance: u32
+}
+
+struct types__Candidate {
+	hit: bool,
+	t: f32,
+	b1: f32,
+	b2: f32
+}
+
+struct types__Hit {
+	t: f32,
+	primitive: u32,
+	b1: f32,
+	b2: f32,
+	instance: u32
+}
+
+struct types__Node {
+	lo: vec3f,
+	scale: vec3f,
+	min_x: vec4f,
+	max_x: vec4f,
+	min_y: vec4f,
+	max_y: vec4f,
+	min_z: vec4f,
+	max_z: vec4f,
+	children: vec4u
+}
+
+struct types__Phong {
+	diffuse: vec3f,
+	specular: vec3f,
+	shininess: f32,
+	ambient: vec3f,
+	reflect: vec3f
+}
+
+struct types__Medium {
+	absorption: vec3f,
+	ior: f32,
+	priority: i32
+}
+
+struct types__Surface {
+	p: vec3f,
+	n: vec3f,
+	ng: vec3f,
+	error: vec3f,
+	leaving: u32,
+	outside: bool,
+	uv: vec2f,
+	second_uv: vec2f,
+	material: u32,
+	phong: types__Phong,
+	id: u32,
+	place: vec3f,
+	instance: u32,
+	footprint: types__Footprint,
+	curvature: f32
+}
+
+struct types__Cone {
+	width: f32,
+	spread: f32
+}
+
+struct types__Footprint {
+	uv: mat2x2f,
+	second_uv: mat2x2f,
+	place: mat2x3f
+}
+
+struct types__Optics {
+	transmit: vec3f,
+	opacity: f32,
+	ior: f32,
+	flags: u32
+}
+
+struct types__Incident {
+	direction: vec3f,
+	distance: f32,
+	radiance: vec3f
+}
+
+var<private> record__traced: types__PackedRay;
+
+var<private> record__traced_index: u32;
+
+var<private> record__sender: u32;
+
+var<private> record__seen: types__Hit;
+
+var<private> record__ray_count: u32;
+
+var<private> record__ray_limit: u32;
+
+var<private> record__first_row: u32;
+
+var<private> record__met: types__Hit;
+
+var<private> record__met_count: u32;
+
+fn record__load_probe(index: u32) -> types__PackedProbe {
+	let row = types__PROBE_ROWS * index;
+	let r0 = bindings__records[row];
+	var probe = types__PackedProbe();
+	probe.pixel_x = r0.x;
+	probe.pixel_y = r0.y;
+	probe.sample = r0.z;
+	probe.first_row = r0.w;
+	probe.ray_limit = bindings__records[row + 1u].x;
+	return probe;
+}
+
+fn record__store_probe(index: u32, probe: types__PackedProbe) {
+	let row = types__PROBE_ROWS * index;
+	let weight_and_time = bitcast<vec2u>(vec2f(probe.weight, probe.time));
+	bindings__records[row + 1u] = vec4u(probe.ray_limit, record__ray_count, weight_and_time);
+	bindings__records[row + 2u] = vec4u(bitcast<vec3u>(probe.color), probe.cut_off);
+}
+
+fn record__start_record(probe: types__PackedProbe) {
+	record__ray_count = 0u;
+	record__ray_limit = probe.ray_limit;
+	record__first_row = probe.first_row;
+	record__sender = types__NONE;
+}
+
+fn record__open_ray(ray: types__Ray, hit: types__Hit, kind: u32, throughput: vec3f, media: vec4u) {
+	record__traced = types__PackedRay();
+	record__traced.origin = ray.origin;
+	record__traced.kind = kind;
+	record__traced.direction = ray.direction;
+	record__traced.t = hit.t;
+	record__traced.t_max = ray.t_max;
+	record__traced.primitive = hit.primitive;
+	record__traced.instance = hit.instance;
+	record__traced.material = types__NONE;
+	record__traced.throughput = throughput;
+	record__traced.parent = record__sender;
+	record__traced.arriving = throughput;
+	record__traced.light = types__NONE;
+	record__traced.medium = types__NONE;
+	record__traced.medium_behind = types__NONE;
+	record__traced.media = select(vec4u(types__NONE), media, bindings__HAS_REFRACTION);
+	record__traced_index = record__ray_count;
+	record__ray_count += 1u;
+}
+
+fn record__record_surface(surface: types__Surface) {
+	record__traced.primitive = record__seen.primitive;
+	record__traced.instance = record__seen.instance;
+	record__traced.p = surface.p;
+	record__traced.n = surface.n;
+	record__traced.ng = surface.ng;
+	record__traced.material = surface.material;
+	record__traced.flags |= select(0u, types__RAY_OUTSIDE, surface.outside);
+}
+
+fn record__record_media(medium: u32, medium_behind: u32, transparent: bool) {
+	record__traced.medium = medium;
+	record__traced.medium_behind = select(types__NONE, medium_behind, transparent);
+	record__traced.flags |= select(0u, types__RAY_TRANSPARENT, transparent);
+}
+
+fn record__record_scatter(reflect: vec3f, transmit: vec3f, boundary: fresnel__Boundary, iors: vec2f, is_boundary: bool) {
+	record__traced.reflect = reflect;
+	record__traced.transmit = transmit;
+	record__traced.reflectance = select(0.0, boundary.reflectance, is_boundary);
+	record__traced.ior = iors.x;
+	record__traced.ior_behind = iors.y;
+	record__traced.flags |= select(0u, types__RAY_BOUNDARY, is_boundary) | select(0u, types__RAY_TOTAL, is_boundary & boundary.total);
+}
+
+fn record__record_arriving(arriving: vec3f) {
+	record__traced.arriving = arriving;
+}
+
+fn record__open_shadow(t_max: f32) {
+	record__met = types__Hit(t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+	record__met_count = 0u;
+}
+
+fn record__record_met(hit: types__Hit, before: f32) {
+	if (hit.primitive != types__NONE) {
+		record__met = hit;
+		record__met.t = before + hit.t;
+		record__met_count += 1u;
+	}
+}
+
+fn record__close_ray() {
+	record__store_ray(record__traced_index, record__traced);
+}
+
+fn record__store_ray(index: u32, ray: types__PackedRay) {
+	if (index < record__ray_limit) {
+		let row = record__first_row + types__RAY_ROWS * index;
+		bindings__records[row] = vec4u(bitcast<vec3u>(ray.origin), ray.kind);
+		bindings__records[row + 1u] = bitcast<vec4u>(vec4f(ray.direction, ray.t));
+		bindings__records[row + 2u] = vec4u(bitcast<vec3u>(ray.p), ray.primitive);
+		bindings__records[row + 3u] = vec4u(bitcast<vec3u>(ray.n), ray.instance);
+		bindings__records[row + 4u] = vec4u(bitcast<vec3u>(ray.ng), ray.material);
+		bindings__records[row + 5u] = vec4u(bitcast<vec3u>(ray.throughput), ray.parent);
+		bindings__records[row + 6u] = vec4u(bitcast<vec3u>(ray.arriving), ray.flags);
+		bindings__records[row + 7u] = vec4u(bitcast<vec3u>(ray.contribution), ray.light);
+		bindings__records[row + 8u] = vec4u(bitcast<vec3u>(ray.ambient), ray.medium);
+		bindings__records[row + 9u] = vec4u(bitcast<vec3u>(ray.emission), ray.medium_behind);
+		bindings__records[row + 10u] = bitcast<vec4u>(vec4f(ray.reflect, ray.reflectance));
+		bindings__records[row + 11u] = bitcast<vec4u>(vec4f(ray.transmit, ray.ior));
+		bindings__records[row + 12u] = ray.media;
+		bindings__records[row + 13u] = vec4u(bitcast<vec2u>(vec2f(ray.ior_behind, ray.t_max)), ray.crossings, ray.lobe);
+		bindings__records[row + 14u] = bitcast<vec4u>(vec4f(ray.value, ray.pdf));
+		bindings__records[row + 15u] = bitcast<vec4u>(vec4f(ray.weight, ray.chance));
+		bindings__records[row + 16u] = vec4u(bitcast<vec3u>(vec3f(ray.own_pdf, ray.other_pdf, ray.mis_weight)), ray.step);
+	}
+}
+
+struct dispatch__RayCounts {
+	primary: u32,
+	primary_hits: u32,
+	shadow: u32,
+	shadow_blocked: u32,
+	reflection: u32,
+	reflection_hits: u32,
+	refraction: u32,
+	refraction_hits: u32
+}
+
+var<private> dispatch__counts: dispatch__RayCounts;
+
+var<private> dispatch__cut_throughput: f32 = 0.0;
+
+var<private> dispatch__clamped_light: f32 = 0.0;
+
+var<private> dispatch__kept_light: f32 = 0.0;
+
+struct dispatch__Batch {
+	camera: types__PackedCamera,
+	background: vec3f,
+	background_top: vec3f,
+	background_rotation: f32,
+	background_picture: u32,
+	background_size: vec2u,
+	ambient: vec3f,
+	light_count: u32,
+	picture_size: vec2f,
+	seed: u32,
+	first_sample: u32,
+	end_sample: u32,
+	max_depth: u32,
+	min_throughput: f32,
+	light_samples: f32,
+	footprint: f32,
+	camera_media: vec4u,
+	emitter_count: u32,
+	emitter_power: f32,
+	environment_first: u32,
+	environment_width: u32,
+	environment_share: f32
+}
+
+fn dispatch__load_batch() -> dispatch__Batch {
+	fetch__load_starts();
+	if (bindings__HAS_LAYERS) {
+		albedo__albedo_first = bindings__frame.albedo_first;
+	}
+	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share);
+}
+
+fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
+	var within = vec2f(0.5);
+	if (bindings__STRATIFIED) {
+		within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
+	}
+	let position = vec2f(pixel) + within;
+	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
+		shutter__shutter_time = dispatch__sample_time(sample, key);
+	}
+	let camera = shutter__shutter_camera(batch.camera);
+	if (bindings__HAS_LENS && bindings__ORTHOGRAPHIC) {
+		return camera__parallel_lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
+	}
+	if (bindings__HAS_LENS) {
+		return camera__lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
+	}
+	if (bindings__ORTHOGRAPHIC) {
+		return camera__parallel_ray(camera, position, batch.picture_size);
+	}
+	return camera__camera_ray(camera, position, batch.picture_size);
+}
+
+fn dispatch__sample_time(sample: u32, key: u32) -> f32 {
+	if (bindings__HAS_LENS) {
+		return sampling__stratified_1d(sample, key);
+	}
+	return sampling__stratified_34(sample, key).x;
+}
+
+fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
+	if (!bindings__STRATIFIED) {
+		return 1.0;
+	}
+	return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, key));
+}
+
+fn dispatch__count_hit(kind: u32, hit: types__Hit) {
+	if (bindings__COUNT_RAYS) {
+		let hits = select(0u, 1u, hit.primitive != types__NONE);
+		if (kind == ray_states__KIND_PRIMARY) {
+			dispatch__counts.primary += 1u;
+			dispatch__counts.primary_hits += hits;
+		}
+		else if (kind == ray_states__KIND_REFLECTED) {
+			dispatch__counts.reflection += 1u;
+			dispatch__counts.reflection_hits += hits;
+		}
+		else {
+			dispatch__counts.refraction += 1u;
+			dispatch__counts.refraction_hits += hits;
+		}
+	}
+}
+
+fn dispatch__add_counts(lane: u32) {
+	if (bindings__COUNT_RAYS) {
+		atomicAdd(&bindings__dispatch.counters.primary, dispatch__counts.primary);
+		atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
+		atomicAdd(&bindings__dispatch.counters.shadow, dispatch__counts.shadow);
+		atomicAdd(&bindings__dispatch.counters.shadow_blocked, dispatch__counts.shadow_blocked);
+		if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
+			atomicAdd(&bindings__dispatch.counters.reflection, dispatch__counts.reflection);
+			atomicAdd(&bindings__dispatch.counters.reflection_hits, dispatch__counts.reflection_hits);
+			atomicAdd(&bindings__dispatch.counters.refraction, dispatch__counts.refraction);
+			atomicAdd(&bindings__dispatch.counters.refraction_hits, dispatch__counts.refraction_hits);
+		}
+	}
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) && ray_stack__cut_off_trees > 0u) {
+		atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
+	}
+	if (bindings__HAS_LAYERS && dispatch__cut_throughput > 0.0) {
+		atomicAdd(&bindings__dispatch.counters.cut_throughput, dispatch__steps_of(256.0 * dispatch__cut_throughput));
+	}
+	if (bindings__CLAMP_INDIRECT > 0.0) {
+		let steps = 16.0 / max(bindings__CLAMP_INDIRECT, 1e-6);
+		let clamped = dispatch__steps_of(steps * dispatch__clamped_light);
+		let kept = dispatch__steps_of(steps * dispatch__kept_light);
+		if (atomicAdd(&bindings__dispatch.counters.clamped_light, clamped) > 4294967295u - clamped) {
+			atomicAdd(&bindings__dispatch.counters.clamped_light_high, 1u);
+		}
+		if (atomicAdd(&bindings__dispatch.counters.kept_light, kept) > 4294967295u - kept) {
+			atomicAdd(&bindings__dispatch.counters.kept_light_high, 1u);
+		}
+	}
+	if (loops__cut_off) {
+		atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
+	}
+	if (lane == 0u) {
+		atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
+	}
+}
+
+fn dispatch__steps_of(number: f32) -> u32 {
+	return u32(min(number, 4000000000.0) + rng__unit_float(rng__hash(bitcast<u32>(number))));
+}
+
+var<private> fetch__root: u32;
+
+var<private> fetch__shape_row: u32;
+
+var<private> fetch__light_row: u32;
+
+var<private> fetch__instance_row: u32;
+
+var<private> fetch__key_row: u32;
+
+var<private> fetch__texture_row: u32;
+
+var<private> fetch__uv_row: u32;
+
+var<private> fetch__first_plane: u32;
+
+var<private> fetch__end_plane: u32;
+
+fn fetch__load_starts() {
+	fetch__root = bindings__frame.root;
+	fetch__shape_row = bindings__frame.shape_row;
+	fetch__light_row = bindings__frame.light_row;
+	fetch__instance_row = bindings__frame.instance_row;
+	fetch__key_row = bindings__frame.key_row;
+	fetch__texture_row = types__MATERIAL_ROWS * bindings__frame.material_count;
+	fetch__uv_row = bindings__frame.vertex_count;
+	fetch__first_plane = bindings__frame.shape_count;
+	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
+}
+
+fn fetch__load_node(index: u32) -> types__Node {
+	let row = types__NODE_ROWS * index;
+	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
+}
+
+fn fetch__load_moving_node(reference: u32, moment: motion__Moment) -> types__Node {
+	let moves = (reference & types__MOVING) != 0u;
+	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
+	return node__node_between(fetch__load_node(first), fetch__load_node(first + select(0u, 1u, moves)), moment.fraction);
+}
+
+fn fetch__load_instance(index: u32) -> types__PackedInstance {
+	let row = fetch__instance_row + types__INSTANCE_ROWS * index;
+	let r0 = fetch__node_row(row);
+	let r1 = fetch__node_row(row + 1u);
+	let r2 = fetch__node_row(row + 2u);
+	let r3 = fetch__node_row(row + 3u);
+	let r4 = fetch__node_row(row + 4u);
+	let r5 = fetch__node_row(row + 5u);
+	let r6 = fetch__node_row(row + 6u);
+	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
+}
+
+fn fetch__load_key(index: u32) -> types__PackedKey {
+	let row = fetch__key_row + types__KEY_ROWS * index;
+	return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
+}
+
+fn fetch__load_light(index: u32) -> types__PackedLight {
+	let row = fetch__light_row + types__LIGHT_ROWS * index;
+	let r0 = fetch__node_row(row);
+	let r1 = fetch__node_row(row + 1u);
+	let r2 = fetch__node_row(row + 2u);
+	let r3 = fetch__node_row(row + 3u);
+	let r4 = fetch__node_row(row + 4u);
+	let r5 = fetch__node_row(row + 5u);
+	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), r5.x, bitcast<f32>(r5.y), bitcast<f32>(r5.z), r5.w);
+}
+
+fn fetch__load_light_end(index: u32) -> f32 {
+	let r5 = fetch__node_row(fetch__light_row + types__LIGHT_ROWS * index + 5u);
+	return bitcast<f32>(r5.y) + bitcast<f32>(r5.z);
+}
+
+fn fetch__load_emitter(index: u32) -> types__PackedEmitter {
+	let r0 = fetch__node_row(bindings__frame.emitter_row + index);
+	return types__PackedEmitter(r0.x, r0.y, bitcast<f32>(r0.z), bitcast<f32>(r0.w));
+}
+
+fn fetch__load_camera(key: u32) -> types__PackedCamera {
+	let row = fetch__light_row + types__LIGHT_ROWS * bindings__frame.light_count * bindings__frame.light_key_count + types__CAMERA_ROWS * key;
+	let r0 = fetch__node_row(row);
+	let r1 = fetch__node_row(row + 1u);
+	let r2 = fetch__node_row(row + 2u);
+	let r3 = fetch__node_row(row + 3u);
+	return types__PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
+}
+
+fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
+	let row = 3u * index;
+	let r0 = fetch__triangle_row(row);
+	let r1 = fetch__triangle_row(row + 1u);
+	let r2 = fetch__triangle_row(row + 2u);
+	return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
+}
+
+fn fetch__load_shape(index: u32) -> types__PackedShape {
+	let row = fetch__shape_row + types__SHAPE_ROWS * index;
+	return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
+}
+
+fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
+	return types__PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
+}
+
+fn fetch__load_vertex(index: u32) -> types__PackedVertex {
+	let r0 = fetch__vertex_row(index);
+	return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
+}
+
+fn fetch__load_uvs(index: u32) -> vec4f {
+	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
+}
+
+fn fetch__texel(row: u32) -> vec2u {
+	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
+}
+
+fn fetch__node_row(row: u32) -> vec4u {
+	return textureLoad(bindings__nodes, fetch__texel(row));
+}
+
+fn fetch__triangle_row(row: u32) -> vec4u {
+	return textureLoad(bindings__triangles, fetch__texel(row));
+}
+
+fn fetch__vertex_row(row: u32) -> vec4u {
+	return textureLoad(bindings__vertices, fetch__texel(row));
+}
+
+fn fetch__material_row(row: u32) -> vec4u {
+	return textureLoad(bindings__materials, fetch__texel(row));
+}
+
+var<private> albedo__albedo_first: u32;
+
+fn albedo__albedo_of(table: u32, cos_o: f32, alpha: f32) -> vec2f {
+	let place = albedo__albedo_lookup(table, cos_o, alpha);
+	let words = place.words + vec4u(albedo__albedo_first);
+	return albedo__blended_albedo(vec4u(picture__load_texel_word(words.x), picture__load_texel_word(words.y), picture__load_texel_word(words.z), picture__load_texel_word(words.w)), place.weights);
+}
+
+fn rng__hash(x: u32) -> u32 {
+	var h = x;
+	h ^= h >> 16u;
+	h *= 2146121005u;
+	h ^= h >> 15u;
+	h *= 2221713035u;
+	h ^= h >> 16u;
+	return h;
+}
+
+fn rng__hash_combine(a: u32, b: u32) -> u32 {
+	return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
+}
+
+fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
+	return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
+}
+
+fn rng__unit_float(x: u32) -> f32 {
+	return f32(x >> 8u) * 5.9604645e-8;
+}
+
+const path__MAX_PASSES: u32 = 64u;
+
+struct path__Path {
+	ray: types__Ray,
+	radiance: vec3f,
+	throughput: vec3f,
+	media: vec4u,
+	bounces: u32,
+	passes: u32,
+	kind: u32,
+	origin: vec3f,
+	pdf: f32,
+	cone: types__Cone,
+	key: u32,
+	sample: u32
+}
+
+fn path__path_along(batch: dispatch__Batch, ray: types__Ray, key: u32, sample: u32) -> path__Path {
+	var cone = types__Cone(0.0, 0.0);
+	if (bindings__HAS_FOOTPRINTS) {
+		cone = footprint__camera_cone(batch, ray.direction);
+	}
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, 0.0, cone, key, sample);
+}
+
+fn path__is_going(path: path__Path) -> bool {
+	return path.ray.t_max >= 0.0;
+}
+
+fn path__gained(before: path__Path, light: vec3f, scatterings: u32) -> path__Path {
+	var path = before;
+	var gain = path.throughput * light;
+	if (bindings__CLAMP_INDIRECT > 0.0) {
+		let brightest = numeric__max_component(gain);
+		let is_clamped = scatterings > 1u && brightest > bindings__CLAMP_INDIRECT;
+		let scale = select(1.0, bindings__CLAMP_INDIRECT / brightest, is_clamped);
+		dispatch__clamped_light += (1.0 - scale) * dot(gain, tone__LUMINANCE_REC709);
+		gain *= scale;
+		dispatch__kept_light += dot(gain, tone__LUMINANCE_REC709);
+	}
+	record_path__record_gain(gain);
+	path.radiance += gain;
+	return path;
+}
+
+fn path__ended(path: path__Path) -> path__Path {
+	var last = path;
+	last.ray = rays__DEAD;
+	return last;
+}
+
+fn path__passed(path: path__Path, surface: types__Surface) -> path__Path {
+	var next = path;
+	next.ray = leaving__leaving_ray(surface, path.ray.direction, camera__T_FAR);
+	next.passes += 1u;
+	next.kind = ray_states__KIND_REFRACTED;
+	return next;
+}
+
+fn path__random_1d(path: path__Path, purpose: u32) -> f32 {
+	return sampling__stratified_1d(path.sample, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
+}
+
+fn path__random_2d(path: path__Path, purpose: u32) -> vec2f {
+	return sampling__stratified_2d(path.sample, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
+}
+
+fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
+	let camera = batch.camera;
+	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
+	let side = batch.footprint * max(sides.x, sides.y);
+	if (bindings__ORTHOGRAPHIC) {
+		return types__Cone(side, 0.0);
+	}
+	return types__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
+}
+
+fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
+	let e1 = corners[1] - corners[0];
+	let e2 = corners[2] - corners[0];
+	let d1 = uvs[1] - uvs[0];
+	let d2 = uvs[2] - uvs[0];
+	return mat2x2f(ray_cone__uv_along(axes[0], e1, e2, d1, d2), ray_cone__uv_along(axes[1], e1, e2, d1, d2));
+}
+
+fn footprint__shape_uv_footprint(shape: types__PackedShape, p: vec3f, axes: mat2x3f, part: f32) -> mat2x2f {
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		return mat2x2f(vec2f(dot(shape.row_x, axes[0]), dot(shape.row_z, axes[0])), vec2f(dot(shape.row_x, axes[1]), dot(shape.row_z, axes[1])));
+	}
+	var first = vec2f(0.0);
+	var ends = mat2x2f(first, first);
+	var k = 0u;
+	loop {
+		let at = select(select(p + axes[1], p + axes[0], k == 1u), p, k == 0u);
+		let uv = footprint__shape_uv(shape, at, part);
+		let way = uv - first - round(uv - first);
+		first = select(first, uv, k == 0u);
+		ends = mat2x2f(select(ends[0], way, k == 1u), select(ends[1], way, k == 2u));
+		continuing {
+			k += 1u;
+			break if k > 2u;
+		}
+	}
+	loops__cut_off |= k <= 2u;
+	return ends;
+}
+
+fn footprint__shape_uv(shape: types__PackedShape, p: vec3f, part: f32) -> vec2f {
+	if (!shape__is_round(shape.kind)) {
+		return shape__canonical_point(shape, p, part).uv;
+	}
+	if (shape__is_globe(shape.kind)) {
+		return canonical__sphere_uv(globe__globe_point(shape, p).ng);
+	}
+	return canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
+}
+
+fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) -> mat2x3f {
+	let rows = transpose(mat3x3f(instance.pattern_x.xyz, instance.pattern_y.xyz, instance.pattern_z.xyz));
+	return mat2x3f(rows * own[0], rows * own[1]);
+}
+
+fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: types__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
+	var surface = own;
+	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
+	var local = axes;
+	var scale = 1.0;
+	if (bindings__HAS_INSTANCES && is_placed) {
+		local = mat2x3f(space.inverse * axes[0], space.inverse * axes[1]);
+		scale = length(instance__placed_normal(space, own.ng));
+	}
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
+	surface.footprint = types__Footprint(in_uv, in_uv, axes);
+	if (shape__is_round(shape.kind)) {
+		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
+		surface.curvature = select(-curvature, curvature, own.outside);
+	}
+	return surface;
+}
+
+fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) -> f32 {
+	if (!(bindings__HAS_FOOTPRINTS && (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION))) {
+		return 0.0;
+	}
+	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
+	return select(-bend, bend, side < 0.0) / 3.0;
+}
+
+const ray_states__KIND_PRIMARY: u32 = 0u;
+
+const ray_states__KIND_REFLECTED: u32 = 1u;
+
+const ray_states__KIND_REFRACTED: u32 = 2u;
+
+struct ray_states__Media {
+	x: wide__Words,
+	y: wide__Words,
+	z: wide__Words,
+	w: wide__Words
+}
+
+fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
+	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
+}
+
+fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
+	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
+}
+
+const filter__PI: f32 = 3.14159265;
+
+const filter__SIGMA: f32 = 0.5;
+
+const filter__ROUNDS: u32 = 22u;
+
+const filter__BLACKMAN_HARRIS_1: f32 = 0.48829 / (filter__PI * 0.35875);
+
+const filter__BLACKMAN_HARRIS_2: f32 = 0.14128 / (filter__PI * 0.35875);
+
+const filter__BLACKMAN_HARRIS_3: f32 = 0.01168 / (3.0 * filter__PI * 0.35875);
+
+const filter__MITCHELL_ZERO: f32 = 1.14285714;
+
+const filter__MITCHELL_POSITIVE: f32 = 0.51749271;
+
+const filter__MITCHELL_TOTAL: f32 = 0.53498542;
+
+fn filter__filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
+	let centred = 2.0 * u - 1.0;
+	if (kind == types__FILTER_BOX) {
+		return 2.0 * radius * (u - 0.5);
+	}
+	let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
+	let fraction = abs(centred);
+	if (kind == types__FILTER_TENT) {
+		return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
+	}
+	if (kind == types__FILTER_GAUSSIAN) {
+		let scale = filter__SIGMA * sqrt(2.0);
+		return scale * side * min(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
+	}
+	return radius * side * filter__searched(kind, fraction);
+}
+
+fn filter__filter_sign(kind: u32, u: vec2f) -> f32 {
+	let negative = abs(2.0 * u - 1.0) > vec2f(filter__MITCHELL_POSITIVE / filter__MITCHELL_TOTAL);
+	return select(1.0, -1.0, (kind == types__FILTER_MITCHELL) & (negative.x != negative.y));
+}
+
+fn filter__searched(kind: u32, fraction: vec2f) -> vec2f {
+	var low = vec2f(0.0);
+	var width = 1.0;
+	var done = 0u;
+	loop {
+		width *= 0.5;
+		let middle = low + width;
+		low = select(low, middle, filter__cumulated(kind, middle) <= fraction);
+		continuing {
+			done += 1u;
+			break if done >= filter__ROUNDS;
+		}
+	}
+	return low + 0.5 * width;
+}
+
+fn filter__cumulated(kind: u32, x: vec2f) -> vec2f {
+	if (kind == types__FILTER_BLACKMAN_HARRIS) {
+		let s = sin(filter__PI * x);
+		let c = cos(filter__PI * x);
+		return x + s * (filter__BLACKMAN_HARRIS_1 + filter__BLACKMAN_HARRIS_2 * c + filter__BLACKMAN_HARRIS_3 * (4.0 * c * c - 1.0));
+	}
+	let t = 2.0 * x;
+	let inner = t * (16.0 / 3.0 + t * t * (-4.0 + t * 1.75)) / 6.0;
+	let e = 2.0 - t;
+	let outer = e * e * e * (7.0 / 12.0 * e - 2.0 / 3.0) / 6.0;
+	let signed = select(0.5 - outer, inner, t < vec2f(1.0));
+	let absolute = select(signed, 2.0 * filter__MITCHELL_POSITIVE - signed, t > vec2f(filter__MITCHELL_ZERO));
+	return absolute / filter__MITCHELL_TOTAL;
+}
+
+fn filter__erf(x: f32) -> f32 {
+	let t = 1.0 / (1.0 + 0.3275911 * x);
+	let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
+	return 1.0 - series * exp(-min(x * x, 80.0));
+}
+
+fn filter__inverse_erf(y: vec2f) -> vec2f {
+	let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
+	let a = w - 2.5;
+	let b = sqrt(max(w, vec2f(0.0))) - 3.0;
+	let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
+	let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
+	return y * select(far, near, w < vec2f(5.0));
+}
+
+fn sampling__sobol(index: u32) -> vec2u {
+	var x = index;
+	x ^= (x >> 1u) & 1431655765u;
+	x ^= (x >> 2u) & 858993459u;
+	x ^= (x >> 4u) & 252645135u;
+	x ^= (x >> 8u) & 16711935u;
+	x ^= (x >> 16u) & 65535u;
+	return vec2u(reverseBits(index), reverseBits(x));
+}
+
+fn sampling__owen_scramble(fraction: u32, seed: u32) -> u32 {
+	var x = reverseBits(fraction);
+	x += seed;
+	x ^= x * 1817228412u;
+	x ^= x * 3090095698u;
+	x ^= x * 3350193720u;
+	x ^= x * 2367878886u;
+	return reverseBits(x);
+}
+
+fn sampling__sobol_34(index: u32) -> vec2u {
+	var z = vec2u(2147483648u, 3221225472u);
+	var w = vec3u(2147483648u, 3221225472u, 536870912u);
+	var point = vec2u(0u);
+	var bit = 0u;
+	loop {
+		point ^= select(vec2u(0u), vec2u(z.x, w.x), ((index >> bit) & 1u) != 0u);
+		z = vec2u(z.y, z.y ^ z.x ^ (z.x >> 2u));
+		w = vec3u(w.yz, w.y ^ w.x ^ (w.x >> 3u));
+		continuing {
+			bit += 1u;
+			break if bit >= 32u;
+		}
+	}
+	return point;
+}
+
+fn sampling__stratified_2d(index: u32, key: u32) -> vec2f {
+	return sampling__scrambled(sampling__sobol(sampling__owen_scramble(index, rng__hash(key))), key);
+}
+
+fn sampling__stratified_34(index: u32, key: u32) -> vec2f {
+	return sampling__scrambled(sampling__sobol_34(sampling__owen_scramble(index, rng__hash(key))), key ^ 2654435769u);
+}
+
+fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
+	let own = key ^ 1757159915u;
+	return rng__unit_float(sampling__owen_scramble(reverseBits(sampling__owen_scramble(index, rng__hash(own))), rng__hash(own ^ 48610963u)));
+}
+
+fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
+	return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
+}
+
+var<private> shutter__shutter_time: f32 = 0.0;
+
+fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
+	if (bindings__CAMERA_MOTION) {
+		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
+		return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
+	}
+	return still;
+}
+
+fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
+	if (bindings__LIGHT_MOTION) {
+		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
+		let place = moment.key * light_count + index;
+		return motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
+	}
+	return fetch__load_light(index);
+}
+
+struct motion__Moment {
+	key: u32,
+	fraction: f32
+}
+
+fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
+	let intervals = max(key_count, 2u) - 1u;
+	let at = time * f32(intervals);
+	let key = min(u32(at), intervals - 1u);
+	return motion__Moment(key, at - f32(key));
+}
+
+struct motion__Space {
+	translation: vec3f,
+	linear: mat3x3f,
+	inverse: mat3x3f
+}
+
+fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
+	let q = mix(a.rotation, b.rotation, vec4f(fraction));
+	let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+	let d = mix(a.stretch, b.stretch, vec3f(fraction));
+	let s = mix(a.shear, b.shear, vec3f(fraction));
+	let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
+	let e = d / size;
+	let f = s / size;
+	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
+	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
+	let usable = abs(determinant) > 1e-30;
+	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
+	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
+	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+}
+
+fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
+	let d = 2.0 * q.xyz * q.xyz;
+	let xy = 2.0 * q.x * q.y;
+	let xz = 2.0 * q.x * q.z;
+	let yz = 2.0 * q.y * q.z;
+	let w = 2.0 * q.w * q.xyz;
+	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
+}
+
+fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
+	return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
+}
+
+fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
+	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.cumulative, a.visible);
+}
+
+const camera__T_FAR: f32 = 3e38;
+
+fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
+	return types__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+	let x = 2.0 * position.x / size.x - 1.0;
+	let y = 1.0 - 2.0 * position.y / size.y;
+	return camera.forward + x * camera.right + y * camera.up;
+}
+
+fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
+	let origin = camera.origin + camera__across(camera, position, size);
+	return types__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+	let x = 2.0 * position.x / size.x - 1.0;
+	let y = 1.0 - 2.0 * position.y / size.y;
+	return x * camera.right + y * camera.up;
+}
+
+fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+	let off_axis = camera__aperture_point(camera, u);
+	let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
+	return types__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+	let off_axis = camera__aperture_point(camera, u);
+	let origin = camera.origin + camera__across(camera, position, size) + off_axis;
+	let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
+	return types__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
+	var aperture = warp__disc_from_square(u);
+	if (camera.blade_count >= 3u) {
+		aperture = warp__polygon_from_square(u, camera.blade_count, camera.blade_rotation);
+	}
+	let p = camera.lens_radius * aperture;
+	return p.x * normalize(camera.right) + p.y * normalize(camera.up);
+}
+
+const warp__PI: f32 = 3.14159265;
+
+fn warp__disc_from_square(u: vec2f) -> vec2f {
+	let p = 2.0 * u - 1.0;
+	let by_x = abs(p.x) > abs(p.y);
+	let radius = select(p.y, p.x, by_x);
+	let ratio = select(p.x, p.y, by_x) / select(1.0, radius, abs(radius) > 0.0);
+	let angle = select(0.5 * warp__PI - 0.25 * warp__PI * ratio, 0.25 * warp__PI * ratio, by_x);
+	return radius * vec2f(cos(angle), sin(angle));
+}
+
+fn warp__triangle_from_square(u: vec2f) -> vec2f {
+	let s = sqrt(u.y);
+	return vec2f(s * (1.0 - u.x), s * u.x);
+}
+
+fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
+	let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
+	let b = warp__triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
+	let step = 2.0 * warp__PI / f32(count);
+	let angles = rotation + step * vec2f(edge, edge + 1.0);
+	return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
+}
+
+fn warp__cone_from_square(u: vec2f, depth: f32) -> vec3f {
+	let p = warp__disc_from_square(u);
+	let below = min(dot(p, p), 1.0) * depth;
+	return vec3f(p * sqrt(max(depth * (2.0 - below), 0.0)), 1.0 - below);
+}
+
+fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
+	let side = select(-1.0, 1.0, n.z >= 0.0);
+	let a = -1.0 / (side + n.z);
+	let b = n.x * n.y * a;
+	let x = vec3f(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
+	let y = vec3f(b, side + n.y * n.y * a, -n.y);
+	return direction.x * x + direction.y * y + direction.z * n;
+}
+
+struct rays__Rays {
+	origin: wide__Vectors,
+	direction: wide__Vectors,
+	t_max: wide__Floats,
+	leaving: wide__Words,
+	leaving_instance: wide__Words
+}
+
+struct rays__Hits {
+	t: wide__Floats,
+	primitive: wide__Words,
+	b1: wide__Floats,
+	b2: wide__Floats,
+	instance: wide__Words
+}
+
+fn rays__rows_where(condition: bool) -> u32 {
+	return select(0u, 1u, condition);
+}
+
+fn rays__first_row(rows: u32) -> u32 {
+	{
+		return 0u;
+	}
+}
+
+fn rays__later_rows(rows: u32) -> u32 {
+	return rows & (rows - 1u);
+}
+
+const rays__DEAD: types__Ray = types__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
+
+fn rays__dead_rays() -> rays__Rays {
+	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
+}
+
+fn rays__ray_at(rays: rays__Rays, k: u32) -> types__Ray {
+	return types__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
+}
+
+fn rays__ray_set(rays: rays__Rays, k: u32, ray: types__Ray) -> rays__Rays {
+	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
+}
+
+fn rays__hit_at(hits: rays__Hits, k: u32) -> types__Hit {
+	return types__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
+}
+
+fn rays__hits_of(hit: types__Hit) -> rays__Hits {
+	return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
+}
+
+fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
+	{
+		return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
+	}
+}
+
+fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
+	{
+		return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
+	}
+}
+
+fn rays__any_lane(condition: bool) -> bool {
+	{
+		return condition;
+	}
+}
+
+const wide__RAYS_PER_LANE: u32 = 1u;
+
+const wide__ONE_RAY: bool = wide__RAYS_PER_LANE == 1u;
+
+alias wide__Floats = f32;
+
+alias wide__Words = u32;
+
+struct wide__Vectors {
+	x: wide__Floats,
+	y: wide__Floats,
+	z: wide__Floats
+}
+
+fn wide__float_at(all: wide__Floats, k: u32) -> f32 {
+	return all;
+}
+
+fn wide__word_at(all: wide__Words, k: u32) -> u32 {
+	return all;
+}
+
+fn wide__vector_at(all: wide__Vectors, k: u32) -> vec3f {
+	return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
+}
+
+fn wide__float_set(all: wide__Floats, k: u32, value: f32) -> wide__Floats {
+	{
+		return value;
+	}
+}
+
+fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
+	{
+		return value;
+	}
+}
+
+fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
+	return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
+}
+
+const traverse__EMPTY: u32 = 4294967295u;
+
+const traverse__RETURN: u32 = 4294967294u;
+
+var<private> traverse__stack: array<u32, types__STACK_SIZE>;
+
+const traverse__CONTACT_RANGE: f32 = 0.0001;
+
+fn traverse__closest_hit(ray: types__Ray) -> types__Hit {
+	if (bindings__HAS_CONTACT) {
+		primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+	}
+	return traverse__traverse(ray, false);
+}
+
+fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
+	if (bindings__HAS_CONTACT) {
+		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
+	}
+	return hit.t;
+}
+
+fn traverse__any_hit(ray: types__Ray) -> types__Hit {
+	return traverse__traverse(ray, true);
+}
+
+fn traverse__traverse(ray: types__Ray, any: bool) -> types__Hit {
+	var hit = types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+	let shear = triangle_watertight__shear_of(ray.direction);
+	if (bindings__HAS_PLANES) {
+		hit = exhaustive__hit_planes(ray, hit);
+	}
+	if (bindings__BRUTE_FORCE) {
+		return exhaustive__hit_everything(ray, shear, hit);
+	}
+	if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) || (any && hit.primitive != types__NONE)) {
+		return hit;
+	}
+	return traverse__walk(ray, shear, any, hit);
+}
+
+fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool, start: types__Hit) -> types__Hit {
+	var hit = start;
+	var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
+	traverse__stack[0] = traverse__EMPTY;
+	var top = 0u;
+	var current = 0u;
+	if (bindings__HAS_INSTANCES) {
+		current = fetch__root;
+	}
+	loop {
+		if (bindings__HAS_INSTANCES) {
+			if (current == traverse__RETURN) {
+				at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
+				current = traverse__stack[top];
+				top -= select(1u, 0u, current == traverse__EMPTY);
+			}
+			if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
+				let index = current & types__LEAF_FIRST_MASK;
+				let instance = fetch__load_instance(index);
+				let local = instance__object_ray(ray, instance__space_of(instance));
+				at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
+				top += 1u;
+				traverse__stack[top] = traverse__RETURN;
+				current = instance.root;
+			}
+		}
+		let is_node = !bindings__HAS_INSTANCES || (current & types__LEAF) == 0u;
+		if (is_node) {
+			loop {
+				let node = traverse__load_current_node(current, at.keys);
+				let keys = node__sort4(node__child_keys(node, at.ray.origin, at.inv, traverse__search_limit(ray, hit)));
+				let is_hit = keys < vec4u(node__MISS);
+				let pushed = select(vec4u(0u), vec4u(1u), is_hit);
+				traverse__stack[top + 1u] = node.children[keys.w & 3u];
+				top += pushed.w;
+				traverse__stack[top + 1u] = node.children[keys.z & 3u];
+				top += pushed.z;
+				traverse__stack[top + 1u] = node.children[keys.y & 3u];
+				top += pushed.y;
+				let popped = traverse__stack[top];
+				current = select(popped, node.children[keys.x & 3u], is_hit.x);
+				top -= select(1u, 0u, is_hit.x | (popped == traverse__EMPTY));
+				if (bindings__COUNT_STEPS) {
+					loops__nodes_visited += 1u;
+				}
+				continuing {
+				
+					break if (current & types__LEAF) != 0u;
+				}
+			}
+		}
+		if (current == traverse__EMPTY) {
+			break;
+		}
+		if (bindings__HAS_INSTANCES && current >= types__INSTANCE) {
+			continue;
+		}
+		loop {
+			hit = primitive__closer(at, hit, current & (types__SHAPE | types__LEAF_FIRST_MASK));
+			let popped = traverse__stack[top];
+			let is_last = (current & types__LEAF_COUNT_MASK) == 0u;
+			top -= select(0u, 1u, is_last & (popped != traverse__EMPTY));
+			current = select(current - types__LEAF_COUNT_ONE + 1u, popped, is_last);
+			current = select(current, traverse__EMPTY, any & (hit.primitive != types__NONE));
+			if (bindings__COUNT_STEPS) {
+				loops__primitives_tested += 1u;
+			}
+			continuing {
+			
+				break if ((current & types__LEAF) == 0u) | (current >= types__INSTANCE);
+			}
+		}
+		continuing {
+		
+			break if current == traverse__EMPTY;
+		}
+	}
+	loops__cut_off |= current != traverse__EMPTY;
+	return hit;
+}
+
+fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> types__Node {
+	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
+		return deforming__node_now(reference, keys);
+	}
+	return fetch__load_node(reference);
+}
+
+var<private> primitive__runner_up: types__Hit;
+
+struct primitive__TraversalRay {
+	ray: types__Ray,
+	inv: vec3f,
+	shear: triangle_watertight__Shear,
+	instance: u32,
+	keys: deforming__Keys
+}
+
+fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
+	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
+}
+
+fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
+	return primitive__closer_of(at, hit, primitive__test_primitive(at, primitive), primitive);
+}
+
+fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
+	var is_lower = primitive < hit.primitive;
+	var is_left = primitive == at.ray.leaving;
+	if (bindings__HAS_INSTANCES) {
+		is_lower = (at.instance < hit.instance) | ((at.instance == hit.instance) & is_lower);
+		is_left = is_left & (at.instance == at.ray.leaving_instance);
+	}
+	let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
+	let counts = candidate.hit & !is_left;
+	let wins = counts & ((candidate.t < hit.t) | ties);
+	if (bindings__HAS_CONTACT) {
+		let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
+		primitive__keep_runner_up(hit, found, counts, wins);
+	}
+	return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+}
+
+fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, wins: bool) {
+	let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
+	if (wins) {
+		primitive__runner_up = hit;
+	}
+	else if (counts & !is_same & (found.t < primitive__runner_up.t)) {
+		primitive__runner_up = found;
+	}
+}
+
+fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> types__Candidate {
+	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
+		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
+	}
+	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
+		candidate = shape__test_shape(at.ray, fetch__load_shape(primitive & ~types__SHAPE));
+	}
+	return candidate;
+}
+
+fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> types__Candidate {
+	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
+		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
+	}
+	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
+		return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
+	}
+	return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
+}
+
+struct triangle_watertight__Shear {
+	x: vec3f,
+	y: vec3f,
+	z: vec3f
+}
+
+fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
+	let size = abs(direction);
+	let is_x = (size.x >= size.y) & (size.x >= size.z);
+	let is_y = !is_x & (size.y >= size.z);
+	let axis_z = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), is_y), vec3f(1.0, 0.0, 0.0), is_x);
+	let axis_x = axis_z.zxy;
+	let axis_y = axis_z.yzx;
+	let scale = 1.0 / dot(direction, axis_z);
+	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
+}
+
+fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+	let a = v0 - origin;
+	let b = v1 - origin;
+	let c = v2 - origin;
+	let ax = dot(shear.x, a);
+	let ay = dot(shear.y, a);
+	let bx = dot(shear.x, b);
+	let by = dot(shear.y, b);
+	let cx = dot(shear.x, c);
+	let cy = dot(shear.y, c);
+	let left = vec3f(cx * by, ax * cy, bx * ay);
+	let right = vec3f(cy * bx, ay * cx, by * ax);
+	let inside = all(left >= right) | all(left <= right);
+	let edges = left - right;
+	let det = edges.x + edges.y + edges.z;
+	let usable = inside & (abs(det) > 1e-36);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
+	let t = dot(edges, depths) * inv_det;
+	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+}
+
+fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
+	var hit = start;
+	var index = fetch__first_plane;
+	loop {
+		let shape = fetch__load_shape(index);
+		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
+		let primitive = types__SHAPE | index;
+		let counts = candidate.hit & (primitive != ray.leaving);
+		let wins = counts & (candidate.t < hit.t);
+		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+		if (bindings__HAS_CONTACT) {
+			primitive__keep_runner_up(hit, found, counts, wins);
+		}
+		if (wins) {
+			hit = found;
+		}
+		continuing {
+			index += 1u;
+			break if index >= fetch__end_plane;
+		}
+	}
+	loops__cut_off |= index < fetch__end_plane;
+	return hit;
+}
+
+fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
+	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
+	var hit = start;
+	if (bindings__HAS_TRIANGLES) {
+		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
+	}
+	if (bindings__HAS_SHAPES) {
+		hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
+	}
+	if (bindings__HAS_INSTANCES) {
+		var index = 0u;
+		for (; index < bindings__frame.instance_count; index += 1u) {
+			let instance = fetch__load_instance(index);
+			let local = instance__object_ray(ray, instance__space_of(instance));
+			let at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
+			hit = exhaustive__hit_run(at, hit, instance.first, instance.count);
+		}
+		loops__cut_off |= index < bindings__frame.instance_count;
+	}
+	return hit;
+}
+
+fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
+	var hit = start;
+	var index = 0u;
+	for (; index < count; index += 1u) {
+		hit = primitive__closer(at, hit, first + index);
+	}
+	loops__cut_off |= index < count;
+	return hit;
+}
+
+fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
+	let slope = dot(n, ray.direction);
+	let steep = abs(slope) > 1e-12;
+	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
+	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+}
+
+var<private> loops__nodes_visited: u32 = 0u;
+
+var<private> loops__primitives_tested: u32 = 0u;
+
+var<private> loops__cut_off: bool = false;
+
+struct deforming__Keys {
+	next: u32,
+	stride: u32
+}
+
+const deforming__NO_KEYS: deforming__Keys = deforming__Keys(0u, 0u);
+
+fn deforming__keys_of(instance: types__PackedInstance) -> deforming__Keys {
+	if (bindings__HAS_DEFORMATION) {
+		return deforming__Keys(instance.next_key, instance.count);
+	}
+	return deforming__NO_KEYS;
+}
+
+fn deforming__node_now(reference: u32, keys: deforming__Keys) -> types__Node {
+	var key_count = 2u;
+	if (bindings__HAS_DEFORMATION) {
+		key_count = select(2u, bindings__frame.deformation_key_count, keys.next != 0u);
+	}
+	return fetch__load_moving_node(reference, motion__moment_of(shutter__shutter_time, key_count));
+}
+
+fn deforming__index_at(primitive: u32, keys: deforming__Keys, key: u32) -> u32 {
+	return primitive + select(0u, keys.next + (key - 1u) * keys.stride, key > 0u);
+}
+
+fn deforming__triangle_now(primitive: u32, keys: deforming__Keys) -> types__PackedTriangle {
+	let first = fetch__load_triangle(primitive);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+			let a = fetch__load_triangle(deforming__index_at(primitive, keys, moment.key));
+			let b = fetch__load_triangle(deforming__index_at(primitive, keys, moment.key + 1u));
+			let fraction = vec3f(moment.fraction);
+			return types__PackedTriangle(mix(a.v0, b.v0, fraction), first.i0, mix(a.v1, b.v1, fraction), first.i1, mix(a.v2, b.v2, fraction), first.i2);
+		}
+	}
+	return first;
+}
+
+fn deforming__normals_now(primitive: u32, keys: deforming__Keys) -> mat3x3f {
+	let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+	let a = deforming__normals_at(deforming__index_at(primitive, keys, moment.key));
+	let b = deforming__normals_at(deforming__index_at(primitive, keys, moment.key + 1u));
+	return a * (1.0 - moment.fraction) + b * moment.fraction;
+}
+
+fn deforming__normals_at(triangle: u32) -> mat3x3f {
+	let own = fetch__load_triangle(triangle);
+	return mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+}
+
+const numeric__ROUNDING: f32 = 5.9604645e-8;
+
+fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
+	let largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+	let usable = largest > 1e-30;
+	let scaled = select(vec3f(1.0, 0.0, 0.0), v / select(1.0, largest, usable), usable);
+	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
+}
+
+fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
+	let tiny = abs(d) < vec3f(1e-18);
+	return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
+}
+
+fn numeric__max_component(v: vec3f) -> f32 {
+	return max(v.x, max(v.y, v.z));
+}
+
+fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let n = cross(e1, e2);
+	let slope = dot(n, ray.direction);
+	let area = dot(n, n);
+	let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
+	let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
+	let w = ray.origin + t * ray.direction - v0;
+	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
+	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+}
+
+fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let p = cross(ray.direction, e2);
+	let det = dot(e1, p);
+	let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let s = ray.origin - v0;
+	let b1 = inv_det * dot(s, p);
+	let q = cross(s, e1);
+	let b2 = inv_det * dot(ray.direction, q);
+	let t = inv_det * dot(e2, q);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+}
+
+const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
+
+const shape__DISCS: u32 = 1u << types__SHAPE_DISC;
+
+const shape__RECTANGLES: u32 = 1u << types__SHAPE_RECTANGLE;
+
+const shape__BOXES: u32 = 1u << types__SHAPE_BOX;
+
+const shape__CONES: u32 = 1u << types__SHAPE_CONE;
+
+const shape__TORI: u32 = 1u << types__SHAPE_TORUS;
+
+const shape__ELLIPSOIDS: u32 = 1u << types__SHAPE_ELLIPSOID;
+
+const shape__GLOBES: u32 = 1u << types__SHAPE_GLOBE;
+
+fn shape__test_shape(ray: types__Ray, shape: types__PackedShape) -> types__Candidate {
+	if (bindings__SHAPE_KINDS == shape__SPHERES) {
+		return sphere__intersect_sphere(ray, shape.position, shape.size0);
+	}
+	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+	if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
+		candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
+		candidate = globe__intersect_globe(ray, shape.position, shape.row_y, shape.size0);
+	}
+	let local = canonical__canonical_ray(ray, shape);
+	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
+		candidate = disc__intersect_disc(local, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
+		candidate = rectangle__intersect_rectangle(local);
+	}
+	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
+		candidate = box__intersect_box(local);
+	}
+	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
+		candidate = cone__intersect_cone(local, shape.size0, shape.size1, (shape.flags & types__SHAPE_CAPPED) != 0u);
+	}
+	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
+		candidate = torus__intersect_torus(local, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
+		candidate = ellipsoid__intersect_ellipsoid(local);
+	}
+	return candidate;
+}
+
+fn shape__canonical_point(shape: types__PackedShape, reached: vec3f, part: f32) -> canonical__CanonicalPoint {
+	let p = canonical__canonical_vector(shape, reached - shape.position);
+	var point: canonical__CanonicalPoint;
+	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
+		point = disc__disc_point(p);
+	}
+	if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
+		point = rectangle__rectangle_point(p);
+	}
+	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
+		point = box__box_point(p, part);
+	}
+	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
+		point = cone__cone_point(p, shape.size0, shape.size1, part);
+	}
+	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
+		point = torus__torus_point(p, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
+		point = ellipsoid__ellipsoid_point(p);
+	}
+	return point;
+}
+
+fn shape__is_round(kind: u32) -> bool {
+	if ((bindings__SHAPE_KINDS & (shape__SPHERES | shape__GLOBES)) == 0u) {
+		return false;
+	}
+	return (bindings__SHAPE_KINDS & ~(shape__SPHERES | shape__GLOBES)) == 0u || kind == types__SHAPE_SPHERE || kind == types__SHAPE_GLOBE;
+}
+
+fn shape__is_globe(kind: u32) -> bool {
+	return (bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || kind == types__SHAPE_GLOBE);
+}
+
+fn shape__is_flat(kind: u32) -> bool {
+	return (bindings__SHAPE_KINDS & (shape__DISCS | shape__RECTANGLES)) != 0u && (kind == types__SHAPE_DISC || kind == types__SHAPE_RECTANGLE);
+}
+
+fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> types__Candidate {
+	let f = ray.origin - center;
+	let a = dot(ray.direction, ray.direction);
+	let b = -dot(f, ray.direction);
+	let nearest = f + (b / a) * ray.direction;
+	let discriminant = radius * radius - dot(nearest, nearest);
+	if (discriminant < 0.0) {
+		return types__Candidate(false, 0.0, 0.0, 0.0);
+	}
+	let c = dot(f, f) - radius * radius;
+	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
+	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
+	let t1 = q / a;
+	let near = min(t0, t1);
+	let t = select(max(t0, t1), near, near > 0.0);
+	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+}
+
+fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> types__Candidate {
+	let w = ray.origin - anchor;
+	let f = n + curvature * w;
+	let c = curvature * dot(w, w) + 2.0 * dot(n, w);
+	let length2 = dot(ray.direction, ray.direction);
+	let a = curvature * length2;
+	let b = -dot(f, ray.direction);
+	let nearest = f + (b / length2) * ray.direction;
+	let is_near = abs(curvature * c) < 1.0;
+	let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
+	if (discriminant < 0.0) {
+		return types__Candidate(false, 0.0, 0.0, 0.0);
+	}
+	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
+	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
+	let t1 = q / a;
+	let near = min(t0, t1);
+	let t = select(max(t0, t1), near, near > 0.0);
+	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+}
+
+fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__PlacedPoint {
+	let w = reached - shape.position;
+	let f = shape.row_y + shape.size0 * w;
+	let height = (shape.size0 * dot(w, w) + 2.0 * dot(shape.row_y, w)) / (1.0 + length(f));
+	let ng = numeric__normalize_or(f, shape.row_y);
+	let p = reached - height * ng;
+	return canonical__PlacedPoint(p, ng, 16.0 * numeric__ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
+}
+
+const canonical__TWO_PI: f32 = 6.2831855;
+
+struct canonical__CanonicalPoint {
+	p: vec3f,
+	n: vec3f,
+	uv: vec2f
+}
+
+struct canonical__PlacedPoint {
+	p: vec3f,
+	ng: vec3f,
+	error: vec3f
+}
+
+struct canonical__Approach {
+	origin: vec3f,
+	start: f32,
+	direction: vec3f,
+	t_per_length: f32,
+	near: bool
+}
+
+fn canonical__canonical_vector(shape: types__PackedShape, v: vec3f) -> vec3f {
+	return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
+}
+
+fn canonical__canonical_ray(ray: types__Ray, shape: types__PackedShape) -> types__Ray {
+	return types__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
+}
+
+fn canonical__approach(ray: types__Ray, center: vec3f, reach: f32) -> canonical__Approach {
+	let size = abs(ray.direction);
+	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let scaled = ray.direction / largest;
+	let inv_length = inverseSqrt(max(dot(scaled, scaled), 1e-30));
+	let direction = scaled * inv_length;
+	let start = max(dot(center - ray.origin, direction) - reach, 0.0);
+	let origin = ray.origin + start * direction;
+	let off = abs(origin - center);
+	let near = max(off.x, max(off.y, off.z)) <= 2.0 * reach;
+	return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
+}
+
+fn canonical__approached_t(near: canonical__Approach, s: f32) -> f32 {
+	return (near.start + s) * near.t_per_length;
+}
+
+fn canonical__placed_point(shape: types__PackedShape, reached: vec3f, point: canonical__CanonicalPoint) -> canonical__PlacedPoint {
+	let inv_lengths = 1.0 / vec3f(length(shape.row_x), length(shape.row_y), length(shape.row_z));
+	let x = shape.row_x * inv_lengths.x;
+	let y = shape.row_y * inv_lengths.y;
+	let z = shape.row_z * inv_lengths.z;
+	let normal_x = cross(y, z);
+	let det = dot(x, normal_x);
+	let scale = inv_lengths / select(1.0, det, abs(det) > 1e-20);
+	let column_x = scale.x * normal_x;
+	let column_y = scale.y * cross(z, x);
+	let column_z = scale.z * cross(x, y);
+	let q = reached - shape.position;
+	let way = point.p - canonical__canonical_vector(shape, q);
+	let p = reached + (way.x * column_x + way.y * column_y + way.z * column_z);
+	let size = vec3f(dot(abs(shape.row_x), abs(q)), dot(abs(shape.row_y), abs(q)), dot(abs(shape.row_z), abs(q))) + 1.0;
+	let reach = size.x * abs(column_x) + size.y * abs(column_y) + size.z * abs(column_z);
+	let normal = point.n.x * shape.row_x + point.n.y * shape.row_y + point.n.z * shape.row_z;
+	return canonical__PlacedPoint(p, numeric__normalize_or(normal, y), offset__placed_error(p, shape.position, reach));
+}
+
+fn canonical__longitude(x: f32, z: f32) -> f32 {
+	let on_axis = (x == 0.0) & (z == 0.0);
+	return saturate(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
+}
+
+fn canonical__sphere_uv(n: vec3f) -> vec2f {
+	let off_axis = length(n.xz);
+	let at_center = (off_axis == 0.0) & (n.y == 0.0);
+	let latitude = atan2(n.y, select(off_axis, 1.0, at_center));
+	return vec2f(canonical__longitude(n.x, n.z), saturate(0.5 + 2.0 * latitude / canonical__TWO_PI));
+}
+
+fn canonical__outwards(v: vec2f) -> vec2f {
+	let size = length(v);
+	let usable = size > 1e-18;
+	return select(vec2f(1.0, 0.0), v / select(1.0, size, usable), usable);
+}
+
+fn disc__intersect_disc(ray: types__Ray, hole: f32) -> types__Candidate {
+	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
+	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
+	let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
+	let distance = dot(p, p);
+	return types__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
+}
+
+fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+}
+
+fn rectangle__intersect_rectangle(ray: types__Ray) -> types__Candidate {
+	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
+	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
+	let way = t * ray.direction.xz;
+	let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
+	let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
+	return types__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
+}
+
+fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+}
+
+fn box__intersect_box(ray: types__Ray) -> types__Candidate {
+	let size = abs(ray.direction);
+	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let inv = numeric__safe_reciprocal(ray.direction / largest);
+	let origin = clamp(ray.origin, vec3f(-1e18), vec3f(1e18));
+	let t0 = (-1.0 - origin) * inv;
+	let t1 = (1.0 - origin) * inv;
+	let enters = min(t0, t1);
+	let leaves = max(t0, t1);
+	let enter = max(enters.x, max(enters.y, enters.z));
+	let leave = min(leaves.x, min(leaves.y, leaves.z));
+	let from_outside = enter > 0.0;
+	let s = select(leave, enter, from_outside);
+	let planes = select(leaves, enters, from_outside);
+	let axis = select(select(2u, 1u, planes.y == s), 0u, planes.x == s);
+	let positive = (inv[axis] < 0.0) == from_outside;
+	let side = f32(axis) + select(0.0, 3.0, positive);
+	let hit = (enter <= leave) & (s > 0.0);
+	return types__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
+}
+
+fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
+	let code = u32(side + 0.5);
+	let positive = code >= 3u;
+	let axis = code - select(0u, 3u, positive);
+	let sign = select(-1.0, 1.0, positive);
+	let n = select(vec3f(0.0), vec3f(sign), vec3<bool>(axis == 0u, axis == 1u, axis == 2u));
+	let place = select(p, n, n != vec3f(0.0));
+	let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
+	let up = select(p.y, -sign * p.z, axis == 1u);
+	return canonical__CanonicalPoint(place, n, saturate(0.5 + 0.5 * vec2f(right, up)));
+}
+
+const cone__FAR: f32 = 1e30;
+
+const cone__SIDE: f32 = 0.0;
+
+const cone__BOTTOM: f32 = 1.0;
+
+const cone__TOP: f32 = 2.0;
+
+fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) -> types__Candidate {
+	let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
+	let o = near.origin;
+	let d = near.direction;
+	let slope = top - bottom;
+	let radius = bottom + slope * o.y;
+	let exact_a = dot(d.xz, d.xz) - slope * slope * d.y * d.y;
+	let a = select(1e-12, exact_a, abs(exact_a) > 1e-12);
+	let b = dot(o.xz, d.xz) - slope * radius * d.y;
+	let c = dot(o.xz, o.xz) - radius * radius;
+	let turn = o.x * d.z - o.z * d.x;
+	let lean = radius * d.xz - slope * d.y * o.xz;
+	let by_determinants = dot(lean, lean) - turn * turn - (a - exact_a) * c;
+	let discriminant = select(by_determinants, b * b - a * c, a * c <= 0.0);
+	let root = sqrt(max(discriminant, 0.0));
+	let q = -(b + select(-root, root, b >= 0.0));
+	let usable = abs(q) > 1e-20;
+	let r1 = q / a;
+	let r2 = select(0.0, c / select(1.0, q, usable), usable);
+	let low = min(r1, r2);
+	let high = max(r1, r2);
+	let steep = a < 0.0;
+	let widens = slope * d.y > 0.0;
+	let side_in = select(low, select(-cone__FAR, high, widens), steep);
+	let side_out = select(high, select(low, cone__FAR, widens), steep);
+	let level = abs(d.y) < 1e-18;
+	let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
+	let y0 = -o.y * inv_y;
+	let y1 = (1.0 - o.y) * inv_y;
+	let slab_in = min(y0, y1);
+	let slab_out = max(y0, y1);
+	let enter = max(slab_in, side_in);
+	let leave = min(slab_out, side_out);
+	let enters_side = side_in >= slab_in;
+	let leaves_side = side_out <= slab_out;
+	let takes_enter = (near.start + enter > 0.0) & (enters_side | capped);
+	let takes_leave = (near.start + leave > 0.0) & (leaves_side | capped);
+	let met = (steep | (discriminant >= 0.0)) & (enter <= leave);
+	let hit = near.near & met & (takes_enter | takes_leave);
+	let rough = select(0.0, select(leave, enter, takes_enter), hit);
+	let is_side = select(leaves_side, enters_side, takes_enter);
+	let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
+	let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
+	let t = canonical__approached_t(near, s);
+	return types__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
+}
+
+fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
+	let p = o + s * d;
+	let off_axis = length(p.xz);
+	let rate = dot(p.xz, d.xz) / max(off_axis, 1e-18) - slope * d.y;
+	let usable = abs(rate) > 0.001;
+	let step = (off_axis - (bottom + slope * p.y)) / select(1.0, rate, usable);
+	return s - clamp(select(0.0, step, usable), -0.001, 0.001);
+}
+
+fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__CanonicalPoint {
+	let slope = top - bottom;
+	let out = canonical__outwards(p.xz);
+	if (part < 0.5) {
+		let y = saturate(p.y);
+		let radius = bottom + slope * y;
+		let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
+		return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(canonical__longitude(p.x, p.z), y));
+	}
+	let is_top = part > 1.5;
+	let radius = select(bottom, top, is_top);
+	let flat = out * min(length(p.xz), radius);
+	let sign = select(-1.0, 1.0, is_top);
+	let uv = vec2f(flat.x, -sign * flat.y) / max(radius, 1e-18);
+	return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate(0.5 + 0.5 * uv));
+}
+
+const torus__MOST_ROUNDS: u32 = 40u;
+
+const torus__NARROW: f32 = 1.2e-7;
+
+fn torus__torus_distance(p: vec3f, minor: f32) -> f32 {
+	return length(vec2f(length(p.xz) - 1.0, p.y)) - minor;
+}
+
+fn torus__polish(s: f32, p: f32, q: f32) -> f32 {
+	let slope = 3.0 * s * s + p;
+	let steep = abs(slope) > 0.001;
+	return s - clamp(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
+}
+
+fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
+	let third = p / 3.0;
+	let half = 0.5 * q;
+	let discriminant = half * half + third * third * third;
+	let cube = abs(half) + sqrt(max(discriminant, 0.0));
+	let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max(cube, 1e-30)) / 3.0), cube > 1e-30);
+	let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
+	let one = torus__polish(large + small, p, q);
+	let size = sqrt(max(-third, 0.0));
+	let usable = size > 1e-10;
+	let cosine = clamp(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
+	let angle = acos(cosine) / 3.0;
+	let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
+	let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
+	let c = torus__polish(2.0 * size * cos(angle), p, q);
+	let three = vec3f(min(a, min(b, c)), max(min(a, b), min(max(a, b), c)), max(a, max(b, c)));
+	return select(three, vec3f(one), discriminant > 0.0);
+}
+
+fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
+	let outer = 1.0 + minor;
+	let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
+	let o = near.origin;
+	let d = near.direction;
+	let middle = -dot(o, d);
+	let nearest = o + middle * d;
+	let apart = dot(nearest, nearest);
+	let ball = 1.0001 * outer;
+	let half_chord = sqrt(max(ball * ball - apart, 0.0));
+	let start = max(middle - half_chord, 0.0);
+	let end = middle + half_chord;
+	let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
+	let cuts = vec4f(clamp(zeros, vec3f(start), vec3f(max(end, start))), end);
+	let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
+	let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
+	let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
+	let last = select(select(select(cuts.w, cuts.z, changes.z), cuts.y, changes.y), cuts.x, changes.x);
+	let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
+	let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
+	let t = canonical__approached_t(near, s);
+	return types__Candidate(found & (t > 0.0), t, 0.0, 0.0);
+}
+
+fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
+	var low = first;
+	var high = last;
+	var s = 0.5 * (first + last);
+	var moved = high - low;
+	var rounds = 0u;
+	loop {
+		let p = o + s * d;
+		let ring = length(p.xz);
+		let from_ring = vec2f(ring - 1.0, p.y);
+		let to_middle = length(from_ring);
+		let distance = to_middle - minor;
+		let before = (distance >= 0.0) == outside;
+		low = select(low, s, before);
+		high = select(s, high, before);
+		let ring_slope = dot(p.xz, d.xz) / max(ring, 1e-20);
+		let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max(to_middle, 1e-20);
+		let usable = abs(slope) > 1e-6;
+		let newton = s - distance / select(1.0, slope, usable);
+		let takes_newton = usable & (newton > low) & (newton < high) & (abs(newton - s) < 0.5 * moved);
+		let next = select(0.5 * (low + high), newton, takes_newton);
+		moved = abs(next - s);
+		s = next;
+		rounds += 1u;
+		continuing {
+		
+			break if (moved <= torus__NARROW * (1.0 + abs(s))) | (rounds >= torus__MOST_ROUNDS);
+		}
+	}
+	return s;
+}
+
+fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
+	let out = canonical__outwards(p.xz);
+	let tube = canonical__outwards(vec2f(length(p.xz) - 1.0, p.y));
+	let n = vec3f(tube.x * out.x, tube.y, tube.x * out.y);
+	let ring = 1.0 + minor * tube.x;
+	let place = vec3f(ring * out.x, minor * tube.y, ring * out.y);
+	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
+}
+
+fn ellipsoid__intersect_ellipsoid(ray: types__Ray) -> types__Candidate {
+	let near = canonical__approach(ray, vec3f(0.0), 1.5);
+	let found = sphere__intersect_sphere(types__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
+	return types__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
+}
+
+fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
+	let n = numeric__normalize_or(p, vec3f(0.0, 1.0, 0.0));
+	return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
+}
+
+fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
+	if (bindings__HAS_MOTION) {
+		if (instance.key_count > 1u) {
+			let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
+			let key = instance.first_key + moment.key;
+			return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
+		}
+	}
+	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
+}
+
+fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
+	return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+}
+
+fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
+	return n * space.inverse;
+}
+
+fn instance__placement_error(space: motion__Space, p: vec3f, q: vec3f) -> vec3f {
+	let from_p = instance__abs_times(space.inverse, abs(p) + abs(space.translation));
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(space.translation) + instance__abs_times(space.linear, abs(q) + from_p));
+}
+
+fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
+	return abs(m[0]) * v.x + abs(m[1]) * v.y + abs(m[2]) * v.z;
+}
+
+fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
+	let at = vec4f(q, 1.0);
+	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
+}
+
+const node__MISS: u32 = 4294967292u;
+
+const node__WIDENING: i32 = 8;
+
+fn node__bytes(word: u32) -> vec4f {
+	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
+}
+
+fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
+	return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
+}
+
+fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
+	let lo = mix(a.lo, b.lo, vec3f(fraction));
+	let shift_a = a.lo - lo;
+	let shift_b = b.lo - lo;
+	let s = vec4f(fraction);
+	return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+}
+
+fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
+	let base = (node.lo - origin) * inv;
+	let step = node.scale * inv;
+	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
+	let x1 = bitcast<vec4i>(node.max_x * step.x + base.x);
+	let y0 = bitcast<vec4i>(node.min_y * step.y + base.y);
+	let y1 = bitcast<vec4i>(node.max_y * step.y + base.y);
+	let z0 = bitcast<vec4i>(node.min_z * step.z + base.z);
+	let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
+	let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
+	let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
+	let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
+	let hit = (near <= limit) & (node.children != vec4u(0u));
+	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
+	return select(vec4u(node__MISS), keys, hit);
+}
+
+fn node__sort4(keys: vec4u) -> vec4u {
+	let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
+	let lowest = min(a.x, a.y);
+	let middle_low = max(a.x, a.y);
+	let middle_high = min(a.z, a.w);
+	let highest = max(a.z, a.w);
+	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
+}
+
+var<private> record_path__sampled: types__PackedRay;
+
+var<private> record_path__is_sampled: bool;
+
+fn record_path__record_gain(light: vec3f) {
+	if (record_path__is_sampled) {
+		record_path__sampled.contribution = light;
+		record__store_ray(record__ray_count, record_path__sampled);
+		record__ray_count += 1u;
+		record_path__is_sampled = false;
+	}
+	else {
+		record__traced.contribution += light;
+	}
+}
+
+fn record_path__record_density(pdf: f32) {
+	record__traced.own_pdf = pdf;
+}
+
+fn record_path__record_light_density(pdf: f32) {
+	record__traced.other_pdf = pdf;
+}
+
+fn record_path__record_found(radiance: vec3f, weight: f32) {
+	record__traced.emission = radiance;
+	record__traced.mis_weight = weight;
+}
+
+fn record_path__record_source(source: u32, index: u32, chance: f32) {
+	record_path__sampled = types__PackedRay();
+	record_path__sampled.lobe = source;
+	record_path__sampled.light = index;
+	record_path__sampled.chance = chance;
+}
+
+fn record_path__record_light_sample(surface: types__Surface, ray: types__Ray, light: emitters__LightSample, found: bsdf__BsdfValue, weight: f32, unshadowed: vec3f, through: vec3f) {
+	let is_traced = ray.t_max >= 0.0;
+	record_path__sampled.origin = select(surface.p, ray.origin, is_traced);
+	record_path__sampled.kind = types__RAY_SHADOW;
+	record_path__sampled.direction = light.incident.direction;
+	record_path__sampled.t = record__met.t;
+	record_path__sampled.t_max = select(light.incident.distance, ray.t_max, is_traced);
+	record_path__sampled.primitive = select(types__NONE, record__met.primitive, is_traced);
+	record_path__sampled.instance = record__met.instance;
+	record_path__sampled.material = types__NONE;
+	record_path__sampled.throughput = record__traced.arriving;
+	record_path__sampled.transmit = select(vec3f(0.0), through, is_traced);
+	record_path__sampled.arriving = record__traced.arriving * record_path__sampled.transmit;
+	record_path__sampled.parent = record__traced_index;
+	record_path__sampled.flags = select(types__RAY_UNTRACED, 0u, is_traced);
+	record_path__sampled.ambient = unshadowed;
+	record_path__sampled.emission = light.incident.radiance;
+	record_path__sampled.medium = types__NONE;
+	record_path__sampled.medium_behind = types__NONE;
+	record_path__sampled.media = vec4u(types__NONE);
+	record_path__sampled.crossings = record__met_count;
+	record_path__sampled.value = found.value;
+	record_path__sampled.own_pdf = light.pdf;
+	record_path__sampled.other_pdf = found.pdf;
+	record_path__sampled.mis_weight = weight;
+	record_path__is_sampled = true;
+}
+
+fn record_path__record_interface(met_here: interface__Interface, bsdf: lobes__Bsdf) {
+	record__record_media(met_here.here, medium__dominant(met_here.media), met_here.is_transparent);
+	let split = lobes__split_at(bsdf, bsdf.wo.z);
+	let boundary = boundary__boundary_at(bsdf.flags, clamp(bsdf.wo.z, 0.0, 1.0), bsdf.eta);
+	record__record_scatter(split.reflect, split.transmit, boundary, vec2f(met_here.ior, met_here.ior_behind), met_here.is_boundary);
+}
+
+fn record_path__record_lobe(lobe: u32) {
+	record__traced.lobe = lobe;
+}
+
+fn record_path__record_step(next: bsdf__BsdfSample) {
+	record__traced.value = next.pdf * next.weight;
+	record__traced.pdf = next.pdf;
+	record__traced.weight = next.weight;
+	record__traced.chance = 1.0;
+	record__traced.step = types__STEP_SCATTERED;
+}
+
+fn record_path__record_passing() {
+	record__traced.weight = vec3f(1.0);
+	record__traced.chance = 1.0;
+	record__traced.step = types__STEP_PASSED;
+}
+
+fn record_path__record_limit() {
+	record__traced.step = types__STEP_LIMIT;
+}
+
+fn record_path__record_roulette(throughput: vec3f, chance: f32, ends: bool) {
+	record__traced.chance = chance;
+	if (ends) {
+		record__traced.step = select(types__STEP_ROULETTE, types__STEP_ABSORBED, all(throughput <= vec3f(0.0)));
+	}
+}
+
+fn record_path__record_straight(is_straight: bool) {
+	if (is_straight) {
+		record__traced.step = types__STEP_PASSED;
+	}
+}
+
+struct environment__EnvironmentSample {
+	direction: vec3f,
+	pdf: f32
+}
+
+fn environment__sample_environment(batch: dispatch__Batch, u: vec2f) -> environment__EnvironmentSample {
+	let width = batch.environment_width;
+	var place = quad_warp__quad_root(picture__load_texel_word(batch.environment_first), u);
+	var first = batch.environment_first + 1u;
+	var columns = 2u;
+	loop {
+		place = quad_warp__quad_step(picture__load_texel_word(first + place.cell.y * columns + place.cell.x), place);
+		first += columns * columns / 2u;
+		columns *= 2u;
+		continuing {
+		
+			break if columns >= width;
+		}
+	}
+	loops__cut_off |= columns < width;
+	let uv = (vec2f(place.cell) + place.u) / vec2f(f32(width), f32(width / 2u));
+	let direction = picture__equirectangular_direction(uv, batch.background_rotation);
+	return environment__EnvironmentSample(direction, environment__density_at(batch, place.cell, direction));
+}
+
+fn environment__environment_pdf(batch: dispatch__Batch, direction: vec3f) -> f32 {
+	let size = vec2u(batch.environment_width, batch.environment_width / 2u);
+	let uv = picture__equirectangular(direction, batch.background_rotation);
+	let place = vec2f(fract(uv.x), clamp(uv.y, 0.0, 1.0)) * vec2f(size);
+	return environment__density_at(batch, min(vec2u(place), size - 1u), direction);
+}
+
+fn environment__background_weight(batch: dispatch__Batch, direction: vec3f, pdf: f32) -> f32 {
+	if (!bindings__HAS_ENVIRONMENT || pdf <= 0.0) {
+		return 1.0;
+	}
+	let density = batch.environment_share * environment__environment_pdf(batch, direction);
+	record_path__record_light_density(density);
+	return mis__power_heuristic(pdf, density);
+}
+
+fn environment__density_at(batch: dispatch__Batch, cell: vec2u, direction: vec3f) -> f32 {
+	let height = batch.environment_width / 2u;
+	let first = batch.environment_first + 1u + 2u * ((height * height - 1u) / 3u);
+	let density = bitcast<f32>(picture__load_texel_word(first + cell.y * batch.environment_width + cell.x));
+	return density / (2.0 * picture__PI * picture__PI * max(length(direction.xz), 1e-6));
+}
+
+const picture__PI: f32 = 3.14159265;
+
+struct picture__Neighbours {
+	first: u32,
+	second: u32,
+	weight: f32
+}
+
+fn picture__neighbours(at: f32, count: u32, nearest: bool, wrap: u32) -> picture__Neighbours {
+	let mirrored = 1.0 - abs(1.0 - 2.0 * fract(0.5 * at));
+	let inside = select(select(clamp(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
+	let place = f32(count) * inside + select(-0.5, 0.0, nearest);
+	let below = floor(place);
+	let last = i32(count) - 1;
+	let index = min(i32(below), last);
+	let first = picture__within(index, last, wrap == types__WRAP_REPEAT);
+	let second = picture__within(index + 1, last, wrap == types__WRAP_REPEAT);
+	return picture__Neighbours(u32(first), u32(second), select(place - below, 0.0, nearest));
+}
+
+fn picture__within(index: i32, last: i32, repeats: bool) -> i32 {
+	let before = select(0, last, repeats);
+	let after = select(last, 0, repeats);
+	return select(select(index, before, index < 0), after, index > last);
+}
+
+fn picture__halves(bits: u32) -> vec2f {
+	let codes = vec2u(bits & 65535u, bits >> 16u);
+	let normal = bitcast<vec2f>(codes << vec2u(13u)) * 5.192296858534828e33;
+	return select(normal, vec2f(codes) * 5.960464477539063e-8, codes < vec2u(1024u));
+}
+
+fn picture__linear_from_srgb(encoded: vec3f) -> vec3f {
+	var power = vec3f(-0.1110666543);
+	power = power * encoded + vec3f(0.5140681863);
+	power = power * encoded + vec3f(-1.0304795504);
+	power = power * encoded + vec3f(1.2059204578);
+	power = power * encoded + vec3f(-0.9925410748);
+	power = power * encoded + vec3f(0.8972986937);
+	power = power * encoded + vec3f(0.4803068042);
+	power = power * encoded + vec3f(0.0356449671);
+	power = power * encoded + vec3f(0.0008464342);
+	return select(power, encoded / 12.92, encoded <= vec3f(0.04045));
+}
+
+fn picture__equirectangular(direction: vec3f, rotation: f32) -> vec2f {
+	let level = length(direction.xz);
+	let around = atan2(direction.x, select(-direction.z, 1.0, level < 1e-12));
+	return vec2f(0.5 + (around + rotation) / (2.0 * picture__PI), 0.5 + atan2(direction.y, level) / picture__PI);
+}
+
+fn picture__equirectangular_direction(uv: vec2f, rotation: f32) -> vec3f {
+	let around = (uv.x - 0.5) * 2.0 * picture__PI - rotation;
+	let up = (uv.y - 0.5) * picture__PI;
+	return vec3f(cos(up) * sin(around), sin(up), -cos(up) * cos(around));
+}
+
+fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec4f {
+	let lower = (height - 1u - rows.first) * width;
+	let upper = (height - 1u - rows.second) * width;
+	return mix(mix(picture__texel_at(picture, lower + columns.first), picture__texel_at(picture, lower + columns.second), columns.weight), mix(picture__texel_at(picture, upper + columns.first), picture__texel_at(picture, upper + columns.second), columns.weight), rows.weight);
+}
+
+fn picture__texel_at(picture: u32, index: u32) -> vec4f {
+	let first = picture & types__PICTURE_FIRST_MASK;
+	if (bindings__HAS_HALF_TEXELS && (!bindings__HAS_BYTE_TEXELS || (picture & types__PICTURE_HALF) != 0u)) {
+		let low = picture__load_texel_word(first + 2u * index);
+		let high = picture__load_texel_word(first + 2u * index + 1u);
+		return vec4f(picture__halves(low), picture__halves(high));
+	}
+	let values = unpack4x8unorm(picture__load_texel_word(first + index));
+	return vec4f(select(values.xyz, picture__linear_from_srgb(values.xyz), (picture & types__PICTURE_SRGB) != 0u), values.w);
+}
+
+fn picture__load_texel_word(index: u32) -> u32 {
+	let row = index >> types__IMAGE_WIDTH_LOG2;
+	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
+	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
+}
+
+fn mis__power_heuristic(own: f32, other: f32) -> f32 {
+	let ratio = other / max(own, 1e-30);
+	return select(0.0, 1.0 / (1.0 + min(ratio * ratio, 1e30)), own > 0.0);
+}
+
+fn mis__survival_chance(throughput: vec3f) -> f32 {
+	return min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
+}
+
+fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
+	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
+		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
+	}
+	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE) {
+		let size = batch.background_size;
+		let uv = picture__equirectangular(direction, batch.background_rotation);
+		let color = picture__blend_texels(batch.background_picture, size.x, size.y, picture__neighbours(uv.x, size.x, false, types__WRAP_REPEAT), picture__neighbours(uv.y, size.y, false, types__WRAP_CLAMP));
+		return batch.background * color.xyz;
+	}
+	return batch.background;
+}
+
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+
+const contact__NEAR: f32 = 1e-5;
+
+const contact__EDGE: f32 = 1e-6;
+
+const contact__VAGUE_EDGE: f32 = 0.0001;
+
+struct contact__Contact {
+	surface: types__Surface,
+	touching: u32,
+	enters_touching: bool
+}
+
+fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> contact__Contact {
+	var contact: contact__Contact;
+	record__seen = hit;
+	contact.touching = types__NONE;
+	var current = hit;
+	var first = true;
+	var second_wanted = false;
+	var vertices = vec3u(0u);
+	loop {
+		let surface = surface__surface_at(ray, current, cone);
+		if (first) {
+			contact.surface = surface;
+			vertices = surface__met_vertices;
+			second_wanted = bindings__HAS_REFRACTION && bindings__HAS_CONTACT && contact__is_near(ray, hit, surface);
+		}
+		else {
+			contact = contact__merge(contact, surface, contact__is_same_volume(hit, primitive__runner_up, vertices));
+			second_wanted = false;
+		}
+		first = false;
+		current = primitive__runner_up;
+		continuing {
+		
+			break if !second_wanted;
+		}
+	}
+	loops__cut_off |= second_wanted;
+	return contact;
+}
+
+fn contact__media_behind(media: vec4u, contact: contact__Contact) -> vec4u {
+	var behind = media;
+	if (!contact__is_thin(contact.surface)) {
+		if (contact.surface.outside && !media__has_room(behind)) {
+			ray_stack__cut_tree();
+		}
+		behind = medium__cross_surface(behind, contact.surface.material, contact.surface.outside);
+	}
+	if (bindings__HAS_CONTACT && contact.touching != types__NONE) {
+		if (contact.enters_touching && !media__has_room(behind)) {
+			ray_stack__cut_tree();
+		}
+		behind = medium__cross_surface(behind, contact.touching, contact.enters_touching);
+	}
+	return behind;
+}
+
+fn contact__is_near(ray: types__Ray, hit: types__Hit, surface: types__Surface) -> bool {
+	let gap = (primitive__runner_up.t - hit.t) * abs(dot(surface.ng, ray.direction));
+	let reach = numeric__max_component(abs(surface.p)) + hit.t;
+	return primitive__runner_up.primitive != types__NONE && gap <= contact__NEAR * reach && contact__is_transparent(surface);
+}
+
+fn contact__is_transparent(surface: types__Surface) -> bool {
+	return any(material__load_optics(surface.material).transmit > vec3f(0.0));
+}
+
+fn contact__is_thin(surface: types__Surface) -> bool {
+	return (material__load_optics(surface.material).flags & types__MATERIAL_THIN) != 0u;
+}
+
+fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_volume: bool) -> contact__Contact {
+	let is_alike = (second.material == contact.surface.material) & (second.outside == contact.surface.outside);
+	let is_other = !(is_alike & is_same_volume);
+	let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
+	var both = contact;
+	if (together && contact__is_transparent(second)) {
+		if (contact__is_thin(second)) {
+			return both;
+		}
+		both.touching = second.material;
+		both.enters_touching = second.outside;
+	}
+	else if (together) {
+		both.surface = second;
+		record__seen = primitive__runner_up;
+	}
+	return both;
+}
+
+fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3u) -> bool {
+	let are_triangles = bindings__HAS_TRIANGLES && ((first.primitive | second.primitive) & types__SHAPE) == 0u;
+	if (!are_triangles || first.instance != second.instance) {
+		return false;
+	}
+	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, surface__met_vertices);
+}
+
+fn contact__is_at_edge(hit: types__Hit) -> bool {
+	let nearest = min(min(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
+	return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
+}
+
+fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
+	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
+}
+
+const surface__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
+
+var<private> surface__met_vertices: vec3u;
+
+struct surface__Placing {
+	space: motion__Space,
+	is_placed: bool,
+	keys: deforming__Keys
+}
+
+fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
+	var instance: types__PackedInstance;
+	var space: motion__Space;
+	var local = ray;
+	let is_placed = bindings__HAS_INSTANCES && hit.instance != types__NO_INSTANCE;
+	if (is_placed) {
+		instance = fetch__load_instance(hit.instance);
+		space = instance__space_of(instance);
+		local = instance__object_ray(ray, space);
+	}
+	var surface: types__Surface;
+	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
+		surface = surface__triangle_surface(ray, hit, surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
+	}
+	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+		surface = surface__shape_surface(local, hit);
+		let p = surface.p;
+		if (is_placed) {
+			surface = surface__placed_surface(ray, surface, space);
+		}
+		if (bindings__HAS_FOOTPRINTS) {
+			surface = footprint__with_shape_footprint(surface, ray, hit, p, space, is_placed, cone);
+		}
+	}
+	if (is_placed) {
+		let q = surface.place;
+		surface.error += instance__placement_error(space, surface.p, q);
+		surface.id += 2654435761u * instance.id;
+		surface.place = instance__pattern_place(instance, q);
+		surface.instance = hit.instance;
+		if (bindings__HAS_FOOTPRINTS) {
+			let own = mat2x3f(space.inverse * surface.footprint.place[0], space.inverse * surface.footprint.place[1]);
+			surface.footprint.place = footprint__instance_footprint(instance, own);
+		}
+	}
+	return surface;
+}
+
+fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__Space) -> types__Surface {
+	var surface = own;
+	surface.p = space.linear * own.p + space.translation;
+	surface.ng = numeric__normalize_or(instance__placed_normal(space, own.ng), -ray.direction);
+	surface.n = numeric__normalize_or(instance__placed_normal(space, own.n), surface.ng);
+	surface.error = instance__abs_times(space.linear, own.error);
+	return surface;
+}
+
+fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface__Placing, cone: types__Cone) -> types__Surface {
+	let space = placing.space;
+	let keys = placing.keys;
+	let own = deforming__triangle_now(hit.primitive, keys);
+	surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
+	let v0 = fetch__load_vertex(own.i0);
+	let v1 = fetch__load_vertex(own.i1);
+	let v2 = fetch__load_vertex(own.i2);
+	let b1 = hit.b1;
+	let b2 = hit.b2;
+	let b0 = 1.0 - b1 - b2;
+	var corners = mat3x3f(own.v0, own.v1, own.v2);
+	var normals = mat3x3f(v0.normal, v1.normal, v2.normal);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			normals = deforming__normals_now(hit.primitive, keys);
+		}
+	}
+	let place = corners * vec3f(b0, b1, b2);
+	if (bindings__HAS_INSTANCES && placing.is_placed) {
+		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
+		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, normals[0]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[1]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[2]), -ray.direction));
+	}
+	let material = material__load_material(v0.material);
+	var phong = material.phong;
+	if (bindings__MIXED_MATERIALS) {
+		phong = surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
+	}
+	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
+	let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
+	var shading_normal = n;
+	var uv = vec2f(b1, b2);
+	if (bindings__HAS_TEXTURES) {
+		uv = vec2f(0.0);
+	}
+	var second_uv = uv;
+	var footprint = surface__NO_FOOTPRINT;
+	if (bindings__HAS_FOOTPRINTS) {
+		footprint.place = ray_cone__footprint_axes(ray.direction, ng, ray_cone__cone_at(cone, hit.t).width);
+	}
+	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
+		let rows = mat3x4f(fetch__load_uvs(own.i0), fetch__load_uvs(own.i1), fetch__load_uvs(own.i2));
+		let uvs = mat3x2f(rows[0].xy, rows[1].xy, rows[2].xy);
+		let second_uvs = mat3x2f(rows[0].zw, rows[1].zw, rows[2].zw);
+		uv = uvs * vec3f(b0, b1, b2);
+		second_uv = select(uv, second_uvs * vec3f(b0, b1, b2), bindings__HAS_SECOND_UVS);
+		if (bindings__HAS_FOOTPRINTS) {
+			footprint.uv = footprint__triangle_uv_footprint(footprint.place, corners, uvs);
+			if (bindings__HAS_SECOND_UVS) {
+				footprint.second_uv = footprint__triangle_uv_footprint(footprint.place, corners, second_uvs);
+			}
+		}
+		if (bindings__HAS_NORMAL_MAPS) {
+			shading_normal = normal_map__mapped_normal(v0.material, n, corners, rows, vec3f(b0, b1, b2), footprint);
+		}
+	}
+	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)));
+}
+
+fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let reached = ray.origin + hit.t * ray.direction;
+	let material = material__load_material(shape.material);
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		let ng = shape.row_y;
+		let p = reached - dot(reached - shape.position, ng) * ng;
+		let outside = dot(ng, ray.direction) <= 0.0;
+		var plane_uv = vec2f(0.0);
+		if (bindings__HAS_TEXTURES) {
+			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
+		}
+		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
+	}
+	if (!shape__is_round(shape.kind)) {
+		let point = shape__canonical_point(shape, reached, hit.b1);
+		let placed = canonical__placed_point(shape, reached, point);
+		let ng = placed.ng;
+		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
+	}
+	let placed = surface__sphere_point(shape, reached, ray.direction);
+	let ng = placed.ng;
+	let outside = dot(ng, ray.direction) <= 0.0;
+	var uv = vec2f(0.0);
+	if (bindings__HAS_TEXTURES) {
+		uv = canonical__sphere_uv(ng);
+	}
+	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
+}
+
+fn surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
+	if (shape__is_globe(shape.kind)) {
+		return globe__globe_point(shape, reached);
+	}
+	let ng = numeric__normalize_or(reached - shape.position, -direction);
+	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
+}
+
+fn surface__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
+	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
+	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
+}
+
+fn surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
+	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+}
+
+struct material__PhongMaterial {
+	phong: types__Phong,
+	flags: u32
+}
+
+fn material__load_material(index: u32) -> material__PhongMaterial {
+	let row = types__MATERIAL_ROWS * index;
+	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = fetch__material_row(row + 2u);
+	var reflect = vec3f(0.0);
+	if (bindings__HAS_REFLECTION) {
+		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
+	}
+	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+	return material__PhongMaterial(phong, r1.w);
+}
+
+fn material__load_optics(index: u32) -> types__Optics {
+	let row = types__MATERIAL_ROWS * index;
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = fetch__material_row(row + 2u);
+	let r3 = fetch__material_row(row + 3u);
+	let r4 = fetch__material_row(row + 4u);
+	return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
+}
+
+fn material__load_medium(index: u32) -> types__Medium {
+	let row = types__MATERIAL_ROWS * index;
+	let r5 = fetch__material_row(row + 5u);
+	return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
+}
+
+fn material__load_emission(index: u32) -> vec3f {
+	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
+}
+
+fn material__load_texture_indices(index: u32) -> vec4u {
+	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+}
+
+struct material__CoverageMaterial {
+	alpha: f32,
+	flags: u32
+}
+
+fn material__load_coverage(index: u32) -> material__CoverageMaterial {
+	let row = types__MATERIAL_ROWS * index;
+	return material__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
+}
+
+fn material__load_normal_scale(index: u32) -> f32 {
+	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+}
+
+fn material__load_texture(index: u32) -> types__PackedTexture {
+	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r5 = fetch__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+}
+
+fn material__load_layers(index: u32) -> types__PackedLayers {
+	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
+	let r3 = fetch__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
+	let r6 = fetch__material_row(row + 6u);
+	let r7 = fetch__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, 0u, fetch__material_row(row + 8u), fetch__material_row(row + 9u));
+}
+
+struct material__Glow {
+	light: u32,
+	luminance: f32,
+	texture: u32
+}
+
+fn material__load_glow(index: u32) -> material__Glow {
+	let row = types__MATERIAL_ROWS * index;
+	let own = fetch__material_row(row + types__LAYERS_ROW + 7u);
+	let luminance = bitcast<f32>(own.y) * dot(material__load_emission(index), tone__LUMINANCE_REC709);
+	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
+}
+
+const ray_cone__MOST_TAPS: f32 = 8.0;
+
+const ray_cone__WIDEST: f32 = 1000000000000000.0;
+
+struct ray_cone__Filtering {
+	level: f32,
+	tap_count: u32,
+	way: vec2f
+}
+
+fn ray_cone__cone_at(cone: types__Cone, distance: f32) -> types__Cone {
+	return types__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
+}
+
+fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
+	let cosine = dot(n, direction);
+	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+	let other = numeric__normalize_or(cross(n, axis), vec3f(0.0, 0.0, 1.0));
+	let slope = direction - cosine * n;
+	let along = select(other, numeric__normalize_or(slope, other), dot(slope, slope) > 1e-8);
+	let size = abs(width);
+	return mat2x3f((size / max(abs(cosine), 0.001)) * along, size * cross(n, along));
+}
+
+fn ray_cone__uv_along(v: vec3f, e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f) -> vec2f {
+	let normal = cross(e1, e2);
+	let n = numeric__normalize_or(normal, vec3f(0.0));
+	let area = max(dot(normal, n), 1e-30);
+	return (dot(cross(v, e2), n) / area) * d1 + (dot(cross(e1, v), n) / area) * d2;
+}
+
+fn ray_cone__curvature_along(edge: vec3f, bend: vec3f) -> f32 {
+	return dot(edge, bend) / max(dot(edge, edge), 1e-30);
+}
+
+fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
+	let is_first = dot(a, a) >= dot(b, b);
+	let way = select(b, a, is_first);
+	let long = length(way);
+	let short = length(select(a, b, is_first));
+	let count = clamp(round(long / max(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
+	let width = max(max(short, long / count), 1e-9);
+	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
+}
+
+fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+	let index = material__load_texture_indices(material).w & 65535u;
+	if (index == types__NO_TEXTURE) {
+		return n;
+	}
+	let texture = material__load_texture(index);
+	let q0 = normal_map__in_picture(texture, uvs[0]);
+	let q1 = normal_map__in_picture(texture, uvs[1]);
+	let q2 = normal_map__in_picture(texture, uvs[2]);
+	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
+	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
+	let tilt = material__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
+	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
+	let bitangent = tangent.w * cross(n, tangent.xyz);
+	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + max(2.0 * code.z - 1.0, 0.0) * n, n);
+}
+
+fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
+	let is_second = bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
+	let at = vec4f(select(uvs.xy, uvs.zw, is_second), 0.0, 1.0);
+	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
+}
+
+fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
+	if (!(bindings__HAS_TEXTURES && bindings__HAS_OPTICS_TEXTURES)) {
+		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
+	}
+	let indices = material__load_texture_indices(surface.material);
+	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
+}
+
+fn texture__texture_factors(wanted: vec3u, surface: types__Surface) -> mat3x3f {
+	var factors = mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
+	var open = wanted != vec3u(types__NO_TEXTURE);
+	loop {
+		let index = select(select(select(0u, wanted.z, open.z), wanted.y, open.y), wanted.x, open.x);
+		let color = texture__texture_color(material__load_texture(index), surface);
+		let found = open & (wanted == vec3u(index));
+		factors[0] = select(factors[0], color, found.x);
+		factors[1] = select(factors[1], color, found.y);
+		factors[2] = select(factors[2], color, found.z);
+		open = open & !found;
+		continuing {
+		
+			break if !any(open);
+		}
+	}
+	loops__cut_off |= any(open);
+	return factors;
+}
+
+fn texture__picture_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
+	if (bindings__HAS_FOOTPRINTS) {
+		return mipmap__mipmap_color(texture, q, axes);
+	}
+	let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
+	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
+	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
+	return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v));
+}
+
+fn texture__uses_second_uv(texture: types__PackedTexture) -> bool {
+	return bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
+}
+
+fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footprint) -> mat2x2f {
+	if (!bindings__HAS_FOOTPRINTS) {
+		return mat2x2f();
+	}
+	let is_uv = (texture.flags & types__TEXTURE_UV) != 0u;
+	var in_uv = footprint.uv;
+	if (texture__uses_second_uv(texture)) {
+		in_uv = footprint.second_uv;
+	}
+	let a = select(footprint.place[0], vec3f(in_uv[0], 0.0), is_uv);
+	let b = select(footprint.place[1], vec3f(in_uv[1], 0.0), is_uv);
+	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
+}
+
+fn texture__place_in_pattern(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+	let uv = select(surface.uv, surface.second_uv, texture__uses_second_uv(texture));
+	let at = select(vec4f(surface.place, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
+	return clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
+}
+
+fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface, is_mask: bool) -> f32 {
+	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
+		let axes = texture__footprint_in(texture, surface.footprint);
+		let size = select(1.0, 0.0, is_mask);
+		return texture__picture_color(texture, texture__place_in_pattern(texture, surface).xy, size * axes).w;
+	}
+	return 1.0;
+}
+
+fn texture__texture_color(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+	return texture__texture_value(texture, surface).xyz;
+}
+
+fn texture__texture_value(texture: types__PackedTexture, surface: types__Surface) -> vec4f {
+	let q = texture__place_in_pattern(texture, surface);
+	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
+		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint));
+	}
+	var weight = pattern__checker(q);
+	if (bindings__HAS_NOISE && texture.kind == types__PATTERN_NOISE) {
+		let octaves = noise__noise_octaves(q, texture.octaves);
+		loops__cut_off |= octaves.count < texture.octaves;
+		weight = pattern__clouds(octaves.sum);
+	}
+	weight = select(weight, pattern__stripes(q), texture.kind == types__PATTERN_STRIPES);
+	weight = select(weight, pattern__gradient(q), texture.kind == types__PATTERN_GRADIENT);
+	return vec4f(mix(texture.color_a, texture.color_b, weight), 1.0);
+}
+
+fn mipmap__mipmap_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
+	let size = vec2f(vec2u(texture.width, texture.height));
+	let plan = ray_cone__filtering(size * axes[0], size * axes[1]);
+	let has_levels = (texture.flags & types__TEXTURE_LEVELS) != 0u;
+	let last = select(0.0, f32(31u - countLeadingZeros(max(texture.width, texture.height))), has_levels);
+	let exact = clamp(plan.level, 0.0, last);
+	let level = select(round(exact), exact, (texture.flags & types__TEXTURE_BETWEEN_LEVELS) != 0u);
+	let tap_count = select(1u, plan.tap_count, has_levels);
+	let way = select(vec2f(0.0), plan.way / size, has_levels);
+	let nearest_bit = select(types__TEXTURE_NEAREST, types__TEXTURE_MINIFY_NEAREST, plan.level > 0.0);
+	let nearest = (texture.flags & nearest_bit) != 0u;
+	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
+	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
+	let below = u32(level);
+	let weight = fract(level);
+	let end = select(tap_count, 2u * tap_count, weight > 0.0);
+	var color = vec4f(0.0);
+	var k = 0u;
+	loop {
+		let is_above = k >= tap_count;
+		let tap = f32(k - select(0u, tap_count, is_above));
+		let at = q + ((tap + 0.5) / f32(tap_count) - 0.5) * way;
+		let own = below + select(0u, 1u, is_above);
+		let width = max(texture.width >> own, 1u);
+		let height = max(texture.height >> own, 1u);
+		let sample = picture__blend_texels(mipmap__level_of(texture.picture, own), width, height, picture__neighbours(at.x, width, nearest, wrap_u), picture__neighbours(at.y, height, nearest, wrap_v));
+		color += select(1.0 - weight, weight, is_above) * sample;
+		continuing {
+			k += 1u;
+			break if k >= end;
+		}
+	}
+	loops__cut_off |= k < end;
+	return color / f32(tap_count);
+}
+
+fn mipmap__level_of(picture: u32, level: u32) -> u32 {
+	if (level == 0u) {
+		return picture;
+	}
+	return picture + picture__load_texel_word((picture & types__PICTURE_FIRST_MASK) - level);
+}
+
+fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) -> vec4f {
+	let area = d1.x * d2.y - d1.y * d2.x;
+	let hand = select(1.0, -1.0, area < 0.0);
+	let along = hand * (d2.y * e1 - d1.y * e2);
+	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+	let other = numeric__normalize_or(cross(n, axis), vec3f(1.0, 0.0, 0.0));
+	let within = numeric__normalize_or(along, other);
+	return vec4f(numeric__normalize_or(within - dot(within, n) * n, other), hand);
+}
+
+fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
+	let b0 = abs(1.0 - b1 - b2);
+	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
+}
+
+fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
+}
+
+fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
+}
+
+fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
+}
+
+fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
+	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
+}
+
+fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
+	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
+}
+
+fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
+	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
+}
+
+struct interface__Interface {
+	here: u32,
+	media: vec4u,
+	ior: f32,
+	ior_behind: f32,
+	is_boundary: bool,
+	is_transparent: bool,
+	encloses: bool
+}
+
+fn interface__interface_at(around: vec4u, contact: contact__Contact, optics: types__Optics) -> interface__Interface {
+	let surface = contact.surface;
+	let transparent = bindings__HAS_REFRACTION && any(optics.transmit > vec3f(0.0));
+	let encloses = transparent && (optics.flags & types__MATERIAL_THIN) == 0u;
+	var found = interface__Interface(medium__dominant(around), around, 1.0, optics.ior, true, transparent, encloses);
+	if (bindings__HAS_REFRACTION) {
+		if (transparent) {
+			found.media = contact__media_behind(around, contact);
+		}
+		if (encloses) {
+			found.here = medium__medium_before(around, surface.material, surface.outside);
+			let behind = medium__dominant(found.media);
+			found.ior_behind = medium__medium_of(behind).ior;
+			found.is_boundary = !bindings__HAS_CONTACT || found.here != behind;
+		}
+		found.ior = medium__medium_of(found.here).ior;
+	}
+	return found;
+}
+
+const medium__VACUUM: types__Medium = types__Medium(vec3f(0.0), 1.0, 0);
+
+fn medium__dominant(media: vec4u) -> u32 {
+	if (!bindings__HAS_CONTACT) {
+		return media.x;
+	}
+	if (!bindings__HAS_PRIORITIES) {
+		let last = select(media.xz, media.yw, media.yw != vec2u(types__NONE));
+		return select(last.x, last.y, last.y != types__NONE);
+	}
+	var best = media.x;
+	best = medium__higher(best, media.y);
+	best = medium__higher(best, media.z);
+	return medium__higher(best, media.w);
+}
+
+fn medium__higher(best: u32, next: u32) -> u32 {
+	if (next == types__NONE) {
+		return best;
+	}
+	return select(best, next, material__load_medium(next).priority >= material__load_medium(best).priority);
+}
+
+fn medium__medium_of(material: u32) -> types__Medium {
+	if (material == types__NONE) {
+		return medium__VACUUM;
+	}
+	return material__load_medium(material);
+}
+
+fn medium__transmittance(medium: types__Medium, distance: f32) -> vec3f {
+	return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
+}
+
+fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
+	return select(media__left(media, material), media__entered(media, material), vec4<bool>(entering));
+}
+
+fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
+	let started_inside = !entering & !media__contains(media, material);
+	return select(medium__dominant(media), material, started_inside);
+}
+
+fn media__has_room(media: vec4u) -> bool {
+	return media.w == types__NONE;
+}
+
+fn media__contains(media: vec4u, material: u32) -> bool {
+	return any(media == vec4u(material));
+}
+
+fn media__entered(media: vec4u, material: u32) -> vec4u {
+	let is_free = media == vec4u(types__NONE);
+	let is_first_free = is_free & !vec4<bool>(false, is_free.xyz);
+	return select(media, vec4u(material), is_first_free);
+}
+
+fn media__left(media: vec4u, material: u32) -> vec4u {
+	let is_it = media == vec4u(material);
+	let later = vec4<bool>(is_it.y | is_it.z | is_it.w, is_it.z | is_it.w, is_it.w, false);
+	let is_last = is_it & !later;
+	let x = is_last.x;
+	let y = x | is_last.y;
+	let z = y | is_last.z;
+	let w = z | is_last.w;
+	return select(media, vec4u(media.yzw, types__NONE), vec4<bool>(x, y, z, w));
+}
+
+var<private> ray_stack__current_tree: u32;
+
+var<private> ray_stack__trees_cut_off: wide__Words;
+
+var<private> ray_stack__cut_off_trees: u32 = 0u;
+
+fn ray_stack__cut_tree() {
+	ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);
+	ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
+}
+
+const dimensions__SCATTER_CHOICE: u32 = 0u;
+
+const dimensions__SCATTER_DIRECTION: u32 = 1u;
+
+const dimensions__LIGHT_CHOICE: u32 = 2u;
+
+const dimensions__LIGHT_POINT_ON: u32 = 3u;
+
+const dimensions__ROULETTE: u32 = 4u;
+
+const dimensions__COVERAGE_CHOICE: u32 = 5u;
+
+const dimensions__DIMENSIONS: u32 = 8u;
+
+fn dimensions__dimension_key(pixel_key: u32, segment: u32, purpose: u32) -> u32 {
+	return rng__hash_combine(pixel_key, dimensions__DIMENSIONS * (segment + 1u) + purpose);
+}
+
+fn coverage__coverage_at(surface: types__Surface) -> f32 {
+	if (!bindings__HAS_COVERAGE) {
+		return 1.0;
+	}
+	let material = material__load_coverage(surface.material);
+	if ((material.flags & types__MATERIAL_COVERAGE) == 0u) {
+		return 1.0;
+	}
+	var alpha = material.alpha;
+	if (bindings__HAS_TEXTURES) {
+		let index = material__load_texture_indices(surface.material).w >> 16u;
+		if (index != types__NO_TEXTURE) {
+			alpha *= texture__texture_alpha(material__load_texture(index), surface, (material.flags & types__MATERIAL_MASK) != 0u);
+		}
+	}
+	let masked = select(0.0, 1.0, alpha >= 0.999999);
+	return select(clamp(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
+}
+
+fn leaving__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -> types__Ray {
+	if (bindings__FIXED_OFFSET > 0.0) {
+		let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
+		return types__Ray(origin, t_max, direction, types__NONE, surface.instance);
+	}
+	let origin = offset__offset_origin(surface.p, surface.error, surface.ng, direction);
+	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
+}
+
+const layers__SMOOTH: f32 = 0.0001;
+
+struct layers__Layers {
+	diffuse: vec3f,
+	f0: vec3f,
+	f90: vec3f,
+	over_f0: vec3f,
+	over_f90: vec3f,
+	alpha: f32,
+	reflect: vec3f,
+	transmit: vec3f,
+	boundary_alpha: f32,
+	fresnel: u32,
+	ior: f32,
+	glow: vec3f,
+	coat: f32,
+	coat_roughness: f32,
+	sheen: vec3f,
+	sheen_roughness: f32,
+	film: f32,
+	film_ior: f32,
+	film_thickness: f32,
+	diffuse_transmission: f32,
+	diffuse_transmission_color: vec3f
+}
+
+fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
+	var own = material__load_layers(surface.material);
+	own.base = surface.phong.diffuse;
+	var reflect = surface.phong.reflect;
+	var transmit = optics.transmit;
+	var glow = vec3f(1.0);
+	var thickness = 1.0;
+	if (bindings__HAS_TEXTURES) {
+		var rest = own.slots;
+		loop {
+			let slot = firstTrailingBit(rest | 65536u);
+			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
+			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
+			own.roughness *= select(1.0, value.y, slot == types__SLOT_METALLIC_ROUGHNESS);
+			own.metallic *= select(1.0, value.z, slot == types__SLOT_METALLIC_ROUGHNESS);
+			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
+			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
+			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
+			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
+			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
+			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			if (bindings__HAS_COATINGS) {
+				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
+				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
+				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
+				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
+				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
+				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
+				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
+				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
+			}
+			rest &= rest - 1u;
+			continuing {
+			
+				break if rest == 0u;
+			}
+		}
+		loops__cut_off |= rest != 0u;
+	}
+	var layers: layers__Layers;
+	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
+		layers = layers__metallic_roughness(own);
+	}
+	else {
+		layers.diffuse = own.base;
+		layers.f0 = own.f0;
+		layers.f90 = own.f0;
+		layers.over_f0 = own.f0;
+		layers.over_f90 = own.f0;
+		layers.alpha = own.roughness * own.roughness;
+		layers.reflect = reflect;
+		layers.transmit = transmit;
+		layers.fresnel = optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK);
+		layers.ior = own.ior;
+	}
+	layers.glow = glow;
+	if (bindings__HAS_COATINGS) {
+		layers.coat = own.coat;
+		layers.coat_roughness = own.coat_roughness;
+		layers.sheen = own.sheen;
+		layers.sheen_roughness = own.sheen_roughness;
+		layers.film = own.iridescence;
+		layers.film_ior = own.iridescence_ior;
+		layers.film_thickness = mix(own.film_thinnest, own.film_thickest, thickness);
+		layers.diffuse_transmission = own.diffuse_transmission;
+		layers.diffuse_transmission_color = own.diffuse_transmission_color;
+	}
+	return layers;
+}
+
+fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
+	var layers: layers__Layers;
+	layers.alpha = own.roughness * own.roughness;
+	layers.ior = own.ior;
+	let body = 1.0 - own.metallic;
+	layers.diffuse = body * own.base;
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
+		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
+		layers.diffuse *= 1.0 - own.transmission;
+		layers.f0 = own.metallic * own.base;
+		layers.f90 = vec3f(own.metallic);
+		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
+		layers.transmit = (body * own.transmission) * own.base;
+		layers.boundary_alpha = layers.alpha;
+		layers.fresnel = types__MATERIAL_FRESNEL;
+		return layers;
+	}
+	layers.f0 = mix(own.f0, own.base, own.metallic);
+	layers.f90 = vec3f(mix(own.f90, 1.0, own.metallic));
+	layers.over_f0 = own.f0;
+	layers.over_f90 = vec3f(own.f90);
+	return layers;
+}
+
+fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
+	let four = select(own.textures, own.more_textures, vec4<bool>(slot >= 8u));
+	let word = (slot >> 1u) & 3u;
+	let low = select(four.x, four.y, word == 1u);
+	let high = select(four.z, four.w, word == 3u);
+	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
+}
+
+const pattern__CELL_SHIFT: f32 = 0.00073;
+
+fn pattern__checker(p: vec3f) -> f32 {
+	let cell = vec3i(floor(p + pattern__CELL_SHIFT));
+	return f32((cell.x + cell.y + cell.z) & 1);
+}
+
+fn pattern__stripes(p: vec3f) -> f32 {
+	return f32(i32(floor(2.0 * (p.x + pattern__CELL_SHIFT))) & 1);
+}
+
+fn pattern__gradient(p: vec3f) -> f32 {
+	return clamp(p.x, 0.0, 1.0);
+}
+
+fn pattern__clouds(sum: f32) -> f32 {
+	return clamp(0.5 + 0.5 * sum, 0.0, 1.0);
+}
+
+const noise__NOISE_PERIOD: u32 = 256u;
+
+const noise__OCTAVE_SHIFT = vec3f(0.37, 0.59, 0.83);
+
+struct noise__Octaves {
+	sum: f32,
+	count: u32
+}
+
+fn noise__noise_octaves(p: vec3f, count: u32) -> noise__Octaves {
+	let period = f32(noise__NOISE_PERIOD);
+	let home = p - period * floor(p / period);
+	var octaves = noise__Octaves(0.0, 0u);
+	var scale = 1.0;
+	loop {
+		let q = scale * home + f32(octaves.count) * noise__OCTAVE_SHIFT;
+		octaves.sum += noise__gradient_noise(q, noise__NOISE_PERIOD << octaves.count) / scale;
+		scale *= 2.0;
+		octaves.count += 1u;
+		continuing {
+		
+			break if octaves.count >= count;
+		}
+	}
+	return octaves;
+}
+
+fn noise__gradient_noise(p: vec3f, period: u32) -> f32 {
+	let cell = floor(p);
+	let f = p - cell;
+	let low = vec3u(vec3i(cell)) & vec3u(period - 1u);
+	let high = (low + 1u) & vec3u(period - 1u);
+	let z0 = rng__hash(low.z);
+	let z1 = rng__hash(high.z);
+	let y00 = rng__hash(low.y + z0);
+	let y10 = rng__hash(high.y + z0);
+	let y01 = rng__hash(low.y + z1);
+	let y11 = rng__hash(high.y + z1);
+	let t = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+	let x = vec4f(mix(noise__corner(low.x + y00, f), noise__corner(high.x + y00, f - vec3f(1.0, 0.0, 0.0)), t.x), mix(noise__corner(low.x + y10, f - vec3f(0.0, 1.0, 0.0)), noise__corner(high.x + y10, f - vec3f(1.0, 1.0, 0.0)), t.x), mix(noise__corner(low.x + y01, f - vec3f(0.0, 0.0, 1.0)), noise__corner(high.x + y01, f - vec3f(1.0, 0.0, 1.0)), t.x), mix(noise__corner(low.x + y11, f - vec3f(0.0, 1.0, 1.0)), noise__corner(high.x + y11, f - vec3f(1.0, 1.0, 1.0)), t.x));
+	let y = mix(x.xz, x.yw, t.y);
+	return mix(y.x, y.y, t.z);
+}
+
+fn noise__corner(key: u32, d: vec3f) -> f32 {
+	let h = rng__hash(key) & 15u;
+	let u = select(d.y, d.x, h < 8u);
+	let v = select(select(d.z, d.x, (h == 12u) | (h == 14u)), d.y, h < 4u);
+	return select(u, -u, (h & 1u) != 0u) + select(v, -v, (h & 2u) != 0u);
+}
+
+struct emitters__LightSample {
+	incident: types__Incident,
+	pdf: f32
+}
+
+fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
+	if (bindings__HAS_ENVIRONMENT && (!(bindings__HAS_LIGHTS || bindings__HAS_EMITTERS) || choice >= 1.0 - batch.environment_share)) {
+		let found = environment__sample_environment(batch, u);
+		let pdf = batch.environment_share * found.pdf;
+		record_path__record_source(types__SOURCE_ENVIRONMENT, types__NONE, batch.environment_share);
+		let radiance = background__background(batch, found.direction) / max(pdf, 1e-30);
+		return emitters__LightSample(types__Incident(found.direction, camera__T_FAR, radiance), pdf);
+	}
+	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || choice >= fetch__load_light_end(batch.light_count - 1u))) {
+		return emitters__sample_emitter(batch, p, choice, u);
+	}
+	let index = emitters__chosen(choice, batch.light_count, false);
+	let light = shutter__shutter_light(index, batch.light_count);
+	record_path__record_source(types__SOURCE_LIGHT, index, light.chance);
+	var arriving = light__incident(light, p);
+	var pdf = 0.0;
+	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
+		arriving = area_light__area_incident(light, p, u);
+		if (emitters__can_be_hit(light)) {
+			pdf = light.chance * area_light__area_density(light, p, arriving.direction, arriving.distance);
+		}
+	}
+	arriving.radiance *= warp__PI / max(light.chance, 1e-30);
+	return emitters__LightSample(arriving, pdf);
+}
+
+fn emitters__chosen(choice: f32, count: u32, among_emitters: bool) -> u32 {
+	var low = 0u;
+	var high = count - 1u;
+	loop {
+		let middle = (low + high) / 2u;
+		var end = 0.0;
+		if (among_emitters) {
+			end = fetch__load_emitter(middle).end;
+		}
+		else {
+			end = fetch__load_light_end(middle);
+		}
+		let is_below = choice < end;
+		low = select(min(middle + 1u, high), low, is_below);
+		high = select(high, middle, is_below);
+		continuing {
+		
+			break if low >= high;
+		}
+	}
+	loops__cut_off |= low < high;
+	return low;
+}
+
+fn emitters__sample_emitter(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
+	let index = emitters__chosen(choice, batch.emitter_count, true);
+	let emitter = fetch__load_emitter(index);
+	record_path__record_source(types__SOURCE_EMITTER, index, emitter.chance);
+	var instance: types__PackedInstance;
+	let is_placed = bindings__HAS_INSTANCES && emitter.instance != types__NO_INSTANCE;
+	if (is_placed) {
+		instance = fetch__load_instance(emitter.instance);
+	}
+	let own = deforming__triangle_now(emitter.triangle, deforming__keys_of(instance));
+	let b = warp__triangle_from_square(u);
+	let weights = vec3f(1.0 - b.x - b.y, b);
+	var surface: types__Surface;
+	surface.place = mat3x3f(own.v0, own.v1, own.v2) * weights;
+	var corners = mat3x3f(own.v0 - surface.place, own.v1 - surface.place, own.v2 - surface.place);
+	surface.p = surface.place;
+	if (is_placed) {
+		let space = instance__space_of(instance);
+		corners = space.linear * corners;
+		surface.p = space.linear * surface.place + space.translation;
+		surface.place = instance__pattern_place(instance, surface.place);
+	}
+	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
+		let uvs = mat3x4f(fetch__load_uvs(own.i0), fetch__load_uvs(own.i1), fetch__load_uvs(own.i2)) * weights;
+		surface.uv = uvs.xy;
+		surface.second_uv = select(uvs.xy, uvs.zw, bindings__HAS_SECOND_UVS);
+	}
+	let material = fetch__load_vertex(own.i0).material;
+	let glow = material__load_glow(material);
+	var radiance = material__load_emission(material);
+	if (bindings__HAS_TEXTURES && glow.texture != types__NO_TEXTURE) {
+		radiance *= texture__texture_color(material__load_texture(glow.texture), surface);
+	}
+	let across = cross(corners[1] - corners[0], corners[2] - corners[0]);
+	let to_point = surface.p - p;
+	let distance = length(to_point);
+	let direction = numeric__normalize_or(to_point, vec3f(0.0, 0.0, 1.0));
+	let n = numeric__normalize_or(across, -direction);
+	let cosine = -dot(direction, n);
+	let normals = mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+	var front = normals * weights;
+	if (is_placed) {
+		front = instance__placed_normal(instance__space_of(instance), front);
+	}
+	let shines = dot(front, direction) < 0.0 || (material__load_optics(material).flags & types__MATERIAL_TWO_SIDED) != 0u;
+	let facing = select(0.0, abs(cosine), shines);
+	let actual = emitter.chance / max(0.5 * length(across), 1e-30);
+	let fading = 1.0 / max(distance * distance, 1e-30);
+	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
+	return emitters__LightSample(types__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max(actual, 1e-30)) * radiance), glow.luminance / batch.emitter_power / max(abs(cosine) * fading, 1e-30));
+}
+
+fn emitters__emission_weight(batch: dispatch__Batch, surface: types__Surface, origin: vec3f, direction: vec3f, distance: f32, pdf: f32) -> f32 {
+	if (!(bindings__HAS_AREA_LIGHTS || bindings__HAS_EMITTERS) || pdf <= 0.0) {
+		return 1.0;
+	}
+	let glow = material__load_glow(surface.material);
+	if (bindings__HAS_AREA_LIGHTS && glow.light != types__NONE) {
+		let light = shutter__shutter_light(glow.light, batch.light_count);
+		let density = light.chance * area_light__area_density(light, origin, direction, distance);
+		record_path__record_light_density(select(0.0, density, emitters__can_be_hit(light)));
+		return select(0.0, mis__power_heuristic(pdf, density), emitters__can_be_hit(light));
+	}
+	let is_triangle = (surface.leaving & types__SHAPE) == 0u && surface.leaving != types__NONE;
+	if (bindings__HAS_EMITTERS && is_triangle) {
+		let cosine = abs(dot(direction, surface.ng));
+		let density = glow.luminance / batch.emitter_power * distance * distance / max(cosine, 1e-30);
+		record_path__record_light_density(density);
+		return mis__power_heuristic(pdf, density);
+	}
+	return 1.0;
+}
+
+fn emitters__can_be_hit(light: types__PackedLight) -> bool {
+	return light.visible != 0u && light.attenuation == types__ATTENUATION_INVERSE_SQUARE;
+}
+
+fn emitters__emitted(surface: types__Surface, optics: types__Optics, glow: vec3f) -> vec3f {
+	if (!bindings__HAS_EMISSION) {
+		return vec3f(0.0);
+	}
+	let shines = surface.outside || (optics.flags & types__MATERIAL_TWO_SIDED) != 0u;
+	return select(vec3f(0.0), glow * material__load_emission(surface.material), shines);
+}
+
+fn area_light__area_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+	if (light.kind == types__LIGHT_SPHERE) {
+		return area_light__sphere_incident(light, p, u);
+	}
+	return area_light__flat_incident(light, p, u);
+}
+
+fn area_light__area_density(light: types__PackedLight, p: vec3f, direction: vec3f, distance: f32) -> f32 {
+	if (light.kind == types__LIGHT_SPHERE) {
+		let to_center = light.position - p;
+		let d2 = dot(to_center, to_center);
+		let sin2 = light.radius * light.radius / max(d2, 1e-30);
+		let depth = select(sin2 / (1.0 + sqrt(max(1.0 - sin2, 0.0))), 2.0, sin2 >= 1.0);
+		return 1.0 / (2.0 * warp__PI * max(depth, 1e-30));
+	}
+	let sides = length(cross(light.edge_u, light.edge_v));
+	let area = select(warp__PI, 4.0, light.kind == types__LIGHT_RECTANGLE) * sides;
+	return distance * distance / max(area * abs(dot(direction, light.direction)), 1e-30);
+}
+
+fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+	let within = select(warp__disc_from_square(u), 2.0 * u - 1.0, light.kind == types__LIGHT_RECTANGLE);
+	let center = light.position - p;
+	let to_light = center + within.x * light.edge_u + within.y * light.edge_v;
+	let distance = length(to_light);
+	let direction = numeric__normalize_or(to_light, -light.direction);
+	let cos_light = -dot(direction, light.direction);
+	let fading = max(cos_light, 0.0) / max(distance * distance, 1e-30);
+	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
+	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + area_light__max_abs(light.edge_u) + area_light__max_abs(light.edge_v);
+	let usable = distance > 1e-30;
+	return types__Incident(direction, area_light__short_of(distance, reach, abs(cos_light)), select(0.0, strength, usable) * light.color);
+}
+
+fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+	let to_center = light.position - p;
+	let d2 = dot(to_center, to_center);
+	let radius2 = light.radius * light.radius;
+	let is_inside = d2 <= radius2;
+	let d = sqrt(d2);
+	let sin2 = radius2 / max(max(d2, radius2), 1e-30);
+	let depth = select(sin2 / (1.0 + sqrt(max(1.0 - sin2, 0.0))), 2.0, is_inside);
+	let about = warp__cone_from_square(u, depth);
+	let axis = numeric__normalize_or(to_center, vec3f(0.0, 0.0, 1.0));
+	let direction = numeric__normalize_or(warp__turn_to(axis, about), axis);
+	let chord = sqrt(max(radius2 - d2 * dot(about.xy, about.xy), 0.0));
+	let distance = d * about.z + select(-chord, chord, is_inside);
+	let outside = 2.0 / ((1.0 + sqrt(max(1.0 - sin2, 0.0))) * max(d2, 1e-30));
+	let fading = select(outside, 4.0 / max(radius2, 1e-30), is_inside);
+	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
+	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + light.radius;
+	return types__Incident(direction, area_light__short_of(distance, reach, chord / max(light.radius, 1e-30)), strength * light.color);
+}
+
+fn area_light__short_of(distance: f32, reach: f32, cosine: f32) -> f32 {
+	let slack = 32.0 * numeric__ROUNDING * reach / max(cosine, 0.001);
+	return max(distance - min(slack, 0.01 * distance), 0.0);
+}
+
+fn area_light__max_abs(v: vec3f) -> f32 {
+	return max(abs(v.x), max(abs(v.y), abs(v.z)));
+}
+
+struct lobes__Bsdf {
+	normal: vec3f,
+	ng: vec3f,
+	wo: vec3f,
+	diffuse: vec3f,
+	f0: vec3f,
+	f90: vec3f,
+	gain: vec3f,
+	alpha: vec2f,
+	reflect: vec3f,
+	transmit: vec3f,
+	boundary_alpha: vec2f,
+	eta: f32,
+	bends: bool,
+	encloses: bool,
+	flags: u32,
+	through: vec3f,
+	coating: coating__Coating,
+	chances: vec3f,
+	coating_chances: vec2f
+}
+
+struct lobes__Split {
+	reflect: vec3f,
+	transmit: vec3f
+}
+
+fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers__Layers, met: interface__Interface, direction: vec3f) -> lobes__Bsdf {
+	var bsdf: lobes__Bsdf;
+	bsdf.ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
+	let n = select(surface.n, -surface.n, dot(surface.n, bsdf.ng) < 0.0);
+	bsdf.normal = select(bsdf.ng, n, dot(n, direction) < -0.001);
+	bsdf.wo = lobes__to_frame(bsdf.normal, -direction);
+	bsdf.alpha = vec2f(max(layers.alpha, layers__SMOOTH));
+	var seen = lobes__Split(vec3f(0.0), vec3f(0.0));
+	var inside = 1.0;
+	if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
+		inside = select(0.0, 1.0, met.is_boundary);
+		bsdf.reflect = inside * layers.reflect;
+		bsdf.transmit = select(vec3f(1.0), layers.transmit, met.is_boundary);
+		bsdf.flags = select(0u, layers.fresnel | (optics.flags & types__MATERIAL_SUM), met.is_boundary);
+		bsdf.boundary_alpha = vec2f(inside * layers.boundary_alpha);
+		bsdf.encloses = met.encloses;
+		bsdf.bends = met.is_boundary && met.encloses;
+		bsdf.eta = met.ior / select(layers.ior, met.ior_behind, met.encloses);
+		bsdf.boundary_alpha *= select(1.0, 0.0, bsdf.bends && abs(bsdf.eta - 1.0) < 0.0001);
+		seen = lobes__split_at(bsdf, bsdf.wo.z);
+	}
+	bsdf.f0 = inside * layers.f0;
+	bsdf.f90 = inside * layers.f90;
+	var over = layers.over_f0;
+	if (bindings__HAS_COATINGS) {
+		let film = lobes__film_f0_at(layers, bsdf.f0, bsdf.wo.z);
+		bsdf.f0 = mix(bsdf.f0, inside * film, layers.film);
+		over = mix(over, film, layers.film * numeric__max_component(layers.over_f90));
+	}
+	let albedo = albedo__albedo_of(albedo__GGX_ALBEDO, bsdf.wo.z, bsdf.alpha.x);
+	let boost = albedo__multiple_scattering(bsdf.f0, albedo);
+	let glossy = boost * (albedo.x * bsdf.f0 + albedo.y * bsdf.f90);
+	var left = 1.0 - numeric__max_component(boost * (albedo.x * over + albedo.y * layers.over_f90));
+	if ((optics.flags & types__MATERIAL_SUM) == 0u) {
+		left *= optics.opacity * (1.0 - numeric__max_component(seen.reflect));
+	}
+	bsdf.diffuse = (inside * max(left, 0.0)) * layers.diffuse;
+	var scale = 1.0 / max(numeric__max_component(bsdf.diffuse + glossy + seen.reflect + seen.transmit), 1.0);
+	if (bindings__HAS_COATINGS) {
+		bsdf.coating = coating__coating_at(layers, bsdf.wo.z);
+		bsdf.coating.albedos *= inside;
+		scale *= mix(1.0, bsdf.coating.left, inside);
+		bsdf.through = scale * layers.diffuse_transmission * bsdf.diffuse * layers.diffuse_transmission_color;
+		bsdf.diffuse *= 1.0 - layers.diffuse_transmission;
+	}
+	bsdf.diffuse *= scale;
+	bsdf.gain = scale * boost;
+	bsdf.reflect *= scale;
+	bsdf.transmit *= scale;
+	let weights = vec3f(dot(bsdf.diffuse + bsdf.through, tone__LUMINANCE_REC709), scale * dot(glossy, tone__LUMINANCE_REC709), scale * dot(seen.reflect + seen.transmit, tone__LUMINANCE_REC709));
+	let total = max(weights.x + weights.y + weights.z + bsdf.coating.albedos.x + bsdf.coating.albedos.y, 1e-30);
+	bsdf.chances = weights / total;
+	bsdf.coating_chances = bsdf.coating.albedos / total;
+	return bsdf;
+}
+
+fn lobes__film_f0_at(layers: layers__Layers, base_f0: vec3f, cos_o: f32) -> vec3f {
+	let x = 1.0 - cos_o;
+	let x5 = min(x * x * x * x * x, 0.999);
+	let film = thin_film__thin_film(cos_o, 1.0, layers.film_ior, layers.film_thickness, min(base_f0, vec3f(1.0)));
+	return clamp((film - x5) / (1.0 - x5), vec3f(0.0), vec3f(1.0));
+}
+
+fn lobes__split_at(bsdf: lobes__Bsdf, cos_i: f32) -> lobes__Split {
+	let boundary = boundary__boundary_at(bsdf.flags, clamp(cos_i, 0.0, 1.0), bsdf.eta);
+	if ((bsdf.flags & types__MATERIAL_FRESNEL) != 0u) {
+		return lobes__Split(boundary.reflectance * bsdf.reflect, (1.0 - boundary.reflectance) * bsdf.transmit);
+	}
+	if (boundary.total && bsdf.bends) {
+		return lobes__Split(bsdf.reflect + select(bsdf.transmit, vec3f(0.0), (bsdf.flags & types__MATERIAL_SUM) != 0u), vec3f(0.0));
+	}
+	return lobes__Split(bsdf.reflect, bsdf.transmit);
+}
+
+fn lobes__to_frame(n: vec3f, direction: vec3f) -> vec3f {
+	let x = warp__turn_to(n, vec3f(1.0, 0.0, 0.0));
+	let y = warp__turn_to(n, vec3f(0.0, 1.0, 0.0));
+	return vec3f(dot(direction, x), dot(direction, y), dot(direction, n));
+}
+
+const coating__COAT_F0: f32 = 0.04;
+
+struct coating__Coating {
+	coat: f32,
+	coat_alpha: f32,
+	sheen: vec3f,
+	sheen_alpha: f32,
+	left: f32,
+	albedos: vec2f
+}
+
+fn coating__coating_at(layers: layers__Layers, cos_o: f32) -> coating__Coating {
+	let coat_alpha = max(layers.coat_roughness * layers.coat_roughness, layers__SMOOTH);
+	let sheen_alpha = max(layers.sheen_roughness * layers.sheen_roughness, 0.001);
+	let of_coat = albedo__albedo_of(albedo__GGX_ALBEDO, cos_o, coat_alpha);
+	let of_sheen = albedo__albedo_of(albedo__SHEEN_ALBEDO, cos_o, sheen_alpha);
+	let coat_albedo = layers.coat * (coating__COAT_F0 * of_coat.x + of_coat.y);
+	let below_coat = 1.0 - coat_albedo;
+	let sheen = (below_coat * of_sheen.y) * layers.sheen;
+	return coating__Coating(layers.coat, coat_alpha, sheen, sheen_alpha, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
+}
+
+fn coating__coating_eval(coating: coating__Coating, wo: vec3f, wi: vec3f, chances: vec2f) -> vec4f {
+	let cos_h = clamp(dot(wo, normalize(wo + wi)), 0.0, 1.0);
+	let x = 1.0 - cos_h;
+	let reflectance = coating.coat * mix(coating__COAT_F0, 1.0, x * x * x * x * x);
+	let coat = bsdf_ggx__ggx_eval(wo, wi, vec2f(coating.coat_alpha), false);
+	let sheen = bsdf_sheen__sheen_eval(wo, wi, coating.sheen_alpha);
+	return vec4f(reflectance * coat.x + sheen.x * coating.sheen, dot(chances, vec2f(coat.y, sheen.y)));
+}
+
+fn coating__coating_sample(coating: coating__Coating, wo: vec3f, u: vec2f, is_coat: bool) -> vec3f {
+	let h = bsdf_ggx__ggx_normal(wo, vec2f(coating.coat_alpha), u);
+	return select(bsdf_sheen__sheen_sample(u), bsdf__reflected_at(wo, h), is_coat);
+}
+
+fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
+	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
+		return fresnel__schlick(cos_i, eta);
+	}
+	return fresnel__fresnel(cos_i, eta);
+}
+
+struct fresnel__Boundary {
+	reflectance: f32,
+	cos_t: f32,
+	total: bool
+}
+
+fn fresnel__ratio(a: f32, b: f32) -> f32 {
+	return a / max(b, 1e-12);
+}
+
+fn fresnel__fresnel(cos_i: f32, eta: f32) -> fresnel__Boundary {
+	let sin2_t = eta * eta * max(1.0 - cos_i * cos_i, 0.0);
+	let total = (sin2_t >= 1.0) & (eta > 1.0);
+	let cos_t = sqrt(max(1.0 - sin2_t, 0.0));
+	let r_s = fresnel__ratio(eta * cos_i - cos_t, eta * cos_i + cos_t);
+	let r_p = fresnel__ratio(cos_i - eta * cos_t, cos_i + eta * cos_t);
+	return fresnel__Boundary(select(0.5 * (r_s * r_s + r_p * r_p), 1.0, total), cos_t, total);
+}
+
+fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
+	let exact = fresnel__fresnel(cos_i, eta);
+	let r0 = fresnel__ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
+	let x = 1.0 - select(cos_i, exact.cos_t, eta > 1.0);
+	let x2 = x * x;
+	return fresnel__Boundary(select(r0 + (1.0 - r0) * x2 * x2 * x, 1.0, exact.total), exact.cos_t, exact.total);
+}
+
+fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f {
+	let cos_i = -dot(direction, n);
+	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
+}
+
+const thin_film__XYZ_TO_RGB: mat3x3f = mat3x3f(vec3f(3.2404542, -0.969266, 0.0556434), vec3f(-1.5371385, 1.8760108, -0.2040259), vec3f(-0.4985314, 0.041556, 1.0572252));
+
+fn thin_film__film_schlick(f0: vec3f, cos_theta: f32) -> vec3f {
+	let x = 1.0 - clamp(cos_theta, 0.0, 1.0);
+	let x2 = x * x;
+	return f0 + (1.0 - f0) * (x2 * x2 * x);
+}
+
+fn thin_film__film_f0(n1: vec3f, n2: vec3f) -> vec3f {
+	let ratio = (n1 - n2) / (n1 + n2);
+	return ratio * ratio;
+}
+
+fn thin_film__film_spectrum(path: f32) -> vec3f {
+	let phase = 2.0 * warp__PI * path * 1e-9;
+	let height = vec3f(5.4856e-13, 4.4201e-13, 5.2481e-13);
+	let middle = vec3f(1681000.0, 1795300.0, 2208400.0);
+	let variance = vec3f(4327800000.0, 9304600000.0, 6612100000.0);
+	let main = height * sqrt(2.0 * warp__PI * variance) * cos(middle * phase) * exp(-phase * phase * variance);
+	let blue = 9.747e-14 * sqrt(2.0 * warp__PI * 4528200000.0) * cos(2239900.0 * phase) * exp(-phase * phase * 4528200000.0);
+	return thin_film__XYZ_TO_RGB * (main + vec3f(blue, 0.0, 0.0)) / 1.0685e-7;
+}
+
+fn thin_film__thin_film(cos_i: f32, outside: f32, film_ior: f32, thickness: f32, base_f0: vec3f) -> vec3f {
+	let ior = mix(outside, film_ior, smoothstep(0.0, 0.03, thickness));
+	let above = fresnel__fresnel(cos_i, outside / ior);
+	let root = sqrt(clamp(base_f0, vec3f(0.0), vec3f(0.9999)));
+	let base_ior = (1.0 + root) / (1.0 - root);
+	let r12 = above.reflectance;
+	let r23 = thin_film__film_schlick(thin_film__film_f0(vec3f(ior), base_ior), above.cos_t);
+	let once = sqrt(r12 * r23);
+	let through = (1.0 - r12) * (1.0 - r23) / max(1.0 - r12 * r23, vec3f(1e-6));
+	let sign = select(vec3f(1.0), vec3f(-1.0), base_ior < vec3f(ior)) * select(-1.0, 1.0, ior < outside);
+	let path = 2.0 * ior * thickness * above.cos_t;
+	let harmonics = sign * once * thin_film__film_spectrum(path) + once * once * thin_film__film_spectrum(2.0 * path);
+	let reflected = clamp(1.0 - through - 2.0 * through * harmonics, vec3f(0.0), vec3f(1.0));
+	return select(reflected, vec3f(1.0), above.total);
+}
+
+const albedo__ALBEDO_SIDE: u32 = 32u;
+
+const albedo__GGX_ALBEDO: u32 = 0u;
+
+const albedo__SHEEN_ALBEDO: u32 = 1024u;
+
+struct albedo__AlbedoLookup {
+	words: vec4u,
+	weights: vec4f
+}
+
+fn albedo__albedo_lookup(table: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
+	let last = f32(albedo__ALBEDO_SIDE - 1u);
+	let place = last * sqrt(sqrt(clamp(vec2f(cos_o, alpha), vec2f(0.0), vec2f(1.0))));
+	let cell = min(floor(place), vec2f(last - 1.0));
+	let part = place - cell;
+	let first = table + u32(cell.y) * albedo__ALBEDO_SIDE + u32(cell.x);
+	let rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
+	return albedo__AlbedoLookup(vec4u(first, first + 1u, first + albedo__ALBEDO_SIDE, first + albedo__ALBEDO_SIDE + 1u), rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+}
+
+fn albedo__blended_albedo(entries: vec4u, weights: vec4f) -> vec2f {
+	return weights.x * picture__halves(entries.x) + weights.y * picture__halves(entries.y) + weights.z * picture__halves(entries.z) + weights.w * picture__halves(entries.w);
+}
+
+fn albedo__multiple_scattering(f0: vec3f, albedo: vec2f) -> vec3f {
+	let single = clamp(albedo.x + albedo.y, 0.001, 1.0);
+	return 1.0 + f0 * ((1.0 - single) / single);
+}
+
+const quad_warp__CHANCE_BITS: u32 = 10u;
+
+const quad_warp__CHANCE_STEPS: f32 = 1023.0;
+
+struct quad_warp__QuadPlace {
+	cell: vec2u,
+	u: vec2f
+}
+
+struct quad_warp__Half {
+	index: u32,
+	u: f32
+}
+
+fn quad_warp__quad_root(word: u32, u: vec2f) -> quad_warp__QuadPlace {
+	let column = quad_warp__half_of(quad_warp__chance_of(word, 0u), u.x);
+	return quad_warp__QuadPlace(vec2u(column.index, 0u), vec2f(column.u, u.y));
+}
+
+fn quad_warp__quad_step(word: u32, place: quad_warp__QuadPlace) -> quad_warp__QuadPlace {
+	let row = quad_warp__half_of(quad_warp__chance_of(word, 0u), place.u.y);
+	let column = quad_warp__half_of(quad_warp__chance_of(word, 1u + row.index), place.u.x);
+	return quad_warp__QuadPlace(2u * place.cell + vec2u(column.index, row.index), vec2f(column.u, row.u));
+}
+
+fn quad_warp__chance_of(word: u32, index: u32) -> f32 {
+	return f32((word >> (quad_warp__CHANCE_BITS * index)) & 1023u) / quad_warp__CHANCE_STEPS;
+}
+
+fn quad_warp__half_of(chance: f32, u: f32) -> quad_warp__Half {
+	let is_second = u >= chance;
+	let start = select(0.0, chance, is_second);
+	let size = select(chance, 1.0 - chance, is_second);
+	return quad_warp__Half(select(0u, 1u, is_second), clamp((u - start) / max(size, 1e-9), 0.0, 0.99999994));
+}
+
+fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
+	let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
+	return x * x * (3.0 - 2.0 * x);
+}
+
+fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
+	let to_light = light.position - p;
+	let distance = length(to_light);
+	let is_directional = light.kind == types__LIGHT_DIRECTIONAL;
+	let direction = select(numeric__normalize_or(to_light, -light.direction), -light.direction, is_directional);
+	var strength = select(0.0, 1.0, is_directional || distance > 1e-30);
+	if (light.attenuation == types__ATTENUATION_INVERSE_SQUARE) {
+		strength /= max(distance * distance, 1e-30);
+	}
+	if (light.kind == types__LIGHT_SPOT) {
+		strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
+	}
+	return types__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
+}
+
+struct bsdf__BsdfValue {
+	value: vec3f,
+	pdf: f32
+}
+
+struct bsdf__BsdfSample {
+	direction: vec3f,
+	weight: vec3f,
+	pdf: f32
+}
+
+fn bsdf__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
+	return (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && bsdf.chances.z > 0.0 && bsdf.boundary_alpha.x >= layers__SMOOTH;
+}
+
+fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
+	let wi = lobes__to_frame(bsdf.normal, direction);
+	var value = vec3f(0.0);
+	var pdf = 0.0;
+	if (wi.z > 0.0) {
+		let diffuse = bsdf_diffuse__diffuse_eval(wi);
+		let glossy = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.alpha, false);
+		let cos_h = dot(bsdf.wo, normalize(bsdf.wo + wi));
+		value = diffuse * bsdf.diffuse + glossy.x * (bsdf.gain * bsdf__schlick_between(bsdf.f0, bsdf.f90, cos_h));
+		pdf = bsdf.chances.x * (1.0 - bsdf__through_share(bsdf)) * diffuse + bsdf.chances.y * glossy.y;
+		if (bindings__HAS_COATINGS) {
+			let coating = coating__coating_eval(bsdf.coating, bsdf.wo, wi, bsdf.coating_chances);
+			value += coating.xyz;
+			pdf += coating.w;
+		}
+		if (bsdf__has_rough_boundary(bsdf)) {
+			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, false);
+			let split = lobes__split_at(bsdf, cos_h);
+			value += boundary.x * split.reflect;
+			pdf += bsdf.chances.z * bsdf__reflection_chance(split) * boundary.y;
+		}
+	}
+	else if (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) {
+		var boundary = bsdf_ggx__ggx_eval(bsdf.wo, vec3f(wi.xy, -wi.z), bsdf.boundary_alpha, false);
+		var h = normalize(bsdf.wo + vec3f(wi.xy, -wi.z));
+		if (bsdf.bends) {
+			boundary = bsdf_ggx_transmission__ggx_transmission(bsdf.wo, wi, bsdf.boundary_alpha, bsdf.eta);
+			h = bsdf_ggx_transmission__transmission_half(bsdf.wo, wi, bsdf.eta);
+		}
+		let split = lobes__split_at(bsdf, dot(bsdf.wo, h));
+		value = boundary.x * split.transmit;
+		pdf = bsdf.chances.z * (1.0 - bsdf__reflection_chance(split)) * boundary.y;
+	}
+	if (bindings__HAS_COATINGS && wi.z < 0.0) {
+		let through = bsdf_diffuse__diffuse_eval(-wi);
+		value += through * bsdf.through;
+		pdf += bsdf.chances.x * bsdf__through_share(bsdf) * through;
+	}
+	return bsdf__BsdfValue(select(vec3f(0.0), value, (dot(direction, bsdf.ng) > 0.0) == (wi.z > 0.0)), pdf);
+}
+
+fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
+	let chances = bsdf.chances;
+	let is_diffuse = choice < chances.x;
+	let is_glossy = !is_diffuse && choice < chances.x + chances.y;
+	let first = chances.x + chances.y + bsdf.coating_chances.x + bsdf.coating_chances.y;
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && choice >= first && chances.z > 0.0) {
+		record_path__record_lobe(types__LOBE_BOUNDARY);
+		return bsdf__boundary_sample(bsdf, clamp((choice - first) / chances.z, 0.0, 1.0), u);
+	}
+	record_path__record_lobe(select(types__LOBE_GLOSSY, types__LOBE_DIFFUSE, is_diffuse));
+	let h = bsdf_ggx__ggx_normal(bsdf.wo, bsdf.alpha, u);
+	var wi = select(bsdf__reflected_at(bsdf.wo, h), bsdf_diffuse__diffuse_sample(u), is_diffuse);
+	if (bindings__HAS_COATINGS) {
+		if (!is_diffuse && !is_glossy) {
+			let is_coat = choice < chances.x + chances.y + bsdf.coating_chances.x;
+			wi = coating__coating_sample(bsdf.coating, bsdf.wo, u, is_coat);
+			record_path__record_lobe(select(types__LOBE_SHEEN, types__LOBE_COAT, is_coat));
+		}
+		wi.z *= select(1.0, -1.0, is_diffuse && choice < chances.x * bsdf__through_share(bsdf));
+	}
+	return bsdf__rough_sample(bsdf, wi);
+}
+
+fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
+	if (!bindings__HAS_COATINGS) {
+		return 0.0;
+	}
+	let through = dot(bsdf.through, tone__LUMINANCE_REC709);
+	return through / max(through + dot(bsdf.diffuse, tone__LUMINANCE_REC709), 1e-30);
+}
+
+fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
+	let is_smooth = bsdf.boundary_alpha.x < layers__SMOOTH;
+	let h = select(bsdf_ggx__ggx_normal(bsdf.wo, max(bsdf.boundary_alpha, vec2f(layers__SMOOTH)), u), vec3f(0.0, 0.0, 1.0), is_smooth);
+	let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
+	let split = lobes__split_at(bsdf, cos_h);
+	let chance = bsdf__reflection_chance(split);
+	let reflects = choice < chance;
+	var wi = bsdf__reflected_at(bsdf.wo, h);
+	if (!reflects) {
+		wi = vec3f(wi.xy, -wi.z);
+		if (bsdf.bends) {
+			wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
+		}
+	}
+	if (is_smooth) {
+		let fraction = select(split.transmit / max(1.0 - chance, 1e-6), split.reflect / max(chance, 1e-6), reflects);
+		let direction = warp__turn_to(bsdf.normal, wi);
+		let stays = (dot(direction, bsdf.ng) > 0.0) == reflects;
+		return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
+	}
+	return bsdf__rough_sample(bsdf, wi);
+}
+
+fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f) -> bsdf__BsdfSample {
+	let direction = warp__turn_to(bsdf.normal, wi);
+	let found = bsdf__bsdf_eval(bsdf, direction);
+	return bsdf__BsdfSample(direction, found.value / max(found.pdf, 1e-30), found.pdf);
+}
+
+fn bsdf__reflection_chance(split: lobes__Split) -> f32 {
+	let reflected = dot(split.reflect, tone__LUMINANCE_REC709);
+	return reflected / max(reflected + dot(split.transmit, tone__LUMINANCE_REC709), 1e-30);
+}
+
+fn bsdf__schlick_between(f0: vec3f, f90: vec3f, cos_h: f32) -> vec3f {
+	let x = 1.0 - clamp(cos_h, 0.0, 1.0);
+	let x2 = x * x;
+	return mix(f0, f90, x2 * x2 * x);
+}
+
+fn bsdf__reflected_at(wo: vec3f, h: vec3f) -> vec3f {
+	return normalize(2.0 * dot(wo, h) * h - wo);
+}
+
+fn bsdf_diffuse__diffuse_eval(wi: vec3f) -> f32 {
+	return max(wi.z, 0.0) / warp__PI;
+}
+
+fn bsdf_diffuse__diffuse_sample(u: vec2f) -> vec3f {
+	let p = warp__disc_from_square(u);
+	return vec3f(p, sqrt(max(1.0 - dot(p, p), 0.0)));
+}
+
+fn bsdf_ggx__ggx_distribution(h: vec3f, alpha: vec2f) -> f32 {
+	let scaled = vec3f(h.xy / alpha, h.z);
+	let squared = dot(scaled, scaled);
+	return select(0.0, 1.0 / (warp__PI * alpha.x * alpha.y * squared * squared), h.z > 0.0);
+}
+
+fn bsdf_ggx__ggx_lambda(w: vec3f, alpha: vec2f) -> f32 {
+	let slope = alpha * w.xy;
+	return 0.5 * (sqrt(1.0 + dot(slope, slope) / max(w.z * w.z, 1e-12)) - 1.0);
+}
+
+fn bsdf_ggx__ggx_normal(wo: vec3f, alpha: vec2f, u: vec2f) -> vec3f {
+	let stretched = normalize(vec3f(alpha * wo.xy, wo.z));
+	let z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
+	let radius = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
+	let angle = 2.0 * warp__PI * u.x;
+	let sum = vec3f(radius * cos(angle), radius * sin(angle), z) + stretched;
+	return normalize(vec3f(alpha * sum.xy, max(sum.z, 1e-6)));
+}
+
+fn bsdf_ggx__ggx_eval(wo: vec3f, wi: vec3f, alpha: vec2f, separable: bool) -> vec2f {
+	let h = normalize(vec3f(wo.xy + wi.xy, max(wo.z, 0.0) + max(wi.z, 1e-6)));
+	let seen = 1.0 + bsdf_ggx__ggx_lambda(wo, alpha);
+	let lit = 1.0 + bsdf_ggx__ggx_lambda(wi, alpha);
+	let facets = bsdf_ggx__ggx_distribution(h, alpha) / (4.0 * max(wo.z, 1e-6));
+	let shadowed = select(seen + lit - 1.0, seen * lit, separable);
+	return select(vec2f(0.0), vec2f(facets / shadowed, facets / seen), wo.z > 0.0 && wi.z > 0.0);
+}
+
+fn bsdf_sheen__charlie_distribution(h: vec3f, alpha: f32) -> f32 {
+	let exponent = 1.0 / alpha;
+	let sin2 = clamp(dot(h.xy, h.xy), 1e-12, 1.0);
+	return (2.0 + exponent) * pow(sin2, 0.5 * exponent) / (2.0 * warp__PI);
+}
+
+fn bsdf_sheen__charlie_shape(x: f32, alpha: f32) -> f32 {
+	let smooth_part = (1.0 - alpha) * (1.0 - alpha);
+	let a = mix(21.5473, 25.3245, smooth_part);
+	let b = mix(3.82987, 3.32435, smooth_part);
+	let c = mix(0.19823, 0.16801, smooth_part);
+	let d = mix(-1.9776, -1.27393, smooth_part);
+	let e = mix(-4.32054, -4.85967, smooth_part);
+	return a / (1.0 + b * pow(max(x, 1e-9), c)) + d * x + e;
+}
+
+fn bsdf_sheen__charlie_lambda(cos_theta: f32, alpha: f32) -> f32 {
+	let near = exp(bsdf_sheen__charlie_shape(cos_theta, alpha));
+	let far = exp(2.0 * bsdf_sheen__charlie_shape(0.5, alpha) - bsdf_sheen__charlie_shape(1.0 - cos_theta, alpha));
+	return select(far, near, cos_theta < 0.5);
+}
+
+fn bsdf_sheen__sheen_eval(wo: vec3f, wi: vec3f, alpha: f32) -> vec2f {
+	let h = normalize(vec3f(wo.xy + wi.xy, max(wo.z, 0.0) + max(wi.z, 1e-6)));
+	let cosines = clamp(vec2f(wo.z, wi.z), vec2f(1e-6), vec2f(1.0));
+	let lambda = bsdf_sheen__charlie_lambda(cosines.x, alpha) + bsdf_sheen__charlie_lambda(cosines.y, alpha);
+	let value = bsdf_sheen__charlie_distribution(h, alpha) / (4.0 * cosines.x * (1.0 + lambda));
+	return select(vec2f(0.0), vec2f(value, 0.5 / warp__PI), wo.z > 0.0 && wi.z > 0.0);
+}
+
+fn bsdf_sheen__sheen_sample(u: vec2f) -> vec3f {
+	return warp__cone_from_square(u, 1.0);
+}
+
+fn bsdf_ggx_transmission__transmission_half(wo: vec3f, wi: vec3f, eta: f32) -> vec3f {
+	let sum = eta * wo + wi;
+	let squared = dot(sum, sum);
+	let h = sum * select(1.0, -1.0, sum.z < 0.0) / sqrt(max(squared, 1e-20));
+	let refracts = squared > 1e-12 && dot(wo, h) > 0.0 && dot(wi, h) < 0.0;
+	return select(vec3f(0.0), h, refracts);
+}
+
+fn bsdf_ggx_transmission__ggx_transmission(wo: vec3f, wi: vec3f, alpha: vec2f, eta: f32) -> vec2f {
+	let h = bsdf_ggx_transmission__transmission_half(wo, wi, eta);
+	let sum = eta * wo + wi;
+	let seen = 1.0 + bsdf_ggx__ggx_lambda(wo, alpha);
+	let lit = 1.0 + bsdf_ggx__ggx_lambda(wi, alpha);
+	let refracted_density = abs(dot(wo, h) * dot(wi, h)) / (max(wo.z, 1e-6) * max(dot(sum, sum), 1e-12));
+	let pdf = bsdf_ggx__ggx_distribution(h, alpha) * refracted_density / seen;
+	return select(vec2f(0.0), vec2f(pdf / lit, pdf), wo.z > 0.0 && wi.z < 0.0);
+}
+
+fn direct__shadow_ray(surface: types__Surface, arriving: types__Incident) -> types__Ray {
+	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
+	ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
+	return ray;
+}
+
+const shadow__MAX_CROSSINGS: u32 = 64u;
+
+fn shadow__light_through(rays: rays__Rays, media: ray_states__Media) -> wide__Vectors {
+	record__open_shadow(rays__ray_at(rays, 0u).t_max);
+	var through: wide__Vectors;
+	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
+		through = shadow__filtered(rays, media);
+	}
+	else {
+		record__record_met(rays__hit_at(rays__closest_hits(rays), 0u), 0.0);
+		let hits = rays__any_hits(rays);
+		let passed = select(wide__Floats(0.0), wide__Floats(1.0), hits.primitive == wide__Words(types__NONE));
+		through = wide__Vectors(passed, passed, passed);
+	}
+	if (bindings__COUNT_RAYS) {
+		shadow__count_shadows(rays, through);
+	}
+	return through;
+}
+
+fn shadow__count_shadows(rays: rays__Rays, through: wide__Vectors) {
+	var k = 0u;
+	loop {
+		let is_cast = wide__float_at(rays.t_max, k) >= 0.0;
+		let is_blocked = is_cast & all(wide__vector_at(through, k) == vec3f(0.0));
+		dispatch__counts.shadow += select(0u, 1u, is_cast);
+		dispatch__counts.shadow_blocked += select(0u, 1u, is_blocked);
+		continuing {
+			k += 1u;
+			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+		}
+	}
+	loops__cut_off |= k < wide__RAYS_PER_LANE;
+}
+
+fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__Vectors {
+	var rays = shadow_rays;
+	var media = start;
+	var transmitted = wide__Vectors(wide__Floats(1.0), wide__Floats(1.0), wide__Floats(1.0));
+	var crossings = 0u;
+	var is_unfinished = true;
+	loop {
+		let hits = rays__closest_hits(rays);
+		is_unfinished = false;
+		var rows = rays__rows_where(rays.t_max >= wide__Floats(0.0));
+		loop {
+			let k = rays__first_row(rows);
+			let ray = rays__ray_at(rays, k);
+			if (ray.t_max >= 0.0) {
+				let hit = rays__hit_at(hits, k);
+				var passed = wide__vector_at(transmitted, k);
+				var next = rays__DEAD;
+				if (hit.primitive == types__NONE) {
+					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+						passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_states__media_at(media, k))), hit.t);
+					}
+				}
+				else {
+					ray_stack__current_tree = k;
+					let contact = contact__contact_at(ray, hit, types__Cone(0.0, 0.0));
+					record__record_met(record__seen, shadow_rays.t_max - ray.t_max);
+					let surface = contact.surface;
+					var through = vec3f(0.0);
+					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+						let around = ray_states__media_at(media, k);
+						let beyond = contact__media_behind(around, contact);
+						media = ray_states__media_set(media, k, beyond);
+						through = shadow__passing(ray, hit.t, surface, around, medium__dominant(beyond));
+					}
+					passed *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
+					let rest = ray.t_max - hit.t;
+					if (any(passed > vec3f(0.0)) & (rest > 0.0)) {
+						next = leaving__leaving_ray(surface, ray.direction, rest);
+						is_unfinished = true;
+						passed = select(passed, vec3f(0.0), crossings + 1u >= shadow__MAX_CROSSINGS);
+					}
+				}
+				transmitted = wide__vector_set(transmitted, k, passed);
+				rays = rays__ray_set(rays, k, next);
+			}
+			continuing {
+				rows = rays__later_rows(rows);
+				break if wide__ONE_RAY | (rows == 0u);
+			}
+		}
+		loops__cut_off |= rows != 0u;
+		crossings += 1u;
+		continuing {
+		
+			break if !rays__any_lane(is_unfinished) | (crossings >= shadow__MAX_CROSSINGS);
+		}
+	}
+	loops__cut_off |= is_unfinished & (crossings < shadow__MAX_CROSSINGS);
+	return transmitted;
+}
+
+fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, around: vec4u, behind: u32) -> vec3f {
+	let optics = material__load_optics(surface.material);
+	let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
+	if (bindings__SOLID_GLASS) {
+		let layers = layers__layers_at(surface, optics);
+		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < layers__SMOOTH;
+		let medium = medium__medium_of(behind);
+		var share = 1.0;
+		if ((layers.fresnel & types__MATERIAL_FRESNEL) != 0u) {
+			share -= boundary__boundary_at(layers.fresnel, cos_i, medium.ior / layers.ior).reflectance;
+		}
+		return select(vec3f(0.0), share * layers.transmit * medium__transmittance(medium, distance), is_window);
+	}
+	var here = medium__medium_before(around, surface.material, surface.outside);
+	var ior_behind = medium__medium_of(behind).ior;
+	if ((optics.flags & types__MATERIAL_THIN) != 0u) {
+		here = behind;
+		ior_behind = optics.ior;
+	}
+	var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), distance);
+	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
+		let eta = medium__medium_of(here).ior / ior_behind;
+		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
+	}
+	return through;
+}
