@@ -186,6 +186,9 @@ pub fn features(scene: &Scene) -> Features {
             .any(|it| it.reflect.or(it.transmit).or(it.emission).is_some()),
         coverage: (scene.materials.iter()).any(|it| it.coverage != Coverage::Opaque),
         occlusion_maps: (scene.materials.iter()).any(|it| it.textures.occlusion.is_some()),
+        anisotropy: (scene.materials.iter())
+            .filter_map(|material| material.metallic_roughness.as_ref())
+            .any(|model| model.anisotropy > 0.0 && !model.unlit),
         normal_maps: (scene.materials.iter()).any(|material| material.textures.normal.is_some()),
         emission: emission || light::visible(scene).next().is_some(),
         ..Features::default()

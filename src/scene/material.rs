@@ -66,6 +66,14 @@ pub struct Material {
     pub layer_textures: Option<Box<LayerTextures>>,
 }
 
+impl Material {
+    /// Whether its surfaces depend on tangents: they have a normal map or anisotropy.
+    pub fn has_tangents(&self) -> bool {
+        let model = self.metallic_roughness.as_ref();
+        self.textures.normal.is_some() || model.is_some_and(|model| model.anisotropy > 0.0)
+    }
+}
+
 /// For parameters of a [`MetallicRoughness`] the index in [`super::Scene::textures`] of the texture that multiplies
 /// them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
