@@ -43,6 +43,8 @@ pub struct PictureOverrides {
     pub min_throughput: Option<f32>,
     /// Let all transparent surfaces filter the shadow rays of paths.
     pub transparent_shadows: bool,
+    /// Clamp the indirect light of paths.
+    pub clamp_indirect: Option<f32>,
     /// Reconstruction filter.
     pub filter: Option<Filter>,
     /// Its radius in pixels.
@@ -146,6 +148,7 @@ impl PictureOverrides {
             }),
             min_throughput: self.min_throughput.unwrap_or(defaults.min_throughput),
             transparent_shadows: self.transparent_shadows,
+            clamp_indirect: self.clamp_indirect,
             ..defaults
         }
     }

@@ -54,6 +54,10 @@ pub struct RenderSettings {
     /// Path tracing: whether all transparent surfaces filter shadow rays, in straight lines. Without it only smooth
     /// thin walls do, and the light behind other glass is found by paths; with it caustics are lost.
     pub transparent_shadows: bool,
+    /// Path tracing: the most radiance per channel, above 0, that a sample may gain at once from light that was
+    /// scattered twice or more; `None` for no limit. It removes fireflies, and light: [`super::Stats::energy_cut`]
+    /// says how much.
+    pub clamp_indirect: Option<f32>,
 }
 
 impl Default for RenderSettings {
@@ -76,6 +80,7 @@ impl Default for RenderSettings {
             max_depth: 5,
             min_throughput: MIN_THROUGHPUT,
             transparent_shadows: false,
+            clamp_indirect: None,
         }
     }
 }
@@ -157,6 +162,7 @@ impl RenderSettings {
             max_depth,
             min_throughput,
             transparent_shadows,
+            clamp_indirect,
         } = self;
         let range = sample_range.as_ref();
         let mut encoder = Encoder::new("render settings", 1);
@@ -197,6 +203,10 @@ impl RenderSettings {
         }
         if *transparent_shadows {
             encoder.bytes(b"transparent shadows");
+        }
+        if let Some(limit) = clamp_indirect {
+            encoder.bytes(b"clamp indirect");
+            encoder.float(*limit);
         }
         encoder.finish()
     }

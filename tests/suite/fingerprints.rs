@@ -54,6 +54,8 @@ fn every_setting_changes_the_fingerprint() {
         ("throughput", |s| s.min_throughput = 0.25),
         ("paths", |s| s.integrator = Integrator::Path),
         ("transparent shadows", |s| s.transparent_shadows = true),
+        ("clamp", |s| s.clamp_indirect = Some(1.0)),
+        ("another clamp", |s| s.clamp_indirect = Some(2.0)),
     ];
     let mut known: HashMap<Fingerprint, &str> = HashMap::new();
     for (name, change) in changes {

@@ -136,6 +136,30 @@ fn a_closed_room_of_even_light_sums_all_bounces() {
     verdict.close();
 }
 
+#[test]
+fn clamping_cuts_each_bounce_of_indirect_light_to_the_limit() {
+    let mut verdict = Verdict::on("the inside of a glowing ball");
+    let (albedo, limit) = (0.8, 0.1);
+    let mut scene = ball_in(0.0, matte(albedo));
+    scene.materials[0].emission = Vec3::splat(0.5);
+    scene.cameras = vec![looking(DVec3::ZERO, DVec3::Z, 1.0)];
+    let settings = RenderSettings {
+        clamp_indirect: Some(limit),
+        ..paths(256, (16, 16), 2)
+    };
+    // What a sample finds at its four surfaces: the last two are indirect light.
+    let found = (0..4).map(|k| 0.5 * f64::from(albedo).powi(k));
+    let limits = [f64::INFINITY, f64::INFINITY, limit.into(), limit.into()];
+    let kept: f64 = found.clone().zip(limits).map(|(x, most)| x.min(most)).sum();
+    let (_, stats) = render(&scene, &settings);
+    let mean = mean(&scene, &settings);
+    near(&mut verdict, "radiance", mean, kept, 1e-3);
+    let cut = 1.0 - (1.0 - f64::from(albedo).powi(4)) * kept / found.sum::<f64>();
+    let what = "share cut";
+    near(&mut verdict, what, stats.energy_cut(), cut, 1e-3);
+    verdict.close();
+}
+
 /// A floor under one light, which is outside of the picture.
 fn lit_floor(material: Material, light: Light) -> Scene {
     let mut scene = Scene {

@@ -86,6 +86,12 @@ pub struct PictureFlags {
     /// Without it smooth thin walls do so, and paths find the light behind other glass.
     #[arg(long)]
     pub transparent_shadows: bool,
+    /// Path tracing: clamp what a sample gains at once from indirect light to this radiance, above 0 to 1e6
+    /// [default: no limit]
+    ///
+    /// It removes fireflies, and light: the report's energy_cut says how much.
+    #[arg(long, value_name = "RADIANCE", allow_hyphen_values = true, value_parser = values::clamp_indirect)]
+    pub clamp_indirect: Option<f32>,
     /// Reconstruction filter [default: the scene's, else box]
     #[arg(long, value_parser = values::one_of(&FILTERS))]
     pub filter: Option<Filter>,
@@ -303,6 +309,7 @@ impl PictureFlags {
             max_depth: self.max_depth,
             min_throughput: self.min_throughput,
             transparent_shadows: self.transparent_shadows,
+            clamp_indirect: self.clamp_indirect,
             filter: self.filter,
             filter_radius: self.filter_radius,
             light_samples: self.light_samples,

@@ -190,6 +190,15 @@ fn settings(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
             "transparent shadows",
             switch(wanted.transparent_shadows, "--transparent-shadows").collect(),
         ),
+        (
+            wanted.clamp_indirect != parsed.clamp_indirect,
+            "the clamp of indirect light",
+            (wanted
+                .clamp_indirect
+                .map(|limit| ("--clamp-indirect", limit.to_string())))
+            .into_iter()
+            .collect(),
+        ),
     ]
 }
 
