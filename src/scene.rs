@@ -35,8 +35,8 @@ mod transform;
 mod turntable;
 
 pub use animation::{
-    Beyond, CameraProperty, Clip, Curve, Easing, Interpolation, LightProperty, MaterialProperty,
-    NodeProperty, Target, Track, Values,
+    Beyond, CameraProperty, Clip, Curve, Easing, Interpolation, LayerProperty, LightProperty,
+    MaterialProperty, NodeProperty, Target, Track, Values,
 };
 pub(crate) use bounds::corners;
 pub use curve::Value;

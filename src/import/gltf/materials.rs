@@ -131,18 +131,7 @@ impl Reader<'_> {
         if let Some((code, levels)) = color {
             let [r, g, b, _] = code.to_le_bytes().map(|c| (f32::from(c) / levels).powi(2));
             let color = Vec3::new(r, g, b);
-            material.diffuse *= color;
-            material.ambient *= color;
-            material.tint = color;
-            if let Some(model) = &material.metallic_roughness {
-                if model.unlit {
-                    material.emission *= color;
-                }
-                if model.metallic > 0.5 {
-                    material.specular *= color;
-                    material.reflect *= color;
-                }
-            }
+            material.paint(color);
         }
         let size = budget::size::<(Material, [u64; 4])>(1) + material.name.len() as u64;
         self.ledger.take(size, 0, "materials")?;
