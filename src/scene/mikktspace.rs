@@ -49,11 +49,13 @@ pub fn tangents(surface: Surface) -> Tangents {
     let mut groups = Groups {
         of_corners: vec![[NONE; 3]; corners.len()],
         list: Vec::new(),
+        open: Vec::new(),
     };
+    let mut members = Vec::new();
     for first in 0..corners.len() {
         for k in 0..3 {
             if !faces[first].joins_any && groups.of_corners[first][k] == NONE {
-                let members = groups.spread(&mut faces, &corners, &neighbors, (first, k));
+                groups.spread(&mut faces, &corners, &neighbors, (first, k), &mut members);
                 groups.list.push(surface.mean(&faces, &members));
             }
         }
@@ -164,9 +166,10 @@ fn neighbors(faces: &[Face], corners: &[[u32; 3]]) -> Vec<[u32; 3]> {
     }
     sides.sort_unstable();
     let mut neighbors = vec![[NONE; 3]; corners.len()];
+    let mut waiting: Vec<(u32, u8)> = Vec::new();
     for edge in sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
         // Those that go one way wait for one that goes the other way.
-        let mut waiting: Vec<(u32, u8)> = Vec::new();
+        waiting.clear();
         let (mut next, mut is_forward) = (0, true);
         for &(_, _, index, k, goes_forward) in edge {
             match waiting.get(next) {
@@ -190,22 +193,26 @@ struct Groups {
     /// For the corners of each triangle the index of their tangent.
     of_corners: Vec<[u32; 3]>,
     list: Vec<Vec4>,
+    /// Triangles that a group reaches next.
+    open: Vec<u32>,
 }
 
 impl Groups {
-    /// Starts the next group at a corner of a triangle and spreads it around the vertex. Returns its corners.
+    /// Starts the next group at a corner of a triangle and spreads it around the vertex. `members` becomes the list of
+    /// its corners.
     fn spread(
         &mut self,
         faces: &mut [Face],
         corners: &[[u32; 3]],
         neighbors: &[[u32; 3]],
         (first, k): (usize, usize),
-    ) -> Vec<(u32, u8)> {
+        members: &mut Vec<(u32, u8)>,
+    ) {
         let vertex = corners[first][k];
         let is_upright = faces[first].is_upright;
-        let mut members = Vec::new();
-        let mut next = vec![first as u32];
-        while let Some(index) = next.pop() {
+        members.clear();
+        self.open.push(first as u32);
+        while let Some(index) = self.open.pop() {
             let i = index as usize;
             let Some(k) = corners[i].iter().position(|&corner| corner == vertex) else {
                 continue;
@@ -223,9 +230,8 @@ impl Groups {
             self.of_corners[i][k] = self.list.len() as u32;
             members.push((index, k as u8));
             let sides = [neighbors[i][k], neighbors[i][(k + 2) % 3]];
-            next.extend(sides.into_iter().filter(|&side| side != NONE));
+            (self.open).extend(sides.into_iter().filter(|&side| side != NONE));
         }
-        members
     }
 
     /// Gives the corners of triangles without area the tangents of others at the same vertices.
