@@ -33,8 +33,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	dispatch__count_hit(path.kind, hit);
 	if (hit.primitive == types__NONE) {
 		let weight = environment__background_weight(batch, ray.direction, path.pdf);
-		let seen = background__background(batch, ray.direction);
-		return path__ended(path__gained(path, weight * seen, path.bounces));
+		return path__ended(path__gained(path, weight * background__background(batch, ray.direction), path.bounces));
 	}
 	let contact = contact__contact_at(ray, hit, path.cone);
 	let surface = contact.surface;
@@ -49,8 +48,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	}
 	let layers = layers__layers_at(surface, optics);
 	let weight = emitters__emission_weight(batch, surface, path.origin, ray.direction, distance(path.origin, surface.p), path.pdf);
-	let emission = emitters__emitted(surface, optics, layers.glow);
-	path = path__gained(path, weight * emission, path.bounces);
+	path = path__gained(path, weight * emitters__emitted(surface, optics, layers.glow), path.bounces);
 	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
 	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
 		path = path__gained(path, lamp_light(batch, path, surface, bsdf, met), path.bounces + 1u);
@@ -68,8 +66,7 @@ fn lamp_light(batch: dispatch__Batch, path: path__Path, surface: types__Surface,
 		rays = rays__ray_set(rays, 0u, direct__shadow_ray(surface, light.incident));
 	}
 	let media = select(path.media, met.media, vec4<bool>(dot(light.incident.direction, bsdf.ng) < 0.0));
-	let through = wide__vector_at(shadow__light_through(rays, ray_states__Media(media.x, media.y, media.z, media.w)), 0u);
-	return unshadowed * through;
+	return unshadowed * wide__vector_at(shadow__light_through(rays, ray_states__Media(media.x, media.y, media.z, media.w)), 0u);
 }
 
 fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
@@ -81,8 +78,7 @@ fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface
 		return path__ended(path);
 	}
 	let chance = select(1.0, mis__survival_chance(path.throughput), path.bounces >= ROULETTE_START);
-	let ends = path__random_1d(path, dimensions__ROULETTE) >= chance || all(path.throughput <= vec3f(0.0));
-	if (ends) {
+	if (path__random_1d(path, dimensions__ROULETTE) >= chance || all(path.throughput <= vec3f(0.0))) {
 		return path__ended(path);
 	}
 	path.throughput /= chance;
@@ -479,6 +475,11 @@ struct types__PackedVertex {
 	material: u32
 }
 
+struct types__PackedTangent {
+	direction: vec3f,
+	handedness: f32
+}
+
 struct types__PackedShape {
 	position: vec3f,
 	kind: u32,
@@ -744,7 +745,8 @@ struct types__Surface {
 	place: vec3f,
 	instance: u32,
 	footprint: types__Footprint,
-	curvature: f32
+	curvature: f32,
+	tangent: vec4f
 }
 
 struct types__Cone {
@@ -885,6 +887,18 @@ fn fetch__load_uvs(index: u32) -> vec4f {
 	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
 }
 
+fn fetch__load_tangent(index: u32) -> types__PackedTangent {
+	return fetch__tangent_of(fetch__vertex_row(2u * fetch__uv_row + index));
+}
+
+fn fetch__load_key_tangent(index: u32) -> types__PackedTangent {
+	return fetch__tangent_of(fetch__vertex_row(index + 1u));
+}
+
+fn fetch__tangent_of(r0: vec4u) -> types__PackedTangent {
+	return types__PackedTangent(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w));
+}
+
 fn fetch__node_row(row: u32) -> vec4u {
 	return bindings__nodes[row];
 }
@@ -1018,6 +1032,10 @@ override bindings__ORTHOGRAPHIC: bool = false;
 override bindings__HAS_UVS: bool = true;
 
 override bindings__HAS_SECOND_UVS: bool = true;
+
+override bindings__HAS_TANGENTS: bool = true;
+
+override bindings__HAS_ANISOTROPY: bool = false;
 
 override bindings__FILM_ROWS: u32 = 1u;
 
@@ -1272,15 +1290,12 @@ struct path__Path {
 }
 
 fn path__camera_path(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32) -> path__Path {
-	return path__path_along(batch, rays__ray_at(pixels__sample_rays(batch, pixels, sample), 0u), wide__word_at(pixels.keys, 0u), sample);
-}
-
-fn path__path_along(batch: dispatch__Batch, ray: types__Ray, key: u32, sample: u32) -> path__Path {
+	let ray = rays__ray_at(pixels__sample_rays(batch, pixels, sample), 0u);
 	var cone = types__Cone(0.0, 0.0);
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, 0.0, cone, key, sample);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, 0.0, cone, wide__word_at(pixels.keys, 0u), sample);
 }
 
 fn path__is_going(path: path__Path) -> bool {
@@ -1322,109 +1337,6 @@ fn path__random_1d(path: path__Path, purpose: u32) -> f32 {
 
 fn path__random_2d(path: path__Path, purpose: u32) -> vec2f {
 	return sampling__stratified_2d(path.sample, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
-}
-
-fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
-	let camera = batch.camera;
-	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
-	let side = batch.footprint * max(sides.x, sides.y);
-	if (bindings__ORTHOGRAPHIC) {
-		return types__Cone(side, 0.0);
-	}
-	return types__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
-}
-
-fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
-	let e1 = corners[1] - corners[0];
-	let e2 = corners[2] - corners[0];
-	let d1 = uvs[1] - uvs[0];
-	let d2 = uvs[2] - uvs[0];
-	return mat2x2f(ray_cone__uv_along(axes[0], e1, e2, d1, d2), ray_cone__uv_along(axes[1], e1, e2, d1, d2));
-}
-
-fn footprint__shape_uv_footprint(shape: types__PackedShape, p: vec3f, axes: mat2x3f, part: f32) -> mat2x2f {
-	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
-		return mat2x2f(vec2f(dot(shape.row_x, axes[0]), dot(shape.row_z, axes[0])), vec2f(dot(shape.row_x, axes[1]), dot(shape.row_z, axes[1])));
-	}
-	var first = vec2f(0.0);
-	var ends = mat2x2f(first, first);
-	var k = 0u;
-	loop {
-		let at = select(select(p + axes[1], p + axes[0], k == 1u), p, k == 0u);
-		let uv = footprint__shape_uv(shape, at, part);
-		let way = uv - first - round(uv - first);
-		first = select(first, uv, k == 0u);
-		ends = mat2x2f(select(ends[0], way, k == 1u), select(ends[1], way, k == 2u));
-		continuing {
-			k += 1u;
-			break if k > 2u;
-		}
-	}
-	loops__cut_off |= k <= 2u;
-	return ends;
-}
-
-fn footprint__shape_uv(shape: types__PackedShape, p: vec3f, part: f32) -> vec2f {
-	if (!shape__is_round(shape.kind)) {
-		return shape__canonical_point(shape, p, part).uv;
-	}
-	if (shape__is_globe(shape.kind)) {
-		return canonical__sphere_uv(globe__globe_point(shape, p).ng);
-	}
-	return canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
-}
-
-fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) -> mat2x3f {
-	let rows = transpose(mat3x3f(instance.pattern_x.xyz, instance.pattern_y.xyz, instance.pattern_z.xyz));
-	return mat2x3f(rows * own[0], rows * own[1]);
-}
-
-fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: types__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
-	var surface = own;
-	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
-	var local = axes;
-	var scale = 1.0;
-	if (bindings__HAS_INSTANCES && is_placed) {
-		local = mat2x3f(space.inverse * axes[0], space.inverse * axes[1]);
-		scale = length(instance__placed_normal(space, own.ng));
-	}
-	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
-	surface.footprint = types__Footprint(in_uv, in_uv, axes);
-	if (shape__is_round(shape.kind)) {
-		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
-		surface.curvature = select(-curvature, curvature, own.outside);
-	}
-	return surface;
-}
-
-fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) -> f32 {
-	if (!(bindings__HAS_FOOTPRINTS && (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION))) {
-		return 0.0;
-	}
-	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
-	return select(-bend, bend, side < 0.0) / 3.0;
-}
-
-const ray_states__KIND_PRIMARY: u32 = 0u;
-
-const ray_states__KIND_REFLECTED: u32 = 1u;
-
-const ray_states__KIND_REFRACTED: u32 = 2u;
-
-struct ray_states__Media {
-	x: wide__Words,
-	y: wide__Words,
-	z: wide__Words,
-	w: wide__Words
-}
-
-fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
-	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
-}
-
-fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
-	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
 }
 
 struct rays__Rays {
@@ -1791,6 +1703,111 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	return direction.x * x + direction.y * y + direction.z * n;
 }
 
+const footprint__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
+
+fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
+	let camera = batch.camera;
+	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
+	let side = batch.footprint * max(sides.x, sides.y);
+	if (bindings__ORTHOGRAPHIC) {
+		return types__Cone(side, 0.0);
+	}
+	return types__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
+}
+
+fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
+	let e1 = corners[1] - corners[0];
+	let e2 = corners[2] - corners[0];
+	let d1 = uvs[1] - uvs[0];
+	let d2 = uvs[2] - uvs[0];
+	return mat2x2f(ray_cone__uv_along(axes[0], e1, e2, d1, d2), ray_cone__uv_along(axes[1], e1, e2, d1, d2));
+}
+
+fn footprint__shape_uv_footprint(shape: types__PackedShape, p: vec3f, axes: mat2x3f, part: f32) -> mat2x2f {
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		return mat2x2f(vec2f(dot(shape.row_x, axes[0]), dot(shape.row_z, axes[0])), vec2f(dot(shape.row_x, axes[1]), dot(shape.row_z, axes[1])));
+	}
+	var first = vec2f(0.0);
+	var ends = mat2x2f(first, first);
+	var k = 0u;
+	loop {
+		let at = select(select(p + axes[1], p + axes[0], k == 1u), p, k == 0u);
+		let uv = footprint__shape_uv(shape, at, part);
+		let way = uv - first - round(uv - first);
+		first = select(first, uv, k == 0u);
+		ends = mat2x2f(select(ends[0], way, k == 1u), select(ends[1], way, k == 2u));
+		continuing {
+			k += 1u;
+			break if k > 2u;
+		}
+	}
+	loops__cut_off |= k <= 2u;
+	return ends;
+}
+
+fn footprint__shape_uv(shape: types__PackedShape, p: vec3f, part: f32) -> vec2f {
+	if (!shape__is_round(shape.kind)) {
+		return shape__canonical_point(shape, p, part).uv;
+	}
+	if (shape__is_globe(shape.kind)) {
+		return canonical__sphere_uv(globe__globe_point(shape, p).ng);
+	}
+	return canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
+}
+
+fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) -> mat2x3f {
+	let rows = transpose(mat3x3f(instance.pattern_x.xyz, instance.pattern_y.xyz, instance.pattern_z.xyz));
+	return mat2x3f(rows * own[0], rows * own[1]);
+}
+
+fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: types__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
+	var surface = own;
+	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
+	var local = axes;
+	var scale = 1.0;
+	if (bindings__HAS_INSTANCES && is_placed) {
+		local = mat2x3f(space.inverse * axes[0], space.inverse * axes[1]);
+		scale = length(instance__placed_normal(space, own.ng));
+	}
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
+	surface.footprint = types__Footprint(in_uv, in_uv, axes);
+	if (shape__is_round(shape.kind)) {
+		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
+		surface.curvature = select(-curvature, curvature, own.outside);
+	}
+	return surface;
+}
+
+fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) -> f32 {
+	if (!(bindings__HAS_FOOTPRINTS && (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION))) {
+		return 0.0;
+	}
+	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
+	return select(-bend, bend, side < 0.0) / 3.0;
+}
+
+const ray_states__KIND_PRIMARY: u32 = 0u;
+
+const ray_states__KIND_REFLECTED: u32 = 1u;
+
+const ray_states__KIND_REFRACTED: u32 = 2u;
+
+struct ray_states__Media {
+	x: wide__Words,
+	y: wide__Words,
+	z: wide__Words,
+	w: wide__Words
+}
+
+fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
+	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
+}
+
+fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
+	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
+}
+
 const traverse__EMPTY: u32 = 4294967295u;
 
 const traverse__RETURN: u32 = 4294967294u;
@@ -2139,6 +2156,33 @@ fn deforming__normals_now(primitive: u32, keys: deforming__Keys) -> mat3x3f {
 fn deforming__normals_at(triangle: u32) -> mat3x3f {
 	let own = fetch__load_triangle(triangle);
 	return mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+}
+
+fn deforming__tangents_now(primitive: u32, keys: deforming__Keys) -> mat3x4f {
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+			let a = deforming__tangents_at(deforming__index_at(primitive, keys, moment.key), moment.key > 0u);
+			let b = deforming__tangents_at(deforming__index_at(primitive, keys, moment.key + 1u), true);
+			return a * (1.0 - moment.fraction) + b * moment.fraction;
+		}
+	}
+	return deforming__tangents_at(primitive, false);
+}
+
+fn deforming__tangents_at(triangle: u32, is_later: bool) -> mat3x4f {
+	let own = fetch__load_triangle(triangle);
+	return mat3x4f(deforming__tangent_at(own.i0, is_later), deforming__tangent_at(own.i1, is_later), deforming__tangent_at(own.i2, is_later));
+}
+
+fn deforming__tangent_at(vertex: u32, is_later: bool) -> vec4f {
+	var tangent = fetch__load_tangent(vertex);
+	if (bindings__HAS_DEFORMATION) {
+		if (is_later) {
+			tangent = fetch__load_key_tangent(vertex);
+		}
+	}
+	return vec4f(tangent.direction, tangent.handedness);
 }
 
 const numeric__ROUNDING: f32 = 5.9604645e-8;
@@ -2779,8 +2823,7 @@ fn environment__background_weight(batch: dispatch__Batch, direction: vec3f, pdf:
 	if (!bindings__HAS_ENVIRONMENT || pdf <= 0.0) {
 		return 1.0;
 	}
-	let density = batch.environment_share * environment__environment_pdf(batch, direction);
-	return mis__power_heuristic(pdf, density);
+	return mis__power_heuristic(pdf, batch.environment_share * environment__environment_pdf(batch, direction));
 }
 
 fn environment__density_at(batch: dispatch__Batch, cell: vec2u, direction: vec3f) -> f32 {
@@ -2788,6 +2831,15 @@ fn environment__density_at(batch: dispatch__Batch, cell: vec2u, direction: vec3f
 	let first = batch.environment_first + 1u + 2u * ((height * height - 1u) / 3u);
 	let density = bitcast<f32>(picture__load_texel_word(first + cell.y * batch.environment_width + cell.x));
 	return density / (2.0 * picture__PI * picture__PI * max(length(direction.xz), 1e-6));
+}
+
+fn mis__power_heuristic(own: f32, other: f32) -> f32 {
+	let ratio = other / max(own, 1e-30);
+	return select(0.0, 1.0 / (1.0 + min(ratio * ratio, 1e30)), own > 0.0);
+}
+
+fn mis__survival_chance(throughput: vec3f) -> f32 {
+	return min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
 }
 
 const picture__PI: f32 = 3.14159265;
@@ -2870,14 +2922,7 @@ fn picture__load_texel_word(index: u32) -> u32 {
 	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
 }
 
-fn mis__power_heuristic(own: f32, other: f32) -> f32 {
-	let ratio = other / max(own, 1e-30);
-	return select(0.0, 1.0 / (1.0 + min(ratio * ratio, 1e30)), own > 0.0);
-}
-
-fn mis__survival_chance(throughput: vec3f) -> f32 {
-	return min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
-}
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
 	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
@@ -2891,8 +2936,6 @@ fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
 	}
 	return batch.background;
 }
-
-const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 const contact__NEAR: f32 = 1e-5;
 
@@ -2917,7 +2960,7 @@ fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> c
 		let surface = surface__surface_at(ray, current, cone);
 		if (first) {
 			contact.surface = surface;
-			vertices = surface__met_vertices;
+			vertices = triangle_surface__met_vertices;
 			second_wanted = bindings__HAS_REFRACTION && bindings__HAS_CONTACT && contact__is_near(ray, hit, surface);
 		}
 		else {
@@ -2989,7 +3032,7 @@ fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3
 	if (!are_triangles || first.instance != second.instance) {
 		return false;
 	}
-	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, surface__met_vertices);
+	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, triangle_surface__met_vertices);
 }
 
 fn contact__is_at_edge(hit: types__Hit) -> bool {
@@ -2999,16 +3042,6 @@ fn contact__is_at_edge(hit: types__Hit) -> bool {
 
 fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
 	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
-}
-
-const surface__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
-
-var<private> surface__met_vertices: vec3u;
-
-struct surface__Placing {
-	space: motion__Space,
-	is_placed: bool,
-	keys: deforming__Keys
 }
 
 fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
@@ -3023,10 +3056,10 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 	}
 	var surface: types__Surface;
 	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
-		surface = surface__triangle_surface(ray, hit, surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
+		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
 	}
 	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
-		surface = surface__shape_surface(local, hit);
+		surface = shape_surface__shape_surface(local, hit);
 		let p = surface.p;
 		if (is_placed) {
 			surface = surface__placed_surface(ray, surface, space);
@@ -3058,11 +3091,19 @@ fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__
 	return surface;
 }
 
-fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface__Placing, cone: types__Cone) -> types__Surface {
+var<private> triangle_surface__met_vertices: vec3u;
+
+struct triangle_surface__Placing {
+	space: motion__Space,
+	is_placed: bool,
+	keys: deforming__Keys
+}
+
+fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: triangle_surface__Placing, cone: types__Cone) -> types__Surface {
 	let space = placing.space;
 	let keys = placing.keys;
 	let own = deforming__triangle_now(hit.primitive, keys);
-	surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
+	triangle_surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
 	let v0 = fetch__load_vertex(own.i0);
 	let v1 = fetch__load_vertex(own.i1);
 	let v2 = fetch__load_vertex(own.i2);
@@ -3081,20 +3122,29 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
 		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, normals[0]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[1]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[2]), -ray.direction));
 	}
+	let weights = vec3f(b0, b1, b2);
+	var frame = mat3x3f();
+	if (bindings__HAS_TANGENTS) {
+		var tangents = deforming__tangents_now(hit.primitive, keys);
+		if (bindings__HAS_INSTANCES && placing.is_placed) {
+			tangents = tangent_space__placed_tangents(space, tangents);
+		}
+		frame = tangent_space__vertex_frame(tangents, normals, weights);
+	}
 	let material = material__load_material(v0.material);
 	var phong = material.phong;
 	if (bindings__MIXED_MATERIALS) {
-		phong = surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
+		phong = triangle_surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
 	}
 	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
-	let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
+	let n = numeric__normalize_or(normals * weights, ng);
 	var shading_normal = n;
 	var uv = vec2f(b1, b2);
 	if (bindings__HAS_TEXTURES) {
 		uv = vec2f(0.0);
 	}
 	var second_uv = uv;
-	var footprint = surface__NO_FOOTPRINT;
+	var footprint = footprint__NO_FOOTPRINT;
 	if (bindings__HAS_FOOTPRINTS) {
 		footprint.place = ray_cone__footprint_axes(ray.direction, ng, ray_cone__cone_at(cone, hit.t).width);
 	}
@@ -3102,8 +3152,8 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 		let rows = mat3x4f(fetch__load_uvs(own.i0), fetch__load_uvs(own.i1), fetch__load_uvs(own.i2));
 		let uvs = mat3x2f(rows[0].xy, rows[1].xy, rows[2].xy);
 		let second_uvs = mat3x2f(rows[0].zw, rows[1].zw, rows[2].zw);
-		uv = uvs * vec3f(b0, b1, b2);
-		second_uv = select(uv, second_uvs * vec3f(b0, b1, b2), bindings__HAS_SECOND_UVS);
+		uv = uvs * weights;
+		second_uv = select(uv, second_uvs * weights, bindings__HAS_SECOND_UVS);
 		if (bindings__HAS_FOOTPRINTS) {
 			footprint.uv = footprint__triangle_uv_footprint(footprint.place, corners, uvs);
 			if (bindings__HAS_SECOND_UVS) {
@@ -3111,57 +3161,41 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 			}
 		}
 		if (bindings__HAS_NORMAL_MAPS) {
-			shading_normal = normal_map__mapped_normal(v0.material, n, corners, rows, vec3f(b0, b1, b2), footprint);
+			shading_normal = normal_map__mapped_normal(v0.material, frame, n, corners, rows, weights, footprint);
 		}
 	}
-	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)));
+	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
+	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips));
 }
 
-fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
-	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	let reached = ray.origin + hit.t * ray.direction;
-	let material = material__load_material(shape.material);
-	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
-		let ng = shape.row_y;
-		let p = reached - dot(reached - shape.position, ng) * ng;
-		let outside = dot(ng, ray.direction) <= 0.0;
-		var plane_uv = vec2f(0.0);
-		if (bindings__HAS_TEXTURES) {
-			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
-		}
-		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
-	}
-	if (!shape__is_round(shape.kind)) {
-		let point = shape__canonical_point(shape, reached, hit.b1);
-		let placed = canonical__placed_point(shape, reached, point);
-		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
-	}
-	let placed = surface__sphere_point(shape, reached, ray.direction);
-	let ng = placed.ng;
-	let outside = dot(ng, ray.direction) <= 0.0;
-	var uv = vec2f(0.0);
-	if (bindings__HAS_TEXTURES) {
-		uv = canonical__sphere_uv(ng);
-	}
-	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
-}
-
-fn surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
-	if (shape__is_globe(shape.kind)) {
-		return globe__globe_point(shape, reached);
-	}
-	let ng = numeric__normalize_or(reached - shape.position, -direction);
-	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
-}
-
-fn surface__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
-	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
-	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
-}
-
-fn surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
+fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
 	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+}
+
+fn tangent_space__placed_tangents(space: motion__Space, own: mat3x4f) -> mat3x4f {
+	let mirrors = select(1.0, -1.0, determinant(space.linear) < 0.0);
+	return mat3x4f(tangent_space__placed_tangent(space, own[0], mirrors), tangent_space__placed_tangent(space, own[1], mirrors), tangent_space__placed_tangent(space, own[2], mirrors));
+}
+
+fn tangent_space__placed_tangent(space: motion__Space, own: vec4f, mirrors: f32) -> vec4f {
+	return vec4f(numeric__normalize_or(space.linear * own.xyz, vec3f(0.0)), mirrors * own.w);
+}
+
+fn tangent_space__vertex_frame(tangents: mat3x4f, normals: mat3x3f, weights: vec3f) -> mat3x3f {
+	let is_whole = tangents[0].w * tangents[1].w * tangents[2].w != 0.0;
+	let tangent = tangents * weights;
+	let n = normals * weights;
+	let frame = mat3x3f(tangent.xyz, sign(tangent.w) * cross(n, tangent.xyz), n);
+	return frame * select(0.0, 1.0, is_whole);
+}
+
+fn tangent_space__surface_tangent(frame: mat3x3f, n: vec3f, flips: bool) -> vec4f {
+	if (!bindings__HAS_ANISOTROPY) {
+		return vec4f(0.0);
+	}
+	let along = numeric__normalize_or(frame[0] - dot(frame[0], n) * n, vec3f(0.0));
+	let hand = select(-1.0, 1.0, (dot(cross(n, along), frame[1]) >= 0.0) != flips);
+	return vec4f(along, select(hand, 0.0, dot(along, along) == 0.0));
 }
 
 struct material__PhongMaterial {
@@ -3253,6 +3287,11 @@ fn material__load_glow(index: u32) -> material__Glow {
 	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
 }
 
+fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
+	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
+	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
+}
+
 const ray_cone__MOST_TAPS: f32 = 8.0;
 
 const ray_cone__WIDEST: f32 = 1000000000000000.0;
@@ -3298,7 +3337,7 @@ fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
 	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
 }
 
-fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+fn normal_map__mapped_normal(material: u32, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
 	let index = material__load_texture_indices(material).w & 65535u;
 	if (index == types__NO_TEXTURE) {
 		return n;
@@ -3310,9 +3349,15 @@ fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat
 	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
 	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
 	let tilt = material__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
+	let up = max(2.0 * code.z - 1.0, 0.0);
+	if (bindings__HAS_TANGENTS) {
+		if (dot(frame[2], frame[2]) > 0.0) {
+			return numeric__normalize_or(frame * vec3f(tilt, up), n);
+		}
+	}
 	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
 	let bitangent = tangent.w * cross(n, tangent.xyz);
-	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + max(2.0 * code.z - 1.0, 0.0) * n, n);
+	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + up * n, n);
 }
 
 fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
@@ -3492,6 +3537,44 @@ fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) ->
 
 fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
 	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
+}
+
+fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let reached = ray.origin + hit.t * ray.direction;
+	let material = material__load_material(shape.material);
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		let ng = shape.row_y;
+		let p = reached - dot(reached - shape.position, ng) * ng;
+		let outside = dot(ng, ray.direction) <= 0.0;
+		var plane_uv = vec2f(0.0);
+		if (bindings__HAS_TEXTURES) {
+			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
+		}
+		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+	}
+	if (!shape__is_round(shape.kind)) {
+		let point = shape__canonical_point(shape, reached, hit.b1);
+		let placed = canonical__placed_point(shape, reached, point);
+		let ng = placed.ng;
+		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+	}
+	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
+	let ng = placed.ng;
+	let outside = dot(ng, ray.direction) <= 0.0;
+	var uv = vec2f(0.0);
+	if (bindings__HAS_TEXTURES) {
+		uv = canonical__sphere_uv(ng);
+	}
+	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+}
+
+fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
+	if (shape__is_globe(shape.kind)) {
+		return globe__globe_point(shape, reached);
+	}
+	let ng = numeric__normalize_or(reached - shape.position, -direction);
+	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
 }
 
 struct interface__Interface {
@@ -3862,8 +3945,7 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2
 	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || choice >= fetch__load_light_end(batch.light_count - 1u))) {
 		return emitters__sample_emitter(batch, p, choice, u);
 	}
-	let index = emitters__chosen(choice, batch.light_count, false);
-	let light = shutter__shutter_light(index, batch.light_count);
+	let light = shutter__shutter_light(emitters__chosen(choice, batch.light_count, false), batch.light_count);
 	var arriving = light__incident(light, p);
 	var pdf = 0.0;
 	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
@@ -3901,8 +3983,7 @@ fn emitters__chosen(choice: f32, count: u32, among_emitters: bool) -> u32 {
 }
 
 fn emitters__sample_emitter(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
-	let index = emitters__chosen(choice, batch.emitter_count, true);
-	let emitter = fetch__load_emitter(index);
+	let emitter = fetch__load_emitter(emitters__chosen(choice, batch.emitter_count, true));
 	var instance: types__PackedInstance;
 	let is_placed = bindings__HAS_INSTANCES && emitter.instance != types__NO_INSTANCE;
 	if (is_placed) {

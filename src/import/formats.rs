@@ -37,8 +37,8 @@ pub const SCENE_FORMATS: &[SceneFormat] = &[
         endings: &["obj"],
         name: "Wavefront OBJ with MTL",
         shown: "polygons, normals, smoothing groups, texture coordinates, vertex colours; colours, pictures, \
-                normal and height maps, masks, mirrors, glass, roughness and metalness",
-        skipped: "points, lines, curves and surfaces; `disp`, `refl`, `Ps`, `Pc`, `aniso`",
+                normal and height maps, masks, mirrors, glass, roughness, metalness, clear coats, sheen and anisotropy",
+        skipped: "points, lines, curves and surfaces; `disp`, `refl`, pictures of `Pr`, `Pm`, `Ps` and `Pc`",
     },
     SceneFormat {
         endings: &["gltf", "glb"],

@@ -21,6 +21,7 @@ impl Fingerprint {
             priorities,
             filtered_shadows,
             // These follow from the materials.
+            anisotropy: _,
             coatings: _,
             thin_walls: _,
             textures,

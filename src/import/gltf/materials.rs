@@ -74,6 +74,12 @@ impl Reader<'_> {
         (self.surfaces.get(key)).map_or_else(Vec::new, |surface| surface.uv_sets.clone())
     }
 
+    /// Whether surfaces of a material, which [`Self::material_of`] returned, show their tangents.
+    pub(super) fn has_tangents(&self, key: &MaterialKey) -> bool {
+        let material = self.surfaces.get(key).map(|surface| &surface.material);
+        material.is_some_and(Material::has_tangents)
+    }
+
     /// Adds a material for each of `count` vertices to `materials`: those of `key`, multiplied with
     /// `colors` if there are any.
     pub(super) fn paint(
@@ -125,18 +131,7 @@ impl Reader<'_> {
         if let Some((code, levels)) = color {
             let [r, g, b, _] = code.to_le_bytes().map(|c| (f32::from(c) / levels).powi(2));
             let color = Vec3::new(r, g, b);
-            material.diffuse *= color;
-            material.ambient *= color;
-            material.tint = color;
-            if let Some(model) = &material.metallic_roughness {
-                if model.unlit {
-                    material.emission *= color;
-                }
-                if model.metallic > 0.5 {
-                    material.specular *= color;
-                    material.reflect *= color;
-                }
-            }
+            material.paint(color);
         }
         let size = budget::size::<(Material, [u64; 4])>(1) + material.name.len() as u64;
         self.ledger.take(size, 0, "materials")?;
@@ -153,7 +148,11 @@ impl Reader<'_> {
         self.maps(source, &mut model, &here)?;
         let name = source.name.clone().unwrap_or_default();
         let mut material = model.classical(name);
-        let uv_sets = self.textured(source, &model, &mut material, &here)?;
+        let mut uv_sets = self.textured(source, &model, &mut material, &here)?;
+        if model.anisotropy > 0.0 && uv_sets.is_empty() {
+            // They give the direction of tangents.
+            uv_sets.push(0);
+        }
         let size = budget::size::<(Surface, MetallicRoughness)>(1);
         self.ledger.take(size, 0, &here)?;
         material.metallic_roughness = Some(Arc::new(model));

@@ -11,9 +11,8 @@ use glam::{DAffine3, DVec3, Vec3};
 use std::collections::BTreeMap;
 
 /// Textures and numbers that are skipped by name: the renderer has no such thing.
-const SKIPPED: [&str; 15] = [
-    "map_Tr", "map_Ns", "map_Pr", "map_Pm", "map_Ps", "map_Pc", "disp", "decal", "refl",
-    "map_refl", "Ps", "Pc", "Pcr", "aniso", "anisor",
+const SKIPPED: [&str; 10] = [
+    "map_Tr", "map_Ns", "map_Pr", "map_Pm", "map_Ps", "map_Pc", "disp", "decal", "refl", "map_refl",
 ];
 
 /// Names of height maps, in upper or lower case.
@@ -109,7 +108,8 @@ pub(super) fn read(
                     *left_out.entry("`illum` above 9").or_default() += 1;
                 }
             }
-            b"Ns" | b"Ni" | b"d" | b"Tr" | b"Pr" | b"Pm" => {
+            b"Ns" | b"Ni" | b"d" | b"Tr" | b"Pr" | b"Pm" | b"Ps" | b"Pc" | b"Pcr" | b"aniso"
+            | b"anisor" => {
                 let number = at_least_zero(source, keyword, line.word())?;
                 let values = &mut draft.values;
                 match keyword.bytes {
@@ -118,6 +118,11 @@ pub(super) fn read(
                     b"d" => values.d = number,
                     b"Tr" => values.d = (1.0 - number).max(0.0),
                     b"Pr" => values.pr = Some(number),
+                    b"Ps" => values.ps = number,
+                    b"Pc" => values.pc = number,
+                    b"Pcr" => values.pcr = number,
+                    b"aniso" => values.aniso = number,
+                    b"anisor" => values.anisor = number,
                     _ => values.pm = Some(number),
                 }
             }
@@ -294,6 +299,11 @@ fn new_draft<'s>(
             illum: 2,
             pr: None,
             pm: None,
+            ps: 0.0,
+            pc: 0.0,
+            pcr: 0.0,
+            aniso: 0.0,
+            anisor: 0.0,
         },
         maps: Maps::default(),
     })

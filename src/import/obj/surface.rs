@@ -5,6 +5,7 @@
 
 use crate::scene::{Coverage, Fresnel, Material, MetallicRoughness};
 use glam::Vec3;
+use std::f32::consts::TAU;
 
 /// The values of a material, by their keys.
 #[derive(Clone, Copy)]
@@ -21,7 +22,16 @@ pub(super) struct Values {
     pub illum: u32,
     pub pr: Option<f32>,
     pub pm: Option<f32>,
+    /// Sheen, clear coat and its roughness, anisotropy and its direction in turns.
+    pub ps: f32,
+    pub pc: f32,
+    pub pcr: f32,
+    pub aniso: f32,
+    pub anisor: f32,
 }
+
+/// MTL has no number for it.
+const SHEEN_ROUGHNESS: f32 = 0.5;
 
 impl Values {
     /// The material, without name and textures.
@@ -37,7 +47,7 @@ impl Values {
             transmit: (1.0 - opacity) * self.tf,
             ..Material::default()
         };
-        if self.pr.is_some() || self.pm.is_some() {
+        if self.is_physical() {
             self.physical(&mut material);
         } else if self.illum >= 3 {
             self.optical(&mut material);
@@ -58,6 +68,12 @@ impl Values {
         material
     }
 
+    /// Whether it is a metallic-roughness material: exporters write zeros for what a material lacks.
+    fn is_physical(&self) -> bool {
+        let has_layers = self.ps > 0.0 || self.pc > 0.0 || self.aniso > 0.0;
+        self.pr.is_some() || self.pm.is_some() || has_layers
+    }
+
     /// The mirror of models 3 and above. Models 5 and 7 have Fresnel's equations.
     fn optical(&self, material: &mut Material) {
         material.reflect = self.ks.min(Vec3::ONE);
@@ -73,6 +89,12 @@ impl Values {
             base_color: self.kd,
             metallic: self.pm.unwrap_or(0.0).clamp(0.0, 1.0),
             roughness: self.pr.unwrap_or(0.5).clamp(0.0, 1.0),
+            clearcoat: self.pc.clamp(0.0, 1.0),
+            clearcoat_roughness: self.pcr.clamp(0.0, 1.0),
+            sheen_color: Vec3::splat(self.ps.clamp(0.0, 1.0)),
+            sheen_roughness: SHEEN_ROUGHNESS,
+            anisotropy: self.aniso.clamp(0.0, 1.0),
+            anisotropy_rotation: TAU * self.anisor.fract(),
             emission: self.ke,
             alpha: material.opacity,
             coverage: match material.opacity < 1.0 {

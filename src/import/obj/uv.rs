@@ -60,5 +60,5 @@ impl Reader<'_> {
 }
 
 fn is_textured(material: &Material) -> bool {
-    material.textures.all().iter().any(Option::is_some)
+    material.has_tangents() || material.textures.all().iter().any(Option::is_some)
 }

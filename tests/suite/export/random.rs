@@ -221,6 +221,11 @@ fn mesh(random: &mut Random, materials: usize) -> Mesh {
         }
     }
     if random.below(2) == 0 {
+        let hand = |random: &mut Random| pick(random, &[1.0, -1.0]);
+        let mut tangent = || direction(random).as_vec3().extend(hand(random));
+        mesh.tangents = (0..count).map(|_| tangent()).collect();
+    }
+    if random.below(2) == 0 {
         mesh.materials.fill(0);
     }
     mesh.repair();

@@ -137,12 +137,12 @@ fn physically_based_keys_become_a_highlight_and_a_mirror() {
 #[test]
 fn what_the_renderer_lacks_is_named() {
     let library = "norm -bm 0.5 red.png\nmap_Ns c.png\nmap_Pr e.png\ndisp f.png\n\
-        refl -type sphere g.png\nmap_what h.png\nPs 0.5\nPc 0\nPcr 0.1\naniso 0.5\nd -halo 0.5\n";
+        refl -type sphere g.png\nmap_what h.png\nd -halo 0.5\n";
     assert_snapshot!(with(library).skipped.join("\n"), @r"
 `d -halo` of materials skipped: 1
 other textures of materials skipped: 1
 texture options of materials skipped: 1
-skipped in materials: `Pcr` 1, `Ps` 1, `aniso` 1, `disp` 1, `map_Ns` 1, `map_Pr` 1, `refl` 1
+skipped in materials: `disp` 1, `map_Ns` 1, `map_Pr` 1, `refl` 1
 ");
 }
 
@@ -153,6 +153,40 @@ fn norm_is_a_normal_map() {
         (material.textures.normal, material.textures.diffuse),
         (Some(0), None)
     );
+}
+
+#[test]
+fn normal_maps_of_models_follow_the_tangents_of_their_vertices() {
+    // u grows along y and v against x.
+    let text = MODEL.replace("vt 0 0\n", "vt 0 0\nvt 0 -1\nvt 1 0\n");
+    let text = text.replace("f 1/1 2/1 3/1", "f 1/1 2/2 3/3");
+    let of = |line: &str| {
+        let folder = folder(&[
+            ("a.obj", text.as_bytes()),
+            ("a.mtl", format!("newmtl a\n{line}").as_bytes()),
+            ("red.png", &super::textures::png()),
+        ]);
+        let scene = import::load(&folder.path().join("a.obj")).expect("a model");
+        scene.meshes[0].tangents.clone()
+    };
+    for line in ["norm red.png", "bump red.png", "Pr 0.5\naniso 0.5"] {
+        assert_eq!(of(line), [glam::Vec4::new(0.0, 1.0, 0.0, 1.0); 3], "{line}");
+    }
+    assert!(of("map_Kd red.png").is_empty());
+}
+
+#[test]
+fn coats_sheen_and_anisotropy_are_kept_for_path_tracing() {
+    let coated = material("Kd 0.5 0.5 0.5\nPr 0.5\nPs 0.25\nPc 1\nPcr 0.1\naniso 0.5\nanisor 0.25");
+    let model = coated.metallic_roughness.as_deref().expect("the model");
+    assert_eq!((model.clearcoat, model.clearcoat_roughness), (1.0, 0.1));
+    assert_eq!(model.sheen_color, Vec3::splat(0.25));
+    assert_eq!(model.anisotropy, 0.5);
+    let quarter = std::f32::consts::FRAC_PI_2;
+    assert!((model.anisotropy_rotation - quarter).abs() < 1e-6);
+    // Blender writes zeros for what a material lacks.
+    let plain = material("Kd 0.5 0.5 0.5\nPs 0\nPc 0\nPcr 0\naniso 0\nanisor 0");
+    assert_eq!(plain.metallic_roughness, None);
 }
 
 #[test]
