@@ -238,7 +238,7 @@ packed! {
         light: u32,
         /// Mean luminance of the texture of the emission, 1 without one.
         glow: f32,
-        /// A bit for each slot with a texture, from [`SLOT_BASE`] to [`SLOT_EMISSION`].
+        /// A bit for each slot with a texture, see [`SLOT_BASE`].
         slots: u32,
         #[doc(hidden)]
         _pad: u32,
@@ -247,6 +247,8 @@ packed! {
         textures: [u32; 4],
         /// The same for the other slots.
         more_textures: [u32; 4],
+        /// The third eight.
+        last_textures: [u32; 4],
     }
     /// A spatially varying colour that multiplies a colour of a material.
     PackedTexture {

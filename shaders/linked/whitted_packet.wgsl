@@ -537,7 +537,7 @@ const types__MATERIAL_THIN: u32 = 128u;
 
 const types__MATERIAL_METALLIC_ROUGHNESS: u32 = 256u;
 
-const types__MATERIAL_ROWS: u32 = 19u;
+const types__MATERIAL_ROWS: u32 = 20u;
 
 const types__LAYERS_ROW: u32 = 9u;
 
@@ -570,6 +570,10 @@ const types__SLOT_DIFFUSE_TRANSMISSION_COLOR: u32 = 13u;
 const types__SLOT_REFLECT: u32 = 14u;
 
 const types__SLOT_EMISSION: u32 = 15u;
+
+const types__SLOT_METALLIC: u32 = 16u;
+
+const types__SLOT_ROUGHNESS: u32 = 17u;
 
 const types__TEXTURE_ROWS: u32 = 6u;
 
@@ -718,7 +722,8 @@ struct types__PackedLayers {
 	slots: u32,
 	_pad: u32,
 	textures: vec4u,
-	more_textures: vec4u
+	more_textures: vec4u,
+	last_textures: vec4u
 }
 
 struct types__PackedTexture {
@@ -3135,7 +3140,7 @@ fn material__load_layers(index: u32) -> types__PackedLayers {
 	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
 	let r6 = fetch__material_row(row + 6u);
 	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, 0u, fetch__material_row(row + 8u), fetch__material_row(row + 9u));
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, 0u, fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
 }
 
 fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
@@ -4319,11 +4324,12 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 	if (bindings__HAS_TEXTURES) {
 		var rest = own.slots;
 		loop {
-			let slot = firstTrailingBit(rest | 65536u);
+			let slot = firstTrailingBit(rest | 2147483648u);
 			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
 			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
-			own.roughness *= select(1.0, value.y, slot == types__SLOT_METALLIC_ROUGHNESS);
-			own.metallic *= select(1.0, value.z, slot == types__SLOT_METALLIC_ROUGHNESS);
+			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
+			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
+			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
 			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
 			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
 			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
@@ -4404,7 +4410,8 @@ fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
 }
 
 fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
-	let four = select(own.textures, own.more_textures, vec4<bool>(slot >= 8u));
+	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
+	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
 	let word = (slot >> 1u) & 3u;
 	let low = select(four.x, four.y, word == 1u);
 	let high = select(four.z, four.w, word == 3u);

@@ -128,9 +128,12 @@ impl Reader<'_> {
                     .and_then(|it| it.$texture.as_deref())
             };
         }
+        let base_color = of(main[0], false)?;
+        let metallic_roughness = of(main[1], true)?;
         Ok(LayerTextures {
-            base_color: of(main[0], false)?,
-            metallic_roughness: of(main[1], true)?,
+            base_color,
+            metallic: metallic_roughness,
+            roughness: metallic_roughness,
             transmission: of(main[2], true)?,
             specular: of(map!(specular specular_texture), true)?,
             specular_color: of(map!(specular specular_color_texture), false)?,
