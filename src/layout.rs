@@ -307,10 +307,10 @@ packed! {
         /// Whether rays can hit it, 0 or 1.
         visible: u32,
     }
-    /// An emissive triangle that paths sample as a light.
+    /// An emissive triangle or shape that paths sample as a light.
     PackedEmitter {
-        /// Its index in the triangles array.
-        triangle: u32,
+        /// Its index in the triangles array, or in the shapes array with [`SHAPE`].
+        primitive: u32,
         /// Its instance, or [`NO_INSTANCE`].
         instance: u32,
         /// Chance with which it is sampled.

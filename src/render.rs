@@ -43,7 +43,7 @@ pub use levels::{Levels, Quantity};
 pub use policy::{ExecutionPolicy, Fetch, Slicing};
 pub use query::{QueryHit, QueryRay, RayBatch, RayQuery, RaySteps, RayTest};
 pub use settings::{
-    MIN_THROUGHPUT, PATH_DEPTH, PATH_SAMPLES, RayOffset, RenderSettings, TriangleTest,
+    BsdfModel, MIN_THROUGHPUT, PATH_DEPTH, PATH_SAMPLES, RayOffset, RenderSettings, TriangleTest,
 };
 pub use show::Screen;
 pub use stats::{Rays, Stats, Uploads};

@@ -3926,9 +3926,14 @@ fn fresnel__fresnel(cos_i: f32, eta: f32) -> fresnel__Boundary {
 fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
 	let exact = fresnel__fresnel(cos_i, eta);
 	let r0 = fresnel__ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
-	let x = 1.0 - select(cos_i, exact.cos_t, eta > 1.0);
+	let grazing = fresnel__schlick_weight(select(cos_i, exact.cos_t, eta > 1.0));
+	return fresnel__Boundary(select(mix(r0, 1.0, grazing), 1.0, exact.total), exact.cos_t, exact.total);
+}
+
+fn fresnel__schlick_weight(cosine: f32) -> f32 {
+	let x = 1.0 - clamp(cosine, 0.0, 1.0);
 	let x2 = x * x;
-	return fresnel__Boundary(select(r0 + (1.0 - r0) * x2 * x2 * x, 1.0, exact.total), exact.cos_t, exact.total);
+	return x2 * x2 * x;
 }
 
 fn fresnel__mirrored(direction: vec3f, n: vec3f) -> vec3f {

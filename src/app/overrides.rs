@@ -2,8 +2,8 @@
 
 use super::error::AppError;
 use crate::render::{
-    Antialias, Integrator, Levels, PATH_DEPTH, PATH_SAMPLES, Quantity, RayOffset, RenderSettings,
-    Shows, Tone, TriangleTest,
+    Antialias, BsdfModel, Integrator, Levels, PATH_DEPTH, PATH_SAMPLES, Quantity, RayOffset,
+    RenderSettings, Shows, Tone, TriangleTest,
 };
 use crate::scene::{
     Background, Camera, CameraProperty, Filter, OutputDefaults, Scene, Shutter, Target, ToneCurve,
@@ -43,6 +43,8 @@ pub struct PictureOverrides {
     pub min_throughput: Option<f32>,
     /// Let all transparent surfaces filter the shadow rays of paths.
     pub transparent_shadows: bool,
+    /// How metallic-roughness materials scatter.
+    pub bsdf: Option<BsdfModel>,
     /// Reconstruction filter.
     pub filter: Option<Filter>,
     /// Its radius in pixels.
@@ -146,6 +148,7 @@ impl PictureOverrides {
             }),
             min_throughput: self.min_throughput.unwrap_or(defaults.min_throughput),
             transparent_shadows: self.transparent_shadows,
+            bsdf: self.bsdf.unwrap_or(defaults.bsdf),
             ..defaults
         }
     }

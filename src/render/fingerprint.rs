@@ -22,6 +22,9 @@ impl Fingerprint {
             filtered_shadows,
             // These follow from the materials.
             coatings: _,
+            coated_emission: _,
+            rough_glass: _,
+            dispersion: _,
             thin_walls: _,
             textures,
             second_uvs,

@@ -54,6 +54,8 @@ pub struct RenderSettings {
     /// Path tracing: whether all transparent surfaces filter shadow rays, in straight lines. Without it only smooth
     /// thin walls do, and the light behind other glass is found by paths; with it caustics are lost.
     pub transparent_shadows: bool,
+    /// Path tracing: how metallic-roughness materials scatter.
+    pub bsdf: BsdfModel,
 }
 
 impl Default for RenderSettings {
@@ -76,6 +78,7 @@ impl Default for RenderSettings {
             max_depth: 5,
             min_throughput: MIN_THROUGHPUT,
             transparent_shadows: false,
+            bsdf: BsdfModel::Full,
         }
     }
 }
@@ -157,6 +160,7 @@ impl RenderSettings {
             max_depth,
             min_throughput,
             transparent_shadows,
+            bsdf,
         } = self;
         let range = sample_range.as_ref();
         let mut encoder = Encoder::new("render settings", 1);
@@ -198,8 +202,23 @@ impl RenderSettings {
         if *transparent_shadows {
             encoder.bytes(b"transparent shadows");
         }
+        if *bsdf == BsdfModel::Spec {
+            encoder.bytes(b"BSDF of the glTF specification");
+        }
         encoder.finish()
     }
+}
+
+/// How metallic-roughness materials scatter light in path-traced pictures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BsdfModel {
+    /// Height-correlated shadowing, with the light that microfacets scatter several times; layers get what those above
+    /// leave, by tables of albedos.
+    #[default]
+    Full,
+    /// The formulas of the glTF 2.0 specification (appendix B) to the letter: separable shadowing, Schlick's factor, no
+    /// compensation, so that rough surfaces are darker.
+    Spec,
 }
 
 /// Ray–triangle intersection algorithm.

@@ -1,5 +1,7 @@
 //! The path tracer against closed forms and against the classical integrator.
 
+mod emitters;
+mod layers;
 mod materials;
 mod references;
 

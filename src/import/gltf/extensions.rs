@@ -46,7 +46,7 @@ pub const GLTF_EXTENSIONS: &[(&str, Support)] = &[
     ("KHR_materials_anisotropy", Support::Kept),
     ("KHR_materials_clearcoat", Support::Paths),
     ("KHR_materials_diffuse_transmission", Support::Paths),
-    ("KHR_materials_dispersion", Support::Kept),
+    ("KHR_materials_dispersion", Support::Paths),
     ("KHR_materials_iridescence", Support::Paths),
     ("KHR_materials_sheen", Support::Paths),
     ("EXT_mesh_manifold", Support::Irrelevant),
