@@ -461,6 +461,15 @@ packed! {
         cut_off_trees: u32,
         /// 256 times the sum of the throughputs of paths that the limit of bounces cut off.
         cut_throughput: u32,
+        /// The luminance that clamping removed, in sixteenths of the clamp: the low word, then the high one. This and
+        /// the following are kept where override `CLAMP_INDIRECT` is above 0.
+        clamped_light: u32,
+        /// Its high word.
+        clamped_light_high: u32,
+        /// The luminance that paths found, without what clamping removed.
+        kept_light: u32,
+        /// Its high word.
+        kept_light_high: u32,
         /// Camera rays. This and the following are kept where override `COUNT_RAYS` is on.
         primary: u32,
         /// Camera rays that hit something.

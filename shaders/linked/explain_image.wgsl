@@ -207,6 +207,8 @@ override bindings__HAS_EMISSION: bool = true;
 
 override bindings__HAS_LAYERS: bool = false;
 
+override bindings__CLAMP_INDIRECT: f32 = 0.0;
+
 override bindings__HAS_COATINGS: bool = false;
 
 override bindings__HAS_INSTANCES: bool = true;
@@ -618,6 +620,10 @@ struct types__PackedCounters {
 	cut_off_paths: atomic<u32>,
 	cut_off_trees: atomic<u32>,
 	cut_throughput: atomic<u32>,
+	clamped_light: atomic<u32>,
+	clamped_light_high: atomic<u32>,
+	kept_light: atomic<u32>,
+	kept_light_high: atomic<u32>,
 	primary: atomic<u32>,
 	primary_hits: atomic<u32>,
 	shadow: atomic<u32>,
@@ -964,6 +970,10 @@ var<private> dispatch__counts: dispatch__RayCounts;
 
 var<private> dispatch__cut_throughput: f32 = 0.0;
 
+var<private> dispatch__clamped_light: f32 = 0.0;
+
+var<private> dispatch__kept_light: f32 = 0.0;
+
 struct dispatch__Batch {
 	camera: types__PackedCamera,
 	background: vec3f,
@@ -1069,8 +1079,18 @@ fn dispatch__add_counts(lane: u32) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
 	}
 	if (bindings__HAS_LAYERS && dispatch__cut_throughput > 0.0) {
-		let chance = rng__unit_float(rng__hash(bitcast<u32>(dispatch__cut_throughput)));
-		atomicAdd(&bindings__dispatch.counters.cut_throughput, u32(256.0 * dispatch__cut_throughput + chance));
+		atomicAdd(&bindings__dispatch.counters.cut_throughput, dispatch__steps_of(256.0 * dispatch__cut_throughput));
+	}
+	if (bindings__CLAMP_INDIRECT > 0.0) {
+		let steps = 16.0 / max(bindings__CLAMP_INDIRECT, 1e-6);
+		let clamped = dispatch__steps_of(steps * dispatch__clamped_light);
+		let kept = dispatch__steps_of(steps * dispatch__kept_light);
+		if (atomicAdd(&bindings__dispatch.counters.clamped_light, clamped) > 4294967295u - clamped) {
+			atomicAdd(&bindings__dispatch.counters.clamped_light_high, 1u);
+		}
+		if (atomicAdd(&bindings__dispatch.counters.kept_light, kept) > 4294967295u - kept) {
+			atomicAdd(&bindings__dispatch.counters.kept_light_high, 1u);
+		}
 	}
 	if (loops__cut_off) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
@@ -1078,6 +1098,10 @@ fn dispatch__add_counts(lane: u32) {
 	if (lane == 0u) {
 		atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
 	}
+}
+
+fn dispatch__steps_of(number: f32) -> u32 {
+	return u32(min(number, 4000000000.0) + rng__unit_float(rng__hash(bitcast<u32>(number))));
 }
 
 var<private> fetch__root: u32;

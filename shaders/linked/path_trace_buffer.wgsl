@@ -33,8 +33,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	dispatch__count_hit(path.kind, hit);
 	if (hit.primitive == types__NONE) {
 		let weight = environment__background_weight(batch, ray.direction, path.pdf);
-		path.radiance += path.throughput * weight * background__background(batch, ray.direction);
-		return path__ended(path);
+		return path__ended(path__gained(path, weight * background__background(batch, ray.direction), path.bounces));
 	}
 	let contact = contact__contact_at(ray, hit, path.cone);
 	let surface = contact.surface;
@@ -54,10 +53,10 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	let layers = layers__layers_at(surface, optics);
 	let weight = emitters__emission_weight(batch, surface, hit, path.origin, ray.direction, path.pdf);
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
-	path.radiance += path.throughput * (weight * coat) * emitters__emitted(surface, optics, layers.glow);
+	path = path__gained(path, (weight * coat) * emitters__emitted(surface, optics, layers.glow), path.bounces);
 	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
 	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
-		path.radiance += path.throughput * lamp_light(batch, path, surface, bsdf, met);
+		path = path__gained(path, lamp_light(batch, path, surface, bsdf, met), path.bounces + 1u);
 	}
 	return scattered(batch, path, surface, bsdf, met);
 }
@@ -124,6 +123,10 @@ struct dispatch__RayCounts {
 var<private> dispatch__counts: dispatch__RayCounts;
 
 var<private> dispatch__cut_throughput: f32 = 0.0;
+
+var<private> dispatch__clamped_light: f32 = 0.0;
+
+var<private> dispatch__kept_light: f32 = 0.0;
 
 fn dispatch__place_of(lane: u32, k: u32) -> u32 {
 	{
@@ -260,8 +263,18 @@ fn dispatch__add_counts(lane: u32) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
 	}
 	if (bindings__HAS_LAYERS && dispatch__cut_throughput > 0.0) {
-		let chance = rng__unit_float(rng__hash(bitcast<u32>(dispatch__cut_throughput)));
-		atomicAdd(&bindings__dispatch.counters.cut_throughput, u32(256.0 * dispatch__cut_throughput + chance));
+		atomicAdd(&bindings__dispatch.counters.cut_throughput, dispatch__steps_of(256.0 * dispatch__cut_throughput));
+	}
+	if (bindings__CLAMP_INDIRECT > 0.0) {
+		let steps = 16.0 / max(bindings__CLAMP_INDIRECT, 1e-6);
+		let clamped = dispatch__steps_of(steps * dispatch__clamped_light);
+		let kept = dispatch__steps_of(steps * dispatch__kept_light);
+		if (atomicAdd(&bindings__dispatch.counters.clamped_light, clamped) > 4294967295u - clamped) {
+			atomicAdd(&bindings__dispatch.counters.clamped_light_high, 1u);
+		}
+		if (atomicAdd(&bindings__dispatch.counters.kept_light, kept) > 4294967295u - kept) {
+			atomicAdd(&bindings__dispatch.counters.kept_light_high, 1u);
+		}
 	}
 	if (loops__cut_off) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
@@ -269,6 +282,10 @@ fn dispatch__add_counts(lane: u32) {
 	if (lane == 0u) {
 		atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
 	}
+}
+
+fn dispatch__steps_of(number: f32) -> u32 {
+	return u32(min(number, 4000000000.0) + rng__unit_float(rng__hash(bitcast<u32>(number))));
 }
 
 const types__NONE: u32 = 4294967295u;
@@ -657,6 +674,10 @@ struct types__PackedCounters {
 	cut_off_paths: atomic<u32>,
 	cut_off_trees: atomic<u32>,
 	cut_throughput: atomic<u32>,
+	clamped_light: atomic<u32>,
+	clamped_light_high: atomic<u32>,
+	kept_light: atomic<u32>,
+	kept_light_high: atomic<u32>,
 	primary: atomic<u32>,
 	primary_hits: atomic<u32>,
 	shadow: atomic<u32>,
@@ -986,6 +1007,8 @@ override bindings__HAS_EMISSION: bool = true;
 
 override bindings__HAS_LAYERS: bool = false;
 
+override bindings__CLAMP_INDIRECT: f32 = 0.0;
+
 override bindings__HAS_COATINGS: bool = false;
 
 override bindings__HAS_COATED_EMISSION: bool = false;
@@ -1289,6 +1312,21 @@ fn path__camera_path(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32
 
 fn path__is_going(path: path__Path) -> bool {
 	return path.ray.t_max >= 0.0;
+}
+
+fn path__gained(before: path__Path, light: vec3f, scatterings: u32) -> path__Path {
+	var path = before;
+	var gain = path.throughput * light;
+	if (bindings__CLAMP_INDIRECT > 0.0) {
+		let brightest = numeric__max_component(gain);
+		let is_clamped = scatterings > 1u && brightest > bindings__CLAMP_INDIRECT;
+		let scale = select(1.0, bindings__CLAMP_INDIRECT / brightest, is_clamped);
+		dispatch__clamped_light += (1.0 - scale) * dot(gain, tone__LUMINANCE_REC709);
+		gain *= scale;
+		dispatch__kept_light += dot(gain, tone__LUMINANCE_REC709);
+	}
+	path.radiance += gain;
+	return path;
 }
 
 fn path__ended(path: path__Path) -> path__Path {
@@ -2867,6 +2905,8 @@ fn picture__load_texel_word(index: u32) -> u32 {
 	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
 }
 
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+
 fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
 	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
 		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
@@ -4054,8 +4094,6 @@ fn emitters__emitted(surface: types__Surface, optics: types__Optics, glow: vec3f
 	return select(vec3f(0.0), glow * material__load_emission(surface.material), shines);
 }
 
-const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
-
 const spherical_rectangle__LEAST_ANGLE: f32 = 0.02;
 
 struct spherical_rectangle__RectangleView {
@@ -4420,8 +4458,8 @@ fn albedo__albedo_lookup(table: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLo
 
 fn albedo__glass_slice(eta: f32) -> f32 {
 	let amplitude = (eta - 1.0) / (eta + 1.0);
-	let finer = select(albedo__GLASS_CLEAR, f32(albedo__GLASS_SLICES - 1u) - albedo__GLASS_CLEAR, amplitude > 0.0);
-	return clamp(albedo__GLASS_CLEAR + 2.0 * amplitude * finer, 0.0, f32(albedo__GLASS_SLICES - 1u));
+	let steps = select(-albedo__GLASS_CLEAR, f32(albedo__GLASS_SLICES - 1u) - albedo__GLASS_CLEAR, amplitude > 0.0);
+	return clamp(albedo__GLASS_CLEAR + steps * sqrt(2.0 * abs(amplitude)), 0.0, f32(albedo__GLASS_SLICES - 1u));
 }
 
 fn albedo__glass_lookup(slice: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {

@@ -45,6 +45,8 @@ pub struct PictureOverrides {
     pub transparent_shadows: bool,
     /// How metallic-roughness materials scatter.
     pub bsdf: Option<BsdfModel>,
+    /// Clamp the indirect light of paths.
+    pub clamp_indirect: Option<f32>,
     /// Reconstruction filter.
     pub filter: Option<Filter>,
     /// Its radius in pixels.
@@ -149,6 +151,7 @@ impl PictureOverrides {
             min_throughput: self.min_throughput.unwrap_or(defaults.min_throughput),
             transparent_shadows: self.transparent_shadows,
             bsdf: self.bsdf.unwrap_or(defaults.bsdf),
+            clamp_indirect: self.clamp_indirect,
             ..defaults
         }
     }

@@ -98,6 +98,10 @@ pub fn of(task: Task) -> Overrides {
         ("HAS_OPTICS_TEXTURES", flag(features.optics_textures)),
         ("HAS_EMISSION", flag(features.emission)),
         ("HAS_LAYERS", flag(is_path)),
+        (
+            "CLAMP_INDIRECT",
+            f64::from(settings.clamp_indirect.unwrap_or_default()),
+        ),
         ("HAS_COATINGS", flag(is_path && features.coatings)),
         (
             "HAS_COATED_EMISSION",

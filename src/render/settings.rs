@@ -56,6 +56,10 @@ pub struct RenderSettings {
     pub transparent_shadows: bool,
     /// Path tracing: how metallic-roughness materials scatter.
     pub bsdf: BsdfModel,
+    /// Path tracing: the most radiance per channel, above 0, that a sample may gain at once from light that was
+    /// scattered twice or more; `None` for no limit. It removes fireflies, and light: [`super::Stats::energy_cut`]
+    /// says how much.
+    pub clamp_indirect: Option<f32>,
 }
 
 impl Default for RenderSettings {
@@ -79,6 +83,7 @@ impl Default for RenderSettings {
             min_throughput: MIN_THROUGHPUT,
             transparent_shadows: false,
             bsdf: BsdfModel::Full,
+            clamp_indirect: None,
         }
     }
 }
@@ -161,6 +166,7 @@ impl RenderSettings {
             min_throughput,
             transparent_shadows,
             bsdf,
+            clamp_indirect,
         } = self;
         let range = sample_range.as_ref();
         let mut encoder = Encoder::new("render settings", 1);
@@ -204,6 +210,10 @@ impl RenderSettings {
         }
         if *bsdf == BsdfModel::Spec {
             encoder.bytes(b"BSDF of the glTF specification");
+        }
+        if let Some(limit) = clamp_indirect {
+            encoder.bytes(b"clamp indirect");
+            encoder.float(*limit);
         }
         encoder.finish()
     }

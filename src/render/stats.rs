@@ -32,6 +32,10 @@ pub struct Stats {
     pub cut_off_trees: u64,
     /// The sum of the throughputs, in luminance, of paths that the limit of bounces cut off.
     pub cut_throughput: f64,
+    /// The luminance that clamping removed; in any unit, but that of `kept_light`.
+    pub clamped_light: f64,
+    /// The luminance that paths found besides, counted where light is clamped.
+    pub kept_light: f64,
     /// Planned memory in bytes, of the largest frame; see [`super::ExecutionPolicy::memory_limit_bytes`].
     pub gpu_bytes: u64,
     /// Number of device losses.
@@ -89,6 +93,9 @@ impl Stats {
         self.nonfinite_samples += u64::from(counters.nonfinite_samples);
         self.cut_off_trees += u64::from(counters.cut_off_trees);
         self.cut_throughput += f64::from(counters.cut_throughput) / 256.0;
+        let wide = |high: u32, low: u32| (u64::from(high) << 32 | u64::from(low)) as f64;
+        self.clamped_light += wide(counters.clamped_light_high, counters.clamped_light);
+        self.kept_light += wide(counters.kept_light_high, counters.kept_light);
         if let Some(rays) = &mut self.rays {
             rays.primary += u64::from(counters.primary);
             rays.primary_hits += u64::from(counters.primary_hits);
@@ -101,10 +108,17 @@ impl Stats {
         }
     }
 
-    /// The share of the light that the limit of bounces removed from path-traced pictures: an estimate, which takes
-    /// what the cut-off paths would have found to be as bright as the picture. 0 without samples.
+    /// The share of the light that the limit of bounces and clamping removed from path-traced pictures, 0 to 1. That
+    /// of the limit is an estimate, which takes what the cut-off paths would have found to be as bright as the
+    /// picture. 0 without samples.
     pub fn energy_cut(&self) -> f64 {
-        self.cut_throughput / (self.samples as f64).max(1.0)
+        let beyond_limit = self.cut_throughput / (self.samples as f64).max(1.0);
+        let found = self.clamped_light + self.kept_light;
+        let kept = match found > 0.0 {
+            true => self.kept_light / found,
+            false => 1.0,
+        };
+        1.0 - (1.0 - beyond_limit) * kept
     }
 
     /// Counts a device failure; fails if there are too many in one picture. `earlier` failures belong to

@@ -56,6 +56,8 @@ fn every_setting_changes_the_fingerprint() {
         ("paths", |s| s.integrator = Integrator::Path),
         ("transparent shadows", |s| s.transparent_shadows = true),
         ("the specification", |s| s.bsdf = BsdfModel::Spec),
+        ("clamp", |s| s.clamp_indirect = Some(1.0)),
+        ("another clamp", |s| s.clamp_indirect = Some(2.0)),
     ];
     let mut known: HashMap<Fingerprint, &str> = HashMap::new();
     for (name, change) in changes {

@@ -11,8 +11,8 @@ use crate::support::verdict::Verdict;
 use glam::{DAffine3, DQuat, DVec3, Vec3, dvec3, vec3};
 use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{
-    Antialias, Attenuation, Background, Camera, Fresnel, Instance, Light, LightKind, Material,
-    Mesh, Scene,
+    Antialias, Attenuation, Background, Camera, CanonicalShape, Fresnel, Geometry, Instance, Light,
+    LightKind, Material, Mesh, Scene,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -135,6 +135,35 @@ fn a_closed_room_of_even_light_sums_all_bounces() {
             );
         }
     }
+    verdict.close();
+}
+
+#[test]
+fn clamping_cuts_each_bounce_of_indirect_light_to_the_limit() {
+    let mut verdict = Verdict::on("the inside of a glowing ball");
+    let (albedo, limit) = (0.8, 0.1);
+    let mut scene = ball_in(0.0, matte(albedo));
+    scene.materials[0].emission = Vec3::splat(0.5);
+    scene.cameras = vec![looking(DVec3::ZERO, DVec3::Z, 1.0)];
+    // An ellipsoid is no light for light samples, so a path finds all light by itself.
+    scene.shapes[0].geometry = Geometry::Placed {
+        canonical: CanonicalShape::Ellipsoid,
+        world_from_canonical: DAffine3::IDENTITY,
+    };
+    let settings = RenderSettings {
+        clamp_indirect: Some(limit),
+        ..paths(256, (16, 16), 2)
+    };
+    // What a sample finds at its four surfaces: the last two are indirect light.
+    let found = (0..4).map(|k| 0.5 * f64::from(albedo).powi(k));
+    let limits = [f64::INFINITY, f64::INFINITY, limit.into(), limit.into()];
+    let kept: f64 = found.clone().zip(limits).map(|(x, most)| x.min(most)).sum();
+    let (_, stats) = render(&scene, &settings);
+    let mean = mean(&scene, &settings);
+    near(&mut verdict, "radiance", mean, kept, 1e-3);
+    let cut = 1.0 - (1.0 - f64::from(albedo).powi(4)) * kept / found.sum::<f64>();
+    let what = "share cut";
+    near(&mut verdict, what, stats.energy_cut(), cut, 1e-3);
     verdict.close();
 }
 

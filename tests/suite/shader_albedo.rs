@@ -238,8 +238,8 @@ fn entries_of_rough_glass_are_integrals_of_its_lobes() {
         (20, 23, 18),
     ] {
         // Slice 7 is that of equal media; the first and the last are those of 1/3 and 3.
-        let steps = if slice < 7 { 14.0 } else { 32.0 };
-        let amplitude = (f64::from(slice) - 7.0) / steps;
+        let root = (f64::from(slice) - 7.0) / if slice < 7 { 7.0 } else { 16.0 };
+        let amplitude = 0.5 * root * root.abs();
         let eta = (1.0 + amplitude) / (1.0 - amplitude);
         let (cos, alpha) = (
             (column as f64 / 31.0).powi(4),
@@ -297,4 +297,48 @@ fn fresnel(cos_i: f64, eta: f64) -> f64 {
     let s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
     let p = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
     0.5 * (s * s + p * p)
+}
+
+#[test]
+fn lookups_of_rough_glass_meet_the_entries() {
+    let slices: Vec<f32> = gpu().map(
+        "lib::albedo::glass_slice",
+        &[0.2f32, 1.0 / 3.0, 1.0, 1.5, 3.0, 9.0],
+    );
+    let expected = [0.0, 0.0, 7.0, 7.0 + 16.0 * 0.4_f64.sqrt(), 23.0, 23.0];
+    let mut verdict = Verdict::on("glass_lookup");
+    for (slice, expected) in slices.iter().zip(expected) {
+        verdict.near("slice", slice, &expected, Tolerance::Absolute(1e-4));
+    }
+    let place = "
+        import package::lib::albedo::glass_lookup;
+        fn probe(slice: u32, cos_o: f32, alpha: f32) -> mat2x4f {
+            let found = glass_lookup(slice, cos_o, alpha);
+            return mat2x4f(vec4f(found.words), found.weights);
+        }";
+    let rows: Vec<_> = [(0_u32, 5, 3), (9, 31, 23), (23, 0, 0), (12, 17, 11)].to_vec();
+    let inputs: Vec<_> = rows
+        .iter()
+        .map(|&(slice, column, row)| {
+            (
+                slice,
+                (column as f32 / 31.0).powi(4),
+                (row as f32 / 23.0).powi(2),
+            )
+        })
+        .collect();
+    let places: Vec<[[f32; 4]; 2]> = gpu().map_source(place, &inputs);
+    for ((slice, column, row), [words, weights]) in rows.into_iter().zip(places) {
+        let own = 2048 + (slice * 24 + row) * 32 + column;
+        let weight: f32 = words
+            .iter()
+            .zip(weights)
+            .filter(|(word, _)| **word == own as f32)
+            .map(|(_, w)| w)
+            .sum();
+        verdict.that(format!("{slice}, {column}, {row}"), weight > 0.999, || {
+            format!("{words:?} {weights:?}")
+        });
+    }
+    verdict.close();
 }

@@ -113,3 +113,74 @@ fn points_of_a_rectangle_are_uniform_over_its_solid_angle() {
     );
     verdict.close();
 }
+
+/// Samples of an area light have the density that a path which hits the light finds, and the mean of its reciprocal is
+/// the solid angle.
+#[test]
+fn samples_and_hits_of_a_light_agree_about_the_density() {
+    let mut verdict = Verdict::on("area lights seen from the origin");
+    let probe = |kind: &str| {
+        format!(
+            "import package::types::{{LIGHT_DISC, LIGHT_RECTANGLE, LIGHT_SPHERE, PackedLight}};
+            import package::lib::spherical_rectangle::{{solid_density, solid_sample}};
+            fn probe(c: vec3f, u: vec3f, v: vec3f, s: vec2f) -> vec2f {{
+                var light: PackedLight;
+                light.kind = {kind};
+                light.position = c;
+                light.edge_u = u;
+                light.edge_v = v;
+                light.direction = normalize(cross(v, u));
+                light.radius = length(u);
+                let found = solid_sample(light, vec3f(0.0), s);
+                return vec2f(found.pdf, solid_density(light, vec3f(0.0), found.direction, found.distance));
+            }}"
+        )
+    };
+    // Near, and so far away that rectangles are sampled by area.
+    for distance in [1.2, 30.0] {
+        let [center, u, v] = [
+            DVec3::new(0.3, 0.2, 1.0) * distance,
+            DVec3::new(0.5, 0.1, 0.0),
+            DVec3::new(-0.1, 0.5, 0.0),
+        ];
+        let cap = 1.0 - (1.0 - u.length_squared() / center.length_squared()).sqrt();
+        let square = solid_angle([center, u, v], [-1.0, 1.0], [-1.0, 1.0], 400);
+        let mut round = 0.0;
+        for i in 0..400 {
+            for j in 0..100 {
+                let (radius, phi) = (
+                    (f64::from(i) + 0.5) / 400.0,
+                    2.0 * PI * (f64::from(j) + 0.5) / 100.0,
+                );
+                let to = center + radius * (phi.cos() * u + phi.sin() * v);
+                round +=
+                    u.cross(v).dot(to).abs() / to.length().powi(3) * radius * 2.0 * PI / 40_000.0;
+            }
+        }
+        for (kind, expected) in [
+            ("LIGHT_RECTANGLE", square),
+            ("LIGHT_DISC", round),
+            ("LIGHT_SPHERE", 2.0 * PI * cap),
+        ] {
+            let rows: Vec<_> = square_points(4096, 9)
+                .into_iter()
+                .map(|s| (narrow(center), narrow(u), narrow(v), s))
+                .collect();
+            let found: Vec<[f32; 2]> = gpu().map_source(&probe(kind), &rows);
+            let name = format!("{kind} at {distance}");
+            for [sampled, hit] in &found {
+                let off = f64::from((sampled / hit - 1.0).abs());
+                verdict.that(&name, off < 1e-3, || format!("{sampled} and {hit}"));
+            }
+            let mean = found
+                .iter()
+                .map(|[pdf, _]| 1.0 / f64::from(*pdf))
+                .sum::<f64>()
+                / 4096.0;
+            verdict.that(&name, (mean / expected - 1.0).abs() < 3e-3, || {
+                format!("{mean}, not {expected}")
+            });
+        }
+    }
+    verdict.close();
+}

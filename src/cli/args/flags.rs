@@ -91,6 +91,12 @@ pub struct PictureFlags {
     /// How metallic-roughness materials scatter in path-traced pictures [default: full]
     #[arg(long, value_parser = values::one_of(&BSDF_MODELS))]
     pub bsdf: Option<BsdfModel>,
+    /// Path tracing: clamp what a sample gains at once from indirect light to this radiance, above 0 to 1e6
+    /// [default: no limit]
+    ///
+    /// It removes fireflies, and light: the report's energy_cut says how much.
+    #[arg(long, value_name = "RADIANCE", allow_hyphen_values = true, value_parser = values::clamp_indirect)]
+    pub clamp_indirect: Option<f32>,
     /// Reconstruction filter [default: the scene's, else box]
     #[arg(long, value_parser = values::one_of(&FILTERS))]
     pub filter: Option<Filter>,
@@ -309,6 +315,7 @@ impl PictureFlags {
             min_throughput: self.min_throughput,
             transparent_shadows: self.transparent_shadows,
             bsdf: self.bsdf,
+            clamp_indirect: self.clamp_indirect,
             filter: self.filter,
             filter_radius: self.filter_radius,
             light_samples: self.light_samples,

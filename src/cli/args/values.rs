@@ -135,6 +135,10 @@ pub fn noise(text: &str) -> Result<f32, String> {
     within(text, 1e-6, 1.0, "it")
 }
 
+pub fn clamp_indirect(text: &str) -> Result<f32, String> {
+    within(text, 1e-6, 1e6, "it")
+}
+
 pub fn fraction(text: &str) -> Result<f32, String> {
     within(text, 0.0, 1.0, "it")
 }

@@ -41,7 +41,8 @@ pub fn words() -> Vec<u32> {
         } else {
             GLASS[1] - 1 - CLEAR
         };
-        let amplitude = (slice as f64 - CLEAR as f64) / (2 * steps) as f64;
+        let root = (slice as f64 - CLEAR as f64) / steps as f64;
+        let amplitude = 0.5 * root * root.abs();
         let eta = (1.0 + amplitude) / (1.0 - amplitude);
         for row in 0..GLASS[0] {
             for column in 0..SIDE {

@@ -198,6 +198,15 @@ fn settings(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
             "--bsdf",
             BSDF_MODELS.name(&wanted.bsdf).to_owned(),
         ),
+        (
+            wanted.clamp_indirect != parsed.clamp_indirect,
+            "the clamp of indirect light",
+            (wanted
+                .clamp_indirect
+                .map(|limit| ("--clamp-indirect", limit.to_string())))
+            .into_iter()
+            .collect(),
+        ),
     ]
 }
 

@@ -210,6 +210,22 @@ fn rays(ui: &mut Ui, look: &mut ViewSettings) {
             &usual.bsdf,
             |ui, value| choice(ui, "scattering", &BSDF_MODELS, value),
         );
+        line(
+            ui,
+            (
+                "Clamp indirect",
+                "The most radiance that a sample gains at once from indirect light; 0 is no limit. \
+                 It removes fireflies, and light",
+            ),
+            &mut settings.clamp_indirect,
+            &usual.clamp_indirect,
+            |ui, value| {
+                let mut limit = value.unwrap_or_default();
+                let response = number(ui, &mut limit, 0.0..=1e6, 0.1, "");
+                *value = Some(limit).filter(|limit| *limit > 0.0);
+                response
+            },
+        );
     }
     line(
         ui,
