@@ -197,7 +197,6 @@ fn physical(random: &mut Random, material: &mut Material, textures: usize) {
         dispersion: random.between(0.0, 1.0) as f32,
         diffuse_transmission: fraction(random),
         diffuse_transmission_color: tint(random),
-        ..MetallicRoughness::default()
     };
     let mut layers = LayerTextures::default();
     if textures > 0 {
