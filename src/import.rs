@@ -53,6 +53,7 @@ mod stage;
 mod step;
 mod stl;
 mod suggest;
+mod tangent;
 mod tint;
 mod weld;
 #[cfg(feature = "archive")]
@@ -214,6 +215,7 @@ impl Format {
             Self::Zip => return zipped::read_scene(path, bytes, options),
         }?;
         range::limit(&mut scene);
+        scene.complete_tangents();
         scene.pin_render_origin();
         Ok(scene)
     }

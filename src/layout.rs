@@ -60,6 +60,13 @@ packed! {
         /// Index of a [`PackedMaterial`].
         material: u32,
     }
+    /// Where u of a vertex points, for normal maps and anisotropy.
+    PackedTangent {
+        /// Unit vector, or zero where a triangle's own u and v decide.
+        direction: [f32; 3],
+        /// 1 if cross(normal, direction) points along v, −1 if against it.
+        handedness: f32,
+    }
     /// An analytic shape; `kind` says which members apply and how. All shapes but spheres and planes are
     /// canonical in a space of their own, to which the rows transform. A globe is a huge sphere nearby.
     PackedShape {

@@ -36,7 +36,7 @@ use crate::clock::Instant;
 use crate::{
     layout::{
         IMAGE_WIDTH_LOG2, LEAF_FIRST_MASK, NODE_ROWS, PackedMaterial, PackedNode, PackedShape,
-        PackedTexture, PackedTriangle, PackedVertex, SHAPE, leaf_reference,
+        PackedTangent, PackedTexture, PackedTriangle, PackedVertex, SHAPE, leaf_reference,
     },
     scene::{Geometry, Scene, Shadows},
 };
@@ -80,6 +80,8 @@ pub struct PackedScene {
     pub vertices: Segments<PackedVertex>,
     /// (u, v) of each vertex and its second set, zeros for meshes without texture coordinates; empty if no mesh has any.
     pub uvs: Segments<[f32; 4]>,
+    /// Of each vertex, zeros for meshes without tangents; empty if no mesh has any.
+    pub tangents: Segments<PackedTangent>,
     /// In scene order, then the materials of visible lights.
     pub materials: Arc<[PackedMaterial]>,
     /// In scene order.
@@ -161,6 +163,8 @@ pub struct Features {
     pub coverage: bool,
     /// Some material has a normal map.
     pub normal_maps: bool,
+    /// Some metallic-roughness material reflects more along its tangents than across them.
+    pub anisotropy: bool,
     /// Some material has an occlusion map.
     pub occlusion_maps: bool,
     /// Some picture has 8 bits per channel.
@@ -317,6 +321,7 @@ fn pack(
         instances: plan.instance_count() > 0,
         ..material::features(scene)
     };
+    let tangents = trees.tangents();
     let has_uvs = scene.meshes.iter().any(|mesh| !mesh.uvs.is_empty());
     let (materials, animated_materials) = surfaces::materials(scene, &rest);
     let mut packed = PackedScene {
@@ -331,10 +336,13 @@ fn pack(
         baked_shape_count: joint.shapes.len() as u32,
         plane_count: trees.joint.planes.len() as u32,
         vertices: trees.vertices(),
-        uvs: match has_uvs {
+        // Tangents have their place after them.
+        uvs: match has_uvs || !tangents.is_empty() {
             true => trees.meshes().map(CachedMesh::uvs).collect(),
             false => Segments::default(),
         },
+        deforming: deform::meshes(scene, origin, &plan, &trees, !tangents.is_empty()),
+        tangents,
         materials,
         textures: material::textures(scene, origin, &pictures)?,
         texels,
@@ -345,7 +353,6 @@ fn pack(
         emissive: Vec::new(),
         origins: Origins::new(scene, &plan, &trees),
         work: trees.work,
-        deforming: deform::meshes(scene, origin, &plan, &trees),
         meshes,
         trees,
         tlas_source,
@@ -423,6 +430,7 @@ impl PackedScene {
             .chain(self.shapes.bytes())
             .chain(self.vertices.bytes())
             .chain(self.uvs.bytes())
+            .chain(self.tangents.bytes())
             .collect();
         parts.extend([cast_slice(&self.materials), cast_slice(&self.textures)]);
         parts.extend(self.texels.bytes());

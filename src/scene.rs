@@ -20,6 +20,7 @@ mod lit;
 mod material;
 mod mesh;
 mod metallic_roughness;
+mod mikktspace;
 mod motion;
 mod node;
 mod object;
@@ -29,13 +30,14 @@ mod picture;
 mod posed;
 mod shape;
 pub mod sky;
+mod tangents;
 mod texture;
 mod transform;
 mod turntable;
 
 pub use animation::{
-    Beyond, CameraProperty, Clip, Curve, Easing, Interpolation, LightProperty, MaterialProperty,
-    NodeProperty, Target, Track, Values,
+    Beyond, CameraProperty, Clip, Curve, Easing, Interpolation, LayerProperty, LightProperty,
+    MaterialProperty, NodeProperty, Target, Track, Values,
 };
 pub(crate) use bounds::corners;
 pub use curve::Value;

@@ -335,6 +335,11 @@ struct types__PackedVertex {
 	material: u32
 }
 
+struct types__PackedTangent {
+	direction: vec3f,
+	handedness: f32
+}
+
 struct types__PackedShape {
 	position: vec3f,
 	kind: u32,
@@ -541,7 +546,8 @@ struct types__Surface {
 	place: vec3f,
 	instance: u32,
 	footprint: types__Footprint,
-	curvature: f32
+	curvature: f32,
+	tangent: vec4f
 }
 
 struct types__Cone {
@@ -646,6 +652,18 @@ fn fetch__load_vertex(index: u32) -> types__PackedVertex {
 
 fn fetch__load_uvs(index: u32) -> vec4f {
 	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
+}
+
+fn fetch__load_tangent(index: u32) -> types__PackedTangent {
+	return fetch__tangent_of(fetch__vertex_row(2u * fetch__uv_row + index));
+}
+
+fn fetch__load_key_tangent(index: u32) -> types__PackedTangent {
+	return fetch__tangent_of(fetch__vertex_row(index + 1u));
+}
+
+fn fetch__tangent_of(r0: vec4u) -> types__PackedTangent {
+	return types__PackedTangent(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w));
 }
 
 fn fetch__texel(row: u32) -> vec2u {
@@ -759,6 +777,10 @@ override bindings__ORTHOGRAPHIC: bool = false;
 override bindings__HAS_UVS: bool = true;
 
 override bindings__HAS_SECOND_UVS: bool = true;
+
+override bindings__HAS_TANGENTS: bool = true;
+
+override bindings__HAS_ANISOTROPY: bool = false;
 
 override bindings__FILM_ROWS: u32 = 1u;
 
@@ -1237,6 +1259,33 @@ fn deforming__normals_now(primitive: u32, keys: deforming__Keys) -> mat3x3f {
 fn deforming__normals_at(triangle: u32) -> mat3x3f {
 	let own = fetch__load_triangle(triangle);
 	return mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+}
+
+fn deforming__tangents_now(primitive: u32, keys: deforming__Keys) -> mat3x4f {
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+			let a = deforming__tangents_at(deforming__index_at(primitive, keys, moment.key), moment.key > 0u);
+			let b = deforming__tangents_at(deforming__index_at(primitive, keys, moment.key + 1u), true);
+			return a * (1.0 - moment.fraction) + b * moment.fraction;
+		}
+	}
+	return deforming__tangents_at(primitive, false);
+}
+
+fn deforming__tangents_at(triangle: u32, is_later: bool) -> mat3x4f {
+	let own = fetch__load_triangle(triangle);
+	return mat3x4f(deforming__tangent_at(own.i0, is_later), deforming__tangent_at(own.i1, is_later), deforming__tangent_at(own.i2, is_later));
+}
+
+fn deforming__tangent_at(vertex: u32, is_later: bool) -> vec4f {
+	var tangent = fetch__load_tangent(vertex);
+	if (bindings__HAS_DEFORMATION) {
+		if (is_later) {
+			tangent = fetch__load_key_tangent(vertex);
+		}
+	}
+	return vec4f(tangent.direction, tangent.handedness);
 }
 
 const numeric__ROUNDING: f32 = 5.9604645e-8;
@@ -1898,16 +1947,6 @@ fn node__sort4(keys: vec4u) -> vec4u {
 	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
-const surface__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
-
-var<private> surface__met_vertices: vec3u;
-
-struct surface__Placing {
-	space: motion__Space,
-	is_placed: bool,
-	keys: deforming__Keys
-}
-
 fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
 	var instance: types__PackedInstance;
 	var space: motion__Space;
@@ -1920,10 +1959,10 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 	}
 	var surface: types__Surface;
 	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
-		surface = surface__triangle_surface(ray, hit, surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
+		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
 	}
 	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
-		surface = surface__shape_surface(local, hit);
+		surface = shape_surface__shape_surface(local, hit);
 		let p = surface.p;
 		if (is_placed) {
 			surface = surface__placed_surface(ray, surface, space);
@@ -1955,11 +1994,19 @@ fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__
 	return surface;
 }
 
-fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface__Placing, cone: types__Cone) -> types__Surface {
+var<private> triangle_surface__met_vertices: vec3u;
+
+struct triangle_surface__Placing {
+	space: motion__Space,
+	is_placed: bool,
+	keys: deforming__Keys
+}
+
+fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: triangle_surface__Placing, cone: types__Cone) -> types__Surface {
 	let space = placing.space;
 	let keys = placing.keys;
 	let own = deforming__triangle_now(hit.primitive, keys);
-	surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
+	triangle_surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
 	let v0 = fetch__load_vertex(own.i0);
 	let v1 = fetch__load_vertex(own.i1);
 	let v2 = fetch__load_vertex(own.i2);
@@ -1978,20 +2025,29 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
 		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, normals[0]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[1]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[2]), -ray.direction));
 	}
+	let weights = vec3f(b0, b1, b2);
+	var frame = mat3x3f();
+	if (bindings__HAS_TANGENTS) {
+		var tangents = deforming__tangents_now(hit.primitive, keys);
+		if (bindings__HAS_INSTANCES && placing.is_placed) {
+			tangents = tangent_space__placed_tangents(space, tangents);
+		}
+		frame = tangent_space__vertex_frame(tangents, normals, weights);
+	}
 	let material = material__load_material(v0.material);
 	var phong = material.phong;
 	if (bindings__MIXED_MATERIALS) {
-		phong = surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
+		phong = triangle_surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
 	}
 	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
-	let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
+	let n = numeric__normalize_or(normals * weights, ng);
 	var shading_normal = n;
 	var uv = vec2f(b1, b2);
 	if (bindings__HAS_TEXTURES) {
 		uv = vec2f(0.0);
 	}
 	var second_uv = uv;
-	var footprint = surface__NO_FOOTPRINT;
+	var footprint = footprint__NO_FOOTPRINT;
 	if (bindings__HAS_FOOTPRINTS) {
 		footprint.place = ray_cone__footprint_axes(ray.direction, ng, ray_cone__cone_at(cone, hit.t).width);
 	}
@@ -1999,8 +2055,8 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 		let rows = mat3x4f(fetch__load_uvs(own.i0), fetch__load_uvs(own.i1), fetch__load_uvs(own.i2));
 		let uvs = mat3x2f(rows[0].xy, rows[1].xy, rows[2].xy);
 		let second_uvs = mat3x2f(rows[0].zw, rows[1].zw, rows[2].zw);
-		uv = uvs * vec3f(b0, b1, b2);
-		second_uv = select(uv, second_uvs * vec3f(b0, b1, b2), bindings__HAS_SECOND_UVS);
+		uv = uvs * weights;
+		second_uv = select(uv, second_uvs * weights, bindings__HAS_SECOND_UVS);
 		if (bindings__HAS_FOOTPRINTS) {
 			footprint.uv = footprint__triangle_uv_footprint(footprint.place, corners, uvs);
 			if (bindings__HAS_SECOND_UVS) {
@@ -2008,57 +2064,41 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 			}
 		}
 		if (bindings__HAS_NORMAL_MAPS) {
-			shading_normal = normal_map__mapped_normal(v0.material, n, corners, rows, vec3f(b0, b1, b2), footprint);
+			shading_normal = normal_map__mapped_normal(v0.material, frame, n, corners, rows, weights, footprint);
 		}
 	}
-	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)));
+	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
+	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips));
 }
 
-fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
-	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	let reached = ray.origin + hit.t * ray.direction;
-	let material = material__load_material(shape.material);
-	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
-		let ng = shape.row_y;
-		let p = reached - dot(reached - shape.position, ng) * ng;
-		let outside = dot(ng, ray.direction) <= 0.0;
-		var plane_uv = vec2f(0.0);
-		if (bindings__HAS_TEXTURES) {
-			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
-		}
-		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
-	}
-	if (!shape__is_round(shape.kind)) {
-		let point = shape__canonical_point(shape, reached, hit.b1);
-		let placed = canonical__placed_point(shape, reached, point);
-		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
-	}
-	let placed = surface__sphere_point(shape, reached, ray.direction);
-	let ng = placed.ng;
-	let outside = dot(ng, ray.direction) <= 0.0;
-	var uv = vec2f(0.0);
-	if (bindings__HAS_TEXTURES) {
-		uv = canonical__sphere_uv(ng);
-	}
-	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
-}
-
-fn surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
-	if (shape__is_globe(shape.kind)) {
-		return globe__globe_point(shape, reached);
-	}
-	let ng = numeric__normalize_or(reached - shape.position, -direction);
-	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
-}
-
-fn surface__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
-	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
-	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
-}
-
-fn surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
+fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
 	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+}
+
+fn tangent_space__placed_tangents(space: motion__Space, own: mat3x4f) -> mat3x4f {
+	let mirrors = select(1.0, -1.0, determinant(space.linear) < 0.0);
+	return mat3x4f(tangent_space__placed_tangent(space, own[0], mirrors), tangent_space__placed_tangent(space, own[1], mirrors), tangent_space__placed_tangent(space, own[2], mirrors));
+}
+
+fn tangent_space__placed_tangent(space: motion__Space, own: vec4f, mirrors: f32) -> vec4f {
+	return vec4f(numeric__normalize_or(space.linear * own.xyz, vec3f(0.0)), mirrors * own.w);
+}
+
+fn tangent_space__vertex_frame(tangents: mat3x4f, normals: mat3x3f, weights: vec3f) -> mat3x3f {
+	let is_whole = tangents[0].w * tangents[1].w * tangents[2].w != 0.0;
+	let tangent = tangents * weights;
+	let n = normals * weights;
+	let frame = mat3x3f(tangent.xyz, sign(tangent.w) * cross(n, tangent.xyz), n);
+	return frame * select(0.0, 1.0, is_whole);
+}
+
+fn tangent_space__surface_tangent(frame: mat3x3f, n: vec3f, flips: bool) -> vec4f {
+	if (!bindings__HAS_ANISOTROPY) {
+		return vec4f(0.0);
+	}
+	let along = numeric__normalize_or(frame[0] - dot(frame[0], n) * n, vec3f(0.0));
+	let hand = select(-1.0, 1.0, (dot(cross(n, along), frame[1]) >= 0.0) != flips);
+	return vec4f(along, select(hand, 0.0, dot(along, along) == 0.0));
 }
 
 struct material__PhongMaterial {
@@ -2095,50 +2135,12 @@ fn material__load_texture(index: u32) -> types__PackedTexture {
 	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
 }
 
-const ray_cone__MOST_TAPS: f32 = 8.0;
-
-const ray_cone__WIDEST: f32 = 1000000000000000.0;
-
-struct ray_cone__Filtering {
-	level: f32,
-	tap_count: u32,
-	way: vec2f
+fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
+	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
+	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
 }
 
-fn ray_cone__cone_at(cone: types__Cone, distance: f32) -> types__Cone {
-	return types__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
-}
-
-fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
-	let cosine = dot(n, direction);
-	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
-	let other = numeric__normalize_or(cross(n, axis), vec3f(0.0, 0.0, 1.0));
-	let slope = direction - cosine * n;
-	let along = select(other, numeric__normalize_or(slope, other), dot(slope, slope) > 1e-8);
-	let size = abs(width);
-	return mat2x3f((size / max(abs(cosine), 0.001)) * along, size * cross(n, along));
-}
-
-fn ray_cone__uv_along(v: vec3f, e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f) -> vec2f {
-	let normal = cross(e1, e2);
-	let n = numeric__normalize_or(normal, vec3f(0.0));
-	let area = max(dot(normal, n), 1e-30);
-	return (dot(cross(v, e2), n) / area) * d1 + (dot(cross(e1, v), n) / area) * d2;
-}
-
-fn ray_cone__curvature_along(edge: vec3f, bend: vec3f) -> f32 {
-	return dot(edge, bend) / max(dot(edge, edge), 1e-30);
-}
-
-fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
-	let is_first = dot(a, a) >= dot(b, b);
-	let way = select(b, a, is_first);
-	let long = length(way);
-	let short = length(select(a, b, is_first));
-	let count = clamp(round(long / max(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
-	let width = max(max(short, long / count), 1e-9);
-	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
-}
+const footprint__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
 
 fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
 	let camera = batch.camera;
@@ -2222,7 +2224,52 @@ fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) 
 	return select(-bend, bend, side < 0.0) / 3.0;
 }
 
-fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+const ray_cone__MOST_TAPS: f32 = 8.0;
+
+const ray_cone__WIDEST: f32 = 1000000000000000.0;
+
+struct ray_cone__Filtering {
+	level: f32,
+	tap_count: u32,
+	way: vec2f
+}
+
+fn ray_cone__cone_at(cone: types__Cone, distance: f32) -> types__Cone {
+	return types__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
+}
+
+fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
+	let cosine = dot(n, direction);
+	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+	let other = numeric__normalize_or(cross(n, axis), vec3f(0.0, 0.0, 1.0));
+	let slope = direction - cosine * n;
+	let along = select(other, numeric__normalize_or(slope, other), dot(slope, slope) > 1e-8);
+	let size = abs(width);
+	return mat2x3f((size / max(abs(cosine), 0.001)) * along, size * cross(n, along));
+}
+
+fn ray_cone__uv_along(v: vec3f, e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f) -> vec2f {
+	let normal = cross(e1, e2);
+	let n = numeric__normalize_or(normal, vec3f(0.0));
+	let area = max(dot(normal, n), 1e-30);
+	return (dot(cross(v, e2), n) / area) * d1 + (dot(cross(e1, v), n) / area) * d2;
+}
+
+fn ray_cone__curvature_along(edge: vec3f, bend: vec3f) -> f32 {
+	return dot(edge, bend) / max(dot(edge, edge), 1e-30);
+}
+
+fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
+	let is_first = dot(a, a) >= dot(b, b);
+	let way = select(b, a, is_first);
+	let long = length(way);
+	let short = length(select(a, b, is_first));
+	let count = clamp(round(long / max(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
+	let width = max(max(short, long / count), 1e-9);
+	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
+}
+
+fn normal_map__mapped_normal(material: u32, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
 	let index = material__load_texture_indices(material).w & 65535u;
 	if (index == types__NO_TEXTURE) {
 		return n;
@@ -2234,9 +2281,15 @@ fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat
 	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
 	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
 	let tilt = material__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
+	let up = max(2.0 * code.z - 1.0, 0.0);
+	if (bindings__HAS_TANGENTS) {
+		if (dot(frame[2], frame[2]) > 0.0) {
+			return numeric__normalize_or(frame * vec3f(tilt, up), n);
+		}
+	}
 	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
 	let bitangent = tangent.w * cross(n, tangent.xyz);
-	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + max(2.0 * code.z - 1.0, 0.0) * n, n);
+	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + up * n, n);
 }
 
 fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
@@ -2407,6 +2460,44 @@ fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
 
 fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
 	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
+}
+
+fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let reached = ray.origin + hit.t * ray.direction;
+	let material = material__load_material(shape.material);
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		let ng = shape.row_y;
+		let p = reached - dot(reached - shape.position, ng) * ng;
+		let outside = dot(ng, ray.direction) <= 0.0;
+		var plane_uv = vec2f(0.0);
+		if (bindings__HAS_TEXTURES) {
+			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
+		}
+		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+	}
+	if (!shape__is_round(shape.kind)) {
+		let point = shape__canonical_point(shape, reached, hit.b1);
+		let placed = canonical__placed_point(shape, reached, point);
+		let ng = placed.ng;
+		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+	}
+	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
+	let ng = placed.ng;
+	let outside = dot(ng, ray.direction) <= 0.0;
+	var uv = vec2f(0.0);
+	if (bindings__HAS_TEXTURES) {
+		uv = canonical__sphere_uv(ng);
+	}
+	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+}
+
+fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
+	if (shape__is_globe(shape.kind)) {
+		return globe__globe_point(shape, reached);
+	}
+	let ng = numeric__normalize_or(reached - shape.position, -direction);
+	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
 }
 
 fn colormap__id_color(id: u32) -> vec3f {

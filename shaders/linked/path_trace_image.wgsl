@@ -394,6 +394,8 @@ const types__SLOT_SHEEN: u32 = 7u;
 
 const types__SLOT_SHEEN_ROUGHNESS: u32 = 8u;
 
+const types__SLOT_ANISOTROPY: u32 = 9u;
+
 const types__SLOT_IRIDESCENCE: u32 = 10u;
 
 const types__SLOT_FILM_THICKNESS: u32 = 11u;
@@ -484,6 +486,11 @@ struct types__PackedTriangle {
 struct types__PackedVertex {
 	normal: vec3f,
 	material: u32
+}
+
+struct types__PackedTangent {
+	direction: vec3f,
+	handedness: f32
 }
 
 struct types__PackedShape {
@@ -752,7 +759,8 @@ struct types__Surface {
 	place: vec3f,
 	instance: u32,
 	footprint: types__Footprint,
-	curvature: f32
+	curvature: f32,
+	tangent: vec4f
 }
 
 struct types__Cone {
@@ -891,6 +899,18 @@ fn fetch__load_vertex(index: u32) -> types__PackedVertex {
 
 fn fetch__load_uvs(index: u32) -> vec4f {
 	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
+}
+
+fn fetch__load_tangent(index: u32) -> types__PackedTangent {
+	return fetch__tangent_of(fetch__vertex_row(2u * fetch__uv_row + index));
+}
+
+fn fetch__load_key_tangent(index: u32) -> types__PackedTangent {
+	return fetch__tangent_of(fetch__vertex_row(index + 1u));
+}
+
+fn fetch__tangent_of(r0: vec4u) -> types__PackedTangent {
+	return types__PackedTangent(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w));
 }
 
 fn fetch__texel(row: u32) -> vec2u {
@@ -1040,6 +1060,10 @@ override bindings__ORTHOGRAPHIC: bool = false;
 override bindings__HAS_UVS: bool = true;
 
 override bindings__HAS_SECOND_UVS: bool = true;
+
+override bindings__HAS_TANGENTS: bool = true;
+
+override bindings__HAS_ANISOTROPY: bool = false;
 
 override bindings__FILM_ROWS: u32 = 1u;
 
@@ -1719,6 +1743,8 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	return direction.x * x + direction.y * y + direction.z * n;
 }
 
+const footprint__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
+
 fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
 	let camera = batch.camera;
 	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
@@ -2170,6 +2196,33 @@ fn deforming__normals_now(primitive: u32, keys: deforming__Keys) -> mat3x3f {
 fn deforming__normals_at(triangle: u32) -> mat3x3f {
 	let own = fetch__load_triangle(triangle);
 	return mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+}
+
+fn deforming__tangents_now(primitive: u32, keys: deforming__Keys) -> mat3x4f {
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+			let a = deforming__tangents_at(deforming__index_at(primitive, keys, moment.key), moment.key > 0u);
+			let b = deforming__tangents_at(deforming__index_at(primitive, keys, moment.key + 1u), true);
+			return a * (1.0 - moment.fraction) + b * moment.fraction;
+		}
+	}
+	return deforming__tangents_at(primitive, false);
+}
+
+fn deforming__tangents_at(triangle: u32, is_later: bool) -> mat3x4f {
+	let own = fetch__load_triangle(triangle);
+	return mat3x4f(deforming__tangent_at(own.i0, is_later), deforming__tangent_at(own.i1, is_later), deforming__tangent_at(own.i2, is_later));
+}
+
+fn deforming__tangent_at(vertex: u32, is_later: bool) -> vec4f {
+	var tangent = fetch__load_tangent(vertex);
+	if (bindings__HAS_DEFORMATION) {
+		if (is_later) {
+			tangent = fetch__load_key_tangent(vertex);
+		}
+	}
+	return vec4f(tangent.direction, tangent.handedness);
 }
 
 const numeric__ROUNDING: f32 = 5.9604645e-8;
@@ -2947,7 +3000,7 @@ fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> c
 		let surface = surface__surface_at(ray, current, cone);
 		if (first) {
 			contact.surface = surface;
-			vertices = surface__met_vertices;
+			vertices = triangle_surface__met_vertices;
 			second_wanted = bindings__HAS_REFRACTION && bindings__HAS_CONTACT && contact__is_near(ray, hit, surface);
 		}
 		else {
@@ -3019,7 +3072,7 @@ fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3
 	if (!are_triangles || first.instance != second.instance) {
 		return false;
 	}
-	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, surface__met_vertices);
+	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, triangle_surface__met_vertices);
 }
 
 fn contact__is_at_edge(hit: types__Hit) -> bool {
@@ -3029,16 +3082,6 @@ fn contact__is_at_edge(hit: types__Hit) -> bool {
 
 fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
 	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
-}
-
-const surface__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
-
-var<private> surface__met_vertices: vec3u;
-
-struct surface__Placing {
-	space: motion__Space,
-	is_placed: bool,
-	keys: deforming__Keys
 }
 
 fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
@@ -3053,10 +3096,10 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 	}
 	var surface: types__Surface;
 	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
-		surface = surface__triangle_surface(ray, hit, surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
+		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
 	}
 	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
-		surface = surface__shape_surface(local, hit);
+		surface = shape_surface__shape_surface(local, hit);
 		let p = surface.p;
 		if (is_placed) {
 			surface = surface__placed_surface(ray, surface, space);
@@ -3088,11 +3131,19 @@ fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__
 	return surface;
 }
 
-fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface__Placing, cone: types__Cone) -> types__Surface {
+var<private> triangle_surface__met_vertices: vec3u;
+
+struct triangle_surface__Placing {
+	space: motion__Space,
+	is_placed: bool,
+	keys: deforming__Keys
+}
+
+fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: triangle_surface__Placing, cone: types__Cone) -> types__Surface {
 	let space = placing.space;
 	let keys = placing.keys;
 	let own = deforming__triangle_now(hit.primitive, keys);
-	surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
+	triangle_surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
 	let v0 = fetch__load_vertex(own.i0);
 	let v1 = fetch__load_vertex(own.i1);
 	let v2 = fetch__load_vertex(own.i2);
@@ -3111,20 +3162,29 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
 		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, normals[0]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[1]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[2]), -ray.direction));
 	}
+	let weights = vec3f(b0, b1, b2);
+	var frame = mat3x3f();
+	if (bindings__HAS_TANGENTS) {
+		var tangents = deforming__tangents_now(hit.primitive, keys);
+		if (bindings__HAS_INSTANCES && placing.is_placed) {
+			tangents = tangent_space__placed_tangents(space, tangents);
+		}
+		frame = tangent_space__vertex_frame(tangents, normals, weights);
+	}
 	let material = material__load_material(v0.material);
 	var phong = material.phong;
 	if (bindings__MIXED_MATERIALS) {
-		phong = surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
+		phong = triangle_surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
 	}
 	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
-	let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
+	let n = numeric__normalize_or(normals * weights, ng);
 	var shading_normal = n;
 	var uv = vec2f(b1, b2);
 	if (bindings__HAS_TEXTURES) {
 		uv = vec2f(0.0);
 	}
 	var second_uv = uv;
-	var footprint = surface__NO_FOOTPRINT;
+	var footprint = footprint__NO_FOOTPRINT;
 	if (bindings__HAS_FOOTPRINTS) {
 		footprint.place = ray_cone__footprint_axes(ray.direction, ng, ray_cone__cone_at(cone, hit.t).width);
 	}
@@ -3132,8 +3192,8 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 		let rows = mat3x4f(fetch__load_uvs(own.i0), fetch__load_uvs(own.i1), fetch__load_uvs(own.i2));
 		let uvs = mat3x2f(rows[0].xy, rows[1].xy, rows[2].xy);
 		let second_uvs = mat3x2f(rows[0].zw, rows[1].zw, rows[2].zw);
-		uv = uvs * vec3f(b0, b1, b2);
-		second_uv = select(uv, second_uvs * vec3f(b0, b1, b2), bindings__HAS_SECOND_UVS);
+		uv = uvs * weights;
+		second_uv = select(uv, second_uvs * weights, bindings__HAS_SECOND_UVS);
 		if (bindings__HAS_FOOTPRINTS) {
 			footprint.uv = footprint__triangle_uv_footprint(footprint.place, corners, uvs);
 			if (bindings__HAS_SECOND_UVS) {
@@ -3141,57 +3201,41 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 			}
 		}
 		if (bindings__HAS_NORMAL_MAPS) {
-			shading_normal = normal_map__mapped_normal(v0.material, n, corners, rows, vec3f(b0, b1, b2), footprint);
+			shading_normal = normal_map__mapped_normal(v0.material, frame, n, corners, rows, weights, footprint);
 		}
 	}
-	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)));
+	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
+	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips));
 }
 
-fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
-	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	let reached = ray.origin + hit.t * ray.direction;
-	let material = material__load_material(shape.material);
-	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
-		let ng = shape.row_y;
-		let p = reached - dot(reached - shape.position, ng) * ng;
-		let outside = dot(ng, ray.direction) <= 0.0;
-		var plane_uv = vec2f(0.0);
-		if (bindings__HAS_TEXTURES) {
-			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
-		}
-		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
-	}
-	if (!shape__is_round(shape.kind)) {
-		let point = shape__canonical_point(shape, reached, hit.b1);
-		let placed = canonical__placed_point(shape, reached, point);
-		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
-	}
-	let placed = surface__sphere_point(shape, reached, ray.direction);
-	let ng = placed.ng;
-	let outside = dot(ng, ray.direction) <= 0.0;
-	var uv = vec2f(0.0);
-	if (bindings__HAS_TEXTURES) {
-		uv = canonical__sphere_uv(ng);
-	}
-	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
-}
-
-fn surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
-	if (shape__is_globe(shape.kind)) {
-		return globe__globe_point(shape, reached);
-	}
-	let ng = numeric__normalize_or(reached - shape.position, -direction);
-	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
-}
-
-fn surface__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
-	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
-	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
-}
-
-fn surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
+fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
 	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+}
+
+fn tangent_space__placed_tangents(space: motion__Space, own: mat3x4f) -> mat3x4f {
+	let mirrors = select(1.0, -1.0, determinant(space.linear) < 0.0);
+	return mat3x4f(tangent_space__placed_tangent(space, own[0], mirrors), tangent_space__placed_tangent(space, own[1], mirrors), tangent_space__placed_tangent(space, own[2], mirrors));
+}
+
+fn tangent_space__placed_tangent(space: motion__Space, own: vec4f, mirrors: f32) -> vec4f {
+	return vec4f(numeric__normalize_or(space.linear * own.xyz, vec3f(0.0)), mirrors * own.w);
+}
+
+fn tangent_space__vertex_frame(tangents: mat3x4f, normals: mat3x3f, weights: vec3f) -> mat3x3f {
+	let is_whole = tangents[0].w * tangents[1].w * tangents[2].w != 0.0;
+	let tangent = tangents * weights;
+	let n = normals * weights;
+	let frame = mat3x3f(tangent.xyz, sign(tangent.w) * cross(n, tangent.xyz), n);
+	return frame * select(0.0, 1.0, is_whole);
+}
+
+fn tangent_space__surface_tangent(frame: mat3x3f, n: vec3f, flips: bool) -> vec4f {
+	if (!bindings__HAS_ANISOTROPY) {
+		return vec4f(0.0);
+	}
+	let along = numeric__normalize_or(frame[0] - dot(frame[0], n) * n, vec3f(0.0));
+	let hand = select(-1.0, 1.0, (dot(cross(n, along), frame[1]) >= 0.0) != flips);
+	return vec4f(along, select(hand, 0.0, dot(along, along) == 0.0));
 }
 
 struct material__PhongMaterial {
@@ -3283,6 +3327,11 @@ fn material__load_glow(index: u32) -> material__Glow {
 	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
 }
 
+fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
+	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
+	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
+}
+
 const ray_cone__MOST_TAPS: f32 = 8.0;
 
 const ray_cone__WIDEST: f32 = 1000000000000000.0;
@@ -3328,7 +3377,7 @@ fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
 	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
 }
 
-fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+fn normal_map__mapped_normal(material: u32, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
 	let index = material__load_texture_indices(material).w & 65535u;
 	if (index == types__NO_TEXTURE) {
 		return n;
@@ -3340,9 +3389,15 @@ fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat
 	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
 	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
 	let tilt = material__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
+	let up = max(2.0 * code.z - 1.0, 0.0);
+	if (bindings__HAS_TANGENTS) {
+		if (dot(frame[2], frame[2]) > 0.0) {
+			return numeric__normalize_or(frame * vec3f(tilt, up), n);
+		}
+	}
 	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
 	let bitangent = tangent.w * cross(n, tangent.xyz);
-	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + max(2.0 * code.z - 1.0, 0.0) * n, n);
+	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + up * n, n);
 }
 
 fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
@@ -3522,6 +3577,44 @@ fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) ->
 
 fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
 	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
+}
+
+fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let reached = ray.origin + hit.t * ray.direction;
+	let material = material__load_material(shape.material);
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		let ng = shape.row_y;
+		let p = reached - dot(reached - shape.position, ng) * ng;
+		let outside = dot(ng, ray.direction) <= 0.0;
+		var plane_uv = vec2f(0.0);
+		if (bindings__HAS_TEXTURES) {
+			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
+		}
+		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+	}
+	if (!shape__is_round(shape.kind)) {
+		let point = shape__canonical_point(shape, reached, hit.b1);
+		let placed = canonical__placed_point(shape, reached, point);
+		let ng = placed.ng;
+		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+	}
+	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
+	let ng = placed.ng;
+	let outside = dot(ng, ray.direction) <= 0.0;
+	var uv = vec2f(0.0);
+	if (bindings__HAS_TEXTURES) {
+		uv = canonical__sphere_uv(ng);
+	}
+	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+}
+
+fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
+	if (shape__is_globe(shape.kind)) {
+		return globe__globe_point(shape, reached);
+	}
+	let ng = numeric__normalize_or(reached - shape.position, -direction);
+	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
 }
 
 struct interface__Interface {
@@ -3718,6 +3811,16 @@ fn dispersion__dispersed_ior(ior: f32, dispersion: f32, wavelength: f32) -> f32 
 	return max(ior + spread * (523655.0 / (wavelength * wavelength) - 1.5168), 1.0);
 }
 
+fn dispersion__anisotropic_alpha(alpha: f32, strength: f32) -> vec2f {
+	return vec2f(mix(alpha, 1.0, strength * strength), alpha);
+}
+
+fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
+	let own = texel * inverseSqrt(max(dot(texel, texel), 1e-12));
+	let turn = vec2f(cos(rotation), sin(rotation));
+	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
+}
+
 const layers__SMOOTH: f32 = 0.0001;
 
 struct layers__Layers {
@@ -3737,6 +3840,8 @@ struct layers__Layers {
 	coat_roughness: f32,
 	sheen: vec3f,
 	sheen_roughness: f32,
+	anisotropy: f32,
+	along: vec2f,
 	film: f32,
 	film_ior: f32,
 	film_thickness: f32,
@@ -3751,6 +3856,7 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 	var transmit = optics.transmit;
 	var glow = vec3f(1.0);
 	var thickness = 1.0;
+	var along = vec2f(1.0, 0.0);
 	if (bindings__HAS_TEXTURES) {
 		var rest = own.slots;
 		loop {
@@ -3766,6 +3872,10 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
 			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
 			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			if (bindings__HAS_ANISOTROPY) {
+				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
+				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
+			}
 			if (bindings__HAS_COATINGS) {
 				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
 				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
@@ -3801,6 +3911,10 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 		layers.ior = own.ior;
 	}
 	layers.glow = glow;
+	if (bindings__HAS_ANISOTROPY) {
+		layers.anisotropy = own.anisotropy;
+		layers.along = dispersion__anisotropy_tangent(own.anisotropy_rotation, along);
+	}
 	if (bindings__HAS_COATINGS) {
 		layers.coat = own.coat;
 		layers.coat_roughness = own.coat_roughness;
@@ -4487,6 +4601,8 @@ fn albedo__multiple_scattering(f0: vec3f, albedo: vec2f) -> vec3f {
 
 struct lobes__Bsdf {
 	normal: vec3f,
+	x: vec3f,
+	y: vec3f,
 	ng: vec3f,
 	wo: vec3f,
 	diffuse: vec3f,
@@ -4522,8 +4638,20 @@ fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers
 	bsdf.ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
 	let n = select(surface.n, -surface.n, dot(surface.n, bsdf.ng) < 0.0);
 	bsdf.normal = select(bsdf.ng, n, dot(n, direction) < -0.001);
-	bsdf.wo = lobes__to_frame(bsdf.normal, -direction);
-	bsdf.alpha = vec2f(max(layers.alpha, layers__SMOOTH));
+	bsdf.x = warp__turn_to(bsdf.normal, vec3f(1.0, 0.0, 0.0));
+	bsdf.y = warp__turn_to(bsdf.normal, vec3f(0.0, 1.0, 0.0));
+	let width = max(layers.alpha, layers__SMOOTH);
+	bsdf.alpha = vec2f(width);
+	var stretch = vec2f(1.0);
+	if (bindings__HAS_ANISOTROPY && surface.tangent.w != 0.0 && layers.anisotropy > 0.0) {
+		let bitangent = surface.tangent.w * cross(surface.n, surface.tangent.xyz);
+		let along = layers.along.x * surface.tangent.xyz + layers.along.y * bitangent;
+		bsdf.x = numeric__normalize_or(along - dot(along, bsdf.normal) * bsdf.normal, bsdf.x);
+		bsdf.y = cross(bsdf.normal, bsdf.x);
+		bsdf.alpha = dispersion__anisotropic_alpha(width, layers.anisotropy);
+		stretch = bsdf.alpha / width;
+	}
+	bsdf.wo = lobes__to_frame(bsdf, -direction);
 	var seen = lobes__Split(vec3f(0.0), vec3f(0.0));
 	var inside = 1.0;
 	if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
@@ -4531,7 +4659,7 @@ fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers
 		bsdf.reflect = inside * layers.reflect;
 		bsdf.transmit = select(vec3f(1.0), layers.transmit, met.is_boundary);
 		bsdf.flags = select(0u, layers.fresnel | (optics.flags & types__MATERIAL_SUM), met.is_boundary);
-		bsdf.boundary_alpha = vec2f(inside * layers.boundary_alpha);
+		bsdf.boundary_alpha = (inside * layers.boundary_alpha) * stretch;
 		bsdf.encloses = met.encloses;
 		bsdf.bends = met.is_boundary && met.encloses;
 		bsdf.eta = met.ior / select(layers.ior, met.ior_behind, met.encloses);
@@ -4553,11 +4681,12 @@ fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers
 		bsdf.f0 = mix(bsdf.f0, inside * film, layers.film);
 		over = mix(over, film, layers.film * numeric__max_component(layers.over_f90));
 	}
-	let albedo = albedo__albedo_of(albedo__GGX_ALBEDO, bsdf.wo.z, bsdf.alpha.x);
+	let mean_alpha = sqrt(bsdf.alpha.x * bsdf.alpha.y);
+	let albedo = albedo__albedo_of(albedo__GGX_ALBEDO, bsdf.wo.z, mean_alpha);
 	let boost = select(albedo__multiple_scattering(bsdf.f0, albedo), vec3f(1.0), bindings__BSDF_SPEC);
 	bsdf.boundary_gain = 1.0;
 	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && bsdf.boundary_alpha.x >= layers__SMOOTH) {
-		let glass = albedo__glass_albedo(bsdf.wo.z, bsdf.alpha.x, bsdf.eta);
+		let glass = albedo__glass_albedo(bsdf.wo.z, mean_alpha, bsdf.eta);
 		let share = glass.y / max(glass.x, 0.001);
 		bsdf.boundary_gain = 1.0 / max(select(albedo.x + albedo.y, glass.x, bsdf.bends), 0.001);
 		if (bsdf.bends) {
@@ -4633,10 +4762,12 @@ fn lobes__split_at(bsdf: lobes__Bsdf, cos_i: f32) -> lobes__Split {
 	return lobes__Split(bsdf.reflect, bsdf.transmit);
 }
 
-fn lobes__to_frame(n: vec3f, direction: vec3f) -> vec3f {
-	let x = warp__turn_to(n, vec3f(1.0, 0.0, 0.0));
-	let y = warp__turn_to(n, vec3f(0.0, 1.0, 0.0));
-	return vec3f(dot(direction, x), dot(direction, y), dot(direction, n));
+fn lobes__to_frame(bsdf: lobes__Bsdf, direction: vec3f) -> vec3f {
+	return vec3f(dot(direction, bsdf.x), dot(direction, bsdf.y), dot(direction, bsdf.normal));
+}
+
+fn lobes__from_frame(bsdf: lobes__Bsdf, w: vec3f) -> vec3f {
+	return w.x * bsdf.x + w.y * bsdf.y + w.z * bsdf.normal;
 }
 
 fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
@@ -4751,7 +4882,7 @@ fn bsdf__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
 }
 
 fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
-	let wi = lobes__to_frame(bsdf.normal, direction);
+	let wi = lobes__to_frame(bsdf, direction);
 	var value = vec3f(0.0);
 	var pdf = 0.0;
 	if (wi.z > 0.0) {
@@ -4838,7 +4969,7 @@ fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__Bsdf
 	}
 	if (is_smooth) {
 		let fraction = select(split.transmit / max(1.0 - chance, 1e-6), split.reflect / max(chance, 1e-6), reflects);
-		let direction = warp__turn_to(bsdf.normal, wi);
+		let direction = lobes__from_frame(bsdf, wi);
 		let stays = (dot(direction, bsdf.ng) > 0.0) == reflects;
 		return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
 	}
@@ -4846,7 +4977,7 @@ fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__Bsdf
 }
 
 fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f, above: bool) -> bsdf__BsdfSample {
-	let direction = warp__turn_to(bsdf.normal, wi);
+	let direction = lobes__from_frame(bsdf, wi);
 	let found = bsdf__bsdf_eval(bsdf, direction);
 	let weight = select(vec3f(0.0), found.value / max(found.pdf, 1e-30), (wi.z > 0.0) == above);
 	return bsdf__BsdfSample(direction, weight, found.pdf);

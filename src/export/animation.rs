@@ -83,8 +83,8 @@ impl Writer<'_> {
                 table.put("material", string(&names.materials[index]));
                 of_material(property)
             }
-            // Deforming meshes are written at rest.
-            Target::Weight(..) => return,
+            // Deforming meshes are written at rest, and materials with their classical colours.
+            Target::Weight(..) | Target::Layer(..) => return,
         };
         table.put("property", string(property));
         let is_switch = matches!(property, "visible" | "on");

@@ -10,11 +10,10 @@ use std::sync::Arc;
 /// The material that the importer makes of `pbr` alone.
 pub(super) fn plain(material: &Material, model: &Arc<MetallicRoughness>) -> Material {
     let layers = material.layer_textures.as_deref().copied();
-    let plain = Material::physical(model.clone(), layers.unwrap_or_default());
-    let plain = match same_bits(material.tint, Vec3::ONE) {
-        true => plain,
-        false => plain.tinted(material.tint),
-    };
+    let mut plain = Material::physical(model.clone(), layers.unwrap_or_default());
+    if !same_bits(material.tint, Vec3::ONE) {
+        plain.paint(material.tint);
+    }
     Material {
         // Emission has a key of its own, unless the material is unlit.
         emission: if model.unlit {
@@ -110,10 +109,9 @@ impl Writer<'_> {
         );
         numbers!(clearcoat 0.0, clearcoat_roughness 0.0);
         colors!(sheen_color Vec3::ZERO);
-        numbers!(sheen_roughness 0.0, iridescence 0.0);
+        numbers!(sheen_roughness 0.0, anisotropy 0.0, iridescence 0.0);
         plain!(iridescence_ior);
         self.film(&mut table, model, &layers);
-        plain!(anisotropy);
         table.put_if(
             model.anisotropy_rotation.to_bits() != 0,
             "anisotropy_rotation_deg",

@@ -18,6 +18,10 @@ pub(super) fn mesh(mesh: &Mesh, number_of: impl Fn(u32) -> u32, has_numbers: boo
     if has_second {
         names.extend(["s2", "t2"]);
     }
+    let has_tangents = !mesh.tangents.is_empty();
+    if has_tangents {
+        names.extend(["tx", "ty", "tz", "tw"]);
+    }
     for name in &names {
         header += &format!("property float {name}\n");
     }
@@ -39,6 +43,9 @@ pub(super) fn mesh(mesh: &Mesh, number_of: impl Fn(u32) -> u32, has_numbers: boo
         }
         if has_second {
             mesh.second_uvs[i].to_array().into_iter().for_each(&mut put);
+        }
+        if has_tangents {
+            mesh.tangents[i].to_array().into_iter().for_each(&mut put);
         }
         if has_numbers {
             bytes.extend(number_of(mesh.materials[i]).to_le_bytes());

@@ -261,16 +261,10 @@ fn split(mesh: &mut Mesh, is_sharp: &[bool], crease: f64) {
                         mesh.normals[vertex as usize] = normal;
                         return vertex;
                     }
-                    let at = vertex as usize;
-                    mesh.positions.push(mesh.positions[at]);
-                    mesh.materials.push(mesh.materials[at]);
-                    if !mesh.uvs.is_empty() {
-                        mesh.uvs.push(mesh.uvs[at]);
+                    mesh.copy_vertices(&[vertex]);
+                    if let Some(last) = mesh.normals.last_mut() {
+                        *last = normal;
                     }
-                    if !mesh.second_uvs.is_empty() {
-                        mesh.second_uvs.push(mesh.second_uvs[at]);
-                    }
-                    mesh.normals.push(normal);
                     mesh.positions.len() as u32 - 1
                 });
             let at = corner.index as usize;

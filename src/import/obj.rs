@@ -329,6 +329,7 @@ impl<'s> Reader<'s> {
             normals: corners().map(normal).collect(),
             uvs,
             second_uvs: Vec::new(),
+            tangents: Vec::new(),
             materials: corners().map(|corner| corner.material).collect(),
             triangles: self.triangles,
         };

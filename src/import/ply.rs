@@ -1,8 +1,8 @@
 //! Stanford PLY: polygons and points, ASCII or binary.
 //!
 //! Vertex properties read: `x y z`, `nx ny nz`, `s t` (also `u v` or `texture_u texture_v`), `red green blue`
-//! (also `diffuse_red …` or `r g b`), `radius` of points, and glimray's own material number `material`. Face
-//! property read: the list `vertex_indices` (also `vertex_index`). Others are skipped. Doubles become floats
+//! (also `diffuse_red …` or `r g b`), `radius` of points, and glimray's own `material` (a number), `s2 t2` (a second set of
+//! u and v) and `tx ty tz tw` (tangents). Face property read: the list `vertex_indices` (also `vertex_index`). Others are skipped. Doubles become floats
 //! near the mesh's own origin. Source: Greg Turk, The PLY Polygon File Format, 1994.
 
 mod faces;
@@ -17,10 +17,11 @@ use super::error::ImportError;
 use super::model::Model;
 use super::notes::{self, Notes};
 use super::number::in_range;
+use super::tangent::tangent;
 use super::tint::{self, Rgb};
 use super::{Axis, Options};
 use crate::scene::{Material, Mesh, Scene, Shape};
-use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3, Vec4};
 use reader::Reader;
 use std::path::Path;
 use types::{Element, Kind};
@@ -195,6 +196,7 @@ struct Layout {
     normal: Option<usize>,
     uv: Option<usize>,
     second_uv: Option<usize>,
+    tangent: Option<usize>,
     color: Option<usize>,
     material: Option<usize>,
     radius: Option<usize>,
@@ -221,7 +223,10 @@ impl Layout {
             layout.second_uv = add(reader.columns(element, &["s2", "t2"])?);
         }
         match purpose {
-            Purpose::Mesh(_) => layout.material = add(reader.columns(element, &["material"])?),
+            Purpose::Mesh(_) => {
+                layout.tangent = add(reader.columns(element, &["tx", "ty", "tz", "tw"])?);
+                layout.material = add(reader.columns(element, &["material"])?);
+            }
             Purpose::Model => {
                 for names in COLORS {
                     if layout.color.is_none() {
@@ -244,6 +249,7 @@ impl Layout {
         for uv in [self.uv, self.second_uv] {
             needed += budget::size::<Vec2>(if uv.is_some() { count } else { 0 });
         }
+        needed += budget::size::<Vec4>(if self.tangent.is_some() { count } else { 0 });
         needed += budget::size::<DVec3>(if is_double { count } else { 0 });
         if self.color.is_some() {
             needed += budget::size::<Option<Rgb>>(count) + tint::bytes();
@@ -313,6 +319,10 @@ fn vertices(
                 uvs.push(Vec2::new(place(row[at]), place(row[at + 1])));
             }
         }
+        if let Some(at) = layout.tangent {
+            let numbers = [row[at], row[at + 1], row[at + 2], row[at + 3]];
+            mesh.tangents.push(tangent(numbers));
+        }
         if let Some(at) = layout.color {
             let channel = |x: f64| (x * color_scale).round().clamp(0.0, 255.0) as u8;
             colors.push(Some([row[at], row[at + 1], row[at + 2]].map(channel)));
@@ -359,6 +369,7 @@ fn drop_unused(mesh: &mut Mesh) {
     keep(&mut mesh.normals, &moved);
     keep(&mut mesh.uvs, &moved);
     keep(&mut mesh.second_uvs, &moved);
+    keep(&mut mesh.tangents, &moved);
     keep(&mut mesh.materials, &moved);
     let used = moved.iter_mut().filter(|index| **index != UNUSED);
     used.zip(0..).for_each(|(index, new)| *index = new);

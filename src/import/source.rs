@@ -136,15 +136,19 @@ fn is_utf16(bytes: &[u8]) -> bool {
 
 /// `bytes` in backquotes, truncated if long, without control characters.
 pub(super) fn quote(bytes: &[u8]) -> String {
-    const LONGEST: usize = 32;
+    quote_up_to(32, bytes)
+}
+
+/// As [`quote`], for at most `longest` bytes.
+pub(super) fn quote_up_to(longest: usize, bytes: &[u8]) -> String {
     let mut quoted = String::from("`");
-    for c in String::from_utf8_lossy(&bytes[..bytes.len().min(LONGEST)]).chars() {
+    for c in String::from_utf8_lossy(&bytes[..bytes.len().min(longest)]).chars() {
         match c {
             '\\' | '\'' | '"' => quoted.push(c),
             c => quoted.extend(c.escape_debug()),
         }
     }
-    quoted.push_str(if bytes.len() > LONGEST { "…`" } else { "`" });
+    quoted.push_str(if bytes.len() > longest { "…`" } else { "`" });
     quoted
 }
 

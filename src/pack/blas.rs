@@ -10,7 +10,8 @@ use super::{
 use crate::{
     bvh::{Aabb, Child, threads},
     layout::{
-        LEAF, MOVING, PackedNode, PackedShape, PackedTriangle, PackedVertex, SHAPE, leaf_reference,
+        LEAF, MOVING, PackedNode, PackedShape, PackedTangent, PackedTriangle, PackedVertex, SHAPE,
+        leaf_reference,
     },
 };
 use std::{collections::BinaryHeap, sync::Arc};
@@ -29,6 +30,8 @@ pub struct Blas {
     pub shapes: Arc<[PackedShape]>,
     /// In mesh order.
     pub vertices: Arc<[PackedVertex]>,
+    /// One for each vertex; empty if there is none.
+    pub tangents: Arc<[PackedTangent]>,
     /// Maximum number of stack entries during traversal.
     pub stack_need: usize,
     /// How often each node is in `nodes`, in a row: more than once if the mesh moves between several positions.
@@ -42,13 +45,17 @@ impl Blas {
     pub fn refitted(topology: &Topology, placed: PlacedMesh, offsets: Offsets) -> Self {
         let triangles = topology.triangles(&placed);
         let fit = Fit::new(topology, &triangles);
-        Self::of(&[fit], placed.vertices, offsets)
+        Self::of(&[fit], (placed.vertices, placed.tangents), offsets)
     }
 
     /// The BLAS of one mesh, with the triangles of the first of several positions between which it moves; each
     /// node is there with its boxes at each of them. Triangles move linearly from one position to the next, so
     /// that they are inside the interpolated boxes.
-    pub fn of(fits: &[Fit], vertices: Arc<[PackedVertex]>, offsets: Offsets) -> Self {
+    pub fn of(
+        fits: &[Fit],
+        (vertices, tangents): (Arc<[PackedVertex]>, Arc<[PackedTangent]>),
+        offsets: Offsets,
+    ) -> Self {
         let topology = fits[0].topology;
         let key_count = fits.len() as u32;
         let node = |index: u32| match key_count {
@@ -79,6 +86,7 @@ impl Blas {
             top: Vec::new(),
             shapes: Arc::default(),
             vertices,
+            tangents,
             stack_need: topology.stack_need,
             triangles: fits[0].triangles.clone(),
         };
@@ -114,6 +122,7 @@ impl Blas {
             triangles: (triangles.iter().map(|&i| flat.triangles[i as usize])).collect(),
             shapes: (shapes.map(|&i| flat.bounded[i as usize - divided.boxes.len()].0)).collect(),
             vertices: flat.vertices.into(),
+            tangents: flat.tangents.into(),
             stack_need: bvh.stack_need,
             key_count: 1,
             top: top_of(|reference| reference - offsets.node, children_of),

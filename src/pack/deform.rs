@@ -13,7 +13,7 @@ use super::{
     trees::Trees,
 };
 use crate::{
-    layout::{PackedNode, PackedShape, PackedTriangle, PackedVertex},
+    layout::{PackedNode, PackedShape, PackedTangent, PackedTriangle, PackedVertex},
     scene::{Deformation, Frame, Pose, Scene},
 };
 use bytemuck::cast_slice;
@@ -46,6 +46,8 @@ pub struct DeformingMesh {
     offsets: Offsets,
     /// The origin of the space of its BLAS.
     origin: DVec3,
+    /// Rows of each vertex of later keys: with its tangent if the scene has tangents.
+    key_stride: usize,
 }
 
 /// The deforming meshes of a view.
@@ -66,9 +68,9 @@ pub struct DeformedTree {
     /// Its node references and vertex indices are those of the view.
     blas: Blas,
     pub instanced: InstancedBlas,
-    /// The triangles and vertices of later keys.
+    /// The triangles of later keys, and the rows of their vertices.
     key_triangles: Vec<Arc<[PackedTriangle]>>,
-    key_vertices: Vec<Arc<[PackedVertex]>>,
+    key_rows: Vec<Arc<[Row]>>,
     /// See [`crate::layout::PackedInstance::next_key`].
     pub next_key: u32,
     /// The first later key in the arrays of the view.
@@ -76,6 +78,9 @@ pub struct DeformedTree {
     /// Whether its topology was built for this view.
     pub is_rebuilt: bool,
 }
+
+/// A [`PackedVertex`] or a [`PackedTangent`].
+type Row = [u32; 4];
 
 /// Indices of the next triangle and vertex of later keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -85,7 +90,13 @@ struct Starts {
 }
 
 /// The deforming meshes of a scene that have visible instances.
-pub fn meshes(scene: &Scene, origin: DVec3, plan: &Plan, trees: &Trees) -> Arc<[DeformingMesh]> {
+pub fn meshes(
+    scene: &Scene,
+    origin: DVec3,
+    plan: &Plan,
+    trees: &Trees,
+    has_tangents: bool,
+) -> Arc<[DeformingMesh]> {
     let deforming = scene.deformations.iter().enumerate();
     let deforming = deforming.filter_map(|(index, deformation)| {
         let mut meshes = plan.instanced_meshes.iter();
@@ -98,6 +109,7 @@ pub fn meshes(scene: &Scene, origin: DVec3, plan: &Plan, trees: &Trees) -> Arc<[
             tree,
             offsets: at_rest.blas.offsets,
             origin: tree_origin(deformation, origin),
+            key_stride: 1 + usize::from(has_tangents),
         })
     });
     deforming.collect()
@@ -118,7 +130,7 @@ impl PackedScene {
         let triangle_rows = TRIANGLE_ROWS * self.triangles.len() + SHAPE_ROWS * self.shapes.len();
         let mut starts = Starts {
             triangle: triangle_rows.div_ceil(TRIANGLE_ROWS),
-            vertex: self.vertices.len() + self.uvs.len(),
+            vertex: self.vertices.len() + self.uvs.len() + self.tangents.len(),
         };
         let before = previous.map(|previous| &previous.deformed);
         let mut deformed = Deformed {
@@ -148,7 +160,7 @@ impl PackedScene {
                 .iter()
                 .map(|key| key.len())
                 .sum::<usize>();
-            starts.vertex += tree.key_vertices.iter().map(|key| key.len()).sum::<usize>();
+            starts.vertex += tree.key_rows.iter().map(|key| key.len()).sum::<usize>();
             deformed.trees.push(tree);
         }
         match before.filter(|before| ***before == deformed) {
@@ -160,9 +172,9 @@ impl PackedScene {
     /// The frames at the keys of deforming meshes: all, or evenly spaced ones from the first to the last.
     fn deformation_keys<'a>(&self, frames: &'a [Frame]) -> Vec<&'a Frame> {
         let bytes = self.deforming.iter().map(|mesh| {
-            let mesh = &mesh.mesh.mesh;
-            // A packed triangle with its share of the nodes, and a packed vertex.
-            72 * mesh.triangles.len() + 16 * mesh.positions.len()
+            let (mesh, key_stride) = (&mesh.mesh.mesh, mesh.key_stride);
+            // A packed triangle with its share of the nodes, and the rows of a vertex.
+            72 * mesh.triangles.len() + 16 * key_stride * mesh.positions.len()
         });
         let bytes = bytes.sum::<usize>();
         let mut step = 1;
@@ -190,7 +202,8 @@ impl PartialEq for DeformedTree {
             && self.blas.triangles == other.blas.triangles
             && self.blas.vertices == other.blas.vertices
             && self.key_triangles == other.key_triangles
-            && self.key_vertices == other.key_vertices
+            && self.blas.tangents == other.blas.tangents
+            && self.key_rows == other.key_rows
     }
 }
 
@@ -237,15 +250,22 @@ impl Deformed {
         Some(&tree.vertices)
     }
 
+    /// The tangents that replace those of the scene from an index on.
+    pub fn tangents(&self, first: usize) -> Option<&[PackedTangent]> {
+        let mut trees = self.trees.iter().map(|tree| &tree.blas);
+        let tree = trees.find(|blas| blas.offsets.vertex as usize == first)?;
+        (!tree.tangents.is_empty()).then_some(&tree.tangents)
+    }
+
     /// The triangles of later keys, after the shapes of the scene at the next multiple of a triangle.
     pub fn key_triangles(&self) -> impl Iterator<Item = &[PackedTriangle]> {
         let keys = self.trees.iter().flat_map(|tree| &tree.key_triangles);
         keys.map(|key| &key[..])
     }
 
-    /// The vertices of later keys, after the texture coordinates of the scene.
-    pub fn key_vertices(&self) -> impl Iterator<Item = &[PackedVertex]> {
-        let keys = self.trees.iter().flat_map(|tree| &tree.key_vertices);
+    /// The vertices of later keys, after the tangents of the scene, each followed by its tangent if there are any.
+    pub fn key_rows(&self) -> impl Iterator<Item = &[Row]> {
+        let keys = self.trees.iter().flat_map(|tree| &tree.key_rows);
         keys.map(|key| &key[..])
     }
 }
@@ -266,18 +286,20 @@ impl DeformingMesh {
 }
 
 impl DeformedTree {
-    /// The bytes of its nodes, triangles and vertices.
-    pub fn parts(&self) -> [&[u8]; 3] {
+    /// The bytes of its nodes, triangles, vertices and tangents.
+    pub fn parts(&self) -> [&[u8]; 4] {
         let Blas {
             nodes,
             triangles,
             vertices,
+            tangents,
             ..
         } = &self.blas;
         [
             cast_slice(nodes),
             cast_slice(triangles),
             cast_slice(vertices),
+            cast_slice(tangents),
         ]
     }
 
@@ -290,17 +312,13 @@ impl DeformedTree {
         let source = &*mesh.mesh.mesh;
         let mut placed = Vec::with_capacity(poses.len());
         for (key, pose) in poses.iter().enumerate() {
-            let first_vertex = match key {
-                0 => offsets.vertex as usize,
-                _ => starts.vertex + (key - 1) * source.positions.len(),
+            let rows = mesh.key_stride * source.positions.len();
+            let place = match key {
+                0 => (offsets.vertex as usize, 1),
+                _ => (starts.vertex + (key - 1) * rows, mesh.key_stride),
             };
             let posed = mesh.deformation.posed(source, pose);
-            placed.push(PlacedMesh::posed(
-                source,
-                &posed,
-                mesh.origin,
-                first_vertex,
-            )?);
+            placed.push(PlacedMesh::posed(source, &posed, mesh.origin, place)?);
         }
         let triangles = |topology: &Topology| -> Vec<_> {
             placed
@@ -311,18 +329,18 @@ impl DeformedTree {
         let at_rest = mesh.mesh.topology(&mut 0);
         let mut keys = triangles(at_rest);
         let is_rebuilt = Fit::new(at_rest, &keys[0]).cost() > POOR * at_rest.cost;
-        let own;
+        let built;
         let topology = match is_rebuilt {
             true => {
-                own = Topology::build(placed[0].positions(), &source.triangles);
-                keys = triangles(&own);
-                &own
+                built = Topology::build(placed[0].positions(), &source.triangles);
+                keys = triangles(&built);
+                &built
             }
             false => at_rest,
         };
-        let vertices = placed[0].vertices.clone();
+        let own = (placed[0].vertices.clone(), placed[0].tangents.clone());
         let fits: Vec<_> = keys.iter().map(|key| Fit::new(topology, key)).collect();
-        let blas = Blas::of(&fits, vertices, offsets);
+        let blas = Blas::of(&fits, own, offsets);
         drop(fits);
         Ok(Self {
             tree: mesh.tree,
@@ -338,11 +356,25 @@ impl DeformedTree {
                 _ => (starts.triangle as u32).wrapping_sub(offsets.triangle),
             },
             key_triangles: keys.split_off(1),
-            key_vertices: placed[1..].iter().map(|it| it.vertices.clone()).collect(),
+            key_rows: placed[1..]
+                .iter()
+                .map(|it| rows(it, mesh.key_stride))
+                .collect(),
             blas,
             poses,
             starts,
             is_rebuilt,
         })
     }
+}
+
+/// The rows of a later key: its vertices, each with its tangent if there are two rows for it.
+fn rows(placed: &PlacedMesh, stride: usize) -> Arc<[Row]> {
+    let vertices: &[Row] = cast_slice(&placed.vertices);
+    let tangents: &[Row] = cast_slice(&placed.tangents);
+    let row = |i: usize| match i % stride {
+        0 => vertices[i / stride],
+        _ => tangents.get(i / stride).copied().unwrap_or_default(),
+    };
+    (0..stride * vertices.len()).map(row).collect()
 }

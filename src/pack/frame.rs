@@ -243,7 +243,7 @@ impl PackedView {
         let trees = self.deformed.trees.iter();
         parts.extend(trees.flat_map(|tree| tree.parts()));
         parts.extend(self.deformed.key_triangles().map(cast_slice));
-        parts.extend(self.deformed.key_vertices().map(cast_slice));
+        parts.extend(self.deformed.key_rows().map(cast_slice));
         if self.orthographic {
             parts.push(b"orthographic");
         }
@@ -277,12 +277,17 @@ impl PackedView {
         self.deformed.vertices(first).map(cast_slice)
     }
 
+    /// The tangents that replace those of the scene from an index on.
+    pub fn tangents_from(&self, first: usize) -> Option<&[u8]> {
+        self.deformed.tangents(first).map(cast_slice)
+    }
+
     /// The triangles and the vertices of later keys of deforming meshes: after the shapes, at the next multiple
-    /// of a triangle, and after the texture coordinates.
+    /// of a triangle, and after the tangents. Each vertex is followed by its tangent if the scene has any.
     pub fn later_keys(&self) -> [Vec<&[u8]>; 2] {
         [
             self.deformed.key_triangles().map(cast_slice).collect(),
-            self.deformed.key_vertices().map(cast_slice).collect(),
+            self.deformed.key_rows().map(cast_slice).collect(),
         ]
     }
 

@@ -4,12 +4,13 @@ use super::PackError;
 use crate::{
     bvh::{Aabb, threads},
     layout::{
-        PackedShape, PackedTriangle, PackedVertex, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC,
-        SHAPE_ELLIPSOID, SHAPE_GLOBE, SHAPE_PLANE, SHAPE_RECTANGLE, SHAPE_SPHERE, SHAPE_TORUS,
+        PackedShape, PackedTangent, PackedTriangle, PackedVertex, SHAPE_BOX, SHAPE_CAPPED,
+        SHAPE_CONE, SHAPE_DISC, SHAPE_ELLIPSOID, SHAPE_GLOBE, SHAPE_PLANE, SHAPE_RECTANGLE,
+        SHAPE_SPHERE, SHAPE_TORUS,
     },
     scene::{CanonicalShape, Geometry, Mesh, PosedMesh},
 };
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec3, Vec4};
 use std::sync::Arc;
 
 /// Beyond this limit, squares of coordinates overflow f32.
@@ -24,6 +25,8 @@ const GLOBE_RATIO: f64 = 16.0;
 pub struct Flat {
     pub triangles: Vec<PackedTriangle>,
     pub vertices: Vec<PackedVertex>,
+    /// Of all vertices; empty if none has any.
+    pub tangents: Vec<PackedTangent>,
     /// Bounded shapes with their boxes, and unbounded ones.
     pub bounded: Vec<(PackedShape, Aabb)>,
     pub planes: Vec<PackedShape>,
@@ -129,9 +132,17 @@ impl Flat {
         origin: DVec3,
         vertex: u32,
     ) -> Result<(), PackError> {
-        let first_vertex = vertex as usize + self.vertices.len();
+        let before = self.vertices.len();
+        let first_vertex = vertex as usize + before;
         let placed = PlacedMesh::new(mesh, world_from_object, origin, first_vertex)?;
         self.vertices.extend_from_slice(&placed.vertices);
+        if !placed.tangents.is_empty() {
+            self.tangents.resize(before, PackedTangent::default());
+            self.tangents.extend_from_slice(&placed.tangents);
+        } else if !self.tangents.is_empty() {
+            let count = self.vertices.len();
+            self.tangents.resize(count, PackedTangent::default());
+        }
         let triangles = (0..mesh.triangles.len()).map(|index| placed.triangle(index));
         self.triangles.extend(triangles);
         Ok(())
@@ -144,7 +155,11 @@ pub struct PlacedMesh<'a> {
     positions: Vec<Vec3>,
     /// In mesh order.
     pub vertices: Arc<[PackedVertex]>,
+    /// One for each vertex; empty if the mesh has none.
+    pub tangents: Arc<[PackedTangent]>,
     first_vertex: u32,
+    /// How far the indices of neighbouring vertices are apart.
+    stride: u32,
 }
 
 impl<'a> PlacedMesh<'a> {
@@ -177,42 +192,61 @@ impl<'a> PlacedMesh<'a> {
                 material: mesh.materials[index],
             }
         });
+        let mirrors = world_from_object.matrix3.determinant() < 0.0;
+        let tangents = threads::collect_shared(mesh.tangents.len(), |index| {
+            let own = mesh.tangents[index];
+            let direction = world_from_object.matrix3 * own.truncate().as_dvec3();
+            packed_tangent(
+                direction
+                    .as_vec3()
+                    .extend(if mirrors { -own.w } else { own.w }),
+            )
+        });
         Ok(Self {
             mesh,
             positions,
             vertices,
+            tangents,
             first_vertex: first_vertex as u32,
+            stride: 1,
         })
     }
 
-    /// A mesh in a pose, whose positions are relative to `origin`. Otherwise as [`Self::new`].
+    /// A mesh in a pose, whose positions are relative to `origin`; neighbouring vertices get indices that are `stride`
+    /// apart. Otherwise as [`Self::new`].
     pub fn posed(
         mesh: &'a Mesh,
         posed: &PosedMesh,
         origin: DVec3,
-        first_vertex: usize,
+        (first_vertex, stride): (usize, usize),
     ) -> Result<Self, PackError> {
-        check_vertex_count(first_vertex + posed.len())?;
+        check_vertex_count(first_vertex + stride * posed.len())?;
         let moved = threads::collect(posed.len(), |index| {
             let (position, normal) = posed.vertex(index);
-            (position - origin, normal.as_vec3())
+            let tangent = posed.tangent(index, normal);
+            (position - origin, normal.as_vec3(), tangent)
         });
-        for (position, _) in &moved {
+        for (position, ..) in &moved {
             in_range(position.abs().max_element())?;
         }
         Ok(Self {
             mesh,
             positions: moved
                 .iter()
-                .map(|(position, _)| position.as_vec3())
+                .map(|(position, ..)| position.as_vec3())
                 .collect(),
             vertices: (moved.iter().zip(&mesh.materials))
-                .map(|((_, normal), &material)| PackedVertex {
+                .map(|((_, normal, _), &material)| PackedVertex {
                     normal: (*normal).into(),
                     material,
                 })
                 .collect(),
+            tangents: match mesh.tangents.is_empty() {
+                true => Arc::default(),
+                false => (moved.iter().map(|(.., tangent)| packed_tangent(*tangent))).collect(),
+            },
             first_vertex: first_vertex as u32,
+            stride: stride as u32,
         })
     }
 
@@ -225,7 +259,7 @@ impl<'a> PlacedMesh<'a> {
     pub fn triangle(&self, index: usize) -> PackedTriangle {
         let [a, b, c] = self.mesh.triangles[index];
         let corner = |i: u32| self.positions[i as usize].into();
-        let vertex = |i: u32| self.first_vertex + i;
+        let vertex = |i: u32| self.first_vertex + self.stride * i;
         PackedTriangle {
             v0: corner(a),
             i0: vertex(a),
@@ -234,6 +268,17 @@ impl<'a> PlacedMesh<'a> {
             v2: corner(c),
             i2: vertex(c),
         }
+    }
+}
+
+/// w is the handedness.
+fn packed_tangent(tangent: Vec4) -> PackedTangent {
+    match tangent.truncate().as_dvec3().try_normalize() {
+        None => PackedTangent::default(),
+        Some(direction) => PackedTangent {
+            direction: direction.as_vec3().into(),
+            handedness: tangent.w,
+        },
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::{
     layout::{
-        NO_TEXTURE, NONE, PackedLayers, SLOT_BASE, SLOT_COAT, SLOT_COAT_ROUGHNESS,
+        NO_TEXTURE, NONE, PackedLayers, SLOT_ANISOTROPY, SLOT_BASE, SLOT_COAT, SLOT_COAT_ROUGHNESS,
         SLOT_DIFFUSE_TRANSMISSION, SLOT_DIFFUSE_TRANSMISSION_COLOR, SLOT_EMISSION, SLOT_F0,
         SLOT_F90, SLOT_FILM_THICKNESS, SLOT_IRIDESCENCE, SLOT_METALLIC, SLOT_METALLIC_ROUGHNESS,
         SLOT_REFLECT, SLOT_ROUGHNESS, SLOT_SHEEN, SLOT_SHEEN_ROUGHNESS, SLOT_TRANSMISSION,
@@ -113,6 +113,7 @@ fn slots(material: &Material) -> [Option<usize>; 24] {
             set(SLOT_COAT_ROUGHNESS, layers.clearcoat_roughness);
             set(SLOT_SHEEN, layers.sheen_color);
             set(SLOT_SHEEN_ROUGHNESS, layers.sheen_roughness);
+            set(SLOT_ANISOTROPY, layers.anisotropy);
             set(SLOT_IRIDESCENCE, layers.iridescence);
             set(SLOT_FILM_THICKNESS, layers.iridescence_thickness);
             set(SLOT_DIFFUSE_TRANSMISSION, layers.diffuse_transmission);

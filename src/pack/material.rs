@@ -11,8 +11,8 @@ use crate::{
         TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT,
     },
     scene::{
-        Coverage, Fresnel, Material, MaterialProperty, MetallicRoughness, Mixing, Pattern, Scene,
-        Space, Target, Texels, Texture, Values, Wrap,
+        Coverage, Fresnel, LayerProperty, Material, MaterialProperty, MetallicRoughness, Mixing,
+        Pattern, Scene, Space, Target, Texels, Texture, Values, Wrap,
     },
 };
 use glam::{DAffine3, DVec3, Vec3};
@@ -99,14 +99,26 @@ fn may_be_nonblack(
         let is_black =
             matches!(&track.curve.values, Values::Vector(v) if v.iter().all(|v| *v == DVec3::ZERO));
         for target in &track.targets {
-            if let Target::Material(index, p) = *target
-                && p == property
-            {
-                nonblack[index] |= !is_black;
+            match *target {
+                Target::Material(index, p) if p == property => nonblack[index] |= !is_black,
+                Target::Layer(index, p) if layer_changes(p, property) => nonblack[index] = true,
+                _ => {}
             }
         }
     }
     nonblack
+}
+
+/// Whether a track of a layer may give this classical colour a value.
+fn layer_changes(layer: LayerProperty, property: MaterialProperty) -> bool {
+    match property {
+        MaterialProperty::Transmit => layer == LayerProperty::Transmission,
+        MaterialProperty::Reflect => !matches!(
+            layer,
+            LayerProperty::Alpha | LayerProperty::EmissionStrength
+        ),
+        _ => false,
+    }
 }
 
 /// For each material, whether it emits light at some time.
@@ -187,6 +199,9 @@ pub fn features(scene: &Scene) -> Features {
             .any(|it| it.reflect.or(it.transmit).or(it.emission).is_some()),
         coverage: (scene.materials.iter()).any(|it| it.coverage != Coverage::Opaque),
         occlusion_maps: (scene.materials.iter()).any(|it| it.textures.occlusion.is_some()),
+        anisotropy: (scene.materials.iter())
+            .filter_map(|material| material.metallic_roughness.as_ref())
+            .any(|model| model.anisotropy > 0.0 && !model.unlit),
         normal_maps: (scene.materials.iter()).any(|material| material.textures.normal.is_some()),
         emission: emission || light::visible(scene).next().is_some(),
         ..Features::default()

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     bvh::{self, Aabb, Child},
-    layout::{PackedNode, PackedShape, PackedTriangle, PackedVertex, STACK_SIZE},
+    layout::{PackedNode, PackedShape, PackedTangent, PackedTriangle, PackedVertex, STACK_SIZE},
     scene::{Frame, Geometry, Scene},
 };
 use glam::{DAffine3, DVec3};
@@ -236,6 +236,22 @@ impl Trees {
     pub fn vertices(&self) -> Segments<PackedVertex> {
         let trees = self.own().map(|tree| &tree.blas).chain([&self.joint.blas]);
         trees.map(|blas| blas.vertices.clone()).collect()
+    }
+
+    /// The tangents of all vertices; empty if there is none.
+    pub fn tangents(&self) -> Segments<PackedTangent> {
+        let blas = || {
+            let own = self.own().map(|tree| &tree.blas);
+            own.chain([&self.joint.blas])
+        };
+        if blas().all(|blas| blas.tangents.is_empty()) {
+            return Segments::default();
+        }
+        let of_blas = |blas: &Arc<Blas>| match blas.tangents.is_empty() {
+            true => vec![PackedTangent::default(); blas.vertices.len()].into(),
+            false => blas.tangents.clone(),
+        };
+        blas().map(of_blas).collect()
     }
 
     /// The meshes in the order of their vertices.

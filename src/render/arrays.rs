@@ -68,9 +68,11 @@ pub fn arrays<'a>(scene: &'a PackedScene, view: &'a PackedView) -> [Array<'a>; A
     for (first, run) in scene.vertices.runs() {
         vertices.push(view.vertices_from(first).unwrap_or(run), geometry);
     }
-    let uvs = scene.uvs.bytes();
-    uvs.chain(later_vertices)
-        .for_each(|run| vertices.push(run, geometry));
+    (scene.uvs.bytes()).for_each(|run| vertices.push(run, geometry));
+    for (first, run) in scene.tangents.runs() {
+        vertices.push(view.tangents_from(first).unwrap_or(run), geometry);
+    }
+    (later_vertices.iter()).for_each(|run| vertices.push(run, geometry));
     let mut materials = Array::new("materials", Kind::Rows);
     materials.push(
         match view.materials.is_empty() {

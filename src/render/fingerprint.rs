@@ -21,6 +21,7 @@ impl Fingerprint {
             priorities,
             filtered_shadows,
             // These follow from the materials.
+            anisotropy: _,
             coatings: _,
             coated_emission: _,
             rough_glass: _,

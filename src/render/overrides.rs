@@ -127,6 +127,8 @@ pub fn of(task: Task) -> Overrides {
         ("LIGHT_MOTION", flag(view.frame.light_key_count > 1)),
         ("ORTHOGRAPHIC", flag(view.orthographic)),
         ("HAS_SECOND_UVS", flag(features.second_uvs)),
+        ("HAS_TANGENTS", flag(!scene.tangents.is_empty())),
+        ("HAS_ANISOTROPY", flag(is_path && features.anisotropy)),
         ("HAS_UVS", flag(!scene.uvs.is_empty())),
         ("FILM_ROWS", layers::rows(layers) as f64),
         ("SQUARES_ROW", squares_row as f64),

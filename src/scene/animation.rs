@@ -31,6 +31,9 @@ pub enum Target {
     Light(usize, LightProperty),
     /// Of a [`super::Material`].
     Material(usize, MaterialProperty),
+    /// Of the [`super::MetallicRoughness`] of a material. Its classical colours follow, except those of textures that
+    /// were computed for the values at rest.
+    Layer(usize, LayerProperty),
     /// The weight of a morph target, a scalar: the index of a [`super::Deformation`], and that of one of
     /// its targets.
     Weight(usize, usize),
@@ -102,6 +105,25 @@ pub enum MaterialProperty {
     Opacity,
     Ior,
     Absorption,
+}
+
+/// An animatable property of a [`super::MetallicRoughness`]. Constant while the shutter is open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LayerProperty {
+    /// A vector: linear Rec. 709.
+    BaseColor,
+    /// A scalar: [`super::Material::alpha`].
+    Alpha,
+    /// A scalar.
+    Metallic,
+    /// A scalar.
+    Roughness,
+    /// A scalar.
+    Ior,
+    /// A scalar.
+    Transmission,
+    /// A scalar: factor on [`super::Material::emission`], after any other track of it.
+    EmissionStrength,
 }
 
 /// Values over time.

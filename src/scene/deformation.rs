@@ -2,7 +2,7 @@
 //! 3.7.2.2 and 3.7.3).
 
 use super::{Mesh, NodeState};
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec3, Vec4};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -33,9 +33,26 @@ pub struct MorphTarget {
     pub positions: Vec<Vec3>,
     /// What is added to the unit normal of each; empty if normals stay.
     pub normals: Vec<Vec3>,
+    /// What is added to the direction of the tangent of each; empty if tangents stay.
+    pub tangents: Vec<Vec3>,
 }
 
 impl MorphTarget {
+    /// Displaces copies as the vertices are of which they were made; the first copy has the index `first`.
+    pub fn copy_vertices(&mut self, vertices: &[u32], first: usize) {
+        for (index, vertex) in (first..).zip(vertices) {
+            if let Ok(at) = self.vertices.binary_search(vertex) {
+                self.vertices.push(index as u32);
+                self.positions.push(self.positions[at]);
+                for list in [&mut self.normals, &mut self.tangents] {
+                    if !list.is_empty() {
+                        list.push(list[at]);
+                    }
+                }
+            }
+        }
+    }
+
     /// The largest displacement of a vertex.
     pub fn reach(&self) -> f64 {
         let lengths = self.positions.iter().map(|p| p.as_dvec3().length());
@@ -76,6 +93,14 @@ impl Influences {
         let used = of_vertex.into_iter().filter(|(_, weight)| *weight != 0.0);
         self.list.extend(used);
         self.ends.push(self.list.len() as u32);
+    }
+
+    /// Adds copies of vertices.
+    pub fn copy_vertices(&mut self, vertices: &[u32]) {
+        for &vertex in vertices {
+            let own = self.of(vertex as usize).to_vec();
+            self.push(own);
+        }
     }
 
     /// The joints of a vertex and their weights, which need not sum to 1.
@@ -130,7 +155,27 @@ impl Deformation {
             deformation: self,
             pose,
             morphed: self.morphed(mesh, pose),
+            turned: self.turned(mesh, pose),
         }
+    }
+
+    /// The directions of tangents with the targets added; `None` if none changes.
+    fn turned(&self, mesh: &Mesh, pose: &Pose) -> Option<Vec<DVec3>> {
+        let mut turned = None;
+        for (target, &weight) in self.targets.iter().zip(&pose.weights) {
+            if weight == 0.0 || target.tangents.is_empty() || mesh.tangents.is_empty() {
+                continue;
+            }
+            let at_rest = || {
+                let tangents = mesh.tangents.iter();
+                tangents.map(|it| it.truncate().as_dvec3()).collect()
+            };
+            let tangents: &mut Vec<_> = turned.get_or_insert_with(at_rest);
+            for (added, &vertex) in target.tangents.iter().zip(&target.vertices) {
+                tangents[vertex as usize] += weight * added.as_dvec3();
+            }
+        }
+        turned
     }
 
     /// Positions and normals with the targets added; `None` if all weights are 0.
@@ -161,6 +206,7 @@ pub struct PosedMesh<'a> {
     deformation: &'a Deformation,
     pose: &'a Pose,
     morphed: Option<Vec<[DVec3; 2]>>,
+    turned: Option<Vec<DVec3>>,
 }
 
 impl PosedMesh<'_> {
@@ -187,8 +233,9 @@ impl PosedMesh<'_> {
     pub fn vertex(&self, vertex: usize) -> (DVec3, DVec3) {
         if let Some(corners) = self.flat_triangle(vertex) {
             let [a, b, c] = corners.map(|corner| self.position(corner));
+            let side = self.blend(vertex).map_or(1.0, |(matrix, _)| side(matrix));
             let normal = (b - a).cross(c - a).normalize_or(DVec3::Y);
-            return (self.position(vertex), normal);
+            return (self.position(vertex), side * normal);
         }
         let [position, normal] = self.morphed_at(vertex);
         match self.blend(vertex) {
@@ -196,10 +243,31 @@ impl PosedMesh<'_> {
                 // The cofactor matrix: also right where the mean of transforms cannot be inverted.
                 let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
                 let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
-                let normal = (cofactors * normal).normalize_or(DVec3::Y);
+                let normal = (side(matrix) * (cofactors * normal)).normalize_or(DVec3::Y);
                 (matrix * position + translation, normal)
             }
             None => (position, normal.normalize_or(DVec3::Y)),
+        }
+    }
+
+    /// The tangent of a vertex with this unit normal, as in [`Mesh::tangents`]; zero if it has none.
+    pub fn tangent(&self, vertex: usize, normal: DVec3) -> Vec4 {
+        let Some(own) = self.mesh.tangents.get(vertex) else {
+            return Vec4::ZERO;
+        };
+        let mut direction = match &self.turned {
+            Some(turned) => turned[vertex],
+            None => own.truncate().as_dvec3(),
+        };
+        let mut hand = own.w;
+        if let Some((matrix, _)) = self.blend(vertex) {
+            direction = matrix * direction;
+            hand *= side(matrix) as f32;
+        }
+        let direction = (direction - direction.dot(normal) * normal).normalize_or_zero();
+        match direction == DVec3::ZERO {
+            true => Vec4::ZERO,
+            false => direction.as_vec3().extend(hand),
         }
     }
 
@@ -237,5 +305,14 @@ impl PosedMesh<'_> {
             .start;
         let first = start + (vertex - start) / 3 * 3;
         Some([first, first + 1, first + 2])
+    }
+}
+
+/// −1 if a transform mirrors, otherwise 1.
+fn side(matrix: DMat3) -> f64 {
+    if matrix.determinant() < 0.0 {
+        -1.0
+    } else {
+        1.0
     }
 }

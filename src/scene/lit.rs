@@ -50,7 +50,10 @@ impl Scene {
             && (any_material(|material| material.reflect + material.transmit)
                 || changes(|target| {
                     use MaterialProperty::{Reflect, Transmit};
-                    matches!(target, Target::Material(_, Reflect | Transmit))
+                    matches!(
+                        target,
+                        Target::Material(_, Reflect | Transmit) | Target::Layer(..)
+                    )
                 }));
         let has_surfaces = !(self.shapes.is_empty() && self.instances.is_empty());
         has_surfaces && !(has_lights || has_ambient || emits || shows_background)

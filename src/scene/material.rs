@@ -66,6 +66,70 @@ pub struct Material {
     pub layer_textures: Option<Box<LayerTextures>>,
 }
 
+impl Material {
+    /// Multiplies its colours with that of vertices.
+    pub fn paint(&mut self, color: Vec3) {
+        self.diffuse *= color;
+        self.ambient *= color;
+        self.tint = color;
+        if let Some(model) = &self.metallic_roughness {
+            if model.unlit {
+                self.emission *= color;
+            }
+            if model.metallic > 0.5 {
+                self.specular *= color;
+                self.reflect *= color;
+            }
+        }
+    }
+
+    /// Whether its textures multiply classical colours as they are: none was computed from several maps.
+    pub fn follows_layers(&self) -> bool {
+        let Textures {
+            diffuse,
+            specular,
+            reflect,
+            transmit,
+            ..
+        } = self.textures;
+        let layers = self.layer_textures.as_deref().copied().unwrap_or_default();
+        let is_plain = |it: Option<usize>| it.is_none() || it == layers.base_color;
+        [diffuse, specular, reflect, transmit]
+            .into_iter()
+            .all(is_plain)
+            && layers.metallic.is_none()
+            && layers.roughness.is_none()
+            && layers.transmission.is_none()
+    }
+
+    /// Gives classical colours the values of `metallic_roughness` where they are independent of textures that were
+    /// computed for its values at rest.
+    pub(super) fn follow_layers(&mut self) {
+        let Some(model) = &self.metallic_roughness else {
+            return;
+        };
+        if !self.follows_layers() || model.unlit {
+            return;
+        }
+        let own = model.classical(String::new());
+        self.diffuse = own.diffuse;
+        self.ambient = own.ambient;
+        self.specular = own.specular;
+        self.shininess = own.shininess;
+        self.reflect = own.reflect;
+        self.transmit = own.transmit;
+        self.ior = own.ior;
+        self.fresnel = own.fresnel;
+        self.paint(self.tint);
+    }
+
+    /// Whether its surfaces depend on tangents: they have a normal map or anisotropy.
+    pub fn has_tangents(&self) -> bool {
+        let model = self.metallic_roughness.as_ref();
+        self.textures.normal.is_some() || model.is_some_and(|model| model.anisotropy > 0.0)
+    }
+}
+
 /// Defines the list of textures from one list of names.
 macro_rules! layer_textures {
     ($($(#[$doc:meta])* $name:ident,)*) => {
@@ -111,6 +175,9 @@ layer_textures! {
     sheen_color,
     /// Of [`MetallicRoughness::sheen_roughness`], in alpha.
     sheen_roughness,
+    /// Of [`MetallicRoughness::anisotropy`], in blue; its red and green are a direction, from -1 to 1 for 0 to 1, that is
+    /// turned by [`MetallicRoughness::anisotropy_rotation`].
+    anisotropy,
     /// Of [`MetallicRoughness::iridescence`], in red.
     iridescence,
     /// The place in [`MetallicRoughness::iridescence_thickness`], in green.

@@ -1,7 +1,7 @@
 //! Triangle meshes, and the repairs that every mesh format needs.
 
 use crate::threads;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3, Vec4};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Indexed triangles in object space. Positions are in range, triangles have an area (unless the mesh
@@ -18,6 +18,10 @@ pub struct Mesh {
     pub uvs: Vec<Vec2>,
     /// A second set of (u, v), as `uvs`; empty if the file gives none or no texture uses it.
     pub second_uvs: Vec<Vec2>,
+    /// For each position the direction along u in which a normal map and anisotropy are oriented: a vector of unit
+    /// length, and in w 1 or −1 as w · normal × tangent points along v or against it. All zero where a triangle's own
+    /// u and v decide. Empty if no material needs them; see [`super::Scene::complete_tangents`].
+    pub tangents: Vec<Vec4>,
     /// For each position, an index into [`super::Scene::materials`]. Where the vertices of a triangle
     /// differ, their coefficients are interpolated and the textures of the first one apply.
     pub materials: Vec<u32>,
@@ -38,6 +42,21 @@ impl Mesh {
     /// Both sets of texture coordinates.
     pub fn uv_sets_mut(&mut self) -> [&mut Vec<Vec2>; 2] {
         [&mut self.uvs, &mut self.second_uvs]
+    }
+
+    /// Adds copies of vertices at the end, in the order of `vertices`, which are indices.
+    pub fn copy_vertices(&mut self, vertices: &[u32]) {
+        fn copy<T: Copy>(list: &mut Vec<T>, vertices: &[u32]) {
+            if !list.is_empty() {
+                vertices.iter().for_each(|&i| list.push(list[i as usize]));
+            }
+        }
+        copy(&mut self.positions, vertices);
+        copy(&mut self.normals, vertices);
+        copy(&mut self.uvs, vertices);
+        copy(&mut self.second_uvs, vertices);
+        copy(&mut self.tangents, vertices);
+        copy(&mut self.materials, vertices);
     }
 
     /// Drops triangles whose area is zero (or below f32's precision), recomputes missing and zero normals

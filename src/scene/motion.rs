@@ -123,7 +123,8 @@ impl<'a> Motion<'a> {
                 counts |= match *target {
                     Target::Node(_, NodeProperty::Visible)
                     | Target::Light(_, LightProperty::On)
-                    | Target::Material(..) => false,
+                    | Target::Material(..)
+                    | Target::Layer(..) => false,
                     Target::Node(index, _) => {
                         moving[index] = true;
                         true

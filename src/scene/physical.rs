@@ -26,21 +26,4 @@ impl Material {
         material.metallic_roughness = Some(model);
         material
     }
-
-    /// The material with vertices of this colour, by which their base colour is multiplied.
-    pub fn tinted(mut self, color: Vec3) -> Self {
-        self.diffuse *= color;
-        self.ambient *= color;
-        self.tint = color;
-        if let Some(model) = &self.metallic_roughness {
-            if model.unlit {
-                self.emission *= color;
-            }
-            if model.metallic > 0.5 {
-                self.specular *= color;
-                self.reflect *= color;
-            }
-        }
-        self
-    }
 }

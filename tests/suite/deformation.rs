@@ -120,6 +120,7 @@ fn party() -> Scene {
         vertices: (0..flag.positions.len() as u32).collect(),
         positions: wave.collect(),
         normals: Vec::new(),
+        tangents: Vec::new(),
     };
     scene.meshes.push(flag.into());
     let mesh = scene.meshes.len() - 1;
@@ -277,6 +278,7 @@ fn a_tree_that_became_poor_is_rebuilt() {
             .map(|_| (4.0 * random.in_cube()).as_vec3())
             .collect(),
         normals: Vec::new(),
+        tangents: Vec::new(),
     };
     let moved = target.positions.clone();
     let mesh = added(&mut scene, dust);
@@ -355,6 +357,7 @@ fn slider(from: f64, side: f64, way: f64) -> Scene {
         vertices: (0..count as u32).collect(),
         positions: vec![Vec3::X * way as f32; count],
         normals: Vec::new(),
+        tangents: Vec::new(),
     };
     let mesh = added(&mut scene, square);
     deform(&mut scene, mesh, None, vec![target]);
@@ -475,6 +478,7 @@ fn boxes_follow_a_mesh_while_the_shutter_is_open() {
         vertices: (0..count as u32).collect(),
         positions: vec![Vec3::X * 16.0; count],
         normals: Vec::new(),
+        tangents: Vec::new(),
     };
     scene.deformations[0].targets = [target].into();
     let packed = packed(&scene, 1 << 14);

@@ -97,6 +97,7 @@ mod shader_warp;
 mod soft_shadows;
 mod spd;
 mod support;
+mod tangents;
 mod textures;
 mod thin_walls;
 mod trees;

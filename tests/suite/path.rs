@@ -381,6 +381,7 @@ fn glowing_square(scene: &mut Scene, world_from_mesh: DAffine3, radiance: f32) {
         normals: vec![Vec3::NEG_Y; 4],
         uvs: Vec::new(),
         second_uvs: Vec::new(),
+        tangents: Vec::new(),
         materials: vec![material as u32; 4],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
     }));

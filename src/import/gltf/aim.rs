@@ -4,7 +4,10 @@
 use super::Reader;
 use super::document::{ChannelTarget, Kind};
 use crate::import::error::ImportError;
-use crate::scene::{CameraProperty, LightProperty, MaterialProperty, NodeProperty, Target};
+use crate::scene::{
+    CameraProperty, Coverage, LayerProperty, LightProperty, Material, MaterialProperty,
+    NodeProperty, Target,
+};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -17,7 +20,8 @@ pub(super) enum Aim {
     WeightsOfMesh(usize),
     Camera(usize, CameraProperty),
     Light(usize, LightProperty),
-    Material(usize, MaterialProperty),
+    Emission(usize),
+    Layer(usize, LayerProperty),
 }
 
 /// The values of a channel, before they are values of the scene.
@@ -75,10 +79,8 @@ impl Aim {
             ("cameras", "orthographic/ymag") => {
                 Self::Camera(index, CameraProperty::OrthographicHeight)
             }
-            ("materials", "emissiveFactor") => Self::Material(index, MaterialProperty::Emission),
-            ("materials", "pbrMetallicRoughness/baseColorFactor") => {
-                Self::Material(index, MaterialProperty::Diffuse)
-            }
+            ("materials", "emissiveFactor") => Self::Emission(index),
+            ("materials", property) => Self::Layer(index, layer(property)?),
             _ => return None,
         })
     }
@@ -86,11 +88,12 @@ impl Aim {
     /// The type of its values in the file.
     pub fn kind(self) -> Kind {
         match self {
-            Self::Node(_, NodeProperty::Rotation)
-            | Self::Material(_, MaterialProperty::Diffuse) => Kind::Vec4,
+            Self::Node(_, NodeProperty::Rotation) | Self::Layer(_, LayerProperty::BaseColor) => {
+                Kind::Vec4
+            }
             Self::Node(_, NodeProperty::Translation | NodeProperty::Scale)
             | Self::Light(_, LightProperty::Color)
-            | Self::Material(..) => Kind::Vec3,
+            | Self::Emission(_) => Kind::Vec3,
             _ => Kind::Scalar,
         }
     }
@@ -104,6 +107,21 @@ impl Aim {
             _ => Values::Vector,
         }
     }
+}
+
+/// The parameter of a material that a pointer names.
+fn layer(property: &str) -> Option<LayerProperty> {
+    Some(match property {
+        "pbrMetallicRoughness/baseColorFactor" => LayerProperty::BaseColor,
+        "pbrMetallicRoughness/metallicFactor" => LayerProperty::Metallic,
+        "pbrMetallicRoughness/roughnessFactor" => LayerProperty::Roughness,
+        "extensions/KHR_materials_ior/ior" => LayerProperty::Ior,
+        "extensions/KHR_materials_transmission/transmissionFactor" => LayerProperty::Transmission,
+        "extensions/KHR_materials_emissive_strength/emissiveStrength" => {
+            LayerProperty::EmissionStrength
+        }
+        _ => return None,
+    })
 }
 
 /// A target in the scene, and what the values in the file are multiplied with for it.
@@ -169,52 +187,125 @@ impl Reader<'_> {
                     .map(|light| (Target::Light(light, property), DVec3::splat(factor)))
                     .collect())
             }
-            Aim::Material(index, property) => self.material_targets(index, property),
+            Aim::Emission(index) => {
+                let factor = DVec3::splat(self.emissive_strength(index));
+                let add = |material: usize, shown: &Material| {
+                    let is_unlit = shown.metallic_roughness.as_ref().is_some_and(|it| it.unlit);
+                    let target = Target::Material(material, MaterialProperty::Emission);
+                    (!is_unlit)
+                        .then_some((target, factor))
+                        .into_iter()
+                        .collect()
+                };
+                Ok(self.targets_of_material(index, add))
+            }
+            Aim::Layer(index, property) => self.layer_targets(index, property),
         }
     }
 
-    fn material_targets(
+    fn emissive_strength(&self, material: usize) -> f64 {
+        let extensions = self.document.materials[material].extensions.as_ref();
+        let strength = extensions.and_then(|it| it.emissive_strength.as_ref());
+        let strength = strength.and_then(|it| it.emissive_strength).unwrap_or(1.0);
+        strength.clamp(0.0, 1e12)
+    }
+
+    /// What `of` gives for the scene's materials that were made of one of the file, in their order.
+    fn targets_of_material(
         &self,
         index: usize,
-        property: MaterialProperty,
+        of: impl Fn(usize, &Material) -> Vec<Scaled>,
+    ) -> Vec<Scaled> {
+        let made = self.materials.iter();
+        let made = made.filter(|((key, _), _)| key.0 == Some(index));
+        let mut materials: Vec<usize> = made.map(|(_, &material)| material as usize).collect();
+        materials.sort_unstable();
+        let targets = materials.into_iter();
+        targets
+            .flat_map(|material| of(material, &self.scene.materials[material]))
+            .collect()
+    }
+
+    /// The alphas that follow the fourth component of an animated base colour.
+    pub(super) fn alphas(&self, aim: Aim) -> Vec<Scaled> {
+        let Aim::Layer(index, LayerProperty::BaseColor) = aim else {
+            return Vec::new();
+        };
+        self.targets_of_material(index, |material, shown| {
+            let target = Target::Layer(material, LayerProperty::Alpha);
+            let has_holes = shown.coverage != Coverage::Opaque;
+            has_holes
+                .then_some((target, DVec3::ONE))
+                .into_iter()
+                .collect()
+        })
+    }
+
+    fn layer_targets(
+        &mut self,
+        index: usize,
+        property: LayerProperty,
     ) -> Result<Vec<Scaled>, &'static str> {
-        let mut targets = Vec::new();
-        let painted = self.materials.iter();
-        for ((_, color), &material) in painted.filter(|((key, _), _)| key.0 == Some(index)) {
-            let shown = &self.scene.materials[material as usize];
-            let Some(model) = &shown.metallic_roughness else {
-                continue;
-            };
-            let mut add = |property, factor| {
-                targets.push((Target::Material(material as usize, property), factor));
-            };
-            match property {
-                MaterialProperty::Emission if model.unlit => {}
-                MaterialProperty::Emission => {
-                    let extensions = self.document.materials[index].extensions.as_ref();
-                    let strength = extensions.and_then(|it| it.emissive_strength.as_ref());
-                    let strength = strength.and_then(|it| it.emissive_strength).unwrap_or(1.0);
-                    add(property, DVec3::splat(strength.clamp(0.0, 1e12)));
-                }
-                _ if color.is_some() => return Err("the colour of a mesh with vertex colours"),
-                _ if shown.textures.diffuse.is_some() => {
-                    return Err("the colour of a material with a picture");
-                }
-                // The colour is the emission then.
-                _ if model.unlit => add(MaterialProperty::Emission, DVec3::ONE),
-                _ => {
-                    let mut white = model.point();
-                    white.base_color = glam::Vec3::ONE;
-                    let factor = model.lobes(&white, model.roughness).diffuse.as_dvec3();
-                    add(MaterialProperty::Diffuse, factor);
-                    add(MaterialProperty::Ambient, factor);
-                }
+        let rest = self.emissive_strength(index);
+        if property == LayerProperty::EmissionStrength && rest == 0.0 {
+            return Err("the strength of an emission that is 0 at rest");
+        }
+        if property == LayerProperty::Transmission {
+            // Where there is glass at some time, it is a thin wall at all times unless it has a thickness.
+            let made = self
+                .materials
+                .iter()
+                .filter(|((key, _), _)| key.0 == Some(index));
+            for (_, &material) in made {
+                let material = &mut self.scene.materials[material as usize];
+                let thickness = material.metallic_roughness.as_ref().map(|it| it.thickness);
+                material.thin = thickness == Some(0.0);
             }
         }
-        targets.sort_by_key(|(target, _)| match target {
-            Target::Material(material, _) => *material,
-            _ => 0,
+        let targets = self.targets_of_material(index, |material, shown| {
+            let Some(model) = &shown.metallic_roughness else {
+                return Vec::new();
+            };
+            let layer = |factor| (Target::Layer(material, property), DVec3::splat(factor));
+            let classical = |property, factor| (Target::Material(material, property), factor);
+            match property {
+                LayerProperty::EmissionStrength => vec![layer(rest.recip())],
+                // The colour is the emission then.
+                LayerProperty::BaseColor if model.unlit => {
+                    let tint = shown.tint.as_dvec3();
+                    vec![classical(MaterialProperty::Emission, tint)]
+                }
+                // These are kept when the scene is converted.
+                LayerProperty::BaseColor if shown.follows_layers() => {
+                    let mut white = model.point();
+                    white.base_color = shown.tint;
+                    let factor = model.lobes(&white, model.roughness).diffuse.as_dvec3();
+                    vec![
+                        classical(MaterialProperty::Diffuse, factor),
+                        classical(MaterialProperty::Ambient, factor),
+                        layer(1.0),
+                    ]
+                }
+                _ if model.unlit => Vec::new(),
+                _ => vec![layer(1.0)],
+            }
         });
+        let is_baked = |(target, _): &Scaled| match *target {
+            Target::Layer(material, _) => !self.scene.materials[material].follows_layers(),
+            _ => false,
+        };
+        if property != LayerProperty::EmissionStrength && targets.iter().any(is_baked) {
+            let what = match property {
+                LayerProperty::BaseColor => "base colour",
+                LayerProperty::Metallic => "metalness",
+                LayerProperty::Roughness => "roughness",
+                LayerProperty::Ior => "index of refraction",
+                _ => "transmission",
+            };
+            self.notes.add("animations that are not shown", || {
+                format!("the {what} of materials[{index}], which has several maps, is animated by path tracing only")
+            });
+        }
         Ok(targets)
     }
 
@@ -246,7 +337,9 @@ impl Reader<'_> {
             Aim::WeightsOfMesh(index) => ("meshes", index, document.meshes.len()),
             Aim::Camera(index, _) => ("cameras", index, document.cameras.len()),
             Aim::Light(index, _) => ("lights", index, lights.map_or(0, |it| it.lights.len())),
-            Aim::Material(index, _) => ("materials", index, document.materials.len()),
+            Aim::Emission(index) | Aim::Layer(index, _) => {
+                ("materials", index, document.materials.len())
+            }
         };
         match index < count {
             true => Ok(()),

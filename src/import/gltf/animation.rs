@@ -6,7 +6,7 @@ use super::document::{AnimationSampler, ChannelTarget, Interpolation as Kinds, K
 use super::hierarchy::{extended, unit};
 use crate::import::budget;
 use crate::import::error::ImportError;
-use crate::import::source::quote;
+use crate::import::source::quote_up_to;
 use crate::scene::{Beyond, Curve, Easing, Interpolation, LightProperty, Target, Track, Values};
 use glam::{DQuat, DVec3};
 use std::collections::HashSet;
@@ -128,6 +128,10 @@ impl Reader<'_> {
                 Err(what) => self.skip(index, what),
                 Ok(targets) if !targets.is_empty() => {
                     let mut keys = self.keys(sampler, aim.kind(), 1, &here(i))?;
+                    let alphas = self.alphas(aim);
+                    if let (false, Some(keys)) = (alphas.is_empty(), keys.last()) {
+                        found.push((alphas, ValueKind::Scalar, keys.of_last()));
+                    }
                     found.extend(keys.pop().map(|keys| (targets, aim.values(), keys)));
                 }
                 Ok(_) => {
@@ -234,7 +238,7 @@ fn described(target: &ChannelTarget) -> String {
         .as_ref()
         .and_then(|it| it.pointer.as_ref());
     match pointer {
-        Some(it) => quote(it.pointer.as_bytes()),
+        Some(it) => quote_up_to(160, it.pointer.as_bytes()),
         None => "an unknown property".to_owned(),
     }
 }
@@ -268,6 +272,15 @@ impl Keys {
             self.times.insert(0, 0.0);
         }
         self
+    }
+
+    /// Keys with the fourth component as their only one.
+    fn of_last(&self) -> Self {
+        Self {
+            times: self.times.clone(),
+            values: self.values.iter().map(|value| [value[3]; 4]).collect(),
+            interpolation: self.interpolation,
+        }
     }
 
     /// The curve through these keys, their values multiplied with `factor`. It repeats.

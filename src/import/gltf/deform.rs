@@ -145,6 +145,7 @@ impl Reader<'_> {
             .take(0, budget::size::<[Vec3; 6]>(count), here)?;
         let posed = deformation.posed(&mesh, &pose);
         let (mut positions, mut normals) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let mut tangents = Vec::with_capacity(mesh.tangents.len());
         for i in 0..count {
             let (position, normal) = posed.vertex(i);
             let position = position.as_vec3();
@@ -154,8 +155,11 @@ impl Reader<'_> {
             }
             positions.push(position);
             normals.push(normal.as_vec3());
+            if !mesh.tangents.is_empty() {
+                tangents.push(posed.tangent(i, normal));
+            }
         }
-        (mesh.positions, mesh.normals) = (positions, normals);
+        (mesh.positions, mesh.normals, mesh.tangents) = (positions, normals, tangents);
         Ok(mesh)
     }
 
@@ -181,7 +185,7 @@ impl Reader<'_> {
         &mut self,
         targets: &mut Vec<MorphTarget>,
         primitive: &Primitive,
-        wanted: Option<&[f64]>,
+        (wanted, wanted_tangents): (Option<&[f64]>, bool),
         (first, sources): (usize, &Sources),
         here: &str,
     ) -> Result<(), ImportError> {
@@ -213,22 +217,32 @@ impl Reader<'_> {
                 Ok(moved)
             };
             let (positions, normals) = (displacements("POSITION")?, displacements("NORMAL")?);
+            let tangents = match wanted_tangents {
+                true => displacements("TANGENT")?,
+                false => Vec::new(),
+            };
             let at = |list: &[[f32; 3]], i: usize| {
                 list.get(i).map_or(Vec3::ZERO, |&moved| Vec3::from(moved))
             };
             let moved = |vertex: usize| {
                 let source = sources.of(vertex);
-                (at(&positions, source), at(&normals, source))
+                [&positions, &normals, &tangents].map(|list| at(list, source))
             };
-            let is_moved = |vertex: &usize| moved(*vertex) != (Vec3::ZERO, Vec3::ZERO);
+            let is_moved = |vertex: &usize| moved(*vertex) != [Vec3::ZERO; 3];
             let vertices: Vec<usize> = (0..sources.len()).filter(is_moved).collect();
-            let size = budget::size::<(u32, Vec3, Vec3)>(vertices.len());
+            let size = budget::size::<(u32, [Vec3; 3])>(vertices.len());
             self.ledger.take(size, size, here)?;
+            if !tangents.is_empty() {
+                target.tangents.resize(target.vertices.len(), Vec3::ZERO);
+            }
             for vertex in vertices {
-                let (position, normal) = moved(vertex);
+                let [position, normal, tangent] = moved(vertex);
                 target.vertices.push((first + vertex) as u32);
                 target.positions.push(position);
                 target.normals.push(normal);
+                if !target.tangents.is_empty() || !tangents.is_empty() {
+                    target.tangents.push(tangent);
+                }
             }
         }
         Ok(())

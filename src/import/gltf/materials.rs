@@ -74,6 +74,12 @@ impl Reader<'_> {
         (self.surfaces.get(key)).map_or_else(Vec::new, |surface| surface.uv_sets.clone())
     }
 
+    /// Whether surfaces of a material, which [`Self::material_of`] returned, show their tangents.
+    pub(super) fn has_tangents(&self, key: &MaterialKey) -> bool {
+        let material = self.surfaces.get(key).map(|surface| &surface.material);
+        material.is_some_and(Material::has_tangents)
+    }
+
     /// Adds a material for each of `count` vertices to `materials`: those of `key`, multiplied with
     /// `colors` if there are any.
     pub(super) fn paint(
@@ -124,7 +130,7 @@ impl Reader<'_> {
         let mut material = surface.material.clone();
         if let Some((code, levels)) = color {
             let [r, g, b, _] = code.to_le_bytes().map(|c| (f32::from(c) / levels).powi(2));
-            material = material.tinted(Vec3::new(r, g, b));
+            material.paint(Vec3::new(r, g, b));
         }
         let size = budget::size::<(Material, [u64; 4])>(1) + material.name.len() as u64;
         self.ledger.take(size, 0, "materials")?;
@@ -141,7 +147,11 @@ impl Reader<'_> {
         self.note_maps(source, &here)?;
         let name = source.name.clone().unwrap_or_default();
         let mut material = model.classical(name);
-        let uv_sets = self.textured(source, &model, &mut material, &here)?;
+        let mut uv_sets = self.textured(source, &model, &mut material, &here)?;
+        if model.anisotropy > 0.0 && uv_sets.is_empty() {
+            // They give the direction of tangents.
+            uv_sets.push(0);
+        }
         let size = budget::size::<(Surface, MetallicRoughness)>(1);
         self.ledger.take(size, 0, &here)?;
         material.metallic_roughness = Some(Arc::new(model));
@@ -169,13 +179,14 @@ impl Reader<'_> {
 }
 
 /// The maps that have an effect on path-traced pictures only.
-const PATH_MAPS: [&str; 10] = [
+const PATH_MAPS: [&str; 11] = [
     "specularTexture",
     "specularColorTexture",
     "clearcoatTexture",
     "clearcoatRoughnessTexture",
     "sheenColorTexture",
     "sheenRoughnessTexture",
+    "anisotropyTexture",
     "iridescenceTexture",
     "iridescenceThicknessTexture",
     "diffuseTransmissionTexture",

@@ -8,6 +8,7 @@ use super::materials::MaterialKey;
 use crate::import::budget;
 use crate::import::error::ImportError;
 use crate::import::notes;
+use crate::import::tangent::tangent;
 use crate::scene::Mesh;
 use glam::{Vec2, Vec3, Vec4};
 
@@ -21,6 +22,8 @@ struct Vertices {
     /// The first and the second set that the material uses.
     uvs: [Vec<Vec2>; 2],
     colors: Vec<Vec4>,
+    /// Zero where the file's have no direction.
+    tangents: Vec<Vec4>,
 }
 
 impl Vertices {
@@ -38,6 +41,8 @@ impl Vertices {
             spread(uvs, corners);
         }
         spread(&mut self.colors, corners);
+        // Those in the file are for normals in the file.
+        self.tangents = Vec::new();
         self.normals = Vec::with_capacity(corners.len());
         for corners in self.positions.chunks_exact(3) {
             let [a, b, c] = [corners[0], corners[1], corners[2]].map(|p| p.as_dvec3());
@@ -151,7 +156,8 @@ impl Reader<'_> {
         });
         let sources = Sources { count, corners };
         let targets = &mut modelled.targets;
-        self.add_targets(targets, primitive, wanted.weights, (first, &sources), here)?;
+        let wanted_targets = (wanted.weights, !vertices.tangents.is_empty());
+        self.add_targets(targets, primitive, wanted_targets, (first, &sources), here)?;
         if wanted.is_skinned {
             self.add_influences(&mut modelled.influences, primitive, &sources, here)?;
         }
@@ -169,9 +175,16 @@ impl Reader<'_> {
                 uvs.extend(own);
             }
         }
+        if !vertices.tangents.is_empty() {
+            mesh.tangents.resize(first, Vec4::ZERO);
+            mesh.tangents.extend(&vertices.tangents);
+        }
         mesh.positions.extend(&vertices.positions);
         mesh.normals.extend(&vertices.normals);
         let count = mesh.positions.len();
+        if !mesh.tangents.is_empty() {
+            mesh.tangents.resize(count, Vec4::ZERO);
+        }
         for uvs in mesh.uv_sets_mut() {
             if !uvs.is_empty() {
                 uvs.resize(count, Vec2::ZERO);
@@ -188,7 +201,7 @@ impl Reader<'_> {
         count: u64,
         here: &str,
     ) -> Result<(), ImportError> {
-        type Vertex = (Vec3, Vec3, [Vec2; 2], u32);
+        type Vertex = (Vec3, Vec3, [Vec2; 2], Vec4, u32);
         let corners = match primitive.indices {
             Some(indices) => self.accessors().count(indices, here)?,
             None => count,
@@ -260,6 +273,13 @@ impl Reader<'_> {
             colors = accessors.vectors::<4>(index, &kinds, 1.0, &place("COLOR_0"))?;
             same_count(colors.len(), "COLOR_0")?;
         }
+        let mut tangents = Vec::new();
+        if let Some(index) = attribute("TANGENT")
+            && self.has_tangents(material)
+        {
+            tangents = accessors.vectors::<4>(index, &[Kind::Vec4], 1.0, &place("TANGENT"))?;
+            same_count(tangents.len(), "TANGENT")?;
+        }
         // glTF's v points down. Beyond 1e9, f32 has whole numbers only, and all are equivalent.
         let uv = |[u, v]: [f32; 2]| {
             let place = |x: f32| if x.is_nan() { 0.0 } else { x.clamp(-1e9, 1e9) };
@@ -270,6 +290,7 @@ impl Reader<'_> {
             normals: normals.into_iter().map(Vec3::from).collect(),
             uvs: uvs.map(|uvs| uvs.into_iter().map(uv).collect()),
             colors: colors.into_iter().map(Vec4::from).collect(),
+            tangents: (tangents.into_iter().map(|t| tangent(t.map(f64::from)))).collect(),
         })
     }
 

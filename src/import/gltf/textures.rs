@@ -141,6 +141,7 @@ impl Reader<'_> {
             clearcoat_roughness: of(map!(clearcoat clearcoat_roughness_texture), true)?,
             sheen_color: of(map!(sheen sheen_color_texture), false)?,
             sheen_roughness: of(map!(sheen sheen_roughness_texture), true)?,
+            anisotropy: of(map!(anisotropy anisotropy_texture), true)?,
             iridescence: of(map!(iridescence iridescence_texture), true)?,
             iridescence_thickness: of(map!(iridescence iridescence_thickness_texture), true)?,
             diffuse_transmission: of(

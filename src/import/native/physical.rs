@@ -27,7 +27,6 @@ pub(super) fn material(
         attenuation_distance: table
             .attenuation_distance
             .map_or(f32::INFINITY, |d| d.0 as f32),
-        anisotropy: table.anisotropy.0,
         anisotropy_rotation: table.anisotropy_rotation_deg.0.to_radians() as f32,
         iridescence_ior: table.iridescence_ior.0,
         iridescence_thickness: table.iridescence_thickness.0,
@@ -51,7 +50,7 @@ pub(super) fn material(
     (model.specular_color, layers.specular_color) = textures.color(&table.specular_color)?;
     numbers!(clearcoat clearcoat_roughness);
     colors!(sheen_color);
-    numbers!(sheen_roughness iridescence);
+    numbers!(sheen_roughness anisotropy iridescence);
     if let Some(map) = &table.iridescence_thickness_map {
         if map.get_ref().value.is_some() {
             let why = "a map between two thicknesses has no `value`";
@@ -73,10 +72,10 @@ pub(super) fn material(
     }
     let mut material = Material::physical(Arc::new(model), layers);
     material.priority = table.priority.0;
-    Ok(match tint == Vec3::ONE {
-        true => material,
-        false => material.tinted(tint),
-    })
+    if tint != Vec3::ONE {
+        material.paint(tint);
+    }
+    Ok(material)
 }
 
 /// A colour from 0 to 1.

@@ -1,7 +1,9 @@
 //! Materials at one moment.
 
 use super::color;
-use crate::scene::{Material, MaterialProperty, Scene, Target, Value};
+use crate::scene::{LayerProperty, Material, MaterialProperty, Scene, Target, Value};
+use glam::Vec3;
+use std::sync::Arc;
 
 /// Smallest index of refraction that an overshooting curve may give.
 const MIN_IOR: f64 = 1e-3;
@@ -10,17 +12,63 @@ impl Scene {
     /// All materials if a track animates any; otherwise none.
     pub(super) fn materials_at(&self, time: f64) -> Vec<Material> {
         let mut materials = Vec::new();
+        let mut strengths = Vec::new();
         for track in &self.tracks {
             for target in &track.targets {
-                if let Target::Material(index, property) = *target {
-                    if materials.is_empty() {
-                        materials.clone_from(&self.materials);
+                if !matches!(target, Target::Material(..) | Target::Layer(..)) {
+                    continue;
+                }
+                if materials.is_empty() {
+                    materials.clone_from(&self.materials);
+                }
+                let value = track.curve.at(time);
+                match (*target, value) {
+                    (Target::Material(index, property), value) => {
+                        change(&mut materials[index], property, value);
                     }
-                    change(&mut materials[index], property, track.curve.at(time));
+                    (
+                        Target::Layer(index, LayerProperty::EmissionStrength),
+                        Value::Scalar(strength),
+                    ) => strengths.push((index, strength)),
+                    (Target::Layer(index, property), value) => {
+                        change_layer(&mut materials[index], property, value);
+                    }
+                    _ => {}
                 }
             }
         }
+        for (index, strength) in strengths {
+            let emission = &mut materials[index].emission;
+            *emission = color(emission.as_dvec3() * strength.max(0.0));
+        }
         materials
+    }
+}
+
+fn change_layer(material: &mut Material, property: LayerProperty, value: Value) {
+    let Some(model) = &mut material.metallic_roughness else {
+        return;
+    };
+    let model = Arc::make_mut(model);
+    match (property, value) {
+        (LayerProperty::BaseColor, Value::Vector(value)) => {
+            model.base_color = color(value).min(Vec3::ONE);
+        }
+        (_, Value::Scalar(value)) => {
+            let unit = value.clamp(0.0, 1.0) as f32;
+            match property {
+                LayerProperty::Alpha => material.alpha = unit,
+                LayerProperty::Metallic => model.metallic = unit,
+                LayerProperty::Roughness => model.roughness = unit,
+                LayerProperty::Transmission => model.transmission = unit,
+                LayerProperty::Ior => model.ior = value.clamp(1.0, 1e6) as f32,
+                LayerProperty::BaseColor | LayerProperty::EmissionStrength => {}
+            }
+        }
+        _ => {}
+    }
+    if property != LayerProperty::Alpha {
+        material.follow_layers();
     }
 }
 

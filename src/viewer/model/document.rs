@@ -249,6 +249,7 @@ fn own_bytes(scene: &Scene, next: &Scene) -> usize {
                 normals,
                 uvs,
                 second_uvs,
+                tangents,
                 materials,
                 triangles,
                 ..
@@ -257,6 +258,7 @@ fn own_bytes(scene: &Scene, next: &Scene) -> usize {
                 + of(normals)
                 + of(uvs)
                 + of(second_uvs)
+                + of(tangents)
                 + of(materials)
                 + of(triangles);
         }

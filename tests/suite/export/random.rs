@@ -214,6 +214,7 @@ fn physical(random: &mut Random, material: &mut Material, textures: usize) {
             clearcoat_roughness: slot(),
             sheen_color: slot(),
             sheen_roughness: slot(),
+            anisotropy: slot(),
             iridescence: slot(),
             iridescence_thickness: slot(),
             diffuse_transmission: slot(),
@@ -225,12 +226,10 @@ fn physical(random: &mut Random, material: &mut Material, textures: usize) {
     } else {
         tint(random)
     };
-    let shown = Material::physical(Arc::new(model), layers);
-    let shown = if tint == Vec3::ONE {
-        shown
-    } else {
-        shown.tinted(tint)
-    };
+    let mut shown = Material::physical(Arc::new(model), layers);
+    if tint != Vec3::ONE {
+        shown.paint(tint);
+    }
     *material = match random.below(2) {
         // As importers without further colours make it.
         0 => Material {
@@ -325,6 +324,11 @@ fn mesh(random: &mut Random, materials: usize) -> Mesh {
         if count.is_multiple_of(2) {
             mesh.second_uvs = set();
         }
+    }
+    if random.below(2) == 0 {
+        let hand = |random: &mut Random| pick(random, &[1.0, -1.0]);
+        let mut tangent = || direction(random).as_vec3().extend(hand(random));
+        mesh.tangents = (0..count).map(|_| tangent()).collect();
     }
     if random.below(2) == 0 {
         mesh.materials.fill(0);

@@ -146,7 +146,8 @@ fn assert_guarantees_of_animation(scene: &Scene) {
                 Target::Node(index, _) => index < scene.nodes.len(),
                 Target::Camera(index, _) => index < scene.cameras.len(),
                 Target::Light(index, _) => index < scene.lights.len(),
-                Target::Material(index, _) => index < scene.materials.len(),
+                Target::Material(index, _) | Target::Layer(index, _) =>
+                    index < scene.materials.len(),
                 Target::Weight(index, _) => index < scene.deformations.len(),
             });
         }

@@ -8,5 +8,6 @@ mod materials;
 pub mod model;
 mod motion;
 mod nodes;
+mod tangents;
 
 use super::{folder, load, message_in, scene};

@@ -72,9 +72,11 @@ pub(in crate::import::native) struct PbrTable {
     /// Where it is how thick, between the two: a texture, in green, without a `value`.
     #[schemars(with = "Option<NumberTable>")]
     pub iridescence_thickness_map: Option<Spanned<NumberTable>>,
-    /// How much longer highlights are along one direction, 0 to 1; default 0.
-    pub anisotropy: Fraction,
-    /// That direction in degrees, counter-clockwise from the direction of u; default 0.
+    /// How much longer highlights are along one direction, 0 to 1; default 0. A texture has it in blue, and the direction in
+    /// red and green, from -1 to 1 for 0 to 1.
+    #[schemars(with = "FractionOrTexture")]
+    pub anisotropy: Spanned<FractionOrTexture>,
+    /// That direction in degrees, counter-clockwise from the direction of u, on models; default 0.
     pub anisotropy_rotation_deg: Angle,
     /// How much the index of refraction depends on the wavelength: 20 divided by Abbe's number; default 0.
     pub dispersion: NonNegative,
@@ -113,7 +115,7 @@ impl Default for PbrTable {
             iridescence_ior: OneOrMore(1.3),
             iridescence_thickness: Thicknesses([100.0, 400.0]),
             iridescence_thickness_map: None,
-            anisotropy: Fraction(0.0),
+            anisotropy: fraction(0.0),
             anisotropy_rotation_deg: Angle(0.0),
             dispersion: NonNegative(0.0),
             diffuse_transmission: fraction(0.0),

@@ -1,7 +1,7 @@
 //! Skins and morph targets that clips move, against matrices multiplied here in f64.
 
 use super::model::{Model, UNSIGNED_BYTE, floats};
-use glam::{DMat4, DQuat, DVec3, DVec4};
+use glam::{DMat4, DQuat, DVec3, DVec4, Vec3};
 use glimray::scene::{Scene, Target};
 use serde_json::{Value, json};
 
@@ -512,6 +512,139 @@ fn pointers_animate_what_they_point_at() {
         "{color}"
     );
     assert!(frame.nodes[node].visible && !scene.frame(1.75).nodes[node].visible);
+}
+
+/// The frame at 1 s of a triangle whose material a clip of 2 s changes: pointers in the material, and their values at
+/// the ends.
+fn material_at_half(
+    material: serde_json::Value,
+    channels: &[(&str, [f32; 2])],
+) -> (glimray::scene::Scene, glimray::scene::Material) {
+    let mut model = Model::triangle(json!({ "material": 0 })).with(json!({
+        "extensionsUsed": ["KHR_animation_pointer"],
+        "materials": [material],
+    }));
+    let input = model.numbers(&[0.0, 2.0]);
+    for (pointer, ends) in channels {
+        let pointer = format!("/materials/0/{pointer}");
+        let output = model.numbers(ends);
+        pointed(&mut model, &pointer, input, output, "LINEAR");
+    }
+    let scene = model.scene();
+    let material = scene.frame(1.0).materials[0].clone();
+    (scene, material)
+}
+
+#[test]
+fn pointers_animate_the_layers_of_materials() {
+    let channels = [
+        ("pbrMetallicRoughness/roughnessFactor", [0.2, 0.6]),
+        ("pbrMetallicRoughness/metallicFactor", [0.0, 0.5]),
+        ("extensions/KHR_materials_ior/ior", [1.5, 2.0]),
+        (
+            "extensions/KHR_materials_transmission/transmissionFactor",
+            [0.0, 1.0],
+        ),
+        (
+            "extensions/KHR_materials_emissive_strength/emissiveStrength",
+            [2.0, 6.0],
+        ),
+    ];
+    let material = json!({
+        "pbrMetallicRoughness": { "roughnessFactor": 0.2, "metallicFactor": 0 },
+        "emissiveFactor": [1, 0.5, 0],
+        "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 2 } },
+    });
+    let (scene, half) = material_at_half(material, &channels);
+    assert!(scene.skipped.is_empty(), "{:?}", scene.skipped);
+    let model = half.metallic_roughness.as_ref().expect("the model");
+    let near = |a: f32, b: f32| (a - b).abs() < 1e-6;
+    assert!(near(model.roughness, 0.4) && near(model.metallic, 0.25));
+    assert!(near(model.ior, 1.75) && near(model.transmission, 0.5));
+    let emission = half.emission.as_dvec3();
+    assert!(
+        emission.abs_diff_eq(DVec3::new(4.0, 2.0, 0.0), 1e-5),
+        "{emission}"
+    );
+    // The classical colours are those of a material that always had these values.
+    let still = json!({
+        "pbrMetallicRoughness": { "roughnessFactor": 0.4, "metallicFactor": 0.25 },
+        "extensions": {
+            "KHR_materials_ior": { "ior": 1.75 },
+            "KHR_materials_transmission": { "transmissionFactor": 0.5 },
+        },
+    });
+    let still = Model::triangle(json!({ "material": 0 })).with(json!({ "materials": [still] }));
+    let expected = still.scene().materials[0].clone();
+    for (found, expected) in [
+        (half.diffuse, expected.diffuse),
+        (half.specular, expected.specular),
+        (half.reflect, expected.reflect),
+        (half.transmit, expected.transmit),
+        (Vec3::splat(half.shininess), Vec3::splat(expected.shininess)),
+    ] {
+        assert!(found.abs_diff_eq(expected, 1e-5), "{found}, not {expected}");
+    }
+    assert!(half.thin && half.transmit != Vec3::ZERO);
+    // Both integrators get them, and the code for glass.
+    let packed = glimray::pack::scene(&scene).expect("a scene that can be packed");
+    assert!(packed.features.refraction && packed.features.thin_walls);
+    let view = packed.frame(&scene.frame(1.0)).expect("a frame");
+    let layers = view.materials[0].layers;
+    assert!(near(layers.roughness, 0.4) && near(layers.transmission, 0.5));
+}
+
+#[test]
+fn base_colors_move_with_vertex_colors_and_alpha_in_both_models() {
+    let mut model = Model::triangle(json!({ "material": 0 })).with(json!({
+        "extensionsUsed": ["KHR_animation_pointer"],
+        "materials": [{ "alphaMode": "BLEND", "pbrMetallicRoughness": { "metallicFactor": 0 } }],
+    }));
+    // Rounded codes of vertex colours are squares of whole numbers over 255.
+    let color = model.quads(&[[0.25, 1.0, 0.0, 1.0]; 3]);
+    model.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(color);
+    let input = model.numbers(&[0.0, 2.0]);
+    let values = model.quads(&[[1.0, 1.0, 1.0, 1.0], [0.0, 0.5, 1.0, 0.2]]);
+    let pointer = "/materials/0/pbrMetallicRoughness/baseColorFactor";
+    pointed(&mut model, pointer, input, values, "LINEAR");
+    let scene = model.scene();
+    assert!(scene.skipped.is_empty(), "{:?}", scene.skipped);
+    let material = &scene.frame(1.0).materials[0];
+    assert!((material.alpha - 0.6).abs() < 1e-6, "{}", material.alpha);
+    let base = DVec3::new(0.5, 0.75, 1.0);
+    let model = material.metallic_roughness.as_ref().expect("the model");
+    assert!(model.base_color.as_dvec3().abs_diff_eq(base, 1e-6));
+    let shown = base * DVec3::new(0.25, 1.0, 0.0);
+    let diffuse = material.diffuse.as_dvec3();
+    assert!(diffuse.abs_diff_eq(shown, 3e-3), "{diffuse}, not {shown}");
+    let packed = glimray::pack::scene(&scene).expect("a scene that can be packed");
+    let view = packed.frame(&scene.frame(1.0)).expect("a frame");
+    let seen = Vec3::from(view.materials[0].layers.base).as_dvec3();
+    assert!(seen.abs_diff_eq(shown, 3e-3), "{seen}, not {shown}");
+}
+
+#[test]
+fn what_pointers_cannot_animate_is_named() {
+    let dark = json!({
+        "emissiveFactor": [1, 1, 1],
+        "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 0 } },
+    });
+    let strength = "extensions/KHR_materials_emissive_strength/emissiveStrength";
+    let turn = "normalTexture/extensions/KHR_texture_transform/rotation";
+    let rough = "pbrMetallicRoughness/roughnessFactor";
+    let channels = [
+        (strength, [0.0, 1.0]),
+        (turn, [0.0, 1.0]),
+        (rough, [0.0, 1.0]),
+    ];
+    let (scene, _) = material_at_half(dark, &channels);
+    assert_eq!(
+        scene.skipped,
+        [
+            "animations[0] moves the strength of an emission that is 0 at rest, which is not shown",
+            "animations[0] moves `/materials/0/normalTexture/extensions/KHR_texture_transform/rotation`, which is not shown",
+        ]
+    );
 }
 
 #[test]

@@ -19,7 +19,7 @@ fn model(material: Value) -> Model {
 }
 
 /// Adds a picture as a texture and returns its index.
-fn picture(model: &mut Model, width: u32, texels: &[[u8; 4]]) -> usize {
+pub fn picture(model: &mut Model, width: u32, texels: &[[u8; 4]]) -> usize {
     let uri = format!("data:image/png;base64,{}", base64(&png(width, texels)));
     let source = model.push("images", json!({ "uri": uri }));
     model.push("textures", json!({ "source": source }))
