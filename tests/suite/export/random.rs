@@ -619,6 +619,7 @@ fn scene(random: &mut Random) -> Scene {
     }
     scene.output.exposure_ev = random.between(-2.0, 2.0) as f32;
     scene.output.shutter.close = random.between(0.0, 1.0);
+    scene.complete_tangents();
     scene
 }
 
