@@ -18,6 +18,7 @@ mod materials;
 mod names;
 mod objects;
 mod output;
+mod physical;
 mod pictures;
 mod ply;
 mod runs;
@@ -109,7 +110,7 @@ pub fn native(
     writer.cameras();
     writer.lights();
     writer.textures()?;
-    writer.materials()?;
+    writer.materials();
     writer.meshes();
     writer.nodes();
     writer.instances();

@@ -245,7 +245,7 @@ packed! {
         light: u32,
         /// Mean luminance of the texture of the emission, 1 without one.
         glow: f32,
-        /// A bit for each slot with a texture, from [`SLOT_BASE`] to [`SLOT_EMISSION`].
+        /// A bit for each slot with a texture, see [`SLOT_BASE`].
         slots: u32,
         #[doc(hidden)]
         _pad: u32,
@@ -254,6 +254,8 @@ packed! {
         textures: [u32; 4],
         /// The same for the other slots.
         more_textures: [u32; 4],
+        /// The third eight.
+        last_textures: [u32; 4],
     }
     /// A spatially varying colour that multiplies a colour of a material.
     PackedTexture {
@@ -312,10 +314,10 @@ packed! {
         /// Whether rays can hit it, 0 or 1.
         visible: u32,
     }
-    /// An emissive triangle that paths sample as a light.
+    /// An emissive triangle or shape that paths sample as a light.
     PackedEmitter {
-        /// Its index in the triangles array.
-        triangle: u32,
+        /// Its index in the triangles array, or in the shapes array with [`SHAPE`].
+        primitive: u32,
         /// Its instance, or [`NO_INSTANCE`].
         instance: u32,
         /// Chance with which it is sampled.

@@ -143,6 +143,12 @@ pub struct Features {
     pub thin_walls: bool,
     /// Some material has a clear coat, sheen, a thin film or diffuse transmission.
     pub coatings: bool,
+    /// Some emissive material has a clear coat.
+    pub coated_emission: bool,
+    /// Some transparent material is rough.
+    pub rough_glass: bool,
+    /// Some volume disperses light.
+    pub dispersion: bool,
     /// There are textures.
     pub textures: bool,
     /// Some mesh has a second set of texture coordinates.

@@ -46,7 +46,7 @@ pub use layers::{Layer, LayerKind};
 pub use levels::{Levels, Quantity};
 pub use policy::{ExecutionPolicy, Fetch, Slicing};
 pub use query::{QueryHit, QueryRay, RayBatch, RayQuery, RaySteps, RayTest};
-pub use settings::{MIN_THROUGHPUT, RayOffset, RenderSettings, TriangleTest};
+pub use settings::{BsdfModel, MIN_THROUGHPUT, RayOffset, RenderSettings, TriangleTest};
 pub use show::Screen;
 pub use stats::{Rays, Stats, Uploads};
 pub use sums::SAMPLE_BLOCK;

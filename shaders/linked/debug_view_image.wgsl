@@ -261,7 +261,7 @@ const types__SHAPE_CAPPED: u32 = 1u;
 
 const types__MATERIAL_TWO_SIDED: u32 = 1u;
 
-const types__MATERIAL_ROWS: u32 = 19u;
+const types__MATERIAL_ROWS: u32 = 20u;
 
 const types__LAYERS_ROW: u32 = 9u;
 

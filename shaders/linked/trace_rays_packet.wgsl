@@ -237,7 +237,7 @@ const types__SHAPE_GLOBE: u32 = 8u;
 
 const types__SHAPE_CAPPED: u32 = 1u;
 
-const types__MATERIAL_ROWS: u32 = 19u;
+const types__MATERIAL_ROWS: u32 = 20u;
 
 const types__TRIANGLE_TEST_PLANE: u32 = 0u;
 

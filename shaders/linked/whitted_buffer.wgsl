@@ -378,7 +378,7 @@ const types__MATERIAL_THIN: u32 = 128u;
 
 const types__MATERIAL_METALLIC_ROUGHNESS: u32 = 256u;
 
-const types__MATERIAL_ROWS: u32 = 19u;
+const types__MATERIAL_ROWS: u32 = 20u;
 
 const types__LAYERS_ROW: u32 = 9u;
 
@@ -400,6 +400,8 @@ const types__SLOT_SHEEN: u32 = 7u;
 
 const types__SLOT_SHEEN_ROUGHNESS: u32 = 8u;
 
+const types__SLOT_ANISOTROPY: u32 = 9u;
+
 const types__SLOT_IRIDESCENCE: u32 = 10u;
 
 const types__SLOT_FILM_THICKNESS: u32 = 11u;
@@ -411,6 +413,10 @@ const types__SLOT_DIFFUSE_TRANSMISSION_COLOR: u32 = 13u;
 const types__SLOT_REFLECT: u32 = 14u;
 
 const types__SLOT_EMISSION: u32 = 15u;
+
+const types__SLOT_METALLIC: u32 = 16u;
+
+const types__SLOT_ROUGHNESS: u32 = 17u;
 
 const types__TEXTURE_ROWS: u32 = 6u;
 
@@ -564,7 +570,8 @@ struct types__PackedLayers {
 	slots: u32,
 	_pad: u32,
 	textures: vec4u,
-	more_textures: vec4u
+	more_textures: vec4u,
+	last_textures: vec4u
 }
 
 struct types__PackedTexture {
@@ -3058,7 +3065,7 @@ fn material__load_layers(index: u32) -> types__PackedLayers {
 	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
 	let r6 = fetch__material_row(row + 6u);
 	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, 0u, fetch__material_row(row + 8u), fetch__material_row(row + 9u));
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, 0u, fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
 }
 
 fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
@@ -3883,9 +3890,14 @@ fn fresnel__fresnel(cos_i: f32, eta: f32) -> fresnel__Boundary {
 fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
 	let exact = fresnel__fresnel(cos_i, eta);
 	let r0 = fresnel__ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
-	let x = 1.0 - select(cos_i, exact.cos_t, eta > 1.0);
+	let grazing = fresnel__schlick_weight(select(cos_i, exact.cos_t, eta > 1.0));
+	return fresnel__Boundary(select(mix(r0, 1.0, grazing), 1.0, exact.total), exact.cos_t, exact.total);
+}
+
+fn fresnel__schlick_weight(cosine: f32) -> f32 {
+	let x = 1.0 - clamp(cosine, 0.0, 1.0);
 	let x2 = x * x;
-	return fresnel__Boundary(select(r0 + (1.0 - r0) * x2 * x2 * x, 1.0, exact.total), exact.cos_t, exact.total);
+	return x2 * x2 * x;
 }
 
 fn fresnel__mirrored(direction: vec3f, n: vec3f) -> vec3f {
@@ -4264,6 +4276,8 @@ struct layers__Layers {
 	coat_roughness: f32,
 	sheen: vec3f,
 	sheen_roughness: f32,
+	anisotropy: f32,
+	along: vec2f,
 	film: f32,
 	film_ior: f32,
 	film_thickness: f32,
@@ -4278,20 +4292,26 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 	var transmit = optics.transmit;
 	var glow = vec3f(1.0);
 	var thickness = 1.0;
+	var along = vec2f(1.0, 0.0);
 	if (bindings__HAS_TEXTURES) {
 		var rest = own.slots;
 		loop {
-			let slot = firstTrailingBit(rest | 65536u);
+			let slot = firstTrailingBit(rest | 2147483648u);
 			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
 			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
-			own.roughness *= select(1.0, value.y, slot == types__SLOT_METALLIC_ROUGHNESS);
-			own.metallic *= select(1.0, value.z, slot == types__SLOT_METALLIC_ROUGHNESS);
+			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
+			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
+			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
 			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
 			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
 			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
 			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
 			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
 			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			if (bindings__HAS_ANISOTROPY) {
+				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
+				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
+			}
 			if (bindings__HAS_COATINGS) {
 				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
 				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
@@ -4327,6 +4347,10 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 		layers.ior = own.ior;
 	}
 	layers.glow = glow;
+	if (bindings__HAS_ANISOTROPY) {
+		layers.anisotropy = own.anisotropy;
+		layers.along = dispersion__anisotropy_tangent(own.anisotropy_rotation, along);
+	}
 	if (bindings__HAS_COATINGS) {
 		layers.coat = own.coat;
 		layers.coat_roughness = own.coat_roughness;
@@ -4366,11 +4390,18 @@ fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
 }
 
 fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
-	let four = select(own.textures, own.more_textures, vec4<bool>(slot >= 8u));
+	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
+	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
 	let word = (slot >> 1u) & 3u;
 	let low = select(four.x, four.y, word == 1u);
 	let high = select(four.z, four.w, word == 3u);
 	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
+}
+
+fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
+	let own = texel * inverseSqrt(max(dot(texel, texel), 1e-12));
+	let turn = vec2f(cos(rotation), sin(rotation));
+	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
 }
 
 const filter__PI: f32 = 3.14159265;

@@ -2,7 +2,8 @@
 
 use super::error::AppError;
 use crate::render::{
-    Antialias, Integrator, Levels, Quantity, RayOffset, RenderSettings, Shows, Tone, TriangleTest,
+    Antialias, BsdfModel, Integrator, Levels, Quantity, RayOffset, RenderSettings, Shows, Tone,
+    TriangleTest,
 };
 use crate::scene::{
     Background, Camera, CameraProperty, Filter, OutputDefaults, Scene, Shutter, Target, ToneCurve,
@@ -42,6 +43,8 @@ pub struct PictureOverrides {
     pub min_throughput: Option<f32>,
     /// Let all transparent surfaces filter the shadow rays of paths.
     pub transparent_shadows: bool,
+    /// How metallic-roughness materials scatter.
+    pub bsdf: Option<BsdfModel>,
     /// Clamp the indirect light of paths.
     pub clamp_indirect: Option<f32>,
     /// Reconstruction filter.
@@ -151,6 +154,7 @@ impl PictureOverrides {
             max_depth: self.max_depth.unwrap_or(max_depth),
             min_throughput: self.min_throughput.unwrap_or(defaults.min_throughput),
             transparent_shadows: self.transparent_shadows,
+            bsdf: self.bsdf.unwrap_or(defaults.bsdf),
             clamp_indirect: self.clamp_indirect,
             ..defaults
         }

@@ -1,6 +1,6 @@
 //! The names of settings, as flags, reports and the window's lists show them.
 
-use crate::render::{self, Antialias, Integrator, TriangleTest};
+use crate::render::{self, Antialias, BsdfModel, Integrator, TriangleTest};
 use crate::scene::{Filter, ToneCurve, Transfer};
 
 /// The names of one setting's values: each with a description and the value.
@@ -55,6 +55,20 @@ const INTEGRATOR_NAMES: [(&str, &str, Integrator); render::INTEGRATORS.len()] = 
     }
     names
 };
+
+/// How metallic-roughness materials scatter.
+pub static BSDF_MODELS: ValueNames<BsdfModel> = ValueNames(&[
+    (
+        "full",
+        "with the light that rough surfaces scatter several times",
+        BsdfModel::Full,
+    ),
+    (
+        "spec",
+        "the formulas of the glTF specification to the letter",
+        BsdfModel::Spec,
+    ),
+]);
 
 /// Ray–triangle intersection algorithms.
 pub static TRIANGLE_TESTS: ValueNames<TriangleTest> = ValueNames(&[

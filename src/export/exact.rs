@@ -2,7 +2,7 @@
 
 use super::text::{self, Table};
 use crate::scene::{Transform, rotation};
-use glam::{DAffine3, DQuat, DVec3, EulerRot};
+use glam::{DAffine3, DQuat, DVec3, EulerRot, Vec3};
 
 /// The numbers of decimals that are tried, in order.
 const DECIMALS: [usize; 7] = [0, 1, 2, 3, 5, 8, 11];
@@ -40,6 +40,11 @@ pub(super) fn degrees(radians: f64) -> Option<f64> {
 
 pub(super) fn is_same(a: DAffine3, b: DAffine3) -> bool {
     a.to_cols_array().map(f64::to_bits) == b.to_cols_array().map(f64::to_bits)
+}
+
+/// Whether two vectors are the same, with the signs of zeros.
+pub(super) fn same_bits(a: Vec3, b: Vec3) -> bool {
+    a.to_array().map(f32::to_bits) == b.to_array().map(f32::to_bits)
 }
 
 /// A transform as a table; `None` for the identity.

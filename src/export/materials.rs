@@ -1,8 +1,8 @@
 //! The materials of a scene.
 
-use super::exact::shortest;
+use super::exact::{same_bits, shortest};
 use super::text::{Table, color, key, number32, string};
-use super::{ExportError, Writer};
+use super::{Writer, physical};
 use crate::scene::{Coverage, Fresnel, Material, MaterialProperty, Mixing, Target, Textures};
 use glam::Vec3;
 
@@ -11,31 +11,40 @@ const SHININESS: f32 = 32.0;
 const IOR: f32 = 1.5;
 
 impl Writer<'_> {
-    /// # Errors
-    /// The image of a normal map cannot be written.
-    pub fn materials(&mut self) -> Result<(), ExportError> {
+    pub fn materials(&mut self) {
         let scene = self.scene;
         if !scene.materials.is_empty() {
             self.text.section("Materials");
         }
         for (index, material) in scene.materials.iter().enumerate() {
             let mut table = Table::default();
-            let phong = self.phong(index, material);
-            table.put_if(!phong.is_empty(), "phong", phong.inline());
-            self.optics(&mut table, material);
+            // What an importer would make of it without the keys that follow.
+            let mut plain = Material {
+                emission: Vec3::ZERO,
+                ..Material::default()
+            };
+            if let Some(model) = &material.metallic_roughness {
+                plain = physical::plain(material, model);
+                table.put("pbr", self.physical(material, model).inline());
+                self.classical(&mut table, index, material, &plain);
+            } else {
+                let phong = self.phong(index, material);
+                table.put_if(!phong.is_empty(), "phong", phong.inline());
+                self.optics(&mut table, material);
+            }
             let emission = self.shade(material.emission, material.textures.emission);
-            let is_dark = is_same(material.emission, Vec3::ZERO);
-            let is_dark = is_dark && material.textures.emission.is_none();
-            table.put_if(!is_dark, "emission", emission);
+            let shines = !same_bits(material.emission, plain.emission)
+                || material.textures.emission != plain.textures.emission;
+            table.put_if(shines, "emission", emission);
             table.put_if(!material.two_sided, "two_sided", "false");
             let coverage = self.coverage(material);
             table.put_if(!coverage.is_empty(), "coverage", coverage.inline());
-            table.put_if(material.thin, "thin", "true".to_owned());
+            table.put_if(material.thin && !plain.thin, "thin", "true".to_owned());
             let own = &material.textures;
-            if let Some(map) = self.data_map(own.normal, material.normal_scale)? {
+            if let Some(map) = self.data_map(own.normal, material.normal_scale) {
                 table.put("normal_map", map);
             }
-            if let Some(map) = self.data_map(own.occlusion, material.occlusion_strength)? {
+            if let Some(map) = self.data_map(own.occlusion, material.occlusion_strength) {
                 table.put("occlusion_map", map);
             }
             self.text.gap();
@@ -43,7 +52,6 @@ impl Writer<'_> {
             self.text.head(&format!("[materials.{name}]"));
             self.text.lines(&table);
         }
-        Ok(())
     }
 
     /// How much of the surface is there; empty if all of it is.
@@ -64,7 +72,7 @@ impl Writer<'_> {
         table
     }
 
-    fn phong(&self, index: usize, material: &Material) -> Table {
+    pub fn phong(&self, index: usize, material: &Material) -> Table {
         let Textures {
             diffuse,
             specular,
@@ -72,9 +80,9 @@ impl Writer<'_> {
             ..
         } = material.textures;
         let mut table = Table::default();
-        let is_plain = is_same(material.diffuse, Vec3::splat(0.8)) && diffuse.is_none();
+        let is_plain = same_bits(material.diffuse, Vec3::splat(0.8)) && diffuse.is_none();
         table.put_if(!is_plain, "diffuse", self.shade(material.diffuse, diffuse));
-        let is_matt = is_same(material.specular, Vec3::ZERO) && specular.is_none();
+        let is_matt = same_bits(material.specular, Vec3::ZERO) && specular.is_none();
         table.put_if(
             !is_matt,
             "specular",
@@ -89,7 +97,7 @@ impl Writer<'_> {
 
     /// Whether the diffuse colour of a material is animated while its ambient colour, which is the same
     /// at rest, is not: the ambient colour must then be written.
-    fn is_own_ambient(&self, index: usize) -> bool {
+    pub fn is_own_ambient(&self, index: usize) -> bool {
         let mut targets = self.scene.tracks.iter().flat_map(|track| &track.targets);
         let moves = |property| Target::Material(index, property);
         let diffuse = moves(MaterialProperty::Diffuse);
@@ -98,13 +106,13 @@ impl Writer<'_> {
     }
 
     /// A colour, with or without a texture.
-    fn shade(&self, constant: Vec3, texture: Option<usize>) -> String {
+    pub fn shade(&self, constant: Vec3, texture: Option<usize>) -> String {
         let Some(texture) = texture else {
             return color(constant);
         };
         let mut table = Table::default();
         table.put("texture", string(&self.names.textures[texture]));
-        table.put_if(!is_same(constant, Vec3::ONE), "color", color(constant));
+        table.put_if(!same_bits(constant, Vec3::ONE), "color", color(constant));
         table.inline()
     }
 
@@ -117,12 +125,12 @@ impl Writer<'_> {
         let Textures {
             reflect, transmit, ..
         } = material.textures;
-        let is_opaque = is_same(material.transmit, Vec3::ZERO)
+        let is_opaque = same_bits(material.transmit, Vec3::ZERO)
             && transmit.is_none()
             && material.opacity == 1.0
-            && is_same(material.absorption, Vec3::ZERO)
+            && same_bits(material.absorption, Vec3::ZERO)
             && material.priority == 0;
-        let is_dull = is_same(material.reflect, Vec3::ZERO) && reflect.is_none();
+        let is_dull = same_bits(material.reflect, Vec3::ZERO) && reflect.is_none();
         let is_layered = material.mixing == Mixing::Layer;
         let is_bare = material.ior == plain.ior && material.fresnel == Fresnel::None;
         if is_layered && is_opaque && is_dull && is_bare {
@@ -155,7 +163,7 @@ impl Writer<'_> {
     fn mirror(&self, table: &mut Table, material: &Material) {
         let amount = material.reflect.x;
         let texture = material.textures.reflect;
-        if texture.is_none() && is_same(material.reflect, Vec3::splat(amount)) && amount <= 1.0 {
+        if texture.is_none() && same_bits(material.reflect, Vec3::splat(amount)) && amount <= 1.0 {
             table.put_if(amount != 1.0, "amount", number32(amount));
         } else {
             table.put("color", self.shade(material.reflect, texture));
@@ -180,17 +188,17 @@ impl Writer<'_> {
             // A mirror beside it may reflect at most the rest, and its colour may be of any brightness.
             let texture = material.textures.reflect;
             let mirrored = material.reflect.x;
-            let is_gray = texture.is_none() && is_same(material.reflect, Vec3::splat(mirrored));
-            let is_dull = texture.is_none() && is_same(material.reflect, Vec3::ZERO);
+            let is_gray = texture.is_none() && same_bits(material.reflect, Vec3::splat(mirrored));
+            let is_dull = texture.is_none() && same_bits(material.reflect, Vec3::ZERO);
             if !(is_dull || is_gray && mirrored + amount <= 1.0) {
                 return None;
             }
-        } else if !is_same(material.reflect, Vec3::splat(amount))
+        } else if !same_bits(material.reflect, Vec3::splat(amount))
             || material.textures.reflect.is_some()
         {
             return None;
         }
-        let tint = |factor: Vec3| is_same(amount * factor, material.transmit);
+        let tint = |factor: Vec3| same_bits(amount * factor, material.transmit);
         let through = if tint(Vec3::ONE) {
             Vec3::ONE
         } else {
@@ -205,7 +213,7 @@ impl Writer<'_> {
         let mut table = Table::default();
         table.put_if(amount != 1.0, "amount", number32(amount));
         table.put_if(material.ior != IOR, "ior", number32(material.ior));
-        let is_clear = is_same(through, Vec3::ONE) && texture.is_none();
+        let is_clear = same_bits(through, Vec3::ONE) && texture.is_none();
         table.put_if(!is_clear, "color", self.shade(through, texture));
         put_absorption(&mut table, material);
         put_fresnel(&mut table, material.fresnel, Fresnel::Exact);
@@ -214,12 +222,13 @@ impl Writer<'_> {
         Some(table)
     }
 
-    fn directly(&self, material: &Material) -> Table {
+    pub fn directly(&self, material: &Material) -> Table {
         let Textures {
             reflect, transmit, ..
         } = material.textures;
         let mut table = Table::default();
-        let shows = |c: Vec3, texture: Option<usize>| !is_same(c, Vec3::ZERO) || texture.is_some();
+        let shows =
+            |c: Vec3, texture: Option<usize>| !same_bits(c, Vec3::ZERO) || texture.is_some();
         let mirrors = shows(material.reflect, reflect);
         table.put_if(mirrors, "reflect", self.shade(material.reflect, reflect));
         let passes = shows(material.transmit, transmit);
@@ -246,11 +255,11 @@ impl Writer<'_> {
 /// Whether the ambient colour equals the diffuse one, which is the default.
 pub(super) fn has_same_ambient(material: &Material) -> bool {
     let textures = &material.textures;
-    is_same(material.ambient, material.diffuse) && textures.ambient == textures.diffuse
+    same_bits(material.ambient, material.diffuse) && textures.ambient == textures.diffuse
 }
 
 fn put_absorption(table: &mut Table, material: &Material) {
-    let clear = is_same(material.absorption, Vec3::ZERO);
+    let clear = same_bits(material.absorption, Vec3::ZERO);
     let numbers = material.absorption.to_array().map(number32);
     table.put_if(!clear, "absorption", super::text::list(numbers));
 }
@@ -262,8 +271,4 @@ fn put_fresnel(table: &mut Table, fresnel: Fresnel, default: Fresnel) {
         Fresnel::Schlick => "schlick",
     };
     table.put_if(fresnel != default, "fresnel", string(name));
-}
-
-fn is_same(a: Vec3, b: Vec3) -> bool {
-    a.to_array().map(f32::to_bits) == b.to_array().map(f32::to_bits)
 }

@@ -37,7 +37,8 @@ impl Names {
         // A texture is named after the first material that uses it.
         let mut textures = vec![String::new(); scene.textures.len()];
         for (name, material) in materials.iter().zip(&scene.materials) {
-            for texture in material.textures.all().into_iter().flatten() {
+            let layers = material.layer_textures.iter().flat_map(|it| it.all());
+            for texture in material.textures.all().into_iter().chain(layers).flatten() {
                 if textures[texture].is_empty() {
                     textures[texture].clone_from(name);
                 }

@@ -48,11 +48,9 @@ impl Writer<'_> {
         };
         let mut table = Table::default();
         // Textures write their images first: this image may be among them, under the same name.
-        for (index, texture) in self.scene.textures.iter().enumerate() {
-            if let crate::scene::Pattern::Picture { picture, .. } = texture.pattern
-                && !self.is_data_map(index)
-            {
-                self.picture(picture, Role::Color)?;
+        for texture in &self.scene.textures {
+            if let crate::scene::Pattern::Picture { picture, .. } = texture.pattern {
+                self.picture(picture, self.role(picture))?;
             }
         }
         table.put("picture", self.picture(picture, Role::Color)?);

@@ -3,7 +3,7 @@
 use super::pictures::Role;
 use super::text::{self, Table, color, key, string};
 use super::{ExportError, Writer, exact};
-use crate::scene::{Minify, Pattern, Space, Texture, Transform, Wrap};
+use crate::scene::{Minify, Pattern, Space, Texels, Texture, Transform, Wrap};
 use glam::{DAffine3, DVec3, Vec3};
 
 impl Writer<'_> {
@@ -12,9 +12,6 @@ impl Writer<'_> {
             self.text.section("Textures");
         }
         for (index, texture) in self.scene.textures.iter().enumerate() {
-            if self.is_data_map(index) {
-                continue;
-            }
             let mut table = Table::default();
             let pair = |a: Vec3, b: Vec3, octaves: Option<u32>| {
                 let mut table = Table::default();
@@ -39,8 +36,9 @@ impl Writer<'_> {
                     minify,
                     wrap,
                 } => {
-                    let file = self.picture(picture, Role::Color)?;
-                    table.put("picture", sampled(file, nearest, minify, wrap));
+                    let role = self.role(picture);
+                    let file = self.picture(picture, role)?;
+                    table.put("picture", sampled(file, role, nearest, minify, wrap));
                 }
             }
             let is_picture = matches!(texture.pattern, Pattern::Picture { .. });
@@ -60,54 +58,31 @@ impl Writer<'_> {
     }
 
     /// A normal or occlusion map, if there is one.
-    pub fn data_map(
-        &mut self,
-        index: Option<usize>,
-        strength: f32,
-    ) -> Result<Option<String>, ExportError> {
-        let texture = index.map(|index| &self.scene.textures[index]);
-        let Some((
-            texture,
-            Pattern::Picture {
-                picture,
-                nearest,
-                minify,
-                wrap,
-            },
-        )) = texture.map(|texture| (texture, &texture.pattern))
-        else {
-            return Ok(None);
-        };
+    pub fn data_map(&self, index: Option<usize>, strength: f32) -> Option<String> {
         let mut table = Table::default();
-        let file = self.picture(*picture, Role::Data)?;
-        table.put("picture", sampled(file, *nearest, *minify, *wrap));
+        table.put("texture", string(&self.names.textures[index?]));
         table.put_if(strength != 1.0, "strength", text::number32(strength));
-        if texture.space == Space::SecondUv {
-            table.put("space", string("second-uv"));
-        }
-        place(&mut table, texture);
-        Ok(Some(table.inline()))
+        Some(table.inline())
     }
 
-    /// Whether a texture is a normal or occlusion map and nothing else: materials hold those.
-    pub fn is_data_map(&self, index: usize) -> bool {
-        let mut all = self
-            .scene
-            .materials
-            .iter()
-            .map(|material| &material.textures);
-        let is_looked_up = all.clone().any(|it| it.looked_up().contains(&Some(index)));
-        !is_looked_up && all.any(|it| [it.normal, it.occlusion].contains(&Some(index)))
+    /// What an image holds: values that are no colours are linear in 8 bits.
+    pub fn role(&self, picture: usize) -> Role {
+        match self.scene.pictures[picture].texels {
+            Texels::Linear8(_) => Role::Data,
+            Texels::Srgb8(_) | Texels::Float(_) => Role::Color,
+        }
     }
 }
 
 /// An image file, and how it is sampled.
-fn sampled(file: String, nearest: bool, minify: Minify, wrap: [Wrap; 2]) -> String {
-    if !nearest && minify == Minify::default() && wrap == [Wrap::Repeat; 2] {
+fn sampled(file: String, role: Role, nearest: bool, minify: Minify, wrap: [Wrap; 2]) -> String {
+    let is_linear = role == Role::Data;
+    if !is_linear && !nearest && minify == Minify::default() && wrap == [Wrap::Repeat; 2] {
         return file;
     }
     let mut table = Table::default();
     table.put("file", file);
+    table.put_if(is_linear, "linear", "true");
     table.put_if(nearest, "nearest", "true".to_owned());
     table.put_if(minify != Minify::default(), "minify", string(minify.name()));
     table.put_if(wrap != [Wrap::Repeat; 2], "wrap", wrap_modes(wrap));

@@ -12,6 +12,7 @@ mod lights;
 mod materials;
 mod nodes;
 mod objects;
+mod physical;
 mod repeat;
 mod set;
 mod shapes;

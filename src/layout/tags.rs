@@ -100,7 +100,7 @@ pub const MATERIAL_THIN: u32 = 128;
 /// Bit of [`super::PackedMaterial::flags`]: its layers are those of a metallic-roughness material.
 pub const MATERIAL_METALLIC_ROUGHNESS: u32 = 256;
 /// Rows of 16 bytes of a [`super::PackedMaterial`].
-pub const MATERIAL_ROWS: u32 = 19;
+pub const MATERIAL_ROWS: u32 = 20;
 /// The first of these rows that belongs to [`super::PackedMaterial::layers`].
 pub const LAYERS_ROW: u32 = 9;
 /// Texture slot of [`super::PackedLayers`]: base colour.
@@ -135,6 +135,10 @@ pub const SLOT_DIFFUSE_TRANSMISSION_COLOR: u32 = 13;
 pub const SLOT_REFLECT: u32 = 14;
 /// Texture slot of [`super::PackedLayers`]: emission.
 pub const SLOT_EMISSION: u32 = 15;
+/// Metalness alone, in blue.
+pub const SLOT_METALLIC: u32 = 16;
+/// Roughness alone, in green.
+pub const SLOT_ROUGHNESS: u32 = 17;
 /// Rows of 16 bytes of a [`super::PackedTexture`].
 pub const TEXTURE_ROWS: u32 = 6;
 /// No texture, in the 16 bits of a texture index in a [`super::PackedMaterial`].

@@ -1,21 +1,28 @@
-//! Emissive triangles, which paths sample as lights: each with a chance in proportion to its power.
+//! Emissive triangles and shapes, which paths sample as lights: each with a chance in proportion to its power.
 
 use super::PackedScene;
-use crate::layout::{NO_INSTANCE, PackedEmitter, PackedInstance, PackedMaterial, SHAPE};
+use crate::layout::{
+    NO_INSTANCE, PackedEmitter, PackedInstance, PackedMaterial, PackedShape, SHAPE, SHAPE_DISC,
+    SHAPE_RECTANGLE, SHAPE_SPHERE,
+};
 use crate::scene::{Pattern, Scene, Texture};
 use glam::{Mat3, Vec3};
+use std::f32::consts::PI;
 
 /// The luminance of linear Rec. 709 colours is the dot product with this.
 pub(super) const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
-/// A triangle whose material emits at some time.
+/// A triangle or a shape whose material emits at some time.
 #[derive(Clone, Copy, Debug)]
 pub struct Emissive {
-    /// Its index in the triangles array.
-    triangle: u32,
+    /// Its index in the triangles array, or in the shapes array with [`SHAPE`].
+    primitive: u32,
     material: u32,
-    /// Two of its edges, in render space or in the space of its BLAS.
+    /// Two edges, in render space or in the space of its BLAS: its area is that of their parallelogram times `share`.
     edges: [Vec3; 2],
+    share: f32,
+    /// Whether an instance may stretch it: a stretched sphere is none.
+    stretches: bool,
 }
 
 /// The emitters of a view, and their share of its light.
@@ -56,6 +63,32 @@ fn mean_luminance(scene: &Scene, texture: &Texture) -> f32 {
     }
 }
 
+/// A shape that paths sample; `None` for other kinds.
+fn emissive_shape(primitive: u32, shape: &PackedShape) -> Option<Emissive> {
+    let rows = [shape.row_x, shape.row_y, shape.row_z];
+    let inverse = || Mat3::from_cols_array_2d(&rows).transpose().inverse();
+    let flat = |share| {
+        let inverse = inverse();
+        ([inverse.x_axis, inverse.z_axis], share, true)
+    };
+    let (edges, share, stretches) = match shape.kind {
+        SHAPE_RECTANGLE => flat(4.0),
+        SHAPE_DISC if shape.size0 == 0.0 => flat(PI),
+        SHAPE_SPHERE => {
+            let edges = [shape.size0 * Vec3::X, shape.size0 * Vec3::Y];
+            (edges, 4.0 * PI, false)
+        }
+        _ => return None,
+    };
+    Some(Emissive {
+        primitive,
+        material: shape.material,
+        edges,
+        share,
+        stretches,
+    })
+}
+
 impl Emitters {
     /// Leaves the last `share` of all chances, 0 to 1, to other lights.
     pub fn leave(&mut self, share: f64) {
@@ -69,7 +102,7 @@ impl Emitters {
 }
 
 impl PackedScene {
-    /// The triangles whose material `emits`, by material index.
+    /// The triangles, spheres, rectangles and discs whose material `emits`, by material index.
     pub(super) fn emissive(&self, emits: &[bool]) -> Vec<Emissive> {
         if !emits.contains(&true) {
             return Vec::new();
@@ -83,10 +116,17 @@ impl PackedScene {
             if emits.get(material as usize) == Some(&true) {
                 let [v0, v1, v2] = [triangle.v0, triangle.v1, triangle.v2].map(Vec3::from);
                 found.push(Emissive {
-                    triangle: index as u32,
+                    primitive: index as u32,
                     material,
                     edges: [v1 - v0, v2 - v0],
+                    share: 0.5,
+                    stretches: true,
                 });
+            }
+        }
+        for (index, shape) in self.shapes.iter().enumerate() {
+            if emits.get(shape.material as usize) == Some(&true) {
+                found.extend(emissive_shape(index as u32 | SHAPE, shape));
             }
         }
         found
@@ -100,8 +140,8 @@ impl PackedScene {
         lights: f64,
     ) -> Emitters {
         let within = |from: u32, to: u32| {
-            let start = self.emissive.partition_point(|one| one.triangle < from);
-            let end = self.emissive.partition_point(|one| one.triangle < to);
+            let start = self.emissive.partition_point(|one| one.primitive < from);
+            let end = self.emissive.partition_point(|one| one.primitive < to);
             &self.emissive[start..end]
         };
         let strength = |one: &Emissive| {
@@ -112,24 +152,20 @@ impl PackedScene {
         let mut add = |instance: u32, linear: Mat3, list: &[Emissive]| {
             for one in list {
                 let [a, b] = one.edges.map(|edge| linear * edge);
-                let weight = strength(one) * f64::from(a.cross(b).length()) / 2.0;
-                if weight > 0.0 {
-                    weighted.push((one.triangle, instance, weight));
+                let weight = strength(one) * f64::from(a.cross(b).length() * one.share);
+                if weight > 0.0 && (one.stretches || instance == NO_INSTANCE) {
+                    weighted.push((one.primitive, instance, weight));
                 }
             }
         };
-        add(
-            NO_INSTANCE,
-            Mat3::IDENTITY,
-            within(self.first_baked_triangle, u32::MAX),
-        );
+        // Baked triangles, then baked shapes; planes and instanced shapes follow those.
+        let baked = within(self.first_baked_triangle, SHAPE | self.baked_shape_count);
+        add(NO_INSTANCE, Mat3::IDENTITY, baked);
         for (index, instance) in instances.iter().enumerate() {
-            if instance.first & SHAPE == 0 {
-                let rows = [instance.linear_x, instance.linear_y, instance.linear_z];
-                let linear = Mat3::from_cols_array_2d(&rows).transpose();
-                let list = within(instance.first, instance.first + instance.count);
-                add(index as u32, linear, list);
-            }
+            let rows = [instance.linear_x, instance.linear_y, instance.linear_z];
+            let linear = Mat3::from_cols_array_2d(&rows).transpose();
+            let list = within(instance.first, instance.first + instance.count);
+            add(index as u32, linear, list);
         }
         let total: f64 = weighted.iter().map(|(.., weight)| weight).sum();
         if total <= 0.0 {
@@ -140,10 +176,10 @@ impl PackedScene {
         let share = own / (own + lights);
         let power = total / share;
         let mut end = 1.0 - share;
-        let rows = weighted.into_iter().map(|(triangle, instance, weight)| {
+        let rows = weighted.into_iter().map(|(primitive, instance, weight)| {
             end += weight / power;
             PackedEmitter {
-                triangle,
+                primitive,
                 instance,
                 chance: (weight / power) as f32,
                 end: end as f32,

@@ -12,7 +12,7 @@ use crate::{
         ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, BACKGROUND_COLOR, BACKGROUND_GRADIENT,
         BACKGROUND_PICTURE, CAMERA_ROWS, INSTANCE_ROWS, KEY_ROWS, LIGHT_DIRECTIONAL, LIGHT_DISC,
         LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_ROWS, LIGHT_SPHERE, LIGHT_SPOT, MOVING, NODE_ROWS,
-        PackedCamera, PackedEmitter, PackedFrame, PackedLight, PackedMaterial,
+        PackedCamera, PackedEmitter, PackedFrame, PackedLight, PackedMaterial, SHAPE,
     },
     scene::{Attenuation, Background, Camera, Frame, Light, LightKind},
 };
@@ -311,6 +311,12 @@ impl PackedView {
     pub(super) fn instanced_index(&self, instance: u32) -> Option<usize> {
         let instance = self.tlas.instances.get(instance as usize)?;
         Some(instance.id as usize - 1)
+    }
+
+    /// Whether some emitter is a shape.
+    pub fn has_emissive_shapes(&self) -> bool {
+        let mut emitters = self.emitters.iter();
+        emitters.any(|emitter| emitter.primitive & SHAPE != 0)
     }
 
     /// Whether instances move while the shutter is open.

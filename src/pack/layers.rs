@@ -2,10 +2,10 @@
 
 use crate::{
     layout::{
-        NO_TEXTURE, NONE, PackedLayers, SLOT_BASE, SLOT_COAT, SLOT_COAT_ROUGHNESS,
+        NO_TEXTURE, NONE, PackedLayers, SLOT_ANISOTROPY, SLOT_BASE, SLOT_COAT, SLOT_COAT_ROUGHNESS,
         SLOT_DIFFUSE_TRANSMISSION, SLOT_DIFFUSE_TRANSMISSION_COLOR, SLOT_EMISSION, SLOT_F0,
-        SLOT_F90, SLOT_FILM_THICKNESS, SLOT_IRIDESCENCE, SLOT_METALLIC_ROUGHNESS, SLOT_REFLECT,
-        SLOT_SHEEN, SLOT_SHEEN_ROUGHNESS, SLOT_TRANSMISSION,
+        SLOT_F90, SLOT_FILM_THICKNESS, SLOT_IRIDESCENCE, SLOT_METALLIC, SLOT_METALLIC_ROUGHNESS,
+        SLOT_REFLECT, SLOT_ROUGHNESS, SLOT_SHEEN, SLOT_SHEEN_ROUGHNESS, SLOT_TRANSMISSION,
     },
     scene::{Material, MetallicRoughness},
 };
@@ -27,6 +27,7 @@ pub fn packed(material: &Material, light: Option<usize>) -> PackedLayers {
         slots: (0..slots.len()).fold(0, used),
         textures: [0, 1, 2, 3].map(pair),
         more_textures: [4, 5, 6, 7].map(pair),
+        last_textures: [8, 9, 10, 11].map(pair),
         ..layers
     }
 }
@@ -82,9 +83,9 @@ fn of_phong(material: &Material) -> PackedLayers {
 }
 
 /// The textures of a material, by their slots.
-fn slots(material: &Material) -> [Option<usize>; 16] {
+fn slots(material: &Material) -> [Option<usize>; 24] {
     let textures = &material.textures;
-    let mut slots = [None; 16];
+    let mut slots = [None; 24];
     let mut set = |slot: u32, texture| slots[slot as usize] = texture;
     set(SLOT_EMISSION, textures.emission);
     match &material.metallic_roughness {
@@ -98,7 +99,13 @@ fn slots(material: &Material) -> [Option<usize>; 16] {
             let layers = material.layer_textures.as_deref().copied();
             let layers = layers.unwrap_or_default();
             set(SLOT_BASE, layers.base_color);
-            set(SLOT_METALLIC_ROUGHNESS, layers.metallic_roughness);
+            // Both are looked up at once where they have the same texture.
+            if layers.metallic == layers.roughness {
+                set(SLOT_METALLIC_ROUGHNESS, layers.roughness);
+            } else {
+                set(SLOT_METALLIC, layers.metallic);
+                set(SLOT_ROUGHNESS, layers.roughness);
+            }
             set(SLOT_TRANSMISSION, layers.transmission);
             set(SLOT_F0, layers.specular_color);
             set(SLOT_F90, layers.specular);
@@ -106,6 +113,7 @@ fn slots(material: &Material) -> [Option<usize>; 16] {
             set(SLOT_COAT_ROUGHNESS, layers.clearcoat_roughness);
             set(SLOT_SHEEN, layers.sheen_color);
             set(SLOT_SHEEN_ROUGHNESS, layers.sheen_roughness);
+            set(SLOT_ANISOTROPY, layers.anisotropy);
             set(SLOT_IRIDESCENCE, layers.iridescence);
             set(SLOT_FILM_THICKNESS, layers.iridescence_thickness);
             set(SLOT_DIFFUSE_TRANSMISSION, layers.diffuse_transmission);

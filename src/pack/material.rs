@@ -11,8 +11,8 @@ use crate::{
         TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT,
     },
     scene::{
-        Coverage, Fresnel, LayerProperty, Material, MaterialProperty, Mixing, Pattern, Scene,
-        Space, Target, Texels, Texture, Values, Wrap,
+        Coverage, Fresnel, LayerProperty, Material, MaterialProperty, MetallicRoughness, Mixing,
+        Pattern, Scene, Space, Target, Texels, Texture, Values, Wrap,
     },
 };
 use glam::{DAffine3, DVec3, Vec3};
@@ -177,9 +177,10 @@ pub fn features(scene: &Scene) -> Features {
             || has_total_reflection(scene)
             || !refraction && has_thin_material(scene),
         refraction,
-        coatings: (scene.materials.iter())
-            .filter_map(|material| material.metallic_roughness.as_ref())
-            .any(|model| model.is_coated()),
+        coatings: has_layers(scene, |_, model| model.is_coated()),
+        coated_emission: emission && has_layers(scene, |_, model| model.clearcoat > 0.0),
+        rough_glass: has_layers(scene, |_, it| it.transmission > 0.0 && it.roughness > 0.0),
+        dispersion: has_layers(scene, |material, it| it.dispersion > 0.0 && !material.thin),
         thin_walls: (may_transmit(scene).into_iter().zip(&scene.materials))
             .any(|(transmits, material)| transmits && material.thin),
         textures: !scene.textures.is_empty(),
@@ -205,6 +206,14 @@ pub fn features(scene: &Scene) -> Features {
         emission: emission || light::visible(scene).next().is_some(),
         ..Features::default()
     }
+}
+
+/// Whether a metallic-roughness material and its model satisfy `holds`.
+fn has_layers(scene: &Scene, holds: impl Fn(&Material, &MetallicRoughness) -> bool) -> bool {
+    (scene.materials.iter()).any(|material| {
+        let model = material.metallic_roughness.as_ref();
+        model.is_some_and(|model| holds(material, model))
+    })
 }
 
 /// Packs all textures. Their indices must differ from `NO_TEXTURE`.

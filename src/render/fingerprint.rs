@@ -23,6 +23,9 @@ impl Fingerprint {
             // These follow from the materials.
             anisotropy: _,
             coatings: _,
+            coated_emission: _,
+            rough_glass: _,
+            dispersion: _,
             thin_walls: _,
             textures,
             second_uvs,

@@ -3,7 +3,7 @@
 
 use super::{
     Integrator, layers,
-    settings::{RayOffset, TriangleTest},
+    settings::{BsdfModel, RayOffset, TriangleTest},
     task::Task,
 };
 use crate::{
@@ -103,7 +103,21 @@ pub fn of(task: Task) -> Overrides {
             f64::from(settings.clamp_indirect.unwrap_or_default()),
         ),
         ("HAS_COATINGS", flag(is_path && features.coatings)),
+        (
+            "HAS_COATED_EMISSION",
+            flag(is_path && features.coated_emission),
+        ),
+        ("HAS_ROUGH_GLASS", flag(is_path && features.rough_glass)),
+        ("HAS_DISPERSION", flag(is_path && features.dispersion)),
+        (
+            "BSDF_SPEC",
+            flag(is_path && settings.bsdf == BsdfModel::Spec),
+        ),
         ("HAS_EMITTERS", flag(is_path && !view.emitters.is_empty())),
+        (
+            "HAS_EMISSIVE_SHAPES",
+            flag(is_path && view.has_emissive_shapes()),
+        ),
         (
             "HAS_ENVIRONMENT",
             flag(is_path && view.frame.environment_share > 0.0),

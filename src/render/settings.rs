@@ -48,6 +48,8 @@ pub struct RenderSettings {
     /// Path tracing: whether all transparent surfaces filter shadow rays, in straight lines. Without it only smooth
     /// thin walls do, and the light behind other glass is found by paths; with it caustics are lost.
     pub transparent_shadows: bool,
+    /// Path tracing: how metallic-roughness materials scatter.
+    pub bsdf: BsdfModel,
     /// Path tracing: the most radiance per channel, above 0, that a sample may gain at once from light that was
     /// scattered twice or more; `None` for no limit. It removes fireflies, and light: [`super::Stats::energy_cut`]
     /// says how much.
@@ -74,6 +76,7 @@ impl Default for RenderSettings {
             max_depth: LightTransport::Whitted.max_depth(),
             min_throughput: MIN_THROUGHPUT,
             transparent_shadows: false,
+            bsdf: BsdfModel::Full,
             clamp_indirect: None,
         }
     }
@@ -157,6 +160,7 @@ impl RenderSettings {
             max_depth,
             min_throughput,
             transparent_shadows,
+            bsdf,
             clamp_indirect,
         } = self;
         let range = sample_range.as_ref();
@@ -199,12 +203,27 @@ impl RenderSettings {
         if *transparent_shadows {
             encoder.bytes(b"transparent shadows");
         }
+        if *bsdf == BsdfModel::Spec {
+            encoder.bytes(b"BSDF of the glTF specification");
+        }
         if let Some(limit) = clamp_indirect {
             encoder.bytes(b"clamp indirect");
             encoder.float(*limit);
         }
         encoder.finish()
     }
+}
+
+/// How metallic-roughness materials scatter light in path-traced pictures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BsdfModel {
+    /// Height-correlated shadowing, with the light that microfacets scatter several times; layers get what those above
+    /// leave, by tables of albedos.
+    #[default]
+    Full,
+    /// The formulas of the glTF 2.0 specification (appendix B) to the letter: separable shadowing, Schlick's factor, no
+    /// compensation, so that rough surfaces are darker.
+    Spec,
 }
 
 /// Ray–triangle intersection algorithm.

@@ -97,7 +97,8 @@ impl Material {
         [diffuse, specular, reflect, transmit]
             .into_iter()
             .all(is_plain)
-            && layers.metallic_roughness.is_none()
+            && layers.metallic.is_none()
+            && layers.roughness.is_none()
             && layers.transmission.is_none()
     }
 
@@ -129,74 +130,62 @@ impl Material {
     }
 }
 
-/// For parameters of a [`MetallicRoughness`] the index in [`super::Scene::textures`] of the texture that multiplies
-/// them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LayerTextures {
-    /// Of [`MetallicRoughness::base_color`].
-    pub base_color: Option<usize>,
-    /// Of [`MetallicRoughness::roughness`] in green and [`MetallicRoughness::metallic`] in blue.
-    pub metallic_roughness: Option<usize>,
-    /// Of [`MetallicRoughness::transmission`], in red.
-    pub transmission: Option<usize>,
-    /// Of [`MetallicRoughness::specular`], in alpha.
-    pub specular: Option<usize>,
-    /// Of [`MetallicRoughness::specular_color`].
-    pub specular_color: Option<usize>,
-    /// Of [`MetallicRoughness::clearcoat`], in red.
-    pub clearcoat: Option<usize>,
-    /// Of [`MetallicRoughness::clearcoat_roughness`], in green.
-    pub clearcoat_roughness: Option<usize>,
-    /// Of [`MetallicRoughness::sheen_color`].
-    pub sheen_color: Option<usize>,
-    /// Of [`MetallicRoughness::sheen_roughness`], in alpha.
-    pub sheen_roughness: Option<usize>,
-    /// Of [`MetallicRoughness::iridescence`], in red.
-    pub iridescence: Option<usize>,
-    /// The place in [`MetallicRoughness::iridescence_thickness`], in green.
-    pub iridescence_thickness: Option<usize>,
-    /// Of [`MetallicRoughness::diffuse_transmission`], in alpha.
-    pub diffuse_transmission: Option<usize>,
-    /// Of [`MetallicRoughness::diffuse_transmission_color`].
-    pub diffuse_transmission_color: Option<usize>,
+/// Defines the list of textures from one list of names.
+macro_rules! layer_textures {
+    ($($(#[$doc:meta])* $name:ident,)*) => {
+        /// For parameters of a [`MetallicRoughness`] the index in [`super::Scene::textures`] of the texture that
+        /// multiplies them.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub struct LayerTextures {
+            $($(#[$doc])* pub $name: Option<usize>,)*
+        }
+
+        impl LayerTextures {
+            /// All of them.
+            pub fn all(&self) -> impl Iterator<Item = Option<usize>> {
+                [$(self.$name,)*].into_iter()
+            }
+
+            /// Adds `first` to every index, for textures that are appended to others.
+            pub fn shift(&mut self, first: usize) {
+                $(self.$name = self.$name.map(|index| index + first);)*
+            }
+        }
+    };
 }
 
-impl LayerTextures {
-    /// Adds `first` to every index, for textures that are appended to others.
-    pub fn shift(&mut self, first: usize) {
-        let Self {
-            base_color,
-            metallic_roughness,
-            transmission,
-            specular,
-            specular_color,
-            clearcoat,
-            clearcoat_roughness,
-            sheen_color,
-            sheen_roughness,
-            iridescence,
-            iridescence_thickness,
-            diffuse_transmission,
-            diffuse_transmission_color,
-        } = self;
-        for index in [
-            base_color,
-            metallic_roughness,
-            transmission,
-            specular,
-            specular_color,
-            clearcoat,
-            clearcoat_roughness,
-            sheen_color,
-            sheen_roughness,
-            iridescence,
-            iridescence_thickness,
-            diffuse_transmission,
-            diffuse_transmission_color,
-        ] {
-            *index = index.map(|index| index + first);
-        }
-    }
+layer_textures! {
+    /// Of [`MetallicRoughness::base_color`].
+    base_color,
+    /// Of [`MetallicRoughness::metallic`], in blue.
+    metallic,
+    /// Of [`MetallicRoughness::roughness`], in green.
+    roughness,
+    /// Of [`MetallicRoughness::transmission`], in red.
+    transmission,
+    /// Of [`MetallicRoughness::specular`], in alpha.
+    specular,
+    /// Of [`MetallicRoughness::specular_color`].
+    specular_color,
+    /// Of [`MetallicRoughness::clearcoat`], in red.
+    clearcoat,
+    /// Of [`MetallicRoughness::clearcoat_roughness`], in green.
+    clearcoat_roughness,
+    /// Of [`MetallicRoughness::sheen_color`].
+    sheen_color,
+    /// Of [`MetallicRoughness::sheen_roughness`], in alpha.
+    sheen_roughness,
+    /// Of [`MetallicRoughness::anisotropy`], in blue; its red and green are a direction, from -1 to 1 for 0 to 1, that is
+    /// turned by [`MetallicRoughness::anisotropy_rotation`].
+    anisotropy,
+    /// Of [`MetallicRoughness::iridescence`], in red.
+    iridescence,
+    /// The place in [`MetallicRoughness::iridescence_thickness`], in green.
+    iridescence_thickness,
+    /// Of [`MetallicRoughness::diffuse_transmission`], in alpha.
+    diffuse_transmission,
+    /// Of [`MetallicRoughness::diffuse_transmission_color`].
+    diffuse_transmission_color,
 }
 
 /// How much of a surface is there. The rest is a hole: rays pass it in a straight line, shadow rays too. They

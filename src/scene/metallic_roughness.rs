@@ -13,7 +13,7 @@
 //!   Alpha stays what it is.
 
 use super::{Coverage, Fresnel, Material};
-use glam::{DAffine3, Vec3};
+use glam::Vec3;
 
 /// How much of the blurred reflection of a metal is shown as diffuse colour.
 const METAL_DIFFUSE: f32 = 0.6;
@@ -37,8 +37,6 @@ pub struct MetallicRoughness {
     pub roughness: f32,
     /// Radiance, 0 or more, with `KHR_materials_emissive_strength`.
     pub emission: Vec3,
-    /// Whether the back shows. Where it does not, rasterisers leave it out; here it is shown all the same.
-    pub double_sided: bool,
     /// Whether the base colour is shown as it is, without light.
     pub unlit: bool,
     /// Index of refraction, 1 or more.
@@ -79,23 +77,6 @@ pub struct MetallicRoughness {
     pub diffuse_transmission: f32,
     /// Its colour.
     pub diffuse_transmission_color: Vec3,
-    /// Pictures that the numbers above are multiplied by, and normal maps.
-    pub maps: Vec<Map>,
-}
-
-/// A picture that a parameter of a [`MetallicRoughness`] is multiplied by.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Map {
-    /// The parameter: the name of the property in the file, such as `normalTexture`.
-    pub parameter: &'static str,
-    /// Number of the image in the file.
-    pub image: usize,
-    /// Number of the set of texture coordinates.
-    pub uv_set: u32,
-    /// The picture's coordinates, v downwards, from the vertices' ones.
-    pub picture_from_uv: DAffine3,
-    /// The scale of a normal map, or the strength of an occlusion map.
-    pub scale: f32,
 }
 
 impl Default for MetallicRoughness {
@@ -108,7 +89,6 @@ impl Default for MetallicRoughness {
             metallic: 1.0,
             roughness: 1.0,
             emission: Vec3::ZERO,
-            double_sided: false,
             unlit: false,
             ior: 1.5,
             specular: 1.0,
@@ -129,7 +109,6 @@ impl Default for MetallicRoughness {
             dispersion: 0.0,
             diffuse_transmission: 0.0,
             diffuse_transmission_color: Vec3::ONE,
-            maps: Vec::new(),
         }
     }
 }

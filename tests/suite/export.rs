@@ -1,5 +1,6 @@
 //! Round trips of scenes through the native format: nothing that is rendered is lost.
 
+mod physical;
 mod random;
 mod text;
 
@@ -81,7 +82,7 @@ fn bytes(scene: &Scene) -> Vec<Vec<u8>> {
 }
 
 /// Fails if a round trip loses any part of `scene`.
-fn loss(scene: &Scene) -> Result<(), String> {
+pub fn loss(scene: &Scene) -> Result<(), String> {
     let (read, export) = round(scene)?;
     let (was, is) = (essence(scene), essence(&read));
     // Text also shows the sign of a zero.

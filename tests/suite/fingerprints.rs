@@ -4,7 +4,8 @@ use crate::reference::scenes;
 use glam::dvec3;
 use glimray::pack;
 use glimray::render::{
-    Fingerprint, INTEGRATORS, Integrator, Levels, RayOffset, RenderSettings, Tone, TriangleTest,
+    BsdfModel, Fingerprint, INTEGRATORS, Integrator, Levels, RayOffset, RenderSettings, Tone,
+    TriangleTest,
 };
 use glimray::scene::{Antialias, Filter, Scene, ToneCurve, Transfer};
 use std::collections::{HashMap, HashSet};
@@ -54,6 +55,7 @@ fn every_setting_changes_the_fingerprint() {
         ("throughput", |s| s.min_throughput = 0.25),
         ("paths", |s| s.integrator = Integrator::Path),
         ("transparent shadows", |s| s.transparent_shadows = true),
+        ("the specification", |s| s.bsdf = BsdfModel::Spec),
         ("clamp", |s| s.clamp_indirect = Some(1.0)),
         ("another clamp", |s| s.clamp_indirect = Some(2.0)),
     ];

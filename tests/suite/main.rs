@@ -88,6 +88,7 @@ mod shader_ray_cone;
 mod shader_rng;
 mod shader_sampling;
 mod shader_sphere;
+mod shader_spherical_rectangle;
 mod shader_thin_film;
 mod shader_tile;
 mod shader_tone;

@@ -1,6 +1,8 @@
 //! The path tracer against closed forms and against the classical integrator.
 
+mod emitters;
 mod explained;
+mod layers;
 mod materials;
 mod references;
 
@@ -10,8 +12,8 @@ use crate::support::verdict::Verdict;
 use glam::{DAffine3, DQuat, DVec3, Vec3, dvec3, vec3};
 use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{
-    Antialias, Attenuation, Background, Camera, Fresnel, Instance, Light, LightKind, Material,
-    Mesh, Scene,
+    Antialias, Attenuation, Background, Camera, CanonicalShape, Fresnel, Geometry, Instance, Light,
+    LightKind, Material, Mesh, Scene,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -144,6 +146,11 @@ fn clamping_cuts_each_bounce_of_indirect_light_to_the_limit() {
     let mut scene = ball_in(0.0, matte(albedo));
     scene.materials[0].emission = Vec3::splat(0.5);
     scene.cameras = vec![looking(DVec3::ZERO, DVec3::Z, 1.0)];
+    // An ellipsoid is no light for light samples, so a path finds all light by itself.
+    scene.shapes[0].geometry = Geometry::Placed {
+        canonical: CanonicalShape::Ellipsoid,
+        world_from_canonical: DAffine3::IDENTITY,
+    };
     let settings = RenderSettings {
         clamp_indirect: Some(limit),
         ..paths(256, (16, 16), 2)

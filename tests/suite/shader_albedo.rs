@@ -93,7 +93,7 @@ fn entry(table: u32, column: usize, row: usize) -> [f64; 2] {
 
 #[test]
 fn entries_are_the_albedos_of_the_formulas() {
-    assert_eq!(albedo::words().len(), 2 * SIDE * SIDE);
+    assert_eq!(albedo::words().len(), 2 * SIDE * SIDE + 24 * 24 * SIDE);
     let mut verdict = Verdict::on("pack/albedo.rs");
     // Along the normal, with α = 1, the integral has a closed form.
     let whole: f64 = entry(GGX, 31, 31).iter().sum();
@@ -223,4 +223,122 @@ fn light_that_is_scattered_again_takes_the_colour_of_the_metal_again() {
             ),
         ],
     );
+}
+
+/// What rough glass reflects and transmits, integrated over directions of light by the formulas of the lobes.
+#[test]
+fn entries_of_rough_glass_are_integrals_of_its_lobes() {
+    use crate::bsdf::reference;
+    let mut verdict = Verdict::on("rough glass");
+    for (slice, row, column) in [
+        (2, 15, 31),
+        (4, 21, 22),
+        (11, 12, 29),
+        (17, 20, 25),
+        (20, 23, 18),
+    ] {
+        // Slice 7 is that of equal media; the first and the last are those of 1/3 and 3.
+        let root = (f64::from(slice) - 7.0) / if slice < 7 { 7.0 } else { 16.0 };
+        let amplitude = 0.5 * root * root.abs();
+        let eta = (1.0 + amplitude) / (1.0 - amplitude);
+        let (cos, alpha) = (
+            (column as f64 / 31.0).powi(4),
+            (f64::from(row) / 23.0).powi(2),
+        );
+        let wo = view(cos);
+        const PARTS: [usize; 2] = [1200, 400];
+        let mut sums = [0.0; 2];
+        for i in 0..PARTS[0] {
+            let z = 2.0 * (i as f64 + 0.5) / PARTS[0] as f64 - 1.0;
+            for j in 0..PARTS[1] {
+                let phi = 0.5 * TAU * (j as f64 + 0.5) / PARTS[1] as f64;
+                let flat = (1.0 - z * z).sqrt();
+                let wi = DVec3::new(flat * phi.cos(), flat * phi.sin(), z);
+                if z > 0.0 {
+                    let h = (wo + wi).normalize();
+                    let part = fresnel(wo.dot(h), eta);
+                    sums[0] += part * reference::ggx(wo, wi, [alpha, alpha, 0.0, 0.0])[0];
+                } else {
+                    let h = (eta * wo + wi).normalize();
+                    let part = 1.0 - fresnel(wo.dot(h).abs(), eta);
+                    sums[1] += part * reference::transmission(wo, wi, [alpha, alpha, eta, 0.0])[0];
+                }
+            }
+        }
+        let [reflected, transmitted] =
+            sums.map(|sum| 2.0 * TAU * sum / (PARTS[0] * PARTS[1]) as f64);
+        let word = albedo::words()[2048 + (slice as usize * 24 + row as usize) * SIDE + column];
+        let [whole, alone] =
+            [word & 0xffff, word >> 16].map(|bits| f16::from_bits(bits as u16).to_f64());
+        let off = (whole - reflected - transmitted)
+            .abs()
+            .max((alone - reflected).abs());
+        verdict.that(
+            format!("cos {cos:.3}, α {alpha:.3}, η {eta:.3}"),
+            off < 5e-3,
+            || {
+                format!(
+                    "{whole} and {alone}, not {} and {reflected}",
+                    reflected + transmitted
+                )
+            },
+        );
+    }
+    verdict.close();
+}
+
+/// Fresnel's equations for the cosine on the side of the index `eta`, relative to the other.
+fn fresnel(cos_i: f64, eta: f64) -> f64 {
+    let sin2 = eta * eta * (1.0 - cos_i * cos_i);
+    if sin2 >= 1.0 {
+        return 1.0;
+    }
+    let cos_t = (1.0 - sin2).sqrt();
+    let s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    let p = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    0.5 * (s * s + p * p)
+}
+
+#[test]
+fn lookups_of_rough_glass_meet_the_entries() {
+    let slices: Vec<f32> = gpu().map(
+        "lib::albedo::glass_slice",
+        &[0.2f32, 1.0 / 3.0, 1.0, 1.5, 3.0, 9.0],
+    );
+    let expected = [0.0, 0.0, 7.0, 7.0 + 16.0 * 0.4_f64.sqrt(), 23.0, 23.0];
+    let mut verdict = Verdict::on("glass_lookup");
+    for (slice, expected) in slices.iter().zip(expected) {
+        verdict.near("slice", slice, &expected, Tolerance::Absolute(1e-4));
+    }
+    let place = "
+        import package::lib::albedo::glass_lookup;
+        fn probe(slice: u32, cos_o: f32, alpha: f32) -> mat2x4f {
+            let found = glass_lookup(slice, cos_o, alpha);
+            return mat2x4f(vec4f(found.words), found.weights);
+        }";
+    let rows: Vec<_> = [(0_u32, 5, 3), (9, 31, 23), (23, 0, 0), (12, 17, 11)].to_vec();
+    let inputs: Vec<_> = rows
+        .iter()
+        .map(|&(slice, column, row)| {
+            (
+                slice,
+                (column as f32 / 31.0).powi(4),
+                (row as f32 / 23.0).powi(2),
+            )
+        })
+        .collect();
+    let places: Vec<[[f32; 4]; 2]> = gpu().map_source(place, &inputs);
+    for ((slice, column, row), [words, weights]) in rows.into_iter().zip(places) {
+        let own = 2048 + (slice * 24 + row) * 32 + column;
+        let weight: f32 = words
+            .iter()
+            .zip(weights)
+            .filter(|(word, _)| **word == own as f32)
+            .map(|(_, w)| w)
+            .sum();
+        verdict.that(format!("{slice}, {column}, {row}"), weight > 0.999, || {
+            format!("{words:?} {weights:?}")
+        });
+    }
+    verdict.close();
 }

@@ -180,3 +180,31 @@ fn a_slab_returns_the_direction_and_snells_law_holds_inside() {
     }
     verdict.close();
 }
+
+#[test]
+fn schlick_goes_from_one_reflectance_to_the_other() {
+    let fifth = |cos: f64| (1.0 - cos).powi(5);
+    gpu().check(
+        "lib::fresnel::schlick_weight",
+        Tolerance::Relative(1e-5),
+        &[
+            ("along the normal", 1f32, 0f64),
+            ("grazing", 0.0, 1.0),
+            ("between", 0.3, fifth(0.3)),
+            ("beyond", -0.5, 1.0),
+        ],
+    );
+    let between = [0.1 + 0.7 * fifth(0.4), 0.2 - 0.1 * fifth(0.4), 0.5];
+    gpu().check(
+        "lib::fresnel::schlick_between",
+        Tolerance::Absolute(1e-6),
+        &[
+            (
+                "along the normal",
+                ([0.1f32, 0.2, 0.5], [0.8f32, 0.1, 0.5], 1f32),
+                [0.1f64, 0.2, 0.5],
+            ),
+            ("between", ([0.1, 0.2, 0.5], [0.8, 0.1, 0.5], 0.4), between),
+        ],
+    );
+}

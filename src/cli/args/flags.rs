@@ -2,11 +2,13 @@
 
 use super::values::{self, BACKENDS, FORMATS, PROGRESS, Up};
 use crate::app::overrides::{CameraOverrides, Exposure, PictureOverrides, ToneOverrides};
-use crate::app::value_names::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
+use crate::app::value_names::{
+    ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
+};
 use crate::gpu::{AdapterChoice, Backend};
 use crate::import;
 use crate::output::Format;
-use crate::render::{Antialias, Integrator, RayOffset, TriangleTest};
+use crate::render::{Antialias, BsdfModel, Integrator, RayOffset, TriangleTest};
 use crate::scene::{Filter, ToneCurve, Transfer};
 use clap::Args;
 use glam::{DVec3, Vec3};
@@ -86,6 +88,9 @@ pub struct PictureFlags {
     /// Without it smooth thin walls do so, and paths find the light behind other glass.
     #[arg(long)]
     pub transparent_shadows: bool,
+    /// How metallic-roughness materials scatter in path-traced pictures [default: full]
+    #[arg(long, value_parser = values::one_of(&BSDF_MODELS))]
+    pub bsdf: Option<BsdfModel>,
     /// Path tracing: clamp what a sample gains at once from indirect light to this radiance, above 0 to 1e6
     /// [default: no limit]
     ///
@@ -313,6 +318,7 @@ impl PictureFlags {
             max_depth: self.max_depth,
             min_throughput: self.min_throughput,
             transparent_shadows: self.transparent_shadows,
+            bsdf: self.bsdf,
             clamp_indirect: self.clamp_indirect,
             filter: self.filter,
             filter_radius: self.filter_radius,

@@ -43,10 +43,10 @@ pub const GLTF_EXTENSIONS: &[(&str, Support)] = &[
     #[cfg(feature = "basis")]
     ("KHR_texture_basisu", Support::Full),
     ("KHR_texture_transform", Support::Full),
-    ("KHR_materials_anisotropy", Support::Kept),
+    ("KHR_materials_anisotropy", Support::Paths),
     ("KHR_materials_clearcoat", Support::Paths),
     ("KHR_materials_diffuse_transmission", Support::Paths),
-    ("KHR_materials_dispersion", Support::Kept),
+    ("KHR_materials_dispersion", Support::Paths),
     ("KHR_materials_iridescence", Support::Paths),
     ("KHR_materials_sheen", Support::Paths),
     ("EXT_mesh_manifold", Support::Irrelevant),

@@ -6,7 +6,7 @@ use super::document::{Material as Source, Primitive, TextureInfo};
 use super::document_materials::{AlphaMode, Extensions};
 use crate::import::budget;
 use crate::import::error::ImportError;
-use crate::scene::{Coverage, Map, Material, MetallicRoughness};
+use crate::scene::{Coverage, Material, MetallicRoughness};
 use glam::{Vec3, Vec4};
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -130,8 +130,7 @@ impl Reader<'_> {
         let mut material = surface.material.clone();
         if let Some((code, levels)) = color {
             let [r, g, b, _] = code.to_le_bytes().map(|c| (f32::from(c) / levels).powi(2));
-            let color = Vec3::new(r, g, b);
-            material.paint(color);
+            material.paint(Vec3::new(r, g, b));
         }
         let size = budget::size::<(Material, [u64; 4])>(1) + material.name.len() as u64;
         self.ledger.take(size, 0, "materials")?;
@@ -143,9 +142,9 @@ impl Reader<'_> {
 
     /// `materials[index]`, which is `source`, with its pictures.
     fn surface(&mut self, source: &Source, index: usize) -> Result<Surface, ImportError> {
-        let mut model = model(source);
+        let model = model(source);
         let here = format!("materials[{index}]");
-        self.maps(source, &mut model, &here)?;
+        self.note_maps(source, &here)?;
         let name = source.name.clone().unwrap_or_default();
         let mut material = model.classical(name);
         let mut uv_sets = self.textured(source, &model, &mut material, &here)?;
@@ -159,25 +158,13 @@ impl Reader<'_> {
         Ok(Surface { material, uv_sets })
     }
 
-    /// Lists the maps of a material in `model`, and notes those that are not shown.
-    fn maps(
-        &mut self,
-        source: &Source,
-        model: &mut MetallicRoughness,
-        here: &str,
-    ) -> Result<(), ImportError> {
+    /// Notes the maps of a material that are not shown.
+    fn note_maps(&mut self, source: &Source, here: &str) -> Result<(), ImportError> {
         for (parameter, info) in all_maps(source) {
             let place = format!("{here}.{parameter}");
-            let Some(found) = self.map(info, &place)? else {
+            if self.map(info, &place)?.is_none() {
                 continue;
-            };
-            model.maps.push(Map {
-                parameter,
-                image: found.image,
-                uv_set: found.uv_set,
-                picture_from_uv: found.picture_from_uv,
-                scale: unit(info.scale.or(info.strength), 1.0),
-            });
+            }
             if !SHOWN_MAPS.contains(&parameter) {
                 self.notes.add("maps that are not shown", || {
                     match PATH_MAPS.contains(&parameter) {
@@ -192,13 +179,14 @@ impl Reader<'_> {
 }
 
 /// The maps that have an effect on path-traced pictures only.
-const PATH_MAPS: [&str; 10] = [
+const PATH_MAPS: [&str; 11] = [
     "specularTexture",
     "specularColorTexture",
     "clearcoatTexture",
     "clearcoatRoughnessTexture",
     "sheenColorTexture",
     "sheenRoughnessTexture",
+    "anisotropyTexture",
     "iridescenceTexture",
     "iridescenceThicknessTexture",
     "diffuseTransmissionTexture",
@@ -329,11 +317,15 @@ fn model(source: &Source) -> MetallicRoughness {
         AlphaMode::Mask => Coverage::Mask(unit(source.alpha_cutoff, 0.5)),
         AlphaMode::Blend => Coverage::Blend,
     };
-    model.double_sided = source.double_sided;
+    if model.coverage == Coverage::Opaque {
+        model.alpha = 1.0;
+    }
     model.unlit = extensions.unlit.is_some();
     let strength = extensions.emissive_strength.as_ref();
     let strength = amount(strength.and_then(|it| it.emissive_strength), 1.0, 0.0);
-    model.emission = strength * unit_color(source.emissive_factor, Vec3::ZERO);
+    if !model.unlit {
+        model.emission = strength * unit_color(source.emissive_factor, Vec3::ZERO);
+    }
     if let Some(it) = &extensions.ior {
         // 0 means that reflection is total, for materials converted from others.
         model.ior = match it.ior {

@@ -128,9 +128,12 @@ impl Reader<'_> {
                     .and_then(|it| it.$texture.as_deref())
             };
         }
+        let base_color = of(main[0], false)?;
+        let metallic_roughness = of(main[1], true)?;
         Ok(LayerTextures {
-            base_color: of(main[0], false)?,
-            metallic_roughness: of(main[1], true)?,
+            base_color,
+            metallic: metallic_roughness,
+            roughness: metallic_roughness,
             transmission: of(main[2], true)?,
             specular: of(map!(specular specular_texture), true)?,
             specular_color: of(map!(specular specular_color_texture), false)?,
@@ -138,6 +141,7 @@ impl Reader<'_> {
             clearcoat_roughness: of(map!(clearcoat clearcoat_roughness_texture), true)?,
             sheen_color: of(map!(sheen sheen_color_texture), false)?,
             sheen_roughness: of(map!(sheen sheen_roughness_texture), true)?,
+            anisotropy: of(map!(anisotropy anisotropy_texture), true)?,
             iridescence: of(map!(iridescence iridescence_texture), true)?,
             iridescence_thickness: of(map!(iridescence iridescence_thickness_texture), true)?,
             diffuse_transmission: of(

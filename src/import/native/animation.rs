@@ -301,7 +301,8 @@ impl<'a> Reader<'a> {
         let mut targets = vec![Target::Material(index, property)];
         // A material without an ambient colour of its own uses its diffuse colour at all times.
         let own = self.file.materials.get(text);
-        let has_own = own.is_some_and(|material| material.get_ref().phong.ambient.is_some());
+        let has_own = own.and_then(|material| material.get_ref().phong.as_ref());
+        let has_own = has_own.is_some_and(|phong| phong.ambient.is_some());
         let is_animated = self.given.contains(&("material", text, P::Ambient));
         if property == MaterialProperty::Diffuse && !has_own && !is_animated {
             targets.push(Target::Material(index, MaterialProperty::Ambient));

@@ -10,6 +10,7 @@ mod materials;
 mod meshes;
 mod nodes;
 mod objects;
+mod physical;
 mod textures;
 
 pub(super) use animation::{AnimationTable, InterpolationName, PropertyName};
@@ -17,7 +18,9 @@ pub(super) use cameras::{CameraTable, LensTable, LookAt};
 pub(super) use groups::{GridTable, PointsTable, RepeatTable, RingTable, ScatterTable};
 pub(super) use keys::{Key, KeyValue};
 pub(super) use lights::{DiscLightTable, LightTable, RectangleLightTable, SpotTable};
-pub(super) use materials::{MaterialRef, MaterialTable, OpticsTable, RefractTable};
+pub(super) use materials::{
+    CoverageTable, MaterialRef, MaterialTable, OpticsTable, PhongTable, RefractTable,
+};
 pub(super) use meshes::{MeshOrName, MeshTable};
 pub(super) use nodes::{NodeTable, TransformTable};
 pub(super) use objects::{
@@ -25,9 +28,10 @@ pub(super) use objects::{
     RectangleTable, SphereTable, TorusTable, TriangleTable,
 };
 
+pub(super) use physical::{FractionOrTexture, PbrTable};
 pub(super) use textures::{
-    BackgroundTable, ColorOrBackground, ColorOrTexture, DataMapTable, PairTable, PatternTables,
-    PictureOrFile, SpaceName, TextureTable,
+    BackgroundTable, ColorOrBackground, ColorOrTexture, DataMapTable, NumberTable, PairTable,
+    PatternTables, PictureOrFile, SpaceName, TextureTable,
 };
 
 use super::values::{

@@ -1,7 +1,8 @@
 //! The materials of a native scene.
 
 use super::Texts;
-use super::file::{MaterialTable, OpticsTable, RefractTable};
+use super::file::{CoverageTable, MaterialTable, OpticsTable, PhongTable, RefractTable};
+use super::physical;
 use super::textures::Textures;
 use crate::import::error::ImportError;
 use crate::import::suggest;
@@ -9,6 +10,7 @@ use crate::scene::{self, Coverage, Fresnel, Material};
 use glam::Vec3;
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Arc;
 use toml::Spanned;
 
 /// The material that `table` describes.
@@ -17,32 +19,39 @@ pub(super) fn material(
     table: &MaterialTable,
     textures: &mut Textures,
 ) -> Result<Material, ImportError> {
-    let phong = &table.phong;
-    let diffuse = textures.color(&phong.diffuse)?;
-    let specular = textures.color(&phong.specular)?;
-    let ambient = match &phong.ambient {
-        Some(ambient) => textures.color(ambient)?,
-        None => diffuse,
-    };
-    let emission = textures.color(&table.emission)?;
-    let mut material = Material {
-        name: name.to_owned(),
-        diffuse: diffuse.0,
-        specular: specular.0,
-        shininess: phong.shininess.0,
-        ambient: ambient.0,
-        two_sided: table.two_sided,
-        thin: table.thin,
-        emission: emission.0,
-        textures: scene::Textures {
-            diffuse: diffuse.1,
-            specular: specular.1,
-            ambient: ambient.1,
-            emission: emission.1,
-            ..scene::Textures::default()
+    let (coverage, alpha) = match &table.coverage {
+        Some(CoverageTable { alpha, mask, .. }) => match mask {
+            Some(least) => (Coverage::Mask(least.0), alpha.0),
+            None => (Coverage::Blend, alpha.0),
         },
-        ..Material::default()
+        None => (Coverage::Opaque, 1.0),
     };
+    let mut material = match &table.pbr {
+        Some(pbr) => physical::material(pbr.get_ref(), (coverage, alpha), textures)?,
+        None => Material::default(),
+    };
+    match &table.phong {
+        Some(phong) => with_phong(&mut material, phong, textures)?,
+        None if table.pbr.is_none() => {
+            with_phong(&mut material, &PhongTable::default(), textures)?;
+        }
+        None => {}
+    }
+    if let Some(emission) = &table.emission {
+        (material.emission, material.textures.emission) = textures.color(emission)?;
+        if let Some(model) = &mut material.metallic_roughness
+            && !model.unlit
+        {
+            Arc::make_mut(model).emission = material.emission;
+        }
+    }
+    name.clone_into(&mut material.name);
+    material.two_sided = table.two_sided;
+    material.thin |= table.thin;
+    (material.coverage, material.alpha) = (coverage, alpha);
+    if let Some(map) = table.coverage.as_ref().and_then(|it| it.map.as_ref()) {
+        material.textures.alpha = textures.color(map)?.1;
+    }
     if let Some(map) = &table.normal_map {
         material.textures.normal = Some(textures.data_map(map)?);
         material.normal_scale = map.get_ref().strength.0;
@@ -51,22 +60,21 @@ pub(super) fn material(
         material.textures.occlusion = Some(textures.data_map(map)?);
         material.occlusion_strength = map.get_ref().strength.0.min(1.0);
     }
-    if let Some(coverage) = &table.coverage {
-        material.coverage = match coverage.mask {
-            Some(least) => Coverage::Mask(least.0),
-            None => Coverage::Blend,
-        };
-        material.alpha = coverage.alpha.0;
-        if let Some(map) = &coverage.map {
-            material.textures.alpha = textures.color(map)?.1;
-        }
-    }
     if let Some(optics) = &table.optics {
         if table.reflect.is_some() || table.refract.is_some() {
             let why = "`optics` replaces `reflect` and `refract`";
             return Err(textures.refuse(optics.span(), why, "Leave out the others"));
         }
         return with_optics(material, optics.get_ref(), textures);
+    }
+    if let (Some(pbr), true) = (
+        &table.pbr,
+        table.reflect.is_some() || table.refract.is_some(),
+    ) {
+        let why = "`pbr` determines reflection and transmission";
+        let todo =
+            "Leave out `reflect` and `refract`, or write `optics` for the classical integrators";
+        return Err(textures.refuse(pbr.span(), why, todo));
     }
     let mut mirrored = 0.0;
     if let Some(reflect) = &table.reflect {
@@ -94,6 +102,22 @@ pub(super) fn material(
         }
     }
     Ok(material)
+}
+
+fn with_phong(
+    material: &mut Material,
+    phong: &PhongTable,
+    textures: &mut Textures,
+) -> Result<(), ImportError> {
+    let own = &mut material.textures;
+    (material.diffuse, own.diffuse) = textures.color(&phong.diffuse)?;
+    (material.specular, own.specular) = textures.color(&phong.specular)?;
+    (material.ambient, own.ambient) = match &phong.ambient {
+        Some(ambient) => textures.color(ambient)?,
+        None => (material.diffuse, own.diffuse),
+    };
+    material.shininess = phong.shininess.0;
+    Ok(())
 }
 
 fn with_optics(

@@ -2,8 +2,8 @@
 
 use super::Texts;
 use super::file::{
-    BackgroundTable, ColorOrBackground, ColorOrTexture, DataMapTable, PairTable, PatternTables,
-    PictureOrFile, SceneFile, SpaceName, in_order,
+    BackgroundTable, ColorOrBackground, ColorOrTexture, DataMapTable, NumberTable, PairTable,
+    PatternTables, PictureOrFile, SceneFile, SpaceName, in_order,
 };
 use crate::import::error::ImportError;
 use crate::import::paths::Files;
@@ -67,16 +67,7 @@ impl<'a> Textures<'a> {
             ColorOrTexture::Color(color) => return Ok((color.0, None)),
             ColorOrTexture::Table(table) => table,
         };
-        let pattern = table.pattern();
-        let index = match &table.texture {
-            Some(name) if pattern.count() == 0 && !pattern.has_placement() => self.named(name)?,
-            Some(name) => {
-                let todo = "Put them under [textures], or leave out `texture`";
-                let why = "a named texture has its own pattern and transform";
-                return Err(self.texts.malformed(name.span(), why.to_owned(), todo));
-            }
-            None => self.texture(&pattern, color.span())?,
-        };
+        let index = self.named_or_own(&table.texture, &table.pattern(), color.span())?;
         let factor = table.color.map_or(Vec3::ONE, |color| color.0);
         if !(factor * largest(&self.textures[index].pattern)).is_finite() {
             let why =
@@ -86,13 +77,65 @@ impl<'a> Textures<'a> {
         Ok((factor, Some(index)))
     }
 
+    /// The texture with this name if there is one, otherwise one with this pattern.
+    fn named_or_own(
+        &mut self,
+        name: &Option<Spanned<String>>,
+        pattern: &PatternTables,
+        span: Range<usize>,
+    ) -> Result<usize, ImportError> {
+        match name {
+            Some(name) if pattern.count() == 0 && !pattern.has_placement() => self.named(name),
+            Some(name) => {
+                let todo = "Put them under [textures], or leave out `texture`";
+                let why = "a named texture has its own pattern and transform";
+                Err(self.refuse(name.span(), why, todo))
+            }
+            None => self.texture(pattern, span),
+        }
+    }
+
+    /// The texture of a number.
+    pub fn number(
+        &mut self,
+        table: &NumberTable,
+        span: Range<usize>,
+    ) -> Result<usize, ImportError> {
+        let pattern = PatternTables {
+            role: Role::Data,
+            ..table.pattern()
+        };
+        self.named_or_own(&table.texture, &pattern, span)
+    }
+
+    /// Whether a texture has an alpha.
+    pub fn has_alpha(&self, index: usize) -> bool {
+        matches!(self.textures[index].pattern, Pattern::Picture { .. })
+    }
+
+    /// The largest value of each channel of a texture; 1 for a picture.
+    pub fn largest(&self, index: usize) -> Vec3 {
+        match self.has_alpha(index) {
+            true => Vec3::ONE,
+            false => largest(&self.textures[index].pattern),
+        }
+    }
+
     /// The texture of a map of numbers.
     pub fn data_map(&mut self, map: &Spanned<DataMapTable>) -> Result<usize, ImportError> {
         if map.get_ref().space == Some(SpaceName::World) {
             let why = "a map of numbers has its place by u and v";
             return Err(self.refuse(map.span(), why, "Leave out `space`"));
         }
-        self.texture(&map.get_ref().pattern(), map.span())
+        let table = map.get_ref();
+        let index = self.named_or_own(&table.texture, &table.pattern(), map.span())?;
+        match self.has_alpha(index) {
+            true => Ok(index),
+            false => {
+                let why = "a map of numbers is a picture";
+                Err(self.refuse(map.span(), why, "Name a texture with a picture"))
+            }
+        }
     }
 
     /// The background.
@@ -173,32 +216,7 @@ impl<'a> Textures<'a> {
                 octaves: noise.octaves.0,
             })
         } else if let Some(picture) = tables.picture {
-            let (name, span, nearest, minify, wrap) = match picture.get_ref() {
-                PictureOrFile::File(name) => (
-                    name,
-                    picture.span(),
-                    false,
-                    Minify::default(),
-                    [Wrap::Repeat; 2],
-                ),
-                PictureOrFile::Table(table) => {
-                    let wrap = table.wrap.unwrap_or_default().modes();
-                    let minify = table.minify.unwrap_or_default().mode();
-                    (
-                        table.file.get_ref(),
-                        table.file.span(),
-                        table.nearest,
-                        minify,
-                        wrap,
-                    )
-                }
-            };
-            Some(Pattern::Picture {
-                picture: self.picture(name, span, tables.role)?,
-                nearest,
-                minify,
-                wrap,
-            })
+            Some(self.sampled(picture, tables.role)?)
         } else {
             None
         };
@@ -232,6 +250,33 @@ impl<'a> Textures<'a> {
             pattern_from_space,
         });
         Ok(self.textures.len() - 1)
+    }
+
+    /// A picture and how it is sampled; `role` is what its texels are unless it says so.
+    fn sampled(
+        &mut self,
+        picture: &Spanned<PictureOrFile>,
+        role: Role,
+    ) -> Result<Pattern, ImportError> {
+        let table = match picture.get_ref() {
+            PictureOrFile::File(name) => {
+                return Ok(Pattern::Picture {
+                    picture: self.picture(name, picture.span(), role)?,
+                    nearest: false,
+                    minify: Minify::default(),
+                    wrap: [Wrap::Repeat; 2],
+                });
+            }
+            PictureOrFile::Table(table) => table,
+        };
+        let role = if table.linear { Role::Data } else { role };
+        let file = &table.file;
+        Ok(Pattern::Picture {
+            picture: self.picture(file.get_ref(), file.span(), role)?,
+            nearest: table.nearest,
+            minify: table.minify.unwrap_or_default().mode(),
+            wrap: table.wrap.unwrap_or_default().modes(),
+        })
     }
 
     fn picture(

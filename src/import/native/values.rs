@@ -202,6 +202,20 @@ value! {
 }
 
 value! {
+    /// A number, 1 or more.
+    OneOrMore(f32),
+    { "type": "number", "minimum": 1 },
+    |d| number(d, |x| x >= 1.0, "1 or more").map(|x| x as f32)
+}
+
+value! {
+    /// The thinnest and the thickest part in nanometres, each 0 or more.
+    Thicknesses([f32; 2]),
+    { "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": 2, "maxItems": 2 },
+    |d| elements::<NonNegative, 2, D>(d, "two numbers [thinnest, thickest]").map(|both| both.map(|x| x.0))
+}
+
+value! {
     /// An error threshold, above 0.
     Noise(f32),
     { "type": "number", "minimum": 1e-6, "maximum": 1 },

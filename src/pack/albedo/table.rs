@@ -16,9 +16,16 @@ const GRAZING: f64 = 1e-6;
 /// The smallest width α; below, distributions of sheen are too narrow for the integrals.
 const NARROWEST: f64 = 1e-3;
 
-/// Both tables: microfacets, then sheen. Rows are of ∜α from 0 to 1, columns of ∜cos θ from 0 to 1.
+/// Rows of a table of rough glass, and the number of such tables: `GLASS_ROWS` and `GLASS_SLICES` in `lib/albedo.wesl`.
+const GLASS: [usize; 2] = [24, 24];
+
+/// The table of the relative index 1.
+const CLEAR: usize = 7;
+
+/// All tables: microfacets, then sheen, then rough glass. Rows are of ∜α from 0 to 1, columns of ∜cos θ from 0 to 1.
+/// Those of glass have rows of √α; they go from the relative index 1/3 to 3.
 pub fn words() -> Vec<u32> {
-    let mut words = Vec::with_capacity(2 * SIDE * SIDE);
+    let mut words = Vec::with_capacity(2 * SIDE * SIDE + SIDE * GLASS[0] * GLASS[1]);
     for entry in [ggx as fn(f64, f64) -> [f64; 2], sheen] {
         for row in 0..SIDE {
             for column in 0..SIDE {
@@ -28,7 +35,87 @@ pub fn words() -> Vec<u32> {
             }
         }
     }
+    for slice in 0..GLASS[1] {
+        let steps = if slice < CLEAR {
+            CLEAR
+        } else {
+            GLASS[1] - 1 - CLEAR
+        };
+        let root = (slice as f64 - CLEAR as f64) / steps as f64;
+        let amplitude = 0.5 * root * root.abs();
+        let eta = (1.0 + amplitude) / (1.0 - amplitude);
+        for row in 0..GLASS[0] {
+            for column in 0..SIDE {
+                let cos_o = (column as f64 / (SIDE - 1) as f64).powi(4);
+                let alpha = (row as f64 / (GLASS[0] - 1) as f64).powi(2);
+                let [whole, reflected] = glass(cos_o.max(GRAZING), alpha.max(NARROWEST), eta);
+                words.push(u32::from(half(whole)) | u32::from(half(reflected)) << 16);
+            }
+        }
+    }
     words
+}
+
+/// The visible normals of microfacets of width `alpha` from a direction in the plane y = 0, as (x, z), in equal shares:
+/// Dupuy and Benyoub 2023. Each comes with its weight; the other half circle is their mirror image.
+fn visible_normals(
+    wo: [f64; 2],
+    alpha: f64,
+    parts: [usize; 2],
+    mut add: impl FnMut([f64; 2], f64),
+) {
+    let [sin_o, cos_o] = wo;
+    let length = (alpha * alpha * sin_o * sin_o + cos_o * cos_o).sqrt();
+    let (x, z) = (alpha * sin_o / length, cos_o / length);
+    for i in 0..parts[0] {
+        let (sin, cos) = (PI * (i as f64 + 0.5) / parts[0] as f64).sin_cos();
+        for j in 0..parts[1] {
+            // Finer at the lower end, where normals are tilted most.
+            let root = (j as f64 + 0.5) / parts[1] as f64;
+            let height = root * root * (1.0 + z) - z;
+            let radius = (1.0 - height * height).max(0.0).sqrt();
+            let normal = [alpha * (radius * cos + x), alpha * radius * sin, height + z];
+            let size = normal.iter().map(|part| part * part).sum::<f64>().sqrt();
+            let weight = 2.0 * root / (parts[0] * parts[1]) as f64;
+            add([normal[0] / size, normal[2] / size], weight);
+        }
+    }
+}
+
+/// Smith's Λ for a direction with this cosine.
+fn smith(cos: f64, alpha: f64) -> f64 {
+    let slope2 = alpha * alpha * (1.0 - cos * cos).max(0.0) / (cos * cos);
+    0.5 * ((1.0 + slope2).sqrt() - 1.0)
+}
+
+/// What rough glass reflects and transmits together, and what it reflects, of light from a direction with cosine
+/// `cos_o`; `eta` is the index of refraction on that side divided by that of the other. Reflected light is shadowed at the
+/// same height, transmitted light independently, as in `lib/bsdf_ggx_transmission.wesl`.
+fn glass(cos_o: f64, alpha: f64, eta: f64) -> [f64; 2] {
+    let sin_o = (1.0 - cos_o * cos_o).sqrt();
+    let seen = 1.0 + smith(cos_o, alpha);
+    let [mut reflected, mut transmitted] = [0.0; 2];
+    visible_normals([sin_o, cos_o], alpha, [16, 48], |[x, z], weight| {
+        let cos_h = (sin_o * x + cos_o * z).clamp(0.0, 1.0);
+        let cos2_t = 1.0 - eta * eta * (1.0 - cos_h * cos_h);
+        let cos_t = cos2_t.max(0.0).sqrt();
+        let s = (eta * cos_h - cos_t) / (eta * cos_h + cos_t);
+        let p = (cos_h - eta * cos_t) / (cos_h + eta * cos_t);
+        let part = if cos2_t <= 0.0 {
+            1.0
+        } else {
+            0.5 * (s * s + p * p)
+        };
+        let up = 2.0 * cos_h * z - cos_o;
+        if up > 0.0 {
+            reflected += weight * part * seen / (seen + smith(up, alpha));
+        }
+        let down = eta * cos_o - (eta * cos_h - cos_t) * z;
+        if down > 0.0 {
+            transmitted += weight * (1.0 - part) / (1.0 + smith(down, alpha));
+        }
+    });
+    [reflected + transmitted, reflected]
 }
 
 /// The sums of (1 - (1 - cos)⁵) and (1 - cos)⁵ over visible microfacets that reflect light from a direction with cosine
@@ -37,35 +124,24 @@ pub fn words() -> Vec<u32> {
 /// Benyoub 2023.
 fn ggx(cos_o: f64, alpha: f64) -> [f64; 2] {
     let sin_o = (1.0 - cos_o * cos_o).sqrt();
-    let lambda = |cos: f64| {
-        let slope2 = alpha * alpha * (1.0 - cos * cos).max(0.0) / (cos * cos);
-        0.5 * ((1.0 + slope2).sqrt() - 1.0)
-    };
-    let length = (alpha * alpha * sin_o * sin_o + cos_o * cos_o).sqrt();
-    let (x, z) = (alpha * sin_o / length, cos_o / length);
+    let seen = 1.0 + smith(cos_o, alpha);
     let mut sums = [0.0; 2];
-    for i in 0..ANGLES {
-        // The other half circle is its mirror image.
-        let (sin, cos) = (PI * (i as f64 + 0.5) / ANGLES as f64).sin_cos();
-        for j in 0..HEIGHTS {
-            // Finer at the lower end, where normals are tilted most.
-            let root = (j as f64 + 0.5) / HEIGHTS as f64;
-            let height = root * root * (1.0 + z) - z;
-            let radius = (1.0 - height * height).max(0.0).sqrt();
-            let normal = [alpha * (radius * cos + x), alpha * radius * sin, height + z];
-            let size = normal.iter().map(|part| part * part).sum::<f64>().sqrt();
-            let cos_h = (sin_o * normal[0] + cos_o * normal[2]) / size;
-            let cos_i = 2.0 * cos_h * normal[2] / size - cos_o;
+    visible_normals(
+        [sin_o, cos_o],
+        alpha,
+        [ANGLES, HEIGHTS],
+        |[x, z], weight| {
+            let cos_h = sin_o * x + cos_o * z;
+            let cos_i = 2.0 * cos_h * z - cos_o;
             if cos_i > 0.0 {
-                let seen = 1.0 + lambda(cos_o);
-                let lit = 2.0 * root * seen / (seen + lambda(cos_i));
+                let lit = weight * seen / (seen + smith(cos_i, alpha));
                 let grazing = (1.0 - cos_h.clamp(0.0, 1.0)).powi(5);
                 sums[0] += lit * (1.0 - grazing);
                 sums[1] += lit * grazing;
             }
-        }
-    }
-    sums.map(|sum| sum / (ANGLES * HEIGHTS) as f64)
+        },
+    );
+    sums
 }
 
 /// The albedo of the sheen of Estevez and Kulla 2017, which `half` limits to 1, and by what to multiply the sheen to

@@ -387,12 +387,12 @@ impl<'a> Reader<'a> {
         let Some(emitter) = emitter else {
             return sample;
         };
-        let object = (self.scene).object_at(self.view, emitter.triangle, emitter.instance);
+        let object = (self.scene).object_at(self.view, emitter.primitive, emitter.instance);
         let name = object.and_then(|object| self.scene.object_name(object));
         LightSample {
             emitter: object,
             emitter_name: name.map(str::to_owned),
-            primitive: Some(emitter.triangle),
+            primitive: Some(emitter.primitive),
             ..sample
         }
     }

@@ -152,7 +152,105 @@ fn material(random: &mut Random, textures: usize) -> Material {
             material.alpha = random.between(0.0, 1.0) as f32;
         }
     }
+    if random.below(2) == 0 {
+        physical(random, &mut material, textures);
+    }
     material
+}
+
+fn fraction(random: &mut Random) -> f32 {
+    match random.below(3) {
+        0 => random.below(2) as f32,
+        _ => random.between(0.0, 1.0) as f32,
+    }
+}
+
+/// Gives `material` a metallic-roughness model, which its classical colours may or may not show. Of `textures`, the
+/// first two are pictures or have values up to 1.
+fn physical(random: &mut Random, material: &mut Material, textures: usize) {
+    let tint = |random: &mut Random| Vec3::from([0; 3].map(|_| fraction(random)));
+    let unlit = random.below(4) == 0;
+    let model = MetallicRoughness {
+        base_color: tint(random),
+        alpha: material.alpha,
+        coverage: material.coverage,
+        metallic: fraction(random),
+        roughness: fraction(random),
+        emission: if unlit { Vec3::ZERO } else { material.emission },
+        unlit,
+        ior: pick(random, &[1.0, 1.5, 1.33, 1e6]),
+        specular: fraction(random),
+        specular_color: color(random),
+        transmission: fraction(random),
+        thickness: random.between(0.0, 2.0) as f32,
+        attenuation_color: tint(random),
+        attenuation_distance: pick(random, &[f32::INFINITY, 0.1, 7.0]),
+        clearcoat: fraction(random),
+        clearcoat_roughness: fraction(random),
+        sheen_color: tint(random),
+        sheen_roughness: fraction(random),
+        anisotropy: fraction(random),
+        anisotropy_rotation: random.between(-7.0, 7.0) as f32,
+        iridescence: fraction(random),
+        iridescence_ior: random.between(1.0, 2.0) as f32,
+        iridescence_thickness: [random.between(0.0, 200.0), 400.0].map(|x| x as f32),
+        dispersion: random.between(0.0, 1.0) as f32,
+        diffuse_transmission: fraction(random),
+        diffuse_transmission_color: tint(random),
+    };
+    let mut layers = LayerTextures::default();
+    if textures > 0 {
+        // The last texture is a picture.
+        let picture = textures - 1;
+        let mut slot = || (random.below(3) == 0).then_some(picture);
+        layers = LayerTextures {
+            base_color: slot(),
+            metallic: slot(),
+            roughness: slot(),
+            transmission: slot(),
+            specular: slot(),
+            specular_color: slot(),
+            clearcoat: slot(),
+            clearcoat_roughness: slot(),
+            sheen_color: slot(),
+            sheen_roughness: slot(),
+            anisotropy: slot(),
+            iridescence: slot(),
+            iridescence_thickness: slot(),
+            diffuse_transmission: slot(),
+            diffuse_transmission_color: slot(),
+        };
+    }
+    let tint = if random.below(2) == 0 {
+        Vec3::ONE
+    } else {
+        tint(random)
+    };
+    let mut shown = Material::physical(Arc::new(model), layers);
+    if tint != Vec3::ONE {
+        shown.paint(tint);
+    }
+    *material = match random.below(2) {
+        // As importers without further colours make it.
+        0 => Material {
+            two_sided: material.two_sided,
+            coverage: material.coverage,
+            alpha: material.alpha,
+            priority: material.priority,
+            textures: Textures {
+                alpha: material.textures.alpha,
+                ..shown.textures
+            },
+            ..shown
+        },
+        _ => Material {
+            thin: shown.thin || material.thin,
+            metallic_roughness: shown.metallic_roughness,
+            layer_textures: shown.layer_textures,
+            tint,
+            ..material.clone()
+        },
+    };
 }
 
 fn texture(random: &mut Random, pictures: usize) -> Texture {
@@ -183,12 +281,19 @@ fn texture(random: &mut Random, pictures: usize) -> Texture {
 fn picture(random: &mut Random) -> Picture {
     let (width, height) = (1 + random.below(5) as u32, 1 + random.below(5) as u32);
     let count = width * height;
-    let texels = if random.below(2) == 0 {
-        let texel = |_| [0; 4].map(|_| random.below(256) as u8);
-        Texels::Srgb8((0..count).map(texel).collect())
-    } else {
-        let texel = |_| color(random).extend(random.below(65) as f32 / 64.0);
-        Texels::Float((0..count).map(texel).collect())
+    let kind = random.below(3);
+    let mut bytes = || {
+        (0..count)
+            .map(|_| [0; 4].map(|_| random.below(256) as u8))
+            .collect()
+    };
+    let texels = match kind {
+        0 => Texels::Srgb8(bytes()),
+        1 => Texels::Linear8(bytes()),
+        _ => {
+            let texel = |_| color(random).extend(random.below(65) as f32 / 64.0);
+            Texels::Float((0..count).map(texel).collect())
+        }
     };
     Picture {
         width,
@@ -404,7 +509,10 @@ fn track(random: &mut Random, scene: &Scene) -> Track {
 
 fn scene(random: &mut Random) -> Scene {
     let pictures: Vec<_> = (0..2).map(|_| Arc::new(picture(random))).collect();
-    let textures: Vec<_> = (0..4).map(|_| texture(random, pictures.len())).collect();
+    let mut textures: Vec<_> = (0..4).map(|_| texture(random, pictures.len())).collect();
+    while !matches!(textures[3].pattern, Pattern::Picture { .. }) {
+        textures[3] = texture(random, pictures.len());
+    }
     let materials: Vec<_> = (0..6).map(|_| material(random, textures.len())).collect();
     let mut scene = Scene {
         pictures,
@@ -511,6 +619,7 @@ fn scene(random: &mut Random) -> Scene {
     }
     scene.output.exposure_ev = random.between(-2.0, 2.0) as f32;
     scene.output.shutter.close = random.between(0.0, 1.0);
+    scene.complete_tangents();
     scene
 }
 

@@ -320,9 +320,10 @@ impl Builder<'_> {
 
     /// Whether a texture of the material with this index uses u and v.
     fn wants_uvs(&self, material: usize) -> bool {
-        let textures = self.scene.materials[material].textures.all();
-        let is_uv = |&index: &usize| self.textures.textures[index].space != Space::World;
-        textures.iter().flatten().any(is_uv)
+        let material = &self.scene.materials[material];
+        let layers = material.layer_textures.iter().flat_map(|it| it.all());
+        let mut textures = material.textures.all().into_iter().chain(layers).flatten();
+        textures.any(|index| self.textures.textures[index].space != Space::World)
     }
 
     /// Builds meshes from all single triangles: one for each node, shared between copies.

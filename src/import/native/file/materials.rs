@@ -1,5 +1,6 @@
 //! Materials in a native scene.
 
+use super::physical::PbrTable;
 use super::textures::{ColorOrTexture, DataMapTable, plain};
 use crate::import::native::values::{
     Absorption, Fraction, FresnelName, MixingName, NonNegative, Positive, Priority, RefractiveIndex,
@@ -15,8 +16,11 @@ use toml::Spanned;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(in crate::import::native) struct MaterialTable {
-    /// Phong coefficients.
-    pub phong: PhongTable,
+    /// Phong coefficients; by default those of a matte light grey, or those that show `pbr`.
+    pub phong: Option<PhongTable>,
+    /// A physically based material; default none.
+    #[schemars(with = "Option<PbrTable>")]
+    pub pbr: Option<Spanned<PbrTable>>,
     /// Mirror reflection; default none.
     pub reflect: Option<ReflectTable>,
     /// Refraction; default none.
@@ -37,9 +41,9 @@ pub(in crate::import::native) struct MaterialTable {
     pub thin: bool,
     /// Holes in the surface, such as those between the leaves of a picture of foliage; default none.
     pub coverage: Option<CoverageTable>,
-    /// The light that it emits; default none.
-    #[schemars(with = "ColorOrTexture")]
-    pub emission: Spanned<ColorOrTexture>,
+    /// The light that it emits, in radiance of any strength; default none.
+    #[schemars(with = "Option<ColorOrTexture>")]
+    pub emission: Option<Spanned<ColorOrTexture>>,
     /// Whether both sides are lit alike (the default), or only the side that the normal points to.
     pub two_sided: bool,
 }
@@ -47,7 +51,8 @@ pub(in crate::import::native) struct MaterialTable {
 impl Default for MaterialTable {
     fn default() -> Self {
         Self {
-            phong: PhongTable::default(),
+            phong: None,
+            pbr: None,
             reflect: None,
             refract: None,
             optics: None,
@@ -55,7 +60,7 @@ impl Default for MaterialTable {
             occlusion_map: None,
             thin: false,
             coverage: None,
-            emission: plain(Vec3::ZERO),
+            emission: None,
             two_sided: true,
         }
     }

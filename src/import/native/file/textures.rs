@@ -1,7 +1,7 @@
 //! Textures and backgrounds in a native scene.
 
 use crate::import::native::values::{
-    Angle, Color, Matrix, NonNegative, Number, Octaves, Scale, Vector,
+    Angle, Color, Fraction, Matrix, NonNegative, Number, Octaves, Scale, Vector,
 };
 use crate::import::picture::Role;
 use crate::scene::{Minify, Wrap};
@@ -85,6 +85,18 @@ with_pattern! {
     }
 }
 
+with_pattern! {
+    /// A spatially varying number: the name of a texture, or exactly one of checker, stripes, gradient, noise and
+    /// picture, which is not read as sRGB.
+    NumberTable {
+        /// The name of a texture under [textures]; a picture there needs `linear = true`.
+        #[schemars(with = "Option<String>")]
+        pub texture: Option<Spanned<String>>,
+        /// Factor on the texture; default 1.
+        pub value: Option<Fraction>,
+    }
+}
+
 /// The pattern of a table, and its transform.
 pub(in crate::import::native) struct PatternTables<'a> {
     pub checker: Option<&'a PairTable>,
@@ -107,8 +119,11 @@ pub(in crate::import::native) struct PatternTables<'a> {
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct DataMapTable {
     /// The image.
-    #[schemars(with = "PictureOrFile")]
-    pub picture: Spanned<PictureOrFile>,
+    #[schemars(with = "Option<PictureOrFile>")]
+    pub picture: Option<Spanned<PictureOrFile>>,
+    /// Instead of it, the name of a texture under [textures] with a picture, which needs `linear = true`.
+    #[schemars(with = "Option<String>")]
+    pub texture: Option<Spanned<String>>,
     /// Factor on the tilt of the normals, or weight of the occlusion, at most 1; default 1.
     #[serde(default = "one")]
     pub strength: NonNegative,
@@ -136,7 +151,7 @@ impl DataMapTable {
             stripes: None,
             gradient: None,
             noise: None,
-            picture: Some(&self.picture),
+            picture: self.picture.as_ref(),
             space: self.space,
             scale: self.scale,
             rotate_deg: self.rotate_deg,
@@ -206,6 +221,9 @@ pub(in crate::import::native) struct PictureTable {
     /// The path of a PNG, JPEG, WebP, KTX2, HDR or EXR file in the scene's folder or below.
     #[schemars(with = "String")]
     pub file: Spanned<String>,
+    /// Whether the image holds numbers, as of roughness, and not sRGB colours; default false.
+    #[serde(default)]
+    pub linear: bool,
     /// Whether texels that look larger than a pixel are not interpolated, as in pixel art; default false.
     #[serde(default)]
     pub nearest: bool,

@@ -1,6 +1,8 @@
 //! The flag for each difference.
 
-use crate::app::value_names::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
+use crate::app::value_names::{
+    ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
+};
 use crate::scene::{Background, Camera, Scene, Shutter};
 use crate::viewer::model::command_line::{Pasted, Shown};
 use glam::DVec3;
@@ -189,6 +191,12 @@ fn settings(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
             wanted.transparent_shadows != parsed.transparent_shadows,
             "transparent shadows",
             switch(wanted.transparent_shadows, "--transparent-shadows").collect(),
+        ),
+        one(
+            wanted.bsdf != parsed.bsdf,
+            "the way materials scatter",
+            "--bsdf",
+            BSDF_MODELS.name(&wanted.bsdf).to_owned(),
         ),
         (
             wanted.clamp_indirect != parsed.clamp_indirect,

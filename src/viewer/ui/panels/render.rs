@@ -8,7 +8,9 @@ mod statistics;
 
 pub use statistics::{remaining, seconds};
 
-use crate::app::value_names::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
+use crate::app::value_names::{
+    ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
+};
 use crate::render::Integrator;
 use crate::scene::Antialias;
 use crate::viewer::model::view_settings::{MAX_SAMPLES, ViewSettings};
@@ -200,6 +202,13 @@ fn rays(ui: &mut Ui, look: &mut ViewSettings) {
             &mut settings.transparent_shadows,
             &usual.transparent_shadows,
             |ui, value| ui.checkbox(value, ""),
+        );
+        line(
+            ui,
+            ("Scattering", "How metallic-roughness materials scatter"),
+            &mut settings.bsdf,
+            &usual.bsdf,
+            |ui, value| choice(ui, "scattering", &BSDF_MODELS, value),
         );
         line(
             ui,

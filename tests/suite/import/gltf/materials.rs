@@ -160,7 +160,6 @@ fn every_parameter_is_kept() {
         },
     }));
     let expected = MetallicRoughness {
-        double_sided: true,
         coverage: Coverage::Mask(0.3),
         clearcoat: 0.5,
         clearcoat_roughness: 0.25,
@@ -228,7 +227,9 @@ fn alpha_is_kept_and_means_what_its_mode_says() {
         picture(&mut model, 2, &[[255, 255, 255, 51], [255, 255, 255, 204]]);
         let scene = model.scene();
         let material = &scene.materials[0];
-        assert_eq!((material.coverage, material.alpha), (coverage, 0.5));
+        // Alpha means nothing where all of the surface is there.
+        let alpha = if mode == "OPAQUE" { 1.0 } else { 0.5 };
+        assert_eq!((material.coverage, material.alpha), (coverage, alpha));
         assert_eq!(material.transmit, Vec3::ZERO, "alpha is not transmission");
         let Some(texture) = material.textures.alpha else {
             assert_eq!(mode, "OPAQUE");
@@ -411,8 +412,8 @@ fn what_is_not_shown_is_named() {
             "materials[0].clearcoatTexture is shown by path tracing only",
         ]
     );
-    let maps = &metallic_roughness(&scene.materials[0]).maps;
-    assert_eq!((maps.len(), maps[0].parameter), (1, "clearcoatTexture"));
+    let layers = scene.materials[0].layer_textures.as_ref();
+    assert!(layers.is_some_and(|layers| layers.clearcoat.is_some()));
 }
 
 #[test]
@@ -509,4 +510,34 @@ fn transmission_without_a_volume_is_a_thin_wall() {
         assert_eq!(material.thin, is_thin, "{thickness}");
         assert!(material.transmit.min_element() > 0.0);
     }
+}
+
+/// Maps are baked for the classical integrators and kept for paths; both survive an export as a native scene.
+#[test]
+fn materials_with_maps_survive_an_export() {
+    let mut model = model(json!({
+        "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 }, "roughnessFactor": 0.75,
+            "metallicRoughnessTexture": { "index": 1 } },
+        "normalTexture": { "index": 1, "scale": 0.5 },
+        "occlusionTexture": { "index": 1, "strength": 0.25 },
+        "emissiveFactor": [1, 0.5, 0], "emissiveTexture": { "index": 0 },
+        "extensions": {
+            "KHR_materials_clearcoat": { "clearcoatFactor": 0.5, "clearcoatTexture": { "index": 1 } },
+            "KHR_materials_sheen": { "sheenColorFactor": [0, 0, 1], "sheenColorTexture": { "index": 0 } },
+            "KHR_materials_transmission": { "transmissionFactor": 0.5, "transmissionTexture": { "index": 1 } },
+            "KHR_materials_specular": { "specularTexture": { "index": 1 } },
+        },
+    }));
+    picture(&mut model, 2, &[[255, 0, 0, 255], [188, 188, 188, 128]]);
+    picture(&mut model, 2, &[[128, 128, 255, 255], [77, 200, 30, 51]]);
+    model.push(
+        "materials",
+        json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } },
+                "extensions": { "KHR_materials_unlit": {} } }),
+    );
+    let mut primitive = model.json["meshes"][0]["primitives"][0].clone();
+    primitive["material"] = json!(1);
+    let primitives = model.json["meshes"][0]["primitives"].as_array_mut();
+    primitives.expect("a list").push(primitive);
+    crate::export::loss(&model.scene()).unwrap_or_else(|lost| panic!("{lost}"));
 }

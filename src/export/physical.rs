@@ -1,0 +1,163 @@
+//! Metallic-roughness materials of a scene.
+
+use super::Writer;
+use super::exact::{same_bits, shortest};
+use super::text::{Table, color, list, number, number32, string};
+use crate::scene::{LayerTextures, Material, MetallicRoughness};
+use glam::Vec3;
+use std::sync::Arc;
+
+/// The material that the importer makes of `pbr` alone.
+pub(super) fn plain(material: &Material, model: &Arc<MetallicRoughness>) -> Material {
+    let layers = material.layer_textures.as_deref().copied();
+    let mut plain = Material::physical(model.clone(), layers.unwrap_or_default());
+    if !same_bits(material.tint, Vec3::ONE) {
+        plain.paint(material.tint);
+    }
+    Material {
+        // Emission has a key of its own, unless the material is unlit.
+        emission: if model.unlit {
+            plain.emission
+        } else {
+            Vec3::ZERO
+        },
+        priority: material.priority,
+        ..plain
+    }
+}
+
+impl Writer<'_> {
+    /// What the classical integrators show, where it is not what they show of `plain`.
+    pub fn classical(
+        &self,
+        table: &mut Table,
+        index: usize,
+        material: &Material,
+        plain: &Material,
+    ) {
+        let own = &material.textures;
+        let local = |m: &Material| {
+            let colors = [m.diffuse, m.specular, m.ambient];
+            let it = &m.textures;
+            let textures = (it.diffuse, it.specular, it.ambient);
+            (format!("{colors:?}"), m.shininess.to_bits(), textures)
+        };
+        if local(material) != local(plain) || self.is_own_ambient(index) {
+            table.put("phong", self.phong(index, material).inline());
+        }
+        let optical = |m: &Material| {
+            let colors = [m.reflect, m.transmit, m.absorption];
+            let numbers = [m.opacity, m.ior].map(f32::to_bits);
+            (format!("{colors:?}"), numbers, (m.fresnel, m.mixing))
+        };
+        let textures = (own.reflect, own.transmit);
+        if optical(material) != optical(plain)
+            || textures != (plain.textures.reflect, plain.textures.transmit)
+        {
+            table.put("optics", self.directly(material).inline());
+        }
+    }
+
+    /// The parameters that are not the defaults of a native scene.
+    pub fn physical(&self, material: &Material, model: &MetallicRoughness) -> Table {
+        let layers = material.layer_textures.as_deref().copied();
+        let layers = layers.unwrap_or_default();
+        let none = MetallicRoughness::default();
+        let mut table = Table::default();
+        macro_rules! numbers {
+            ($($name:ident $default:expr),*) => {
+                $(self.fraction(&mut table, stringify!($name), model.$name, layers.$name, $default);)*
+            };
+        }
+        macro_rules! colors {
+            ($($name:ident $default:expr),*) => {
+                $(
+                    let is_default = same_bits(model.$name, $default) && layers.$name.is_none();
+                    let shade = self.shade(model.$name, layers.$name);
+                    table.put_if(!is_default, stringify!($name), shade);
+                )*
+            };
+        }
+        macro_rules! plain {
+            ($($name:ident),*) => {
+                $(table.put_if(model.$name != none.$name, stringify!($name), number32(model.$name));)*
+            };
+        }
+        colors!(base_color Vec3::splat(0.8));
+        table.put_if(
+            !same_bits(material.tint, Vec3::ONE),
+            "tint",
+            color(material.tint),
+        );
+        numbers!(metallic 0.0, roughness 0.5);
+        plain!(ior);
+        numbers!(specular 1.0);
+        colors!(specular_color Vec3::ONE);
+        numbers!(transmission 0.0);
+        plain!(thickness);
+        let tint = model.attenuation_color;
+        table.put_if(
+            !same_bits(tint, Vec3::ONE),
+            "attenuation_color",
+            color(tint),
+        );
+        plain!(attenuation_distance);
+        table.put_if(
+            material.priority != 0,
+            "priority",
+            material.priority.to_string(),
+        );
+        numbers!(clearcoat 0.0, clearcoat_roughness 0.0);
+        colors!(sheen_color Vec3::ZERO);
+        numbers!(sheen_roughness 0.0, anisotropy 0.0, iridescence 0.0);
+        plain!(iridescence_ior);
+        self.film(&mut table, model, &layers);
+        table.put_if(
+            model.anisotropy_rotation.to_bits() != 0,
+            "anisotropy_rotation_deg",
+            number(degrees(model.anisotropy_rotation)),
+        );
+        plain!(dispersion);
+        numbers!(diffuse_transmission 0.0);
+        colors!(diffuse_transmission_color Vec3::ONE);
+        table.put_if(model.unlit, "unlit", "true");
+        table
+    }
+
+    fn film(&self, table: &mut Table, model: &MetallicRoughness, layers: &LayerTextures) {
+        let range = model.iridescence_thickness;
+        let differs = range != MetallicRoughness::default().iridescence_thickness;
+        table.put_if(differs, "iridescence_thickness", list(range.map(number32)));
+        if let Some(map) = layers.iridescence_thickness {
+            let mut named = Table::default();
+            named.put("texture", string(&self.names.textures[map]));
+            table.put("iridescence_thickness_map", named.inline());
+        }
+    }
+
+    /// A number, with or without a texture.
+    fn fraction(
+        &self,
+        table: &mut Table,
+        key: &'static str,
+        value: f32,
+        texture: Option<usize>,
+        default: f32,
+    ) {
+        let Some(texture) = texture else {
+            table.put_if(value != default, key, number32(value));
+            return;
+        };
+        let mut named = Table::default();
+        named.put("texture", string(&self.names.textures[texture]));
+        named.put_if(value != 1.0, "value", number32(value));
+        table.put(key, named.inline());
+    }
+}
+
+/// An angle in degrees that becomes exactly these radians.
+fn degrees(radians: f32) -> f64 {
+    let near = f64::from(radians).to_degrees();
+    let is_it = |[degrees]: [f64; 1]| (degrees.to_radians() as f32).to_bits() == radians.to_bits();
+    shortest([near], is_it).map_or(near, |[degrees]| degrees)
+}

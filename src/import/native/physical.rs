@@ -1,0 +1,135 @@
+//! The metallic-roughness materials of a native scene.
+
+use super::file::{ColorOrTexture, FractionOrTexture, NumberTable, PbrTable};
+use super::textures::Textures;
+use super::values::Color;
+use crate::import::error::ImportError;
+use crate::scene::{Coverage, LayerTextures, Material, MetallicRoughness};
+use glam::Vec3;
+use std::ops::Range;
+use std::sync::Arc;
+use toml::Spanned;
+
+/// The material that `table` describes, of this coverage and alpha.
+pub(super) fn material(
+    table: &PbrTable,
+    coverage: (Coverage, f32),
+    textures: &mut Textures,
+) -> Result<Material, ImportError> {
+    let mut layers = LayerTextures::default();
+    let mut model = MetallicRoughness {
+        alpha: coverage.1,
+        coverage: coverage.0,
+        unlit: table.unlit,
+        ior: table.ior.0,
+        thickness: table.thickness.0,
+        attenuation_color: unit(&table.attenuation_color, textures)?,
+        attenuation_distance: table
+            .attenuation_distance
+            .map_or(f32::INFINITY, |d| d.0 as f32),
+        anisotropy_rotation: table.anisotropy_rotation_deg.0.to_radians() as f32,
+        iridescence_ior: table.iridescence_ior.0,
+        iridescence_thickness: table.iridescence_thickness.0,
+        dispersion: table.dispersion.0,
+        ..MetallicRoughness::default()
+    };
+    let tint = unit(&table.tint, textures)?;
+    macro_rules! colors {
+        ($($name:ident)*) => {
+            $((model.$name, layers.$name) = unit_color(&table.$name, textures)?;)*
+        };
+    }
+    macro_rules! numbers {
+        ($($name:ident)*) => {
+            $((model.$name, layers.$name) = number(&table.$name, textures)?;)*
+        };
+    }
+    // Where a texture is used first, it gets its index.
+    colors!(base_color);
+    numbers!(metallic roughness transmission specular);
+    (model.specular_color, layers.specular_color) = textures.color(&table.specular_color)?;
+    numbers!(clearcoat clearcoat_roughness);
+    colors!(sheen_color);
+    numbers!(sheen_roughness anisotropy iridescence);
+    if let Some(map) = &table.iridescence_thickness_map {
+        if map.get_ref().value.is_some() {
+            let why = "a map between two thicknesses has no `value`";
+            return Err(textures.refuse(map.span(), why, "Change the thicknesses instead"));
+        }
+        layers.iridescence_thickness = Some(texture(map.get_ref(), map.span(), textures)?);
+    }
+    numbers!(diffuse_transmission);
+    colors!(diffuse_transmission_color);
+    for (value, map) in [
+        (&table.specular, layers.specular),
+        (&table.sheen_roughness, layers.sheen_roughness),
+        (&table.diffuse_transmission, layers.diffuse_transmission),
+    ] {
+        if map.is_some_and(|map| !textures.has_alpha(map)) {
+            let why = "this number is read from the alpha of a texture, which only pictures have";
+            return Err(textures.refuse(value.span(), why, "Give it a picture, or a number"));
+        }
+    }
+    let mut material = Material::physical(Arc::new(model), layers);
+    material.priority = table.priority.0;
+    if tint != Vec3::ONE {
+        material.paint(tint);
+    }
+    Ok(material)
+}
+
+/// A colour from 0 to 1.
+fn unit(color: &Spanned<Color>, textures: &Textures) -> Result<Vec3, ImportError> {
+    let value = color.get_ref().0;
+    match value.max_element() <= 1.0 {
+        true => Ok(value),
+        false => Err(too_bright(color.span(), textures)),
+    }
+}
+
+/// A colour from 0 to 1, and the texture that multiplies it.
+fn unit_color(
+    color: &Spanned<ColorOrTexture>,
+    textures: &mut Textures,
+) -> Result<(Vec3, Option<usize>), ImportError> {
+    let (value, texture) = textures.color(color)?;
+    let largest = texture.map_or(Vec3::ONE, |texture| textures.largest(texture));
+    match (value * largest).max_element() <= 1.0 {
+        true => Ok((value, texture)),
+        false => Err(too_bright(color.span(), textures)),
+    }
+}
+
+fn too_bright(span: Range<usize>, textures: &Textures) -> ImportError {
+    let why = "a channel of this colour is above 1, so the surface would create light";
+    textures.refuse(span, why, "Lower it, or use `emission`")
+}
+
+/// A number from 0 to 1, and the texture that multiplies it.
+fn number(
+    value: &Spanned<FractionOrTexture>,
+    textures: &mut Textures,
+) -> Result<(f32, Option<usize>), ImportError> {
+    let table = match value.get_ref() {
+        FractionOrTexture::Fraction(value) => return Ok((value.0, None)),
+        FractionOrTexture::Table(table) => table,
+    };
+    let index = texture(table, value.span(), textures)?;
+    Ok((table.value.map_or(1.0, |value| value.0), Some(index)))
+}
+
+/// A texture of numbers from 0 to 1.
+fn texture(
+    table: &NumberTable,
+    span: Range<usize>,
+    textures: &mut Textures,
+) -> Result<usize, ImportError> {
+    let index = textures.number(table, span.clone())?;
+    match textures.largest(index).max_element() <= 1.0 {
+        true => Ok(index),
+        false => {
+            let why = "this texture has numbers above 1";
+            Err(textures.refuse(span, why, "Lower its colours"))
+        }
+    }
+}
