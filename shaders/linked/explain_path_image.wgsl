@@ -48,7 +48,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	let contact = contact__contact_at(ray, hit, path.cone);
 	let surface = contact.surface;
 	let optics = material__load_optics(surface.material);
-	let met = interface__interface_at(path.media, contact, optics);
+	var met = interface__interface_at(path.media, contact, optics);
 	path.cone = ray_cone__cone_at(path.cone, hit.t);
 	if (bindings__HAS_REFRACTION) {
 		path.throughput *= medium__transmittance(medium__medium_of(met.here), hit.t);
@@ -59,9 +59,14 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 		record_path__record_passing();
 		return path__passed(path, surface);
 	}
+	if (bindings__HAS_DISPERSION) {
+		path = dispersion__colored(path, met);
+		met = dispersion__dispersed(met, path.channel);
+	}
 	let layers = layers__layers_at(surface, optics);
-	let weight = emitters__emission_weight(batch, surface, path.origin, ray.direction, distance(path.origin, surface.p), path.pdf);
-	let emission = emitters__emitted(surface, optics, layers.glow);
+	let weight = emitters__emission_weight(batch, surface, hit, path.origin, ray.direction, path.pdf);
+	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
+	let emission = coat * emitters__emitted(surface, optics, layers.glow);
 	record_path__record_found(emission, weight);
 	path = path__gained(path, weight * emission, path.bounces);
 	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
@@ -169,6 +174,8 @@ override bindings__HAS_LIGHTS: bool = true;
 
 override bindings__HAS_EMITTERS: bool = false;
 
+override bindings__HAS_EMISSIVE_SHAPES: bool = false;
+
 override bindings__HAS_ENVIRONMENT: bool = false;
 
 override bindings__SHAPE_KINDS: u32 = 4294967295u;
@@ -221,6 +228,14 @@ override bindings__CLAMP_INDIRECT: f32 = 0.0;
 
 override bindings__HAS_COATINGS: bool = false;
 
+override bindings__HAS_COATED_EMISSION: bool = false;
+
+override bindings__HAS_ROUGH_GLASS: bool = false;
+
+override bindings__HAS_DISPERSION: bool = false;
+
+override bindings__BSDF_SPEC: bool = false;
+
 override bindings__HAS_INSTANCES: bool = true;
 
 override bindings__HAS_MOTION: bool = true;
@@ -236,6 +251,10 @@ override bindings__ORTHOGRAPHIC: bool = false;
 override bindings__HAS_UVS: bool = true;
 
 override bindings__HAS_SECOND_UVS: bool = true;
+
+override bindings__HAS_TANGENTS: bool = true;
+
+override bindings__HAS_ANISOTROPY: bool = false;
 
 const types__NONE: u32 = 4294967295u;
 
@@ -299,6 +318,8 @@ const types__LIGHT_SPOT: u32 = 2u;
 
 const types__LIGHT_RECTANGLE: u32 = 3u;
 
+const types__LIGHT_DISC: u32 = 4u;
+
 const types__LIGHT_SPHERE: u32 = 5u;
 
 const types__ATTENUATION_INVERSE_SQUARE: u32 = 1u;
@@ -319,7 +340,7 @@ const types__MATERIAL_THIN: u32 = 128u;
 
 const types__MATERIAL_METALLIC_ROUGHNESS: u32 = 256u;
 
-const types__MATERIAL_ROWS: u32 = 19u;
+const types__MATERIAL_ROWS: u32 = 20u;
 
 const types__LAYERS_ROW: u32 = 9u;
 
@@ -341,6 +362,8 @@ const types__SLOT_SHEEN: u32 = 7u;
 
 const types__SLOT_SHEEN_ROUGHNESS: u32 = 8u;
 
+const types__SLOT_ANISOTROPY: u32 = 9u;
+
 const types__SLOT_IRIDESCENCE: u32 = 10u;
 
 const types__SLOT_FILM_THICKNESS: u32 = 11u;
@@ -352,6 +375,10 @@ const types__SLOT_DIFFUSE_TRANSMISSION_COLOR: u32 = 13u;
 const types__SLOT_REFLECT: u32 = 14u;
 
 const types__SLOT_EMISSION: u32 = 15u;
+
+const types__SLOT_METALLIC: u32 = 16u;
+
+const types__SLOT_ROUGHNESS: u32 = 17u;
 
 const types__TEXTURE_ROWS: u32 = 6u;
 
@@ -471,6 +498,11 @@ struct types__PackedVertex {
 	material: u32
 }
 
+struct types__PackedTangent {
+	direction: vec3f,
+	handedness: f32
+}
+
 struct types__PackedShape {
 	position: vec3f,
 	kind: u32,
@@ -542,7 +574,8 @@ struct types__PackedLayers {
 	slots: u32,
 	_pad: u32,
 	textures: vec4u,
-	more_textures: vec4u
+	more_textures: vec4u,
+	last_textures: vec4u
 }
 
 struct types__PackedTexture {
@@ -577,7 +610,7 @@ struct types__PackedLight {
 }
 
 struct types__PackedEmitter {
-	triangle: u32,
+	primitive: u32,
 	instance: u32,
 	chance: f32,
 	end: f32
@@ -789,7 +822,8 @@ struct types__Surface {
 	place: vec3f,
 	instance: u32,
 	footprint: types__Footprint,
-	curvature: f32
+	curvature: f32,
+	tangent: vec4f
 }
 
 struct types__Cone {
@@ -1213,6 +1247,18 @@ fn fetch__load_uvs(index: u32) -> vec4f {
 	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
 }
 
+fn fetch__load_tangent(index: u32) -> types__PackedTangent {
+	return fetch__tangent_of(fetch__vertex_row(2u * fetch__uv_row + index));
+}
+
+fn fetch__load_key_tangent(index: u32) -> types__PackedTangent {
+	return fetch__tangent_of(fetch__vertex_row(index + 1u));
+}
+
+fn fetch__tangent_of(r0: vec4u) -> types__PackedTangent {
+	return types__PackedTangent(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w));
+}
+
 fn fetch__texel(row: u32) -> vec2u {
 	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
 }
@@ -1236,7 +1282,16 @@ fn fetch__material_row(row: u32) -> vec4u {
 var<private> albedo__albedo_first: u32;
 
 fn albedo__albedo_of(table: u32, cos_o: f32, alpha: f32) -> vec2f {
-	let place = albedo__albedo_lookup(table, cos_o, alpha);
+	return albedo__blended(albedo__albedo_lookup(table, cos_o, alpha));
+}
+
+fn albedo__glass_albedo(cos_o: f32, alpha: f32, eta: f32) -> vec2f {
+	let place = albedo__glass_slice(eta);
+	let slice = min(u32(place), albedo__GLASS_SLICES - 2u);
+	return mix(albedo__blended(albedo__glass_lookup(slice, cos_o, alpha)), albedo__blended(albedo__glass_lookup(slice + 1u, cos_o, alpha)), place - f32(slice));
+}
+
+fn albedo__blended(place: albedo__AlbedoLookup) -> vec2f {
 	let words = place.words + vec4u(albedo__albedo_first);
 	return albedo__blended_albedo(vec4u(picture__load_texel_word(words.x), picture__load_texel_word(words.y), picture__load_texel_word(words.z), picture__load_texel_word(words.w)), place.weights);
 }
@@ -1277,15 +1332,18 @@ struct path__Path {
 	pdf: f32,
 	cone: types__Cone,
 	key: u32,
-	sample: u32
+	sample: u32,
+	channel: u32
 }
+
+const path__ALL_CHANNELS: u32 = 3u;
 
 fn path__path_along(batch: dispatch__Batch, ray: types__Ray, key: u32, sample: u32) -> path__Path {
 	var cone = types__Cone(0.0, 0.0);
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, 0.0, cone, key, sample);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, 0.0, cone, key, sample, path__ALL_CHANNELS);
 }
 
 fn path__is_going(path: path__Path) -> bool {
@@ -1329,6 +1387,8 @@ fn path__random_1d(path: path__Path, purpose: u32) -> f32 {
 fn path__random_2d(path: path__Path, purpose: u32) -> vec2f {
 	return sampling__stratified_2d(path.sample, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
 }
+
+const footprint__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
 
 fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
 	let camera = batch.camera;
@@ -2193,6 +2253,33 @@ fn deforming__normals_now(primitive: u32, keys: deforming__Keys) -> mat3x3f {
 fn deforming__normals_at(triangle: u32) -> mat3x3f {
 	let own = fetch__load_triangle(triangle);
 	return mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+}
+
+fn deforming__tangents_now(primitive: u32, keys: deforming__Keys) -> mat3x4f {
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+			let a = deforming__tangents_at(deforming__index_at(primitive, keys, moment.key), moment.key > 0u);
+			let b = deforming__tangents_at(deforming__index_at(primitive, keys, moment.key + 1u), true);
+			return a * (1.0 - moment.fraction) + b * moment.fraction;
+		}
+	}
+	return deforming__tangents_at(primitive, false);
+}
+
+fn deforming__tangents_at(triangle: u32, is_later: bool) -> mat3x4f {
+	let own = fetch__load_triangle(triangle);
+	return mat3x4f(deforming__tangent_at(own.i0, is_later), deforming__tangent_at(own.i1, is_later), deforming__tangent_at(own.i2, is_later));
+}
+
+fn deforming__tangent_at(vertex: u32, is_later: bool) -> vec4f {
+	var tangent = fetch__load_tangent(vertex);
+	if (bindings__HAS_DEFORMATION) {
+		if (is_later) {
+			tangent = fetch__load_key_tangent(vertex);
+		}
+	}
+	return vec4f(tangent.direction, tangent.handedness);
 }
 
 const numeric__ROUNDING: f32 = 5.9604645e-8;
@@ -3074,7 +3161,7 @@ fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> c
 		let surface = surface__surface_at(ray, current, cone);
 		if (first) {
 			contact.surface = surface;
-			vertices = surface__met_vertices;
+			vertices = triangle_surface__met_vertices;
 			second_wanted = bindings__HAS_REFRACTION && bindings__HAS_CONTACT && contact__is_near(ray, hit, surface);
 		}
 		else {
@@ -3147,7 +3234,7 @@ fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3
 	if (!are_triangles || first.instance != second.instance) {
 		return false;
 	}
-	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, surface__met_vertices);
+	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, triangle_surface__met_vertices);
 }
 
 fn contact__is_at_edge(hit: types__Hit) -> bool {
@@ -3157,16 +3244,6 @@ fn contact__is_at_edge(hit: types__Hit) -> bool {
 
 fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
 	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
-}
-
-const surface__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
-
-var<private> surface__met_vertices: vec3u;
-
-struct surface__Placing {
-	space: motion__Space,
-	is_placed: bool,
-	keys: deforming__Keys
 }
 
 fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
@@ -3181,10 +3258,10 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 	}
 	var surface: types__Surface;
 	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
-		surface = surface__triangle_surface(ray, hit, surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
+		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
 	}
 	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
-		surface = surface__shape_surface(local, hit);
+		surface = shape_surface__shape_surface(local, hit);
 		let p = surface.p;
 		if (is_placed) {
 			surface = surface__placed_surface(ray, surface, space);
@@ -3216,11 +3293,19 @@ fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__
 	return surface;
 }
 
-fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface__Placing, cone: types__Cone) -> types__Surface {
+var<private> triangle_surface__met_vertices: vec3u;
+
+struct triangle_surface__Placing {
+	space: motion__Space,
+	is_placed: bool,
+	keys: deforming__Keys
+}
+
+fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: triangle_surface__Placing, cone: types__Cone) -> types__Surface {
 	let space = placing.space;
 	let keys = placing.keys;
 	let own = deforming__triangle_now(hit.primitive, keys);
-	surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
+	triangle_surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
 	let v0 = fetch__load_vertex(own.i0);
 	let v1 = fetch__load_vertex(own.i1);
 	let v2 = fetch__load_vertex(own.i2);
@@ -3239,20 +3324,29 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
 		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, normals[0]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[1]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[2]), -ray.direction));
 	}
+	let weights = vec3f(b0, b1, b2);
+	var frame = mat3x3f();
+	if (bindings__HAS_TANGENTS) {
+		var tangents = deforming__tangents_now(hit.primitive, keys);
+		if (bindings__HAS_INSTANCES && placing.is_placed) {
+			tangents = tangent_space__placed_tangents(space, tangents);
+		}
+		frame = tangent_space__vertex_frame(tangents, normals, weights);
+	}
 	let material = material__load_material(v0.material);
 	var phong = material.phong;
 	if (bindings__MIXED_MATERIALS) {
-		phong = surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
+		phong = triangle_surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
 	}
 	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
-	let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
+	let n = numeric__normalize_or(normals * weights, ng);
 	var shading_normal = n;
 	var uv = vec2f(b1, b2);
 	if (bindings__HAS_TEXTURES) {
 		uv = vec2f(0.0);
 	}
 	var second_uv = uv;
-	var footprint = surface__NO_FOOTPRINT;
+	var footprint = footprint__NO_FOOTPRINT;
 	if (bindings__HAS_FOOTPRINTS) {
 		footprint.place = ray_cone__footprint_axes(ray.direction, ng, ray_cone__cone_at(cone, hit.t).width);
 	}
@@ -3260,8 +3354,8 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 		let rows = mat3x4f(fetch__load_uvs(own.i0), fetch__load_uvs(own.i1), fetch__load_uvs(own.i2));
 		let uvs = mat3x2f(rows[0].xy, rows[1].xy, rows[2].xy);
 		let second_uvs = mat3x2f(rows[0].zw, rows[1].zw, rows[2].zw);
-		uv = uvs * vec3f(b0, b1, b2);
-		second_uv = select(uv, second_uvs * vec3f(b0, b1, b2), bindings__HAS_SECOND_UVS);
+		uv = uvs * weights;
+		second_uv = select(uv, second_uvs * weights, bindings__HAS_SECOND_UVS);
 		if (bindings__HAS_FOOTPRINTS) {
 			footprint.uv = footprint__triangle_uv_footprint(footprint.place, corners, uvs);
 			if (bindings__HAS_SECOND_UVS) {
@@ -3269,57 +3363,41 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: surface_
 			}
 		}
 		if (bindings__HAS_NORMAL_MAPS) {
-			shading_normal = normal_map__mapped_normal(v0.material, n, corners, rows, vec3f(b0, b1, b2), footprint);
+			shading_normal = normal_map__mapped_normal(v0.material, frame, n, corners, rows, weights, footprint);
 		}
 	}
-	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)));
+	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
+	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips));
 }
 
-fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
-	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	let reached = ray.origin + hit.t * ray.direction;
-	let material = material__load_material(shape.material);
-	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
-		let ng = shape.row_y;
-		let p = reached - dot(reached - shape.position, ng) * ng;
-		let outside = dot(ng, ray.direction) <= 0.0;
-		var plane_uv = vec2f(0.0);
-		if (bindings__HAS_TEXTURES) {
-			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
-		}
-		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
-	}
-	if (!shape__is_round(shape.kind)) {
-		let point = shape__canonical_point(shape, reached, hit.b1);
-		let placed = canonical__placed_point(shape, reached, point);
-		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
-	}
-	let placed = surface__sphere_point(shape, reached, ray.direction);
-	let ng = placed.ng;
-	let outside = dot(ng, ray.direction) <= 0.0;
-	var uv = vec2f(0.0);
-	if (bindings__HAS_TEXTURES) {
-		uv = canonical__sphere_uv(ng);
-	}
-	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
-}
-
-fn surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
-	if (shape__is_globe(shape.kind)) {
-		return globe__globe_point(shape, reached);
-	}
-	let ng = numeric__normalize_or(reached - shape.position, -direction);
-	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
-}
-
-fn surface__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
-	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
-	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
-}
-
-fn surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
+fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
 	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+}
+
+fn tangent_space__placed_tangents(space: motion__Space, own: mat3x4f) -> mat3x4f {
+	let mirrors = select(1.0, -1.0, determinant(space.linear) < 0.0);
+	return mat3x4f(tangent_space__placed_tangent(space, own[0], mirrors), tangent_space__placed_tangent(space, own[1], mirrors), tangent_space__placed_tangent(space, own[2], mirrors));
+}
+
+fn tangent_space__placed_tangent(space: motion__Space, own: vec4f, mirrors: f32) -> vec4f {
+	return vec4f(numeric__normalize_or(space.linear * own.xyz, vec3f(0.0)), mirrors * own.w);
+}
+
+fn tangent_space__vertex_frame(tangents: mat3x4f, normals: mat3x3f, weights: vec3f) -> mat3x3f {
+	let is_whole = tangents[0].w * tangents[1].w * tangents[2].w != 0.0;
+	let tangent = tangents * weights;
+	let n = normals * weights;
+	let frame = mat3x3f(tangent.xyz, sign(tangent.w) * cross(n, tangent.xyz), n);
+	return frame * select(0.0, 1.0, is_whole);
+}
+
+fn tangent_space__surface_tangent(frame: mat3x3f, n: vec3f, flips: bool) -> vec4f {
+	if (!bindings__HAS_ANISOTROPY) {
+		return vec4f(0.0);
+	}
+	let along = numeric__normalize_or(frame[0] - dot(frame[0], n) * n, vec3f(0.0));
+	let hand = select(-1.0, 1.0, (dot(cross(n, along), frame[1]) >= 0.0) != flips);
+	return vec4f(along, select(hand, 0.0, dot(along, along) == 0.0));
 }
 
 struct material__PhongMaterial {
@@ -3395,7 +3473,7 @@ fn material__load_layers(index: u32) -> types__PackedLayers {
 	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
 	let r6 = fetch__material_row(row + 6u);
 	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, 0u, fetch__material_row(row + 8u), fetch__material_row(row + 9u));
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, 0u, fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
 }
 
 struct material__Glow {
@@ -3409,6 +3487,11 @@ fn material__load_glow(index: u32) -> material__Glow {
 	let own = fetch__material_row(row + types__LAYERS_ROW + 7u);
 	let luminance = bitcast<f32>(own.y) * dot(material__load_emission(index), tone__LUMINANCE_REC709);
 	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
+}
+
+fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
+	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
+	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
 }
 
 const ray_cone__MOST_TAPS: f32 = 8.0;
@@ -3456,7 +3539,7 @@ fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
 	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
 }
 
-fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+fn normal_map__mapped_normal(material: u32, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
 	let index = material__load_texture_indices(material).w & 65535u;
 	if (index == types__NO_TEXTURE) {
 		return n;
@@ -3468,9 +3551,15 @@ fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat
 	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
 	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
 	let tilt = material__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
+	let up = max(2.0 * code.z - 1.0, 0.0);
+	if (bindings__HAS_TANGENTS) {
+		if (dot(frame[2], frame[2]) > 0.0) {
+			return numeric__normalize_or(frame * vec3f(tilt, up), n);
+		}
+	}
 	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
 	let bitangent = tangent.w * cross(n, tangent.xyz);
-	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + max(2.0 * code.z - 1.0, 0.0) * n, n);
+	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + up * n, n);
 }
 
 fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
@@ -3652,6 +3741,44 @@ fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) ->
 	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
 }
 
+fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let reached = ray.origin + hit.t * ray.direction;
+	let material = material__load_material(shape.material);
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		let ng = shape.row_y;
+		let p = reached - dot(reached - shape.position, ng) * ng;
+		let outside = dot(ng, ray.direction) <= 0.0;
+		var plane_uv = vec2f(0.0);
+		if (bindings__HAS_TEXTURES) {
+			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
+		}
+		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+	}
+	if (!shape__is_round(shape.kind)) {
+		let point = shape__canonical_point(shape, reached, hit.b1);
+		let placed = canonical__placed_point(shape, reached, point);
+		let ng = placed.ng;
+		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+	}
+	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
+	let ng = placed.ng;
+	let outside = dot(ng, ray.direction) <= 0.0;
+	var uv = vec2f(0.0);
+	if (bindings__HAS_TEXTURES) {
+		uv = canonical__sphere_uv(ng);
+	}
+	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+}
+
+fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
+	if (shape__is_globe(shape.kind)) {
+		return globe__globe_point(shape, reached);
+	}
+	let ng = numeric__normalize_or(reached - shape.position, -direction);
+	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
+}
+
 struct interface__Interface {
 	here: u32,
 	media: vec4u,
@@ -3773,6 +3900,8 @@ const dimensions__ROULETTE: u32 = 4u;
 
 const dimensions__COVERAGE_CHOICE: u32 = 5u;
 
+const dimensions__CHANNEL_CHOICE: u32 = 6u;
+
 const dimensions__DIMENSIONS: u32 = 8u;
 
 fn dimensions__dimension_key(pixel_key: u32, segment: u32, purpose: u32) -> u32 {
@@ -3807,6 +3936,53 @@ fn leaving__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -
 	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
+fn dispersion__load_dispersion(material: u32) -> f32 {
+	let own = select(material, 0u, material == types__NONE);
+	let row = fetch__material_row(types__MATERIAL_ROWS * own + types__LAYERS_ROW + 5u);
+	return select(bitcast<f32>(row.z), 0.0, material == types__NONE);
+}
+
+fn dispersion__colored(path: path__Path, met: interface__Interface) -> path__Path {
+	let disperses = met.encloses && met.is_boundary && max(dispersion__load_dispersion(met.here), dispersion__load_dispersion(medium__dominant(met.media))) > 0.0;
+	if (!disperses || path.channel != path__ALL_CHANNELS) {
+		return path;
+	}
+	var one = path;
+	one.channel = min(u32(3.0 * path__random_1d(path, dimensions__CHANNEL_CHOICE)), 2u);
+	one.throughput *= select(vec3f(0.0), vec3f(3.0), vec3u(0u, 1u, 2u) == vec3u(one.channel));
+	return one;
+}
+
+fn dispersion__dispersed(met: interface__Interface, channel: u32) -> interface__Interface {
+	if (channel == path__ALL_CHANNELS) {
+		return met;
+	}
+	let wavelength = select(select(dispersion__WAVELENGTHS.z, dispersion__WAVELENGTHS.y, channel == 1u), dispersion__WAVELENGTHS.x, channel == 0u);
+	let front = dispersion__load_dispersion(met.here);
+	let behind = dispersion__load_dispersion(medium__dominant(met.media));
+	var one = met;
+	one.ior = select(met.ior, dispersion__dispersed_ior(met.ior, front, wavelength), front > 0.0);
+	one.ior_behind = select(met.ior_behind, dispersion__dispersed_ior(met.ior_behind, behind, wavelength), met.encloses && behind > 0.0);
+	return one;
+}
+
+const dispersion__WAVELENGTHS: vec3f = vec3f(611.4, 549.1, 464.2);
+
+fn dispersion__dispersed_ior(ior: f32, dispersion: f32, wavelength: f32) -> f32 {
+	let spread = (ior - 1.0) * dispersion / 20.0;
+	return max(ior + spread * (523655.0 / (wavelength * wavelength) - 1.5168), 1.0);
+}
+
+fn dispersion__anisotropic_alpha(alpha: f32, strength: f32) -> vec2f {
+	return vec2f(mix(alpha, 1.0, strength * strength), alpha);
+}
+
+fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
+	let own = texel * inverseSqrt(max(dot(texel, texel), 1e-12));
+	let turn = vec2f(cos(rotation), sin(rotation));
+	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
+}
+
 const layers__SMOOTH: f32 = 0.0001;
 
 struct layers__Layers {
@@ -3826,6 +4002,8 @@ struct layers__Layers {
 	coat_roughness: f32,
 	sheen: vec3f,
 	sheen_roughness: f32,
+	anisotropy: f32,
+	along: vec2f,
 	film: f32,
 	film_ior: f32,
 	film_thickness: f32,
@@ -3840,20 +4018,26 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 	var transmit = optics.transmit;
 	var glow = vec3f(1.0);
 	var thickness = 1.0;
+	var along = vec2f(1.0, 0.0);
 	if (bindings__HAS_TEXTURES) {
 		var rest = own.slots;
 		loop {
-			let slot = firstTrailingBit(rest | 65536u);
+			let slot = firstTrailingBit(rest | 2147483648u);
 			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
 			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
-			own.roughness *= select(1.0, value.y, slot == types__SLOT_METALLIC_ROUGHNESS);
-			own.metallic *= select(1.0, value.z, slot == types__SLOT_METALLIC_ROUGHNESS);
+			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
+			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
+			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
 			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
 			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
 			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
 			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
 			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
 			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			if (bindings__HAS_ANISOTROPY) {
+				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
+				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
+			}
 			if (bindings__HAS_COATINGS) {
 				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
 				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
@@ -3889,6 +4073,10 @@ fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__
 		layers.ior = own.ior;
 	}
 	layers.glow = glow;
+	if (bindings__HAS_ANISOTROPY) {
+		layers.anisotropy = own.anisotropy;
+		layers.along = dispersion__anisotropy_tangent(own.anisotropy_rotation, along);
+	}
 	if (bindings__HAS_COATINGS) {
 		layers.coat = own.coat;
 		layers.coat_roughness = own.coat_roughness;
@@ -3927,8 +4115,16 @@ fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
 	return layers;
 }
 
+fn layers__textured(own: types__PackedLayers, slot: u32, surface: types__Surface) -> vec4f {
+	if ((own.slots & (1u << slot)) == 0u) {
+		return vec4f(1.0);
+	}
+	return texture__texture_value(material__load_texture(layers__texture_in(own, slot)), surface);
+}
+
 fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
-	let four = select(own.textures, own.more_textures, vec4<bool>(slot >= 8u));
+	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
+	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
 	let word = (slot >> 1u) & 3u;
 	let low = select(four.x, four.y, word == 1u);
 	let high = select(four.z, four.w, word == 3u);
@@ -4027,13 +4223,24 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2
 	var arriving = light__incident(light, p);
 	var pdf = 0.0;
 	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
-		arriving = area_light__area_incident(light, p, u);
+		arriving = emitters__lamp_incident(light, p, u);
 		if (emitters__can_be_hit(light)) {
-			pdf = light.chance * area_light__area_density(light, p, arriving.direction, arriving.distance);
+			pdf = light.chance * spherical_rectangle__solid_density(light, p, arriving.direction, arriving.distance);
 		}
 	}
 	arriving.radiance *= warp__PI / max(light.chance, 1e-30);
 	return emitters__LightSample(arriving, pdf);
+}
+
+fn emitters__lamp_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+	if (light.kind != types__LIGHT_RECTANGLE || light.attenuation != types__ATTENUATION_INVERSE_SQUARE) {
+		return area_light__area_incident(light, p, u);
+	}
+	let found = spherical_rectangle__solid_sample(light, p, u);
+	let cosine = -dot(found.direction, light.direction);
+	let strength = select(0.0, 1.0 / max(emissive_shape__area_of(light) * found.pdf, 1e-30), cosine > 0.0);
+	let reach = numeric__max_component(abs(light.position)) + numeric__max_component(abs(p));
+	return types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), strength * light.color);
 }
 
 fn emitters__chosen(choice: f32, count: u32, among_emitters: bool) -> u32 {
@@ -4064,15 +4271,19 @@ fn emitters__sample_emitter(batch: dispatch__Batch, p: vec3f, choice: f32, u: ve
 	let index = emitters__chosen(choice, batch.emitter_count, true);
 	let emitter = fetch__load_emitter(index);
 	record_path__record_source(types__SOURCE_EMITTER, index, emitter.chance);
+	if (bindings__HAS_EMISSIVE_SHAPES && (emitter.primitive & types__SHAPE) != 0u) {
+		return emitters__sample_shape(batch, p, emitter, u);
+	}
 	var instance: types__PackedInstance;
 	let is_placed = bindings__HAS_INSTANCES && emitter.instance != types__NO_INSTANCE;
 	if (is_placed) {
 		instance = fetch__load_instance(emitter.instance);
 	}
-	let own = deforming__triangle_now(emitter.triangle, deforming__keys_of(instance));
+	let own = deforming__triangle_now(emitter.primitive, deforming__keys_of(instance));
 	let b = warp__triangle_from_square(u);
 	let weights = vec3f(1.0 - b.x - b.y, b);
 	var surface: types__Surface;
+	surface.material = fetch__load_vertex(own.i0).material;
 	surface.place = mat3x3f(own.v0, own.v1, own.v2) * weights;
 	var corners = mat3x3f(own.v0 - surface.place, own.v1 - surface.place, own.v2 - surface.place);
 	surface.p = surface.place;
@@ -4087,7 +4298,7 @@ fn emitters__sample_emitter(batch: dispatch__Batch, p: vec3f, choice: f32, u: ve
 		surface.uv = uvs.xy;
 		surface.second_uv = select(uvs.xy, uvs.zw, bindings__HAS_SECOND_UVS);
 	}
-	let material = fetch__load_vertex(own.i0).material;
+	let material = surface.material;
 	let glow = material__load_glow(material);
 	var radiance = material__load_emission(material);
 	if (bindings__HAS_TEXTURES && glow.texture != types__NO_TEXTURE) {
@@ -4105,6 +4316,7 @@ fn emitters__sample_emitter(batch: dispatch__Batch, p: vec3f, choice: f32, u: ve
 		front = instance__placed_normal(instance__space_of(instance), front);
 	}
 	let shines = dot(front, direction) < 0.0 || (material__load_optics(material).flags & types__MATERIAL_TWO_SIDED) != 0u;
+	radiance *= coating__through_coat(surface, abs(cosine));
 	let facing = select(0.0, abs(cosine), shines);
 	let actual = emitter.chance / max(0.5 * length(across), 1e-30);
 	let fading = 1.0 / max(distance * distance, 1e-30);
@@ -4112,25 +4324,50 @@ fn emitters__sample_emitter(batch: dispatch__Batch, p: vec3f, choice: f32, u: ve
 	return emitters__LightSample(types__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max(actual, 1e-30)) * radiance), glow.luminance / batch.emitter_power / max(abs(cosine) * fading, 1e-30));
 }
 
-fn emitters__emission_weight(batch: dispatch__Batch, surface: types__Surface, origin: vec3f, direction: vec3f, distance: f32, pdf: f32) -> f32 {
+fn emitters__sample_shape(batch: dispatch__Batch, p: vec3f, emitter: types__PackedEmitter, u: vec2f) -> emitters__LightSample {
+	let shape = fetch__load_shape(emitter.primitive & ~types__SHAPE);
+	let light = emissive_shape__light_of(shape, emitter.instance);
+	let found = spherical_rectangle__solid_sample(light, p, u);
+	let surface = emissive_shape__shape_place(shape, emitter.instance, p + found.distance * found.direction);
+	let glow = material__load_glow(shape.material);
+	var radiance = material__load_emission(shape.material);
+	if (bindings__HAS_TEXTURES && glow.texture != types__NO_TEXTURE) {
+		radiance *= texture__texture_color(material__load_texture(glow.texture), surface);
+	}
+	var front = light.direction;
+	if (light.kind == types__LIGHT_SPHERE) {
+		front = numeric__normalize_or(surface.p - light.position, -found.direction);
+	}
+	let cosine = -dot(front, found.direction);
+	let shines = cosine > 0.0 || (material__load_optics(shape.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
+	radiance *= select(0.0, coating__through_coat(surface, abs(cosine)), shines);
+	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
+	return emitters__LightSample(types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max(emitter.chance * found.pdf, 1e-30)), glow.luminance / batch.emitter_power * emissive_shape__area_of(light) * found.pdf);
+}
+
+fn emitters__emission_weight(batch: dispatch__Batch, surface: types__Surface, hit: types__Hit, origin: vec3f, direction: vec3f, pdf: f32) -> f32 {
+	let distance = distance(origin, surface.p);
 	if (!(bindings__HAS_AREA_LIGHTS || bindings__HAS_EMITTERS) || pdf <= 0.0) {
 		return 1.0;
 	}
 	let glow = material__load_glow(surface.material);
 	if (bindings__HAS_AREA_LIGHTS && glow.light != types__NONE) {
 		let light = shutter__shutter_light(glow.light, batch.light_count);
-		let density = light.chance * area_light__area_density(light, origin, direction, distance);
+		let density = light.chance * spherical_rectangle__solid_density(light, origin, direction, distance);
 		record_path__record_light_density(select(0.0, density, emitters__can_be_hit(light)));
 		return select(0.0, mis__power_heuristic(pdf, density), emitters__can_be_hit(light));
 	}
-	let is_triangle = (surface.leaving & types__SHAPE) == 0u && surface.leaving != types__NONE;
-	if (bindings__HAS_EMITTERS && is_triangle) {
-		let cosine = abs(dot(direction, surface.ng));
-		let density = glow.luminance / batch.emitter_power * distance * distance / max(cosine, 1e-30);
-		record_path__record_light_density(density);
-		return mis__power_heuristic(pdf, density);
+	if (!bindings__HAS_EMITTERS) {
+		return 1.0;
 	}
-	return 1.0;
+	let cosine = abs(dot(direction, surface.ng));
+	var density = distance * distance / max(cosine, 1e-30);
+	if ((hit.primitive & types__SHAPE) != 0u) {
+		density = emissive_shape__shape_density(hit, origin, direction, distance);
+	}
+	density *= glow.luminance / batch.emitter_power;
+	record_path__record_light_density(density);
+	return mis__power_heuristic(pdf, density);
 }
 
 fn emitters__can_be_hit(light: types__PackedLight) -> bool {
@@ -4143,6 +4380,103 @@ fn emitters__emitted(surface: types__Surface, optics: types__Optics, glow: vec3f
 	}
 	let shines = surface.outside || (optics.flags & types__MATERIAL_TWO_SIDED) != 0u;
 	return select(vec3f(0.0), glow * material__load_emission(surface.material), shines);
+}
+
+const spherical_rectangle__LEAST_ANGLE: f32 = 0.02;
+
+struct spherical_rectangle__RectangleView {
+	x: vec3f,
+	y: vec3f,
+	z: vec3f,
+	low: vec2f,
+	high: vec2f,
+	height: f32,
+	angle: f32
+}
+
+struct spherical_rectangle__SolidSample {
+	direction: vec3f,
+	distance: f32,
+	pdf: f32
+}
+
+fn spherical_rectangle__rectangle_view(to_center: vec3f, half_u: vec3f, half_v: vec3f) -> spherical_rectangle__RectangleView {
+	let half = vec2f(length(half_u), length(half_v));
+	let x = half_u / max(half.x, 1e-30);
+	let y = half_v / max(half.y, 1e-30);
+	let n = cross(x, y);
+	let corner = to_center - half_u - half_v;
+	let above = dot(corner, n);
+	let low = vec2f(dot(corner, x), dot(corner, y));
+	let opposite = to_center + half_u + half_v;
+	let angle = abs(spherical_rectangle__triangle_angle(corner, corner + 2.0 * half_u, opposite)) + abs(spherical_rectangle__triangle_angle(corner, opposite, corner + 2.0 * half_v));
+	let usable = abs(dot(x, y)) < 0.0001 && angle > spherical_rectangle__LEAST_ANGLE && abs(above) > 0.001 * min(half.x, half.y);
+	return spherical_rectangle__RectangleView(x, y, select(n, -n, above > 0.0), low, low + 2.0 * half, -abs(above), select(0.0, angle, usable));
+}
+
+fn spherical_rectangle__triangle_angle(to_a: vec3f, to_b: vec3f, to_c: vec3f) -> f32 {
+	let up = vec3f(0.0, 0.0, 1.0);
+	let a = numeric__normalize_or(to_a, up);
+	let b = numeric__normalize_or(to_b, up);
+	let c = numeric__normalize_or(to_c, up);
+	return 2.0 * atan2(dot(a, cross(b, c)), 1.0 + dot(a, b) + dot(b, c) + dot(c, a));
+}
+
+fn spherical_rectangle__rectangle_point(view: spherical_rectangle__RectangleView, u: vec2f) -> vec3f {
+	let z = view.height;
+	let low = view.low * inverseSqrt(view.low * view.low + z * z);
+	let high = view.high * inverseSqrt(view.high * view.high + z * z);
+	let turn = u.x * view.angle + warp__PI - spherical_rectangle__arc_cosine(low.x * high.y) + spherical_rectangle__arc_cosine(low.x * low.y);
+	let sine = sin(turn);
+	let slope = (-cos(turn) * low.y - high.y) / select(sine, 1e-7, abs(sine) < 1e-7);
+	let cosine = select(-1.0, 1.0, slope > 0.0) * inverseSqrt(max(slope * slope + low.y * low.y, 1e-12));
+	let bound = clamp(cosine, -1.0, 1.0);
+	let along = clamp(-bound * z * inverseSqrt(max(1.0 - bound * bound, 1e-12)), view.low.x, view.high.x);
+	let distance2 = along * along + z * z;
+	let ends = vec2f(view.low.y, view.high.y) * inverseSqrt(vec2f(distance2) + vec2f(view.low.y, view.high.y) * vec2f(view.low.y, view.high.y));
+	let part = mix(ends.x, ends.y, u.y);
+	let across = clamp(part * sqrt(distance2) * inverseSqrt(max(1.0 - part * part, 1e-12)), view.low.y, view.high.y);
+	return along * view.x + across * view.y + z * view.z;
+}
+
+fn spherical_rectangle__arc_cosine(x: f32) -> f32 {
+	return atan2(sqrt(max((1.0 - x) * (1.0 + x), 0.0)), x);
+}
+
+fn spherical_rectangle__solid_sample(light: types__PackedLight, p: vec3f, u: vec2f) -> spherical_rectangle__SolidSample {
+	if (light.kind == types__LIGHT_SPHERE) {
+		let found = area_light__area_incident(light, p, u);
+		return spherical_rectangle__SolidSample(found.direction, found.distance, area_light__area_density(light, p, found.direction, found.distance));
+	}
+	let center = light.position - p;
+	var to_point: vec3f;
+	var angle = 0.0;
+	if (light.kind == types__LIGHT_RECTANGLE) {
+		let view = spherical_rectangle__rectangle_view(center, light.edge_u, light.edge_v);
+		let within = 2.0 * u - 1.0;
+		angle = view.angle;
+		to_point = center + within.x * light.edge_u + within.y * light.edge_v;
+		if (angle > 0.0) {
+			to_point = spherical_rectangle__rectangle_point(view, u);
+		}
+	}
+	else {
+		let within = warp__disc_from_square(u);
+		to_point = center + within.x * light.edge_u + within.y * light.edge_v;
+	}
+	let distance = length(to_point);
+	let direction = numeric__normalize_or(to_point, -light.direction);
+	return spherical_rectangle__SolidSample(direction, distance, select(area_light__area_density(light, p, direction, distance), 1.0 / max(angle, 1e-30), angle > 0.0));
+}
+
+fn spherical_rectangle__solid_density(light: types__PackedLight, p: vec3f, direction: vec3f, distance: f32) -> f32 {
+	if (light.kind == types__LIGHT_RECTANGLE) {
+		let angle = spherical_rectangle__rectangle_view(light.position - p, light.edge_u, light.edge_v).angle;
+		if (angle > 0.0) {
+			return 1.0 / angle;
+		}
+	}
+	return area_light__area_density(light, p, direction, distance);
 }
 
 fn area_light__area_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
@@ -4208,111 +4542,77 @@ fn area_light__max_abs(v: vec3f) -> f32 {
 	return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
-struct lobes__Bsdf {
-	normal: vec3f,
-	ng: vec3f,
-	wo: vec3f,
-	diffuse: vec3f,
-	f0: vec3f,
-	f90: vec3f,
-	gain: vec3f,
-	alpha: vec2f,
-	reflect: vec3f,
-	transmit: vec3f,
-	boundary_alpha: vec2f,
-	eta: f32,
-	bends: bool,
-	encloses: bool,
-	flags: u32,
-	through: vec3f,
-	coating: coating__Coating,
-	chances: vec3f,
-	coating_chances: vec2f
+fn emissive_shape__is_sampled(shape: types__PackedShape, instance: u32) -> bool {
+	return shape.kind == types__SHAPE_RECTANGLE || (shape.kind == types__SHAPE_DISC && shape.size0 == 0.0) || (shape.kind == types__SHAPE_SPHERE && instance == types__NO_INSTANCE);
 }
 
-struct lobes__Split {
-	reflect: vec3f,
-	transmit: vec3f
+fn emissive_shape__light_of(shape: types__PackedShape, instance: u32) -> types__PackedLight {
+	var light: types__PackedLight;
+	light.attenuation = types__ATTENUATION_INVERSE_SQUARE;
+	light.position = shape.position;
+	if (shape.kind == types__SHAPE_SPHERE) {
+		light.kind = types__LIGHT_SPHERE;
+		light.radius = shape.size0;
+		return light;
+	}
+	light.kind = select(types__LIGHT_DISC, types__LIGHT_RECTANGLE, shape.kind == types__SHAPE_RECTANGLE);
+	let across = cross(shape.row_y, shape.row_z);
+	let determinant = dot(shape.row_x, across);
+	light.edge_u = across / determinant;
+	light.edge_v = cross(shape.row_x, shape.row_y) / determinant;
+	light.direction = shape.row_y;
+	if (bindings__HAS_INSTANCES && instance != types__NO_INSTANCE) {
+		let space = instance__space_of(fetch__load_instance(instance));
+		light.position = space.linear * light.position + space.translation;
+		light.edge_u = space.linear * light.edge_u;
+		light.edge_v = space.linear * light.edge_v;
+		light.direction = instance__placed_normal(space, light.direction);
+	}
+	light.direction = numeric__normalize_or(light.direction, vec3f(0.0, 1.0, 0.0));
+	return light;
 }
 
-fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers__Layers, met: interface__Interface, direction: vec3f) -> lobes__Bsdf {
-	var bsdf: lobes__Bsdf;
-	bsdf.ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
-	let n = select(surface.n, -surface.n, dot(surface.n, bsdf.ng) < 0.0);
-	bsdf.normal = select(bsdf.ng, n, dot(n, direction) < -0.001);
-	bsdf.wo = lobes__to_frame(bsdf.normal, -direction);
-	bsdf.alpha = vec2f(max(layers.alpha, layers__SMOOTH));
-	var seen = lobes__Split(vec3f(0.0), vec3f(0.0));
-	var inside = 1.0;
-	if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
-		inside = select(0.0, 1.0, met.is_boundary);
-		bsdf.reflect = inside * layers.reflect;
-		bsdf.transmit = select(vec3f(1.0), layers.transmit, met.is_boundary);
-		bsdf.flags = select(0u, layers.fresnel | (optics.flags & types__MATERIAL_SUM), met.is_boundary);
-		bsdf.boundary_alpha = vec2f(inside * layers.boundary_alpha);
-		bsdf.encloses = met.encloses;
-		bsdf.bends = met.is_boundary && met.encloses;
-		bsdf.eta = met.ior / select(layers.ior, met.ior_behind, met.encloses);
-		bsdf.boundary_alpha *= select(1.0, 0.0, bsdf.bends && abs(bsdf.eta - 1.0) < 0.0001);
-		seen = lobes__split_at(bsdf, bsdf.wo.z);
+fn emissive_shape__area_of(light: types__PackedLight) -> f32 {
+	if (light.kind == types__LIGHT_SPHERE) {
+		return 4.0 * warp__PI * light.radius * light.radius;
 	}
-	bsdf.f0 = inside * layers.f0;
-	bsdf.f90 = inside * layers.f90;
-	var over = layers.over_f0;
-	if (bindings__HAS_COATINGS) {
-		let film = lobes__film_f0_at(layers, bsdf.f0, bsdf.wo.z);
-		bsdf.f0 = mix(bsdf.f0, inside * film, layers.film);
-		over = mix(over, film, layers.film * numeric__max_component(layers.over_f90));
-	}
-	let albedo = albedo__albedo_of(albedo__GGX_ALBEDO, bsdf.wo.z, bsdf.alpha.x);
-	let boost = albedo__multiple_scattering(bsdf.f0, albedo);
-	let glossy = boost * (albedo.x * bsdf.f0 + albedo.y * bsdf.f90);
-	var left = 1.0 - numeric__max_component(boost * (albedo.x * over + albedo.y * layers.over_f90));
-	if ((optics.flags & types__MATERIAL_SUM) == 0u) {
-		left *= optics.opacity * (1.0 - numeric__max_component(seen.reflect));
-	}
-	bsdf.diffuse = (inside * max(left, 0.0)) * layers.diffuse;
-	var scale = 1.0 / max(numeric__max_component(bsdf.diffuse + glossy + seen.reflect + seen.transmit), 1.0);
-	if (bindings__HAS_COATINGS) {
-		bsdf.coating = coating__coating_at(layers, bsdf.wo.z);
-		bsdf.coating.albedos *= inside;
-		scale *= mix(1.0, bsdf.coating.left, inside);
-		bsdf.through = scale * layers.diffuse_transmission * bsdf.diffuse * layers.diffuse_transmission_color;
-		bsdf.diffuse *= 1.0 - layers.diffuse_transmission;
-	}
-	bsdf.diffuse *= scale;
-	bsdf.gain = scale * boost;
-	bsdf.reflect *= scale;
-	bsdf.transmit *= scale;
-	let weights = vec3f(dot(bsdf.diffuse + bsdf.through, tone__LUMINANCE_REC709), scale * dot(glossy, tone__LUMINANCE_REC709), scale * dot(seen.reflect + seen.transmit, tone__LUMINANCE_REC709));
-	let total = max(weights.x + weights.y + weights.z + bsdf.coating.albedos.x + bsdf.coating.albedos.y, 1e-30);
-	bsdf.chances = weights / total;
-	bsdf.coating_chances = bsdf.coating.albedos / total;
-	return bsdf;
+	return select(warp__PI, 4.0, light.kind == types__LIGHT_RECTANGLE) * length(cross(light.edge_u, light.edge_v));
 }
 
-fn lobes__film_f0_at(layers: layers__Layers, base_f0: vec3f, cos_o: f32) -> vec3f {
-	let x = 1.0 - cos_o;
-	let x5 = min(x * x * x * x * x, 0.999);
-	let film = thin_film__thin_film(cos_o, 1.0, layers.film_ior, layers.film_thickness, min(base_f0, vec3f(1.0)));
-	return clamp((film - x5) / (1.0 - x5), vec3f(0.0), vec3f(1.0));
+fn emissive_shape__shape_density(hit: types__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
+	if (!bindings__HAS_EMISSIVE_SHAPES) {
+		return 0.0;
+	}
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	if (!emissive_shape__is_sampled(shape, hit.instance)) {
+		return 0.0;
+	}
+	let light = emissive_shape__light_of(shape, hit.instance);
+	return emissive_shape__area_of(light) * spherical_rectangle__solid_density(light, origin, direction, distance);
 }
 
-fn lobes__split_at(bsdf: lobes__Bsdf, cos_i: f32) -> lobes__Split {
-	let boundary = boundary__boundary_at(bsdf.flags, clamp(cos_i, 0.0, 1.0), bsdf.eta);
-	if ((bsdf.flags & types__MATERIAL_FRESNEL) != 0u) {
-		return lobes__Split(boundary.reflectance * bsdf.reflect, (1.0 - boundary.reflectance) * bsdf.transmit);
+fn emissive_shape__shape_place(shape: types__PackedShape, instance: u32, p: vec3f) -> types__Surface {
+	var surface: types__Surface;
+	surface.p = p;
+	surface.place = p;
+	surface.material = shape.material;
+	if (!bindings__HAS_TEXTURES) {
+		return surface;
 	}
-	if (boundary.total && bsdf.bends) {
-		return lobes__Split(bsdf.reflect + select(bsdf.transmit, vec3f(0.0), (bsdf.flags & types__MATERIAL_SUM) != 0u), vec3f(0.0));
+	var q = p;
+	if (bindings__HAS_INSTANCES && instance != types__NO_INSTANCE) {
+		let own: types__PackedInstance = fetch__load_instance(instance);
+		let space = instance__space_of(own);
+		q = space.inverse * (p - space.translation);
+		surface.place = instance__pattern_place(own, q);
 	}
-	return lobes__Split(bsdf.reflect, bsdf.transmit);
-}
-
-fn lobes__to_frame(n: vec3f, direction: vec3f) -> vec3f {
-	let x = warp__turn_to(n, vec3f(1.0, 0.0, 0.0));
-	let y = warp__turn_to(n, vec3f(0.0, 1.0, 0.0));
-	return vec3f(dot(direction, x), dot(direction, y), dot(direction, n));
+	let canonical = canonical__canonical_vector(shape, q - shape.position);
+	surface.uv = saturate(0.5 + 0.5 * vec2f(canonical.x, -canonical.z));
+	if (shape.kind == types__SHAPE_SPHERE) {
+		surface.uv = canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
+	}
+	surface.second_uv = surface.uv;
+	return surface;
 }
 
 const coating__COAT_F0: f32 = 0.04;
@@ -4322,26 +4622,49 @@ struct coating__Coating {
 	coat_alpha: f32,
 	sheen: vec3f,
 	sheen_alpha: f32,
+	below_coat: f32,
 	left: f32,
+	fresnel: f32,
 	albedos: vec2f
 }
 
 fn coating__coating_at(layers: layers__Layers, cos_o: f32) -> coating__Coating {
 	let coat_alpha = max(layers.coat_roughness * layers.coat_roughness, layers__SMOOTH);
 	let sheen_alpha = max(layers.sheen_roughness * layers.sheen_roughness, 0.001);
-	let of_coat = albedo__albedo_of(albedo__GGX_ALBEDO, cos_o, coat_alpha);
 	let of_sheen = albedo__albedo_of(albedo__SHEEN_ALBEDO, cos_o, sheen_alpha);
-	let coat_albedo = layers.coat * (coating__COAT_F0 * of_coat.x + of_coat.y);
+	let fresnel = mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cos_o));
+	let coat_albedo = layers.coat * coating__coat_reflectance(cos_o, coat_alpha);
 	let below_coat = 1.0 - coat_albedo;
-	let sheen = (below_coat * of_sheen.y) * layers.sheen;
-	return coating__Coating(layers.coat, coat_alpha, sheen, sheen_alpha, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
+	let sheen = (below_coat * select(of_sheen.y, 1.0, bindings__BSDF_SPEC)) * layers.sheen;
+	return coating__Coating(layers.coat, coat_alpha, sheen, sheen_alpha, below_coat, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), fresnel, vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
+}
+
+fn coating__coat_reflectance(cos_o: f32, alpha: f32) -> f32 {
+	if (bindings__BSDF_SPEC) {
+		return mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cos_o));
+	}
+	let albedo = albedo__albedo_of(albedo__GGX_ALBEDO, cos_o, alpha);
+	return coating__COAT_F0 * albedo.x + albedo.y;
+}
+
+fn coating__through_coat(surface: types__Surface, cosine: f32) -> f32 {
+	if (!bindings__HAS_COATED_EMISSION) {
+		return 1.0;
+	}
+	let own = material__load_layers(surface.material);
+	var coat = own.coat;
+	var roughness = own.coat_roughness;
+	if (bindings__HAS_TEXTURES) {
+		coat *= layers__textured(own, types__SLOT_COAT, surface).x;
+		roughness *= layers__textured(own, types__SLOT_COAT_ROUGHNESS, surface).y;
+	}
+	return 1.0 - coat * coating__coat_reflectance(clamp(cosine, 0.0, 1.0), max(roughness * roughness, layers__SMOOTH));
 }
 
 fn coating__coating_eval(coating: coating__Coating, wo: vec3f, wi: vec3f, chances: vec2f) -> vec4f {
-	let cos_h = clamp(dot(wo, normalize(wo + wi)), 0.0, 1.0);
-	let x = 1.0 - cos_h;
-	let reflectance = coating.coat * mix(coating__COAT_F0, 1.0, x * x * x * x * x);
-	let coat = bsdf_ggx__ggx_eval(wo, wi, vec2f(coating.coat_alpha), false);
+	let cos_h = dot(wo, normalize(wo + wi));
+	let reflectance = coating.coat * select(mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cos_h)), coating.fresnel, bindings__BSDF_SPEC);
+	let coat = bsdf_ggx__ggx_eval(wo, wi, vec2f(coating.coat_alpha), bindings__BSDF_SPEC);
 	let sheen = bsdf_sheen__sheen_eval(wo, wi, coating.sheen_alpha);
 	return vec4f(reflectance * coat.x + sheen.x * coating.sheen, dot(chances, vec2f(coat.y, sheen.y)));
 }
@@ -4349,13 +4672,6 @@ fn coating__coating_eval(coating: coating__Coating, wo: vec3f, wi: vec3f, chance
 fn coating__coating_sample(coating: coating__Coating, wo: vec3f, u: vec2f, is_coat: bool) -> vec3f {
 	let h = bsdf_ggx__ggx_normal(wo, vec2f(coating.coat_alpha), u);
 	return select(bsdf_sheen__sheen_sample(u), bsdf__reflected_at(wo, h), is_coat);
-}
-
-fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
-	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
-		return fresnel__schlick(cos_i, eta);
-	}
-	return fresnel__fresnel(cos_i, eta);
 }
 
 struct fresnel__Boundary {
@@ -4380,9 +4696,18 @@ fn fresnel__fresnel(cos_i: f32, eta: f32) -> fresnel__Boundary {
 fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
 	let exact = fresnel__fresnel(cos_i, eta);
 	let r0 = fresnel__ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
-	let x = 1.0 - select(cos_i, exact.cos_t, eta > 1.0);
+	let grazing = fresnel__schlick_weight(select(cos_i, exact.cos_t, eta > 1.0));
+	return fresnel__Boundary(select(mix(r0, 1.0, grazing), 1.0, exact.total), exact.cos_t, exact.total);
+}
+
+fn fresnel__schlick_weight(cosine: f32) -> f32 {
+	let x = 1.0 - clamp(cosine, 0.0, 1.0);
 	let x2 = x * x;
-	return fresnel__Boundary(select(r0 + (1.0 - r0) * x2 * x2 * x, 1.0, exact.total), exact.cos_t, exact.total);
+	return x2 * x2 * x;
+}
+
+fn fresnel__schlick_between(f0: vec3f, f90: vec3f, cosine: f32) -> vec3f {
+	return mix(f0, f90, fresnel__schlick_weight(cosine));
 }
 
 fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f {
@@ -4390,13 +4715,239 @@ fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f
 	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
-const thin_film__XYZ_TO_RGB: mat3x3f = mat3x3f(vec3f(3.2404542, -0.969266, 0.0556434), vec3f(-1.5371385, 1.8760108, -0.2040259), vec3f(-0.4985314, 0.041556, 1.0572252));
+const albedo__ALBEDO_SIDE: u32 = 32u;
 
-fn thin_film__film_schlick(f0: vec3f, cos_theta: f32) -> vec3f {
-	let x = 1.0 - clamp(cos_theta, 0.0, 1.0);
-	let x2 = x * x;
-	return f0 + (1.0 - f0) * (x2 * x2 * x);
+const albedo__GGX_ALBEDO: u32 = 0u;
+
+const albedo__SHEEN_ALBEDO: u32 = 1024u;
+
+const albedo__GLASS_ALBEDO: u32 = 2048u;
+
+const albedo__GLASS_ROWS: u32 = 24u;
+
+const albedo__GLASS_SLICES: u32 = 24u;
+
+const albedo__GLASS_CLEAR: f32 = 7.0;
+
+struct albedo__AlbedoLookup {
+	words: vec4u,
+	weights: vec4f
 }
+
+fn albedo__albedo_lookup(table: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
+	let last = f32(albedo__ALBEDO_SIDE - 1u);
+	let place = last * sqrt(sqrt(clamp(vec2f(cos_o, alpha), vec2f(0.0), vec2f(1.0))));
+	let cell = min(floor(place), vec2f(last - 1.0));
+	let part = place - cell;
+	let first = table + u32(cell.y) * albedo__ALBEDO_SIDE + u32(cell.x);
+	let rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
+	return albedo__AlbedoLookup(vec4u(first, first + 1u, first + albedo__ALBEDO_SIDE, first + albedo__ALBEDO_SIDE + 1u), rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+}
+
+fn albedo__glass_slice(eta: f32) -> f32 {
+	let amplitude = (eta - 1.0) / (eta + 1.0);
+	let steps = select(-albedo__GLASS_CLEAR, f32(albedo__GLASS_SLICES - 1u) - albedo__GLASS_CLEAR, amplitude > 0.0);
+	return clamp(albedo__GLASS_CLEAR + steps * sqrt(2.0 * abs(amplitude)), 0.0, f32(albedo__GLASS_SLICES - 1u));
+}
+
+fn albedo__glass_lookup(slice: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
+	let last = vec2f(f32(albedo__ALBEDO_SIDE - 1u), f32(albedo__GLASS_ROWS - 1u));
+	let place = last * sqrt(vec2f(sqrt(clamp(cos_o, 0.0, 1.0)), clamp(alpha, 0.0, 1.0)));
+	let cell = min(floor(place), last - 1.0);
+	let part = place - cell;
+	let first = albedo__GLASS_ALBEDO + (slice * albedo__GLASS_ROWS + u32(cell.y)) * albedo__ALBEDO_SIDE + u32(cell.x);
+	let rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
+	return albedo__AlbedoLookup(vec4u(first, first + 1u, first + albedo__ALBEDO_SIDE, first + albedo__ALBEDO_SIDE + 1u), rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+}
+
+fn albedo__blended_albedo(entries: vec4u, weights: vec4f) -> vec2f {
+	return weights.x * picture__halves(entries.x) + weights.y * picture__halves(entries.y) + weights.z * picture__halves(entries.z) + weights.w * picture__halves(entries.w);
+}
+
+fn albedo__multiple_scattering(f0: vec3f, albedo: vec2f) -> vec3f {
+	let single = clamp(albedo.x + albedo.y, 0.001, 1.0);
+	return 1.0 + f0 * ((1.0 - single) / single);
+}
+
+struct lobes__Bsdf {
+	normal: vec3f,
+	x: vec3f,
+	y: vec3f,
+	ng: vec3f,
+	wo: vec3f,
+	diffuse: vec3f,
+	f0: vec3f,
+	f90: vec3f,
+	gain: vec3f,
+	alpha: vec2f,
+	reflect: vec3f,
+	transmit: vec3f,
+	boundary_alpha: vec2f,
+	boundary_gain: f32,
+	eta: f32,
+	bends: bool,
+	encloses: bool,
+	flags: u32,
+	through: vec3f,
+	over_f0: vec3f,
+	over_f90: vec3f,
+	film: vec3f,
+	base_f0: vec3f,
+	coating: coating__Coating,
+	chances: vec3f,
+	coating_chances: vec2f
+}
+
+struct lobes__Split {
+	reflect: vec3f,
+	transmit: vec3f
+}
+
+fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers__Layers, met: interface__Interface, direction: vec3f) -> lobes__Bsdf {
+	var bsdf: lobes__Bsdf;
+	bsdf.ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
+	let n = select(surface.n, -surface.n, dot(surface.n, bsdf.ng) < 0.0);
+	bsdf.normal = select(bsdf.ng, n, dot(n, direction) < -0.001);
+	bsdf.x = warp__turn_to(bsdf.normal, vec3f(1.0, 0.0, 0.0));
+	bsdf.y = warp__turn_to(bsdf.normal, vec3f(0.0, 1.0, 0.0));
+	let width = max(layers.alpha, layers__SMOOTH);
+	bsdf.alpha = vec2f(width);
+	var stretch = vec2f(1.0);
+	if (bindings__HAS_ANISOTROPY && surface.tangent.w != 0.0 && layers.anisotropy > 0.0) {
+		let bitangent = surface.tangent.w * cross(surface.n, surface.tangent.xyz);
+		let along = layers.along.x * surface.tangent.xyz + layers.along.y * bitangent;
+		bsdf.x = numeric__normalize_or(along - dot(along, bsdf.normal) * bsdf.normal, bsdf.x);
+		bsdf.y = cross(bsdf.normal, bsdf.x);
+		bsdf.alpha = dispersion__anisotropic_alpha(width, layers.anisotropy);
+		stretch = bsdf.alpha / width;
+	}
+	bsdf.wo = lobes__to_frame(bsdf, -direction);
+	var seen = lobes__Split(vec3f(0.0), vec3f(0.0));
+	var inside = 1.0;
+	if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
+		inside = select(0.0, 1.0, met.is_boundary);
+		bsdf.reflect = inside * layers.reflect;
+		bsdf.transmit = select(vec3f(1.0), layers.transmit, met.is_boundary);
+		bsdf.flags = select(0u, layers.fresnel | (optics.flags & types__MATERIAL_SUM), met.is_boundary);
+		bsdf.boundary_alpha = (inside * layers.boundary_alpha) * stretch;
+		bsdf.encloses = met.encloses;
+		bsdf.bends = met.is_boundary && met.encloses;
+		bsdf.eta = met.ior / select(layers.ior, met.ior_behind, met.encloses);
+		bsdf.boundary_alpha *= select(1.0, 0.0, bsdf.bends && abs(bsdf.eta - 1.0) < 0.0001);
+		if (bindings__BSDF_SPEC && bsdf.flags == types__MATERIAL_FRESNEL) {
+			bsdf.flags |= types__MATERIAL_SCHLICK;
+		}
+		seen = lobes__split_at(bsdf, bsdf.wo.z);
+	}
+	bsdf.f0 = inside * layers.f0;
+	bsdf.f90 = inside * layers.f90;
+	var over = layers.over_f0;
+	bsdf.over_f0 = over;
+	bsdf.over_f90 = layers.over_f90;
+	if (bindings__HAS_COATINGS) {
+		bsdf.film = vec3f(layers.film, layers.film_ior, layers.film_thickness);
+		bsdf.base_f0 = bsdf.f0;
+		let film = lobes__film_f0_at(layers, bsdf.f0, bsdf.wo.z);
+		bsdf.f0 = mix(bsdf.f0, inside * film, layers.film);
+		over = mix(over, film, layers.film * numeric__max_component(layers.over_f90));
+	}
+	let mean_alpha = sqrt(bsdf.alpha.x * bsdf.alpha.y);
+	let albedo = albedo__albedo_of(albedo__GGX_ALBEDO, bsdf.wo.z, mean_alpha);
+	let boost = select(albedo__multiple_scattering(bsdf.f0, albedo), vec3f(1.0), bindings__BSDF_SPEC);
+	bsdf.boundary_gain = 1.0;
+	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && bsdf.boundary_alpha.x >= layers__SMOOTH) {
+		let glass = albedo__glass_albedo(bsdf.wo.z, mean_alpha, bsdf.eta);
+		let share = glass.y / max(glass.x, 0.001);
+		bsdf.boundary_gain = 1.0 / max(select(albedo.x + albedo.y, glass.x, bsdf.bends), 0.001);
+		if (bsdf.bends) {
+			seen = lobes__Split(share * bsdf.reflect, (1.0 - share) * bsdf.transmit);
+		}
+	}
+	let glossy = boost * (albedo.x * bsdf.f0 + albedo.y * bsdf.f90);
+	var left = 1.0 - numeric__max_component(boost * (albedo.x * over + albedo.y * layers.over_f90));
+	if ((optics.flags & types__MATERIAL_SUM) == 0u) {
+		left *= optics.opacity * (1.0 - numeric__max_component(seen.reflect));
+	}
+	bsdf.diffuse = (inside * max(left, 0.0)) * layers.diffuse;
+	let whole = select(bsdf.diffuse, inside * layers.diffuse, bindings__BSDF_SPEC && (optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u);
+	var scale = 1.0 / max(numeric__max_component(bsdf.diffuse + glossy + seen.reflect + seen.transmit), 1.0);
+	if (bindings__HAS_COATINGS) {
+		bsdf.coating = coating__coating_at(layers, bsdf.wo.z);
+		bsdf.coating.albedos *= inside;
+		scale *= mix(1.0, bsdf.coating.left, inside);
+		bsdf.through = scale * layers.diffuse_transmission * whole * layers.diffuse_transmission_color;
+		bsdf.diffuse = whole * (1.0 - layers.diffuse_transmission);
+	}
+	else {
+		bsdf.diffuse = whole;
+	}
+	bsdf.diffuse *= scale;
+	bsdf.gain = scale * boost;
+	bsdf.reflect *= scale;
+	bsdf.transmit *= scale;
+	let weights = vec3f(dot(bsdf.diffuse + bsdf.through, tone__LUMINANCE_REC709), scale * dot(glossy, tone__LUMINANCE_REC709), scale * dot(seen.reflect + seen.transmit, tone__LUMINANCE_REC709));
+	let total = max(weights.x + weights.y + weights.z + bsdf.coating.albedos.x + bsdf.coating.albedos.y, 1e-30);
+	bsdf.chances = weights / total;
+	bsdf.coating_chances = bsdf.coating.albedos / total;
+	return bsdf;
+}
+
+fn lobes__film_f0_at(layers: layers__Layers, base_f0: vec3f, cos_o: f32) -> vec3f {
+	let grazing = min(fresnel__schlick_weight(cos_o), 0.999);
+	let film = thin_film__thin_film(cos_o, 1.0, layers.film_ior, layers.film_thickness, min(base_f0, vec3f(1.0)));
+	return clamp((film - grazing) / (1.0 - grazing), vec3f(0.0), vec3f(1.0));
+}
+
+fn lobes__glossy_fresnel(bsdf: lobes__Bsdf, cos_h: f32) -> vec3f {
+	if (bindings__HAS_COATINGS) {
+		let bare = fresnel__schlick_between(bsdf.base_f0, bsdf.f90, cos_h);
+		if (bsdf.film.x > 0.0) {
+			let film = thin_film__thin_film(clamp(cos_h, 0.0, 1.0), 1.0, bsdf.film.y, bsdf.film.z, min(bsdf.base_f0, vec3f(1.0)));
+			return mix(bare, film, bsdf.film.x);
+		}
+		return bare;
+	}
+	return fresnel__schlick_between(bsdf.f0, bsdf.f90, cos_h);
+}
+
+fn lobes__below_glossy(bsdf: lobes__Bsdf, cos_h: f32) -> f32 {
+	if (!bindings__BSDF_SPEC) {
+		return 1.0;
+	}
+	var left = 1.0 - numeric__max_component(fresnel__schlick_between(bsdf.over_f0, bsdf.over_f90, cos_h));
+	if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
+		left *= 1.0 - numeric__max_component(lobes__split_at(bsdf, cos_h).reflect);
+	}
+	return left;
+}
+
+fn lobes__split_at(bsdf: lobes__Bsdf, cos_i: f32) -> lobes__Split {
+	let boundary = boundary__boundary_at(bsdf.flags, clamp(cos_i, 0.0, 1.0), bsdf.eta);
+	if ((bsdf.flags & types__MATERIAL_FRESNEL) != 0u) {
+		return lobes__Split(boundary.reflectance * bsdf.reflect, (1.0 - boundary.reflectance) * bsdf.transmit);
+	}
+	if (boundary.total && bsdf.bends) {
+		return lobes__Split(bsdf.reflect + select(bsdf.transmit, vec3f(0.0), (bsdf.flags & types__MATERIAL_SUM) != 0u), vec3f(0.0));
+	}
+	return lobes__Split(bsdf.reflect, bsdf.transmit);
+}
+
+fn lobes__to_frame(bsdf: lobes__Bsdf, direction: vec3f) -> vec3f {
+	return vec3f(dot(direction, bsdf.x), dot(direction, bsdf.y), dot(direction, bsdf.normal));
+}
+
+fn lobes__from_frame(bsdf: lobes__Bsdf, w: vec3f) -> vec3f {
+	return w.x * bsdf.x + w.y * bsdf.y + w.z * bsdf.normal;
+}
+
+fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
+	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
+		return fresnel__schlick(cos_i, eta);
+	}
+	return fresnel__fresnel(cos_i, eta);
+}
+
+const thin_film__XYZ_TO_RGB: mat3x3f = mat3x3f(vec3f(3.2404542, -0.969266, 0.0556434), vec3f(-1.5371385, 1.8760108, -0.2040259), vec3f(-0.4985314, 0.041556, 1.0572252));
 
 fn thin_film__film_f0(n1: vec3f, n2: vec3f) -> vec3f {
 	let ratio = (n1 - n2) / (n1 + n2);
@@ -4419,7 +4970,7 @@ fn thin_film__thin_film(cos_i: f32, outside: f32, film_ior: f32, thickness: f32,
 	let root = sqrt(clamp(base_f0, vec3f(0.0), vec3f(0.9999)));
 	let base_ior = (1.0 + root) / (1.0 - root);
 	let r12 = above.reflectance;
-	let r23 = thin_film__film_schlick(thin_film__film_f0(vec3f(ior), base_ior), above.cos_t);
+	let r23 = fresnel__schlick_between(thin_film__film_f0(vec3f(ior), base_ior), vec3f(1.0), above.cos_t);
 	let once = sqrt(r12 * r23);
 	let through = (1.0 - r12) * (1.0 - r23) / max(1.0 - r12 * r23, vec3f(1e-6));
 	let sign = select(vec3f(1.0), vec3f(-1.0), base_ior < vec3f(ior)) * select(-1.0, 1.0, ior < outside);
@@ -4427,36 +4978,6 @@ fn thin_film__thin_film(cos_i: f32, outside: f32, film_ior: f32, thickness: f32,
 	let harmonics = sign * once * thin_film__film_spectrum(path) + once * once * thin_film__film_spectrum(2.0 * path);
 	let reflected = clamp(1.0 - through - 2.0 * through * harmonics, vec3f(0.0), vec3f(1.0));
 	return select(reflected, vec3f(1.0), above.total);
-}
-
-const albedo__ALBEDO_SIDE: u32 = 32u;
-
-const albedo__GGX_ALBEDO: u32 = 0u;
-
-const albedo__SHEEN_ALBEDO: u32 = 1024u;
-
-struct albedo__AlbedoLookup {
-	words: vec4u,
-	weights: vec4f
-}
-
-fn albedo__albedo_lookup(table: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
-	let last = f32(albedo__ALBEDO_SIDE - 1u);
-	let place = last * sqrt(sqrt(clamp(vec2f(cos_o, alpha), vec2f(0.0), vec2f(1.0))));
-	let cell = min(floor(place), vec2f(last - 1.0));
-	let part = place - cell;
-	let first = table + u32(cell.y) * albedo__ALBEDO_SIDE + u32(cell.x);
-	let rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
-	return albedo__AlbedoLookup(vec4u(first, first + 1u, first + albedo__ALBEDO_SIDE, first + albedo__ALBEDO_SIDE + 1u), rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
-}
-
-fn albedo__blended_albedo(entries: vec4u, weights: vec4f) -> vec2f {
-	return weights.x * picture__halves(entries.x) + weights.y * picture__halves(entries.y) + weights.z * picture__halves(entries.z) + weights.w * picture__halves(entries.w);
-}
-
-fn albedo__multiple_scattering(f0: vec3f, albedo: vec2f) -> vec3f {
-	let single = clamp(albedo.x + albedo.y, 0.001, 1.0);
-	return 1.0 + f0 * ((1.0 - single) / single);
 }
 
 const quad_warp__CHANCE_BITS: u32 = 10u;
@@ -4531,14 +5052,14 @@ fn bsdf__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
 }
 
 fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
-	let wi = lobes__to_frame(bsdf.normal, direction);
+	let wi = lobes__to_frame(bsdf, direction);
 	var value = vec3f(0.0);
 	var pdf = 0.0;
 	if (wi.z > 0.0) {
 		let diffuse = bsdf_diffuse__diffuse_eval(wi);
-		let glossy = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.alpha, false);
+		let glossy = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.alpha, bindings__BSDF_SPEC);
 		let cos_h = dot(bsdf.wo, normalize(bsdf.wo + wi));
-		value = diffuse * bsdf.diffuse + glossy.x * (bsdf.gain * bsdf__schlick_between(bsdf.f0, bsdf.f90, cos_h));
+		value = (diffuse * lobes__below_glossy(bsdf, cos_h)) * bsdf.diffuse + glossy.x * (bsdf.gain * lobes__glossy_fresnel(bsdf, cos_h));
 		pdf = bsdf.chances.x * (1.0 - bsdf__through_share(bsdf)) * diffuse + bsdf.chances.y * glossy.y;
 		if (bindings__HAS_COATINGS) {
 			let coating = coating__coating_eval(bsdf.coating, bsdf.wo, wi, bsdf.coating_chances);
@@ -4546,21 +5067,21 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 			pdf += coating.w;
 		}
 		if (bsdf__has_rough_boundary(bsdf)) {
-			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, false);
+			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, bindings__BSDF_SPEC);
 			let split = lobes__split_at(bsdf, cos_h);
-			value += boundary.x * split.reflect;
+			value += (boundary.x * bsdf.boundary_gain) * split.reflect;
 			pdf += bsdf.chances.z * bsdf__reflection_chance(split) * boundary.y;
 		}
 	}
 	else if (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) {
-		var boundary = bsdf_ggx__ggx_eval(bsdf.wo, vec3f(wi.xy, -wi.z), bsdf.boundary_alpha, false);
+		var boundary = bsdf_ggx__ggx_eval(bsdf.wo, vec3f(wi.xy, -wi.z), bsdf.boundary_alpha, bindings__BSDF_SPEC);
 		var h = normalize(bsdf.wo + vec3f(wi.xy, -wi.z));
 		if (bsdf.bends) {
 			boundary = bsdf_ggx_transmission__ggx_transmission(bsdf.wo, wi, bsdf.boundary_alpha, bsdf.eta);
 			h = bsdf_ggx_transmission__transmission_half(bsdf.wo, wi, bsdf.eta);
 		}
 		let split = lobes__split_at(bsdf, dot(bsdf.wo, h));
-		value = boundary.x * split.transmit;
+		value = (boundary.x * bsdf.boundary_gain) * split.transmit;
 		pdf = bsdf.chances.z * (1.0 - bsdf__reflection_chance(split)) * boundary.y;
 	}
 	if (bindings__HAS_COATINGS && wi.z < 0.0) {
@@ -4589,9 +5110,12 @@ fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSamp
 			wi = coating__coating_sample(bsdf.coating, bsdf.wo, u, is_coat);
 			record_path__record_lobe(select(types__LOBE_SHEEN, types__LOBE_COAT, is_coat));
 		}
-		wi.z *= select(1.0, -1.0, is_diffuse && choice < chances.x * bsdf__through_share(bsdf));
+		let passes = is_diffuse && choice < chances.x * bsdf__through_share(bsdf);
+		if (passes) {
+			return bsdf__rough_sample(bsdf, vec3f(wi.xy, -wi.z), false);
+		}
 	}
-	return bsdf__rough_sample(bsdf, wi);
+	return bsdf__rough_sample(bsdf, wi, true);
 }
 
 fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
@@ -4618,28 +5142,23 @@ fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__Bsdf
 	}
 	if (is_smooth) {
 		let fraction = select(split.transmit / max(1.0 - chance, 1e-6), split.reflect / max(chance, 1e-6), reflects);
-		let direction = warp__turn_to(bsdf.normal, wi);
+		let direction = lobes__from_frame(bsdf, wi);
 		let stays = (dot(direction, bsdf.ng) > 0.0) == reflects;
 		return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
 	}
-	return bsdf__rough_sample(bsdf, wi);
+	return bsdf__rough_sample(bsdf, wi, reflects);
 }
 
-fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f) -> bsdf__BsdfSample {
-	let direction = warp__turn_to(bsdf.normal, wi);
+fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f, above: bool) -> bsdf__BsdfSample {
+	let direction = lobes__from_frame(bsdf, wi);
 	let found = bsdf__bsdf_eval(bsdf, direction);
-	return bsdf__BsdfSample(direction, found.value / max(found.pdf, 1e-30), found.pdf);
+	let weight = select(vec3f(0.0), found.value / max(found.pdf, 1e-30), (wi.z > 0.0) == above);
+	return bsdf__BsdfSample(direction, weight, found.pdf);
 }
 
 fn bsdf__reflection_chance(split: lobes__Split) -> f32 {
 	let reflected = dot(split.reflect, tone__LUMINANCE_REC709);
 	return reflected / max(reflected + dot(split.transmit, tone__LUMINANCE_REC709), 1e-30);
-}
-
-fn bsdf__schlick_between(f0: vec3f, f90: vec3f, cos_h: f32) -> vec3f {
-	let x = 1.0 - clamp(cos_h, 0.0, 1.0);
-	let x2 = x * x;
-	return mix(f0, f90, x2 * x2 * x);
 }
 
 fn bsdf__reflected_at(wo: vec3f, h: vec3f) -> vec3f {

@@ -33,7 +33,8 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	dispatch__count_hit(path.kind, hit);
 	if (hit.primitive == types__NONE) {
 		let weight = environment__background_weight(batch, ray.direction, path.pdf);
-		return path__ended(path__gained(path, weight * background__background(batch, ray.direction), path.bounces));
+		let seen = background__background(batch, ray.direction);
+		return path__ended(path__gained(path, weight * seen, path.bounces));
 	}
 	let contact = contact__contact_at(ray, hit, path.cone);
 	let surface = contact.surface;
@@ -53,7 +54,8 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	let layers = layers__layers_at(surface, optics);
 	let weight = emitters__emission_weight(batch, surface, hit, path.origin, ray.direction, path.pdf);
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
-	path = path__gained(path, (weight * coat) * emitters__emitted(surface, optics, layers.glow), path.bounces);
+	let emission = coat * emitters__emitted(surface, optics, layers.glow);
+	path = path__gained(path, weight * emission, path.bounces);
 	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
 	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
 		path = path__gained(path, lamp_light(batch, path, surface, bsdf, met), path.bounces + 1u);
@@ -71,7 +73,8 @@ fn lamp_light(batch: dispatch__Batch, path: path__Path, surface: types__Surface,
 		rays = rays__ray_set(rays, 0u, direct__shadow_ray(surface, light.incident));
 	}
 	let media = select(path.media, met.media, vec4<bool>(dot(light.incident.direction, bsdf.ng) < 0.0));
-	return unshadowed * wide__vector_at(shadow__light_through(rays, ray_states__Media(media.x, media.y, media.z, media.w)), 0u);
+	let through = wide__vector_at(shadow__light_through(rays, ray_states__Media(media.x, media.y, media.z, media.w)), 0u);
+	return unshadowed * through;
 }
 
 fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
@@ -83,7 +86,8 @@ fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface
 		return path__ended(path);
 	}
 	let chance = select(1.0, mis__survival_chance(path.throughput), path.bounces >= ROULETTE_START);
-	if (path__random_1d(path, dimensions__ROULETTE) >= chance || all(path.throughput <= vec3f(0.0))) {
+	let ends = path__random_1d(path, dimensions__ROULETTE) >= chance || all(path.throughput <= vec3f(0.0));
+	if (ends) {
 		return path__ended(path);
 	}
 	path.throughput /= chance;
@@ -1330,12 +1334,15 @@ struct path__Path {
 const path__ALL_CHANNELS: u32 = 3u;
 
 fn path__camera_path(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32) -> path__Path {
-	let ray = rays__ray_at(pixels__sample_rays(batch, pixels, sample), 0u);
+	return path__path_along(batch, rays__ray_at(pixels__sample_rays(batch, pixels, sample), 0u), wide__word_at(pixels.keys, 0u), sample);
+}
+
+fn path__path_along(batch: dispatch__Batch, ray: types__Ray, key: u32, sample: u32) -> path__Path {
 	var cone = types__Cone(0.0, 0.0);
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, 0.0, cone, wide__word_at(pixels.keys, 0u), sample, path__ALL_CHANNELS);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, 0.0, cone, key, sample, path__ALL_CHANNELS);
 }
 
 fn path__is_going(path: path__Path) -> bool {
@@ -1377,6 +1384,111 @@ fn path__random_1d(path: path__Path, purpose: u32) -> f32 {
 
 fn path__random_2d(path: path__Path, purpose: u32) -> vec2f {
 	return sampling__stratified_2d(path.sample, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
+}
+
+const footprint__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
+
+fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
+	let camera = batch.camera;
+	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
+	let side = batch.footprint * max(sides.x, sides.y);
+	if (bindings__ORTHOGRAPHIC) {
+		return types__Cone(side, 0.0);
+	}
+	return types__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
+}
+
+fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
+	let e1 = corners[1] - corners[0];
+	let e2 = corners[2] - corners[0];
+	let d1 = uvs[1] - uvs[0];
+	let d2 = uvs[2] - uvs[0];
+	return mat2x2f(ray_cone__uv_along(axes[0], e1, e2, d1, d2), ray_cone__uv_along(axes[1], e1, e2, d1, d2));
+}
+
+fn footprint__shape_uv_footprint(shape: types__PackedShape, p: vec3f, axes: mat2x3f, part: f32) -> mat2x2f {
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		return mat2x2f(vec2f(dot(shape.row_x, axes[0]), dot(shape.row_z, axes[0])), vec2f(dot(shape.row_x, axes[1]), dot(shape.row_z, axes[1])));
+	}
+	var first = vec2f(0.0);
+	var ends = mat2x2f(first, first);
+	var k = 0u;
+	loop {
+		let at = select(select(p + axes[1], p + axes[0], k == 1u), p, k == 0u);
+		let uv = footprint__shape_uv(shape, at, part);
+		let way = uv - first - round(uv - first);
+		first = select(first, uv, k == 0u);
+		ends = mat2x2f(select(ends[0], way, k == 1u), select(ends[1], way, k == 2u));
+		continuing {
+			k += 1u;
+			break if k > 2u;
+		}
+	}
+	loops__cut_off |= k <= 2u;
+	return ends;
+}
+
+fn footprint__shape_uv(shape: types__PackedShape, p: vec3f, part: f32) -> vec2f {
+	if (!shape__is_round(shape.kind)) {
+		return shape__canonical_point(shape, p, part).uv;
+	}
+	if (shape__is_globe(shape.kind)) {
+		return canonical__sphere_uv(globe__globe_point(shape, p).ng);
+	}
+	return canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
+}
+
+fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) -> mat2x3f {
+	let rows = transpose(mat3x3f(instance.pattern_x.xyz, instance.pattern_y.xyz, instance.pattern_z.xyz));
+	return mat2x3f(rows * own[0], rows * own[1]);
+}
+
+fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: types__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
+	var surface = own;
+	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
+	var local = axes;
+	var scale = 1.0;
+	if (bindings__HAS_INSTANCES && is_placed) {
+		local = mat2x3f(space.inverse * axes[0], space.inverse * axes[1]);
+		scale = length(instance__placed_normal(space, own.ng));
+	}
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
+	surface.footprint = types__Footprint(in_uv, in_uv, axes);
+	if (shape__is_round(shape.kind)) {
+		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
+		surface.curvature = select(-curvature, curvature, own.outside);
+	}
+	return surface;
+}
+
+fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) -> f32 {
+	if (!(bindings__HAS_FOOTPRINTS && (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION))) {
+		return 0.0;
+	}
+	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
+	return select(-bend, bend, side < 0.0) / 3.0;
+}
+
+const ray_states__KIND_PRIMARY: u32 = 0u;
+
+const ray_states__KIND_REFLECTED: u32 = 1u;
+
+const ray_states__KIND_REFRACTED: u32 = 2u;
+
+struct ray_states__Media {
+	x: wide__Words,
+	y: wide__Words,
+	z: wide__Words,
+	w: wide__Words
+}
+
+fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
+	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
+}
+
+fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
+	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
 }
 
 struct rays__Rays {
@@ -1741,111 +1853,6 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	let x = vec3f(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
 	let y = vec3f(b, side + n.y * n.y * a, -n.y);
 	return direction.x * x + direction.y * y + direction.z * n;
-}
-
-const footprint__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
-
-fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
-	let camera = batch.camera;
-	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
-	let side = batch.footprint * max(sides.x, sides.y);
-	if (bindings__ORTHOGRAPHIC) {
-		return types__Cone(side, 0.0);
-	}
-	return types__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
-}
-
-fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
-	let e1 = corners[1] - corners[0];
-	let e2 = corners[2] - corners[0];
-	let d1 = uvs[1] - uvs[0];
-	let d2 = uvs[2] - uvs[0];
-	return mat2x2f(ray_cone__uv_along(axes[0], e1, e2, d1, d2), ray_cone__uv_along(axes[1], e1, e2, d1, d2));
-}
-
-fn footprint__shape_uv_footprint(shape: types__PackedShape, p: vec3f, axes: mat2x3f, part: f32) -> mat2x2f {
-	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
-		return mat2x2f(vec2f(dot(shape.row_x, axes[0]), dot(shape.row_z, axes[0])), vec2f(dot(shape.row_x, axes[1]), dot(shape.row_z, axes[1])));
-	}
-	var first = vec2f(0.0);
-	var ends = mat2x2f(first, first);
-	var k = 0u;
-	loop {
-		let at = select(select(p + axes[1], p + axes[0], k == 1u), p, k == 0u);
-		let uv = footprint__shape_uv(shape, at, part);
-		let way = uv - first - round(uv - first);
-		first = select(first, uv, k == 0u);
-		ends = mat2x2f(select(ends[0], way, k == 1u), select(ends[1], way, k == 2u));
-		continuing {
-			k += 1u;
-			break if k > 2u;
-		}
-	}
-	loops__cut_off |= k <= 2u;
-	return ends;
-}
-
-fn footprint__shape_uv(shape: types__PackedShape, p: vec3f, part: f32) -> vec2f {
-	if (!shape__is_round(shape.kind)) {
-		return shape__canonical_point(shape, p, part).uv;
-	}
-	if (shape__is_globe(shape.kind)) {
-		return canonical__sphere_uv(globe__globe_point(shape, p).ng);
-	}
-	return canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
-}
-
-fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) -> mat2x3f {
-	let rows = transpose(mat3x3f(instance.pattern_x.xyz, instance.pattern_y.xyz, instance.pattern_z.xyz));
-	return mat2x3f(rows * own[0], rows * own[1]);
-}
-
-fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: types__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
-	var surface = own;
-	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
-	var local = axes;
-	var scale = 1.0;
-	if (bindings__HAS_INSTANCES && is_placed) {
-		local = mat2x3f(space.inverse * axes[0], space.inverse * axes[1]);
-		scale = length(instance__placed_normal(space, own.ng));
-	}
-	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
-	surface.footprint = types__Footprint(in_uv, in_uv, axes);
-	if (shape__is_round(shape.kind)) {
-		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
-		surface.curvature = select(-curvature, curvature, own.outside);
-	}
-	return surface;
-}
-
-fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) -> f32 {
-	if (!(bindings__HAS_FOOTPRINTS && (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION))) {
-		return 0.0;
-	}
-	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
-	return select(-bend, bend, side < 0.0) / 3.0;
-}
-
-const ray_states__KIND_PRIMARY: u32 = 0u;
-
-const ray_states__KIND_REFLECTED: u32 = 1u;
-
-const ray_states__KIND_REFRACTED: u32 = 2u;
-
-struct ray_states__Media {
-	x: wide__Words,
-	y: wide__Words,
-	z: wide__Words,
-	w: wide__Words
-}
-
-fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
-	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
-}
-
-fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
-	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
 }
 
 const traverse__EMPTY: u32 = 4294967295u;
@@ -2863,7 +2870,8 @@ fn environment__background_weight(batch: dispatch__Batch, direction: vec3f, pdf:
 	if (!bindings__HAS_ENVIRONMENT || pdf <= 0.0) {
 		return 1.0;
 	}
-	return mis__power_heuristic(pdf, batch.environment_share * environment__environment_pdf(batch, direction));
+	let density = batch.environment_share * environment__environment_pdf(batch, direction);
+	return mis__power_heuristic(pdf, density);
 }
 
 fn environment__density_at(batch: dispatch__Batch, cell: vec2u, direction: vec3f) -> f32 {
@@ -2871,15 +2879,6 @@ fn environment__density_at(batch: dispatch__Batch, cell: vec2u, direction: vec3f
 	let first = batch.environment_first + 1u + 2u * ((height * height - 1u) / 3u);
 	let density = bitcast<f32>(picture__load_texel_word(first + cell.y * batch.environment_width + cell.x));
 	return density / (2.0 * picture__PI * picture__PI * max(length(direction.xz), 1e-6));
-}
-
-fn mis__power_heuristic(own: f32, other: f32) -> f32 {
-	let ratio = other / max(own, 1e-30);
-	return select(0.0, 1.0 / (1.0 + min(ratio * ratio, 1e30)), own > 0.0);
-}
-
-fn mis__survival_chance(throughput: vec3f) -> f32 {
-	return min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
 }
 
 const picture__PI: f32 = 3.14159265;
@@ -2962,7 +2961,14 @@ fn picture__load_texel_word(index: u32) -> u32 {
 	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
 }
 
-const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+fn mis__power_heuristic(own: f32, other: f32) -> f32 {
+	let ratio = other / max(own, 1e-30);
+	return select(0.0, 1.0 / (1.0 + min(ratio * ratio, 1e30)), own > 0.0);
+}
+
+fn mis__survival_chance(throughput: vec3f) -> f32 {
+	return min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
+}
 
 fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
 	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
@@ -2976,6 +2982,8 @@ fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
 	}
 	return batch.background;
 }
+
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 const contact__NEAR: f32 = 1e-5;
 
@@ -4054,7 +4062,8 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2
 	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || choice >= fetch__load_light_end(batch.light_count - 1u))) {
 		return emitters__sample_emitter(batch, p, choice, u);
 	}
-	let light = shutter__shutter_light(emitters__chosen(choice, batch.light_count, false), batch.light_count);
+	let index = emitters__chosen(choice, batch.light_count, false);
+	let light = shutter__shutter_light(index, batch.light_count);
 	var arriving = light__incident(light, p);
 	var pdf = 0.0;
 	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
@@ -4103,7 +4112,8 @@ fn emitters__chosen(choice: f32, count: u32, among_emitters: bool) -> u32 {
 }
 
 fn emitters__sample_emitter(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
-	let emitter = fetch__load_emitter(emitters__chosen(choice, batch.emitter_count, true));
+	let index = emitters__chosen(choice, batch.emitter_count, true);
+	let emitter = fetch__load_emitter(index);
 	if (bindings__HAS_EMISSIVE_SHAPES && (emitter.primitive & types__SHAPE) != 0u) {
 		return emitters__sample_shape(batch, p, emitter, u);
 	}
@@ -4197,7 +4207,8 @@ fn emitters__emission_weight(batch: dispatch__Batch, surface: types__Surface, hi
 	if ((hit.primitive & types__SHAPE) != 0u) {
 		density = emissive_shape__shape_density(hit, origin, direction, distance);
 	}
-	return mis__power_heuristic(pdf, glow.luminance / batch.emitter_power * density);
+	density *= glow.luminance / batch.emitter_power;
+	return mis__power_heuristic(pdf, density);
 }
 
 fn emitters__can_be_hit(light: types__PackedLight) -> bool {
