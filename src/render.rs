@@ -9,6 +9,7 @@ mod device;
 mod effort;
 mod error;
 mod explain;
+mod features;
 mod film;
 mod film_tile;
 mod film_tiles;
@@ -35,6 +36,7 @@ pub use develop::Tone;
 pub use effort::LongPath;
 pub use error::RenderError;
 pub use explain::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
+pub use features::{Features, PixelFeatures};
 pub use film::{Film, FilmError, FilmHeader, Missing};
 pub use fingerprint::Fingerprint;
 pub use integrator::{Integrator, IntegratorEntry, Shows, TABLE as INTEGRATORS};
@@ -305,7 +307,10 @@ fn planned_bytes(
     let pixels = u64::from(width) * u64::from(height);
     let mut ledger = bindings::ledger(scene, view, tiles.largest(), pixels);
     if tiles.has_totals() {
-        ledger.plan("totals of the film", pixels * size_of::<[i128; 4]>() as u64);
+        ledger.plan(
+            "totals of the film",
+            pixels * size_of::<[i128; 4]>() as u64 * tiles.rows_per_pixel() as u64,
+        );
     }
     ledger.check(policy.memory_limit_bytes)?;
     Ok(ledger.total())

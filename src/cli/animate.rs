@@ -25,7 +25,7 @@ use crate::cli::interrupt::Interrupt;
 use crate::cli::job::{Job, Outcome};
 use crate::cli::progress::FrameProgress;
 use crate::cli::report::{AnimationReport, Draft};
-use crate::output::OutputError;
+use crate::output::{Format, OutputError};
 use crate::output::video::{self, FrameRate, VideoOptions};
 use crate::render::Stats;
 use frame_renderer::{FrameRenderer, Sink};
@@ -85,6 +85,7 @@ fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,
+        layers: &arguments.layers,
     };
     let flags = &arguments.output;
     Sequence {
@@ -124,9 +125,11 @@ impl<'a> Sequence<'a> {
         let interrupt = Interrupt::install()?;
         self.job.warn_of_skipped();
         let settings = self.job.settings();
+        let files = self.target.frames.as_ref();
+        let takes_layers = files.is_some_and(|files| files.format == Format::Exr);
+        (self.job.layers).check(settings.integrator, &self.target.path, takes_layers)?;
         let size = picture_size(&settings)?;
         let video = self.video_options()?;
-        let files = self.target.frames.as_ref();
         draft.set_image(self.job.image(&self.target.path, &settings, size));
         self.target.protect(&draft.inputs)?;
         self.job.check_report(draft)?;

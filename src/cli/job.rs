@@ -6,9 +6,10 @@ use crate::app::console::Console;
 use crate::app::error::AppError;
 use crate::app::inputs;
 use crate::app::value_names::INTEGRATORS;
-use crate::cli::args::{DeviceFlags, LogFlags, PictureFlags};
+use crate::cli::args::{DeviceFlags, LayerFlags, LogFlags, PictureFlags};
 use crate::cli::destination;
 use crate::cli::device;
+use crate::cli::layers::Finished;
 use crate::cli::memory;
 use crate::cli::report;
 use crate::cli::report::{
@@ -16,7 +17,7 @@ use crate::cli::report::{
 };
 use crate::gpu::{AdapterReport, Gpu};
 use crate::output;
-use crate::render::{ExecutionPolicy, Integrator, RenderSettings, Stats, Tone};
+use crate::render::{ExecutionPolicy, Integrator, RenderSettings, Renderer, Stats, Tone};
 use crate::scene::Scene;
 use std::path::Path;
 use std::time::Instant;
@@ -32,6 +33,7 @@ pub struct Job<'a> {
     pub picture: &'a PictureFlags,
     pub device: &'a DeviceFlags,
     pub log: &'a LogFlags,
+    pub layers: &'a LayerFlags,
 }
 
 /// The result of a job.
@@ -67,7 +69,18 @@ impl Job<'_> {
     }
 
     pub fn settings(&self) -> RenderSettings {
-        self.picture.overrides().settings(&self.scene.output)
+        RenderSettings {
+            features: self.layers.wants_features(),
+            ..self.picture.overrides().settings(&self.scene.output)
+        }
+    }
+
+    /// The picture of a renderer that is done.
+    pub fn finish(&self, renderer: &mut Renderer, tone: &Tone) -> Result<Finished, AppError> {
+        match self.layers.wants_features() {
+            true => self.layers.finish(&renderer.film()?, renderer.gpu(), tone),
+            false => Ok(Finished::Plain(renderer.develop(tone)?)),
+        }
     }
 
     pub fn policy(&self) -> ExecutionPolicy {

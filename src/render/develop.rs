@@ -9,6 +9,7 @@ use super::{
     layouts::{Layouts, group},
     levels, pipelines,
     slice::Slice,
+    sums::PixelRows,
 };
 use crate::clock::Instant;
 use crate::{
@@ -348,7 +349,7 @@ pub fn develop_sums(
 ) -> Result<Image, RenderError> {
     let [x, y, width, height] = region;
     let mut image = Image::new(width, height);
-    let tiles = rectangles(region, Slicing::default().tile_side, 0..0, 1);
+    let tiles = rectangles(region, Slicing::default().tile_side, 0..0, PixelRows::ONE);
     let Some(most) = tiles.iter().map(FilmTile::pixel_count).max() else {
         return Ok(image);
     };

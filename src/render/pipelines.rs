@@ -27,6 +27,7 @@ pub fn rendering(
     };
     let as_packets = as_packets
         && !task.settings.brute_force
+        && !task.settings.has_features()
         && task.scene.materials.len() < MAX_PACKET_MATERIALS;
     let variant = match as_packets && kernel.has(Variant::Packet) {
         true => tracing_variant(gpu, fetch, task.view),

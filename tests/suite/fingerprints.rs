@@ -56,6 +56,7 @@ fn every_setting_changes_the_fingerprint() {
         ("transparent shadows", |s| s.transparent_shadows = true),
         ("clamp", |s| s.clamp_indirect = Some(1.0)),
         ("another clamp", |s| s.clamp_indirect = Some(2.0)),
+        ("features", |s| s.features = true),
     ];
     let mut known: HashMap<Fingerprint, &str> = HashMap::new();
     for (name, change) in changes {

@@ -7,10 +7,11 @@ use crate::cli::animate::journal::{Journal, Origin};
 use crate::cli::animate::plan::Plan;
 use crate::cli::animate::target::Files;
 use crate::cli::animate::{Frames, Sequence};
+use crate::cli::args::LayerFlags;
 use crate::cli::interrupt::Interrupt;
+use crate::cli::layers::Finished;
 use crate::cli::progress::FrameProgress;
 use crate::gpu::{AdapterReport, Gpu};
-use crate::image::Image;
 use crate::output::video::{self, Picture8, VideoOptions, Y4mWriter};
 use crate::output::{self, Format, OutputError};
 use crate::pack::{self, PackedScene, PackedView};
@@ -48,7 +49,12 @@ impl<'a> FrameRenderer<'a> {
         Ok(Self {
             fingerprints: (
                 render::Fingerprint::of_scene(&scene).to_string(),
-                of_settings(&settings, &tone, sequence.target.frames.as_ref()),
+                of_settings(
+                    &settings,
+                    &tone,
+                    sequence.target.frames.as_ref(),
+                    sequence.job.layers,
+                ),
             ),
             adapter: gpu.as_ref().map(|gpu| gpu.adapter().clone()),
             sequence,
@@ -130,12 +136,12 @@ impl<'a> FrameRenderer<'a> {
                 interrupt.check()?;
                 if !done {
                     let view = self.view(number)?;
-                    let image = self.frame(number, &view, &mut progress, interrupt)?;
-                    self.save(number, &view, &image, journal.as_deref_mut())?;
+                    let picture = self.frame(number, &view, &mut progress, interrupt)?;
+                    self.save(number, &view, &picture, journal.as_deref_mut())?;
                     rendered += 1;
                     progress.finish_frame();
                     if let Some(sink) = &mut sink {
-                        sink.send(&Picture8::from(&image))?;
+                        sink.send(&Picture8::from(picture.image()))?;
                     }
                 } else if let (Some(sink), Some(files)) = (&mut sink, &self.sequence.target.frames)
                 {
@@ -169,7 +175,7 @@ impl<'a> FrameRenderer<'a> {
         view: &PackedView,
         progress: &mut FrameProgress,
         interrupt: &Interrupt,
-    ) -> Result<Image, AppError> {
+    ) -> Result<Finished, AppError> {
         let renderer = match (&mut self.renderer, self.gpu.take()) {
             (Some(renderer), _) => {
                 renderer.set_frame(view)?;
@@ -188,14 +194,14 @@ impl<'a> FrameRenderer<'a> {
             renderer.step()?;
             progress.update(number, renderer.progress());
         }
-        Ok(renderer.develop(&self.tone)?)
+        self.sequence.job.finish(renderer, &self.tone)
     }
 
     fn save(
         &mut self,
         number: u32,
         view: &PackedView,
-        image: &Image,
+        picture: &Finished,
         journal: Option<&mut Journal>,
     ) -> Result<(), AppError> {
         let (Some(files), Some(journal)) = (&self.sequence.target.frames, journal) else {
@@ -205,10 +211,11 @@ impl<'a> FrameRenderer<'a> {
         let path = files.pattern.path(number);
         if journal.is_unfinished(number) {
             // Removes the partial file of a run that was killed while writing this frame.
+            let image = picture.image();
             output::check(&path, &files.options, image.width, image.height)?;
         }
         journal.record_start(number)?;
-        output::save_with(&path, image, &files.options)?;
+        picture.save(&path, &files.options)?;
         journal.record_finish(&files.pattern, number, self.origin(view))?;
         self.write_seconds += started.elapsed().as_secs_f64();
         Ok(())
@@ -268,7 +275,12 @@ fn write_error(path: &Path, source: io::Error) -> OutputError {
 }
 
 /// The fingerprint of everything except scene and view that affects a frame's file.
-fn of_settings(settings: &RenderSettings, tone: &Tone, files: Option<&Files>) -> Fingerprint {
+fn of_settings(
+    settings: &RenderSettings,
+    tone: &Tone,
+    files: Option<&Files>,
+    layers: &LayerFlags,
+) -> Fingerprint {
     let format = match files {
         // Quality affects only lossy formats.
         Some(files) if files.format == Format::Jpeg => format!("JPEG {}", files.options.quality),
@@ -276,7 +288,11 @@ fn of_settings(settings: &RenderSettings, tone: &Tone, files: Option<&Files>) ->
         None => String::new(),
     };
     let (settings, tone) = (settings.fingerprint(), tone.fingerprint());
-    fingerprint::of_text(&format!("{settings} {tone} {format}"))
+    let layers = match layers.wants_features() {
+        true => format!(" {layers:?}"),
+        false => String::new(),
+    };
+    fingerprint::of_text(&format!("{settings} {tone} {format}{layers}"))
 }
 
 /// Adds to an error at frame `number` how to resume: `kept` frames are in files, or, without files, `sent`

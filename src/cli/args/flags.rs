@@ -1,6 +1,7 @@
 //! Flags that several commands share, grouped as in their help.
 
 use super::values::{self, BACKENDS, FORMATS, PROGRESS, Up};
+use crate::app::layers::{LAYERS, PictureLayer};
 use crate::app::overrides::{CameraOverrides, PictureOverrides, ToneOverrides};
 use crate::app::value_names::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
 use crate::gpu::{AdapterChoice, Backend};
@@ -44,6 +45,18 @@ pub struct PartFlags {
     /// [default: all remaining]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
     pub sample_count: Option<u32>,
+}
+
+/// Layers of the picture.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Output")]
+pub struct LayerFlags {
+    /// Layers to write to one OpenEXR file (.exr) or to keep in a film (.film), separated by commas
+    #[arg(long, value_name = "LAYER,…", value_delimiter = ',', value_parser = values::one_of(&LAYERS))]
+    pub layers: Vec<PictureLayer>,
+    /// Write each layer as a part of its own; fewer programs read such files
+    #[arg(long, requires = "layers")]
+    pub layers_parts: bool,
 }
 
 /// Resolution and sample count.
