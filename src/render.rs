@@ -4,6 +4,7 @@
 mod adaptive;
 mod arrays;
 mod bindings;
+mod denoise;
 mod develop;
 mod device;
 mod effort;

@@ -96,7 +96,7 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 		loops__cut_off |= rows != 0u;
 		let direct = direct__direct_light(batch, receivers, states.media, sample);
 		if (is_first) {
-			features__see_light(vec3f(arriving.x, arriving.y, arriving.z) * vec3f(direct.x, direct.y, direct.z), 1u);
+			features__see_light(wide__vector_at(arriving, 0u) * wide__vector_at(direct, 0u), 1u);
 		}
 		radiance.x += arriving.x * (color.x + direct.x);
 		radiance.y += arriving.y * (color.y + direct.y);

@@ -8,18 +8,31 @@ use crate::render::{Features, PixelFeatures};
 /// A layer that a picture file can have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureLayer {
+    /// The picture.
     Beauty,
+    /// [`PixelFeatures::albedo`].
     Albedo,
+    /// [`PixelFeatures::normal`].
     Normal,
+    /// [`PixelFeatures::depth`].
     Depth,
+    /// [`PixelFeatures::position`].
     Position,
+    /// [`PixelFeatures::uv`].
     Uv,
+    /// [`PixelFeatures::object`].
     Object,
+    /// [`PixelFeatures::material`].
     Material,
+    /// [`PixelFeatures::direct`].
     Direct,
+    /// [`PixelFeatures::indirect`].
     Indirect,
+    /// [`PixelFeatures::emission`].
     Emission,
+    /// [`PixelFeatures::variance`].
     Variance,
+    /// [`PixelFeatures::samples`].
     Samples,
 }
 

@@ -63,6 +63,8 @@ pub struct PictureOverrides {
     pub seed: u32,
     /// Columns x0 to x1 − 1 and rows y0 to y1 − 1.
     pub crop: Option<[u32; 4]>,
+    /// Keep features in the film, to denoise it.
+    pub features: bool,
 }
 
 /// How a picture is developed.
@@ -74,6 +76,8 @@ pub struct ToneOverrides {
     pub curve: Option<ToneCurve>,
     /// Transfer function.
     pub transfer: Option<Transfer>,
+    /// Denoise the picture.
+    pub denoise: bool,
 }
 
 /// The choice of a camera, and changes to it.
@@ -147,6 +151,7 @@ impl PictureOverrides {
                 _ => defaults.max_depth,
             }),
             min_throughput: self.min_throughput.unwrap_or(defaults.min_throughput),
+            features: self.features,
             transparent_shadows: self.transparent_shadows,
             clamp_indirect: self.clamp_indirect,
             ..defaults
@@ -191,6 +196,7 @@ impl ToneOverrides {
             curve: self.curve.unwrap_or(default.1),
             transfer: self.transfer.unwrap_or(default.2),
             levels: Levels::Raw,
+            denoise: self.denoise,
         };
         match (shows, self.exposure_ev) {
             _ if linear_format => tone,

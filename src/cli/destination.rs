@@ -79,10 +79,9 @@ impl Destination {
     }
 
     pub fn save(&self, picture: &Finished) -> Result<(), AppError> {
-        let saved = match (picture, self.is_stdout()) {
-            (Finished::Plain(image), true) => output::save_to_stdout(image, &self.options),
-            (Finished::Layered(image, _), true) => output::save_layers_to_stdout(image),
-            (_, false) => picture.save(&self.path, &self.options),
+        let saved = match self.is_stdout() {
+            true => picture.save_to_stdout(&self.options),
+            false => picture.save(&self.path, &self.options),
         };
         saved.map_err(AppError::from)
     }

@@ -69,17 +69,18 @@ impl Job<'_> {
     }
 
     pub fn settings(&self) -> RenderSettings {
+        let settings = self.picture.overrides().settings(&self.scene.output);
         RenderSettings {
-            features: self.layers.wants_features(),
-            ..self.picture.overrides().settings(&self.scene.output)
+            features: settings.features || !self.layers.layers.is_empty(),
+            ..settings
         }
     }
 
     /// The picture of a renderer that is done.
     pub fn finish(&self, renderer: &mut Renderer, tone: &Tone) -> Result<Finished, AppError> {
-        match self.layers.wants_features() {
+        match self.settings().features {
             true => self.layers.finish(&renderer.film()?, renderer.gpu(), tone),
-            false => Ok(Finished::Plain(renderer.develop(tone)?)),
+            false => Ok(Finished::plain(renderer.develop(tone)?)),
         }
     }
 
@@ -186,7 +187,10 @@ impl Job<'_> {
                 ..self.image(outcome.path, settings, outcome.size)
             },
             adapter: outcome.adapter.map(Into::into),
-            seconds: draft.seconds.clone(),
+            seconds: Seconds {
+                denoise: (draft.seconds.denoise).or(of_paths.then_some(0.0)),
+                ..draft.seconds.clone()
+            },
             rays: stats.rays.as_ref().map(Into::into),
             submissions: stats.into(),
             nonfinite_samples: stats.nonfinite_samples,
@@ -245,6 +249,7 @@ pub fn policy(device: &DeviceFlags, count_rays: bool) -> ExecutionPolicy {
 }
 
 fn details(console: Console, report: &Report) {
+    let denoise = report.seconds.denoise.unwrap_or_default();
     let Seconds {
         load,
         bvh,
@@ -258,7 +263,8 @@ fn details(console: Console, report: &Report) {
     } = &report.seconds;
     console.detail(format_args!(
         "seconds: load {load:.3}, bvh {bvh:.3}, gpu {gpu:.3}, compile {compile:.3}, \
-         upload {upload:.3}, trace {trace:.3}, develop {develop:.3}, write {write:.3}"
+         upload {upload:.3}, trace {trace:.3}, develop {develop:.3}, denoise {denoise:.3}, \
+         write {write:.3}"
     ));
     console.detail(format_args!(
         "{} submissions, the longest {:.1} ms; {:.1} MiB on the GPU",

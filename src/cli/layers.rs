@@ -1,52 +1,66 @@
 //! Layers of pictures on the command line, and denoised pictures.
 
 use crate::app::error::AppError;
-use crate::app::layers::{LAYERS, PictureLayer, color};
+use crate::app::layers::{LAYERS, color};
 use crate::cli::args::LayerFlags;
 use crate::gpu::Gpu;
 use crate::image::Image;
 use crate::output::{self, LayeredImage, OutputError, SaveOptions};
 use crate::render::{Film, Integrator, Shows, Tone};
 use std::path::Path;
+use std::time::Instant;
 
 /// A finished picture.
-pub enum Finished {
-    /// One layer.
-    Plain(Image),
-    /// Several layers, and the picture for videos.
-    Layered(LayeredImage, Image),
+pub struct Finished {
+    /// The picture, denoised if that was requested.
+    pub image: Image,
+    /// All layers of a file that has several.
+    layers: Option<LayeredImage>,
+    denoise_seconds: Option<f64>,
 }
 
 impl Finished {
-    /// The picture.
-    pub fn image(&self) -> &Image {
-        let (Self::Plain(image) | Self::Layered(_, image)) = self;
-        image
+    /// A picture of one layer.
+    pub fn plain(image: Image) -> Self {
+        Self {
+            image,
+            layers: None,
+            denoise_seconds: None,
+        }
+    }
+
+    /// Time for denoising, in seconds; `None` if it was not denoised.
+    pub fn denoise_seconds(&self) -> Option<f64> {
+        self.denoise_seconds
     }
 
     /// Writes the picture to a file.
     pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<(), OutputError> {
-        match self {
-            Self::Plain(image) => output::save_with(path, image, options),
-            Self::Layered(image, _) => output::save_layers(path, image, options),
+        match &self.layers {
+            None => output::save_with(path, &self.image, options),
+            Some(layers) => output::save_layers(path, layers, options),
+        }
+    }
+
+    /// Writes the picture to standard output.
+    pub fn save_to_stdout(&self, options: &SaveOptions) -> Result<(), OutputError> {
+        match &self.layers {
+            None => output::save_to_stdout(&self.image, options),
+            Some(layers) => output::save_layers_to_stdout(layers),
         }
     }
 }
 
 impl LayerFlags {
-    /// Whether the film must keep features.
-    pub fn wants_features(&self) -> bool {
-        !self.layers.is_empty()
-    }
-
     /// Refuses layers that cannot be rendered, or not be written to `path`.
     pub fn check(
         &self,
+        denoise: bool,
         integrator: Integrator,
         path: &Path,
         takes_layers: bool,
     ) -> Result<(), AppError> {
-        if !self.wants_features() {
+        if !denoise && self.layers.is_empty() {
             return Ok(());
         }
         let refused = |why: String| Err(AppError::Usage(why));
@@ -71,28 +85,35 @@ impl LayerFlags {
     /// # Errors
     /// The film has no features, or the device failed.
     pub fn finish(&self, film: &Film, gpu: &Gpu, tone: &Tone) -> Result<Finished, AppError> {
-        let beauty = film.develop(gpu, tone)?;
-        if !self.wants_features() {
-            return Ok(Finished::Plain(beauty));
+        if !tone.denoise && self.layers.is_empty() {
+            return Ok(Finished::plain(film.develop(gpu, tone)?));
         }
         let Some(features) = film.features() else {
             return Err(AppError::Usage(
-                "cannot write layers: the film has none. Render it with --layers.".into(),
+                "cannot write layers or denoise: the film has no features. Render it with --layers or --denoise."
+                    .into(),
             ));
         };
+        let mut finished = Finished::plain(film.develop(gpu, tone)?);
         // In the order of the table, each once.
         let known = LAYERS.0.iter().map(|(.., layer)| layer);
         let wanted = known.filter(|layer| self.layers.contains(layer));
-        let mut layers: Vec<_> = wanted.map(|layer| layer.of(&beauty, &features)).collect();
-        let _ = color;
-        let _ = PictureLayer::Beauty;
-        layers.retain(|layer| !layer.channels.is_empty());
-        let layered = LayeredImage {
-            width: beauty.width,
-            height: beauty.height,
+        let mut layers: Vec<_> = wanted
+            .map(|layer| layer.of(&finished.image, &features))
+            .collect();
+        if tone.denoise {
+            let started = Instant::now();
+            let denoised = features.picture().denoised(gpu, &features)?;
+            finished.denoise_seconds = Some(started.elapsed().as_secs_f64());
+            finished.image = tone.develop(gpu, &denoised)?;
+            layers.push(color("denoised", &finished.image));
+        }
+        finished.layers = (!self.layers.is_empty()).then_some(LayeredImage {
+            width: features.width,
+            height: features.height,
             layers,
             in_parts: self.layers_parts,
-        };
-        Ok(Finished::Layered(layered, beauty))
+        });
+        Ok(finished)
     }
 }

@@ -41,6 +41,7 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
         return Err(AppError::Missing(incomplete(destination.path(), &missing)));
     }
     arguments.layers.check(
+        arguments.develop.denoise,
         film.header().integrator,
         destination.path(),
         destination.takes_layers(),

@@ -35,6 +35,7 @@ pub fn run(
         ..settings
     };
     job.layers.check(
+        job.picture.develop.denoise,
         settings.integrator,
         destination.path(),
         destination.takes_layers(),
@@ -62,9 +63,10 @@ pub fn run(
             destination.save_film(&film)?;
             started
         } else {
-            let image = develop(job, &mut renderer, &settings, destination, &interrupt)?;
+            let picture = develop(job, &mut renderer, &settings, destination, &interrupt)?;
+            draft.seconds.denoise = picture.denoise_seconds();
             let started = Instant::now();
-            destination.save(&image)?;
+            destination.save(&picture)?;
             started
         };
         draft.seconds.write = started.elapsed().as_secs_f64();

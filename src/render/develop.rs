@@ -35,6 +35,8 @@ pub struct Tone {
     pub transfer: Transfer,
     /// The range for views that show a quantity, such as distances.
     pub levels: Levels,
+    /// Whether a renderer denoises the radiance first, where its film has features.
+    pub denoise: bool,
 }
 
 impl From<&OutputDefaults> for Tone {
@@ -56,6 +58,7 @@ impl Tone {
         curve: ToneCurve::None,
         transfer: Transfer::Linear,
         levels: Levels::Raw,
+        denoise: false,
     };
 
     /// A fingerprint of all members: see [`RenderSettings::fingerprint`].
@@ -64,16 +67,20 @@ impl Tone {
         for number in self.numbers() {
             encoder.number(number);
         }
+        if self.denoise {
+            encoder.bytes(b"denoise");
+        }
         encoder.finish()
     }
 
-    /// All members as numbers that are stable across builds.
+    /// What films keep of it, as numbers that are stable across builds.
     pub(super) fn numbers(&self) -> [u32; 6] {
         let Self {
             exposure_ev,
             curve,
             transfer,
             levels,
+            denoise: _,
         } = *self;
         let curve = match curve {
             ToneCurve::None => 0,
@@ -124,6 +131,7 @@ impl Tone {
                 2 => Levels::Fixed([least, most].map(f32::from_bits)),
                 _ => return None,
             },
+            denoise: false,
         };
         (tone.numbers() == numbers).then_some(tone)
     }
@@ -216,6 +224,11 @@ impl Renderer {
     }
 
     fn developed(&mut self, tone: &Tone) -> Result<Image, RenderError> {
+        if self.denoises(tone) {
+            let features = self.features()?;
+            let image = features.picture().denoised(self.gpu(), &features)?;
+            return tone.develop(self.gpu(), &image);
+        }
         let is_direct = self.shows_directly();
         match is_direct {
             true => self.wait()?,

@@ -1,6 +1,10 @@
 //! The features of a film's pixels, in scene units.
 
-use super::layers::{self, Layer};
+use super::{
+    RenderError, Renderer, Tone,
+    layers::{self, Layer},
+};
+use crate::image::Image;
 
 /// What the pixels of a rectangle show besides the picture.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -11,6 +15,21 @@ pub struct Features {
     pub height: u32,
     /// `width * height` of them, row by row from the top left; zeros without samples.
     pub pixels: Vec<PixelFeatures>,
+}
+
+impl Features {
+    /// The picture that was rendered: linear radiance.
+    pub fn picture(&self) -> Image {
+        let pixel = |pixel: &PixelFeatures| {
+            let [r, g, b] = pixel.radiance;
+            [r, g, b, 1.0]
+        };
+        Image {
+            width: self.width,
+            height: self.height,
+            pixels: self.pixels.iter().map(pixel).collect(),
+        }
+    }
 }
 
 /// The features of a pixel. Means are over all its samples, weighted by the filter. `depth`, `position`, `uv`, `object`
@@ -120,4 +139,42 @@ fn single(numbers: [f64; 3]) -> [f32; 3] {
 fn finite(number: f64) -> f32 {
     let number = number as f32;
     if number.is_finite() { number } else { 0.0 }
+}
+
+impl Renderer {
+    /// Whether it denoises a picture of this tone.
+    pub(crate) fn denoises(&self, tone: &Tone) -> bool {
+        tone.denoise && self.settings.has_features()
+    }
+
+    /// The features of the samples so far, without the numbers of objects. Without
+    /// [`super::RenderSettings::features`] there are no pixels.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn features(&mut self) -> Result<Features, RenderError> {
+        self.fetch_film()?;
+        let [x, y, width, height] = self.settings.region();
+        let Some(places) = Places::new(layers::of_pictures(&self.settings)) else {
+            return Ok(Features::default());
+        };
+        let whole = f64::from(self.settings.samples_to_render().len() as u32);
+        let is_done = self.is_done();
+        let mut pixels = vec![PixelFeatures::default(); width as usize * height as usize];
+        for (region, rows) in self.tiles.rows(layers::of_pictures(&self.settings)) {
+            let [left, top, across, _] = region;
+            let count = rows.len() / (across * region[3]) as usize;
+            for (index, rows) in rows.chunks_exact(count).enumerate() {
+                let (row, column) = (index as u32 / across, index as u32 % across);
+                let at = (top + row - y) * width + left + column - x;
+                let samples = if is_done { whole } else { rows[0][3].abs() };
+                pixels[at as usize] = places.pixel(rows, samples);
+            }
+        }
+        Ok(Features {
+            width,
+            height,
+            pixels,
+        })
+    }
 }

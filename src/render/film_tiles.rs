@@ -7,7 +7,7 @@ use super::{
     adaptive::Adaptive,
     film::{Film, FilmError, FilmHeader, Piece},
     film_tile::{FilmTile, rectangles},
-    layers,
+    layers::{self, Layer},
     settings::RenderSettings,
     sums::{PixelRows, SAMPLE_BLOCK, Sums},
 };
@@ -117,6 +117,24 @@ impl FilmTiles {
             }
         }
         Film::new(header, pieces)
+    }
+
+    /// The rows of the pixels with samples so far, in the order of films, by rectangle (x, y, width, height).
+    pub fn rows(&self, layers: &[&Layer]) -> Vec<([u32; 4], Vec<[f64; 4]>)> {
+        if let Some(adaptive) = &self.adaptive {
+            let so_far = match self.list.is_empty() {
+                true => Cow::Borrowed(adaptive),
+                false => Cow::Owned(adaptive.with_part_of_round(&self.list)),
+            };
+            let rows = so_far.means_and_counts(layers).into_iter();
+            let rows = rows.map(|row| row.map(f64::from)).collect();
+            return vec![(adaptive.crop(), rows)];
+        }
+        let of_tile = |tile: &FilmTile| {
+            let Piece { region, sums, .. } = piece(tile, 0..0, &tile.all_sums()?);
+            Some((region, sums.rounded(tile.pixel_rows())))
+        };
+        self.list.iter().filter_map(of_tile).collect()
     }
 
     /// Whether some pixels will have more samples than one block.

@@ -1,7 +1,7 @@
 //! The layers of films: the data accumulated for each pixel.
 //!
-//! To add a layer, add a constant here and list it in [`of_sampling`] and [`of_pictures`]; then add a member to
-//! `Sample` and `Sum` in `shaders/scene/film.wesl`, with the row that it is loaded from and stored to. Memory,
+//! To add a layer, add a constant here and list it in [`of_sampling`] and [`of_pictures`]; then add its rows to
+//! `add_features` in `shaders/scene/features.wesl`, and its member to [`super::PixelFeatures`]. Memory,
 //! film tiles, exact totals, files and merging follow from the table.
 
 use super::{settings::RenderSettings, sums::PixelRows};

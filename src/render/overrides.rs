@@ -158,6 +158,11 @@ pub fn of_tone(tone: &PackedTone) -> Overrides {
     ]
 }
 
+/// The overrides of a pass of the denoiser.
+pub fn of_denoiser(is_first: bool) -> Overrides {
+    vec![("FIRST_PASS", flag(is_first))]
+}
+
 /// The overrides for the contents of the trees.
 fn geometry(scene: &PackedScene, view: &PackedView) -> [(&'static str, f64); 8] {
     let features = scene.features;

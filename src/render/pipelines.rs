@@ -67,6 +67,18 @@ pub fn developing(
     Ok(compiled.pipeline)
 }
 
+/// A pipeline of the denoiser, with this layout of bind group 3.
+pub fn denoising(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    is_first: bool,
+) -> Result<wgpu::ComputePipeline, GpuError> {
+    let groups = [None, None, None, Some(layout)];
+    let overrides = overrides::of_denoiser(is_first);
+    let compiled = gpu.pipeline(&Kernel::DENOISE, Variant::Buffer, &groups, overrides)?;
+    Ok(compiled.pipeline)
+}
+
 /// The variant that does not depend on the adapter.
 pub fn portable(fetch: Fetch) -> Variant {
     match fetch {

@@ -165,7 +165,7 @@ impl Renderer {
     /// [`Self::shows_directly`] and needs no range, it does not wait for the GPU.
     pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
         let range = self.range_of(tone)?;
-        if self.shows_directly() {
+        if self.shows_directly() && !self.denoises(tone) {
             let tone = tone.packed(
                 self.settings.integrator,
                 range,

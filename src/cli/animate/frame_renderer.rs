@@ -35,6 +35,7 @@ pub struct FrameRenderer<'a> {
     /// Fingerprints of the scene and of the settings.
     fingerprints: (Fingerprint, Fingerprint),
     write_seconds: f64,
+    denoise_seconds: f64,
 }
 
 impl<'a> FrameRenderer<'a> {
@@ -64,6 +65,7 @@ impl<'a> FrameRenderer<'a> {
             gpu,
             renderer: None,
             write_seconds: 0.0,
+            denoise_seconds: 0.0,
         })
     }
 
@@ -79,6 +81,11 @@ impl<'a> FrameRenderer<'a> {
     /// Time to write frames, in seconds.
     pub fn write_seconds(&self) -> f64 {
         self.write_seconds
+    }
+
+    /// Time to denoise frames, in seconds.
+    pub fn denoise_seconds(&self) -> f64 {
+        self.denoise_seconds
     }
 
     /// The packed view of a frame: camera, lights and moving geometry during its exposure.
@@ -141,7 +148,7 @@ impl<'a> FrameRenderer<'a> {
                     rendered += 1;
                     progress.finish_frame();
                     if let Some(sink) = &mut sink {
-                        sink.send(&Picture8::from(picture.image()))?;
+                        sink.send(&Picture8::from(&picture.image))?;
                     }
                 } else if let (Some(sink), Some(files)) = (&mut sink, &self.sequence.target.frames)
                 {
@@ -194,7 +201,9 @@ impl<'a> FrameRenderer<'a> {
             renderer.step()?;
             progress.update(number, renderer.progress());
         }
-        self.sequence.job.finish(renderer, &self.tone)
+        let picture = self.sequence.job.finish(renderer, &self.tone)?;
+        self.denoise_seconds += picture.denoise_seconds().unwrap_or_default();
+        Ok(picture)
     }
 
     fn save(
@@ -211,7 +220,7 @@ impl<'a> FrameRenderer<'a> {
         let path = files.pattern.path(number);
         if journal.is_unfinished(number) {
             // Removes the partial file of a run that was killed while writing this frame.
-            let image = picture.image();
+            let image = &picture.image;
             output::check(&path, &files.options, image.width, image.height)?;
         }
         journal.record_start(number)?;
@@ -288,9 +297,9 @@ fn of_settings(
         None => String::new(),
     };
     let (settings, tone) = (settings.fingerprint(), tone.fingerprint());
-    let layers = match layers.wants_features() {
-        true => format!(" {layers:?}"),
-        false => String::new(),
+    let layers = match layers.layers.is_empty() {
+        false => format!(" {layers:?}"),
+        true => String::new(),
     };
     fingerprint::of_text(&format!("{settings} {tone} {format}{layers}"))
 }

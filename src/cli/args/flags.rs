@@ -158,6 +158,11 @@ pub struct DevelopFlags {
     /// Transfer function [default: the scene's, else srgb; linear for .exr, .hdr and debug views]
     #[arg(long, value_parser = values::one_of(&TRANSFERS))]
     pub transfer: Option<Transfer>,
+    /// Denoise the picture; films and, with --layers, the layer beauty keep the noise
+    ///
+    /// The filter is guided by albedo, normals, depth and the noise of each pixel.
+    #[arg(long)]
+    pub denoise: bool,
 }
 
 /// Camera and background.
@@ -332,6 +337,7 @@ impl PictureFlags {
             brute_force: self.no_bvh,
             seed: self.seed,
             crop: self.crop,
+            features: self.develop.denoise,
         }
     }
 }
@@ -342,6 +348,7 @@ impl DevelopFlags {
             exposure_ev: self.exposure,
             curve: self.tone,
             transfer: self.transfer,
+            denoise: self.denoise,
         }
     }
 }
