@@ -12,12 +12,13 @@ const VARIANTS: [(&str, &[&str]); 3] = [
 
 /// Names of kernels, the modules in `shaders/kernels` they are made of, the features that all their variants
 /// have, and their variants.
-const KERNELS: [(&str, &str, &[&str], &[&str]); 8] = [
+const KERNELS: [(&str, &str, &[&str], &[&str]); 9] = [
     ("whitted", "whitted", &[], &["image", "buffer", "packet"]),
     ("path_trace", "path_trace", &[], &["image", "buffer"]),
     ("debug_view", "debug_view", &[], &["image", "buffer"]),
     ("develop", "develop", &[], &["buffer"]),
     ("show", "show", &[], &["buffer"]),
+    ("denoise", "denoise", &[], &["buffer"]),
     ("explain", "whitted", &["record"], &["image", "buffer"]),
     (
         "explain_path",

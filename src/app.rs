@@ -6,6 +6,7 @@ pub mod clock;
 pub mod console;
 pub mod error;
 pub mod inputs;
+pub mod layers;
 pub mod legend;
 pub mod overrides;
 pub mod picture_file;

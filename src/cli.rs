@@ -16,6 +16,7 @@ mod explain;
 mod inspect;
 mod interrupt;
 mod job;
+mod layers;
 mod man;
 mod memory;
 mod merge;

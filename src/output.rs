@@ -10,12 +10,14 @@ mod atomic;
 mod encode;
 mod error;
 mod format;
+mod layered;
 mod remove_on_exit;
 pub mod video;
 
 pub use error::OutputError;
 pub(crate) use error::reason;
 pub use format::Format;
+pub use layered::{Channel, ImageLayer, LayeredImage, save_layers, save_layers_to_stdout};
 pub(crate) use remove_on_exit::RemoveOnExit;
 pub use remove_on_exit::remove_unfinished_files;
 

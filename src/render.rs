@@ -4,12 +4,14 @@
 mod adaptive;
 mod arrays;
 mod bindings;
+mod denoise;
 mod develop;
 mod device;
 mod effort;
 mod error;
 mod explain;
 mod exposure;
+mod features;
 mod film;
 mod film_tile;
 mod film_tiles;
@@ -39,6 +41,7 @@ pub use explain::{
     LightSample, LightSource, Lobe, PathStep, RayHit, RayKind, RaySplit, RayTree, SampleTree,
     ShadowRay, Sharing, StepOutcome, TracedRay,
 };
+pub use features::{Features, PixelFeatures};
 pub use film::{Film, FilmError, FilmHeader, Missing};
 pub use fingerprint::Fingerprint;
 pub use integrator::{Integrator, IntegratorEntry, Shows, TABLE as INTEGRATORS};
@@ -307,7 +310,10 @@ fn planned_bytes(
     let pixels = u64::from(width) * u64::from(height);
     let mut ledger = bindings::ledger(scene, view, tiles.largest(), pixels);
     if tiles.has_totals() {
-        ledger.plan("totals of the film", pixels * size_of::<[i128; 4]>() as u64);
+        ledger.plan(
+            "totals of the film",
+            pixels * size_of::<[i128; 4]>() as u64 * tiles.rows_per_pixel() as u64,
+        );
     }
     ledger.check(policy.memory_limit_bytes)?;
     Ok(ledger.total())

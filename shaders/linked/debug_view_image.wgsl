@@ -130,6 +130,9 @@ fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: 
 	if (bindings__STRATIFIED) {
 		within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
 	}
+	if (bindings__HAS_FEATURES) {
+		features__off_centre = dot(within - 0.5, within - 0.5);
+	}
 	let position = vec2f(pixel) + within;
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
 		shutter__shutter_time = dispatch__sample_time(sample, key);
@@ -786,6 +789,8 @@ override bindings__FILM_ROWS: u32 = 1u;
 
 override bindings__SQUARES_ROW: u32 = 1u;
 
+override bindings__HAS_FEATURES: bool = false;
+
 var<private> albedo__albedo_first: u32;
 
 const tile__GROUP_SIDE: u32 = 8u;
@@ -838,7 +843,7 @@ struct film__Sum {
 fn film__load_sum(film_index: u32) -> film__Sum {
 	let row = bindings__FILM_ROWS * film_index;
 	var sum = film__Sum(bindings__film[row], 0.0);
-	if (bindings__ADAPTIVE) {
+	if (bindings__ADAPTIVE || bindings__HAS_FEATURES) {
 		sum.squares = bindings__film[row + bindings__SQUARES_ROW].x;
 	}
 	return sum;
@@ -847,7 +852,7 @@ fn film__load_sum(film_index: u32) -> film__Sum {
 fn film__store_sum(film_index: u32, sum: film__Sum) {
 	let row = bindings__FILM_ROWS * film_index;
 	bindings__film[row] = sum.radiance;
-	if (bindings__ADAPTIVE) {
+	if (bindings__ADAPTIVE || bindings__HAS_FEATURES) {
 		bindings__film[row + bindings__SQUARES_ROW].x = sum.squares;
 	}
 }
@@ -857,7 +862,7 @@ fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__
 	var next = sum;
 	next.radiance += weight * vec4f(sample.radiance, 1.0);
 	next.squares += luminance * luminance;
-	if (!numeric__is_finite(next.radiance.xyz) || (bindings__ADAPTIVE && !numeric__is_finite(vec3f(next.squares)))) {
+	if (!numeric__is_finite(next.radiance.xyz) || ((bindings__ADAPTIVE || bindings__HAS_FEATURES) && !numeric__is_finite(vec3f(next.squares)))) {
 		atomicAdd(&bindings__dispatch.counters.nonfinite_samples, 1u);
 		return sum;
 	}
@@ -2650,6 +2655,8 @@ fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
 fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
 	return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
 }
+
+var<private> features__off_centre: f32;
 
 const warp__PI: f32 = 3.14159265;
 

@@ -21,12 +21,14 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 	var radiance = wide__no_vectors();
 	var states = ray_stack__camera_states(batch, rays);
 	var is_unfinished = false;
+	features__start_features();
 	loop {
 		let hits = rays__closest_hits(states.rays);
 		var next = states;
 		var receivers = direct__no_receivers();
 		var arriving = wide__no_vectors();
 		var color = wide__no_vectors();
+		var is_first = false;
 		is_unfinished = false;
 		var rows = rays__rows_where(states.rays.t_max >= wide__Floats(0.0));
 		loop {
@@ -34,6 +36,7 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 			ray_stack__current_tree = k;
 			let state = ray_states__state_at(states, k);
 			let hit = rays__hit_at(hits, k);
+			is_first = state.node == 1u;
 			var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_states__no_ray(), ray_states__no_ray());
 			if (state.ray.t_max >= 0.0) {
 				dispatch__count_hit(state.kind, hit);
@@ -41,6 +44,10 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 				if (hit.primitive == types__NONE) {
 					let seen = escaping_throughput(state) * background__background(batch, state.ray.direction);
 					radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + seen);
+					if (is_first) {
+						features__see_albedo(seen, vec3f(0.0));
+						features__see_light(seen, 0u);
+					}
 					record__record_miss(seen);
 				}
 				else {
@@ -65,7 +72,14 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 					}
 					receivers = direct__receiver_set(receivers, k, surface, -state.ray.direction, key);
 					arriving = wide__vector_set(arriving, k, event.arriving);
-					color = wide__vector_set(color, k, own_light(batch, surface, factors[2]));
+					let own = own_light(batch, surface, factors[2]);
+					color = wide__vector_set(color, k, own);
+					if (is_first) {
+						features__see_first(surface, hit, hit.t);
+						let glow = own - batch.ambient * surface.phong.ambient;
+						features__see_albedo(surface.phong.diffuse + glow, surface.n);
+						features__see_light(event.arriving * glow, 0u);
+					}
 				}
 			}
 			if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
@@ -80,6 +94,9 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 		}
 		loops__cut_off |= rows != 0u;
 		let direct = direct__direct_light(batch, receivers, states.media, sample);
+		if (is_first) {
+			features__see_light(wide__vector_at(arriving, 0u) * wide__vector_at(direct, 0u), 1u);
+		}
 		radiance.x += arriving.x * (color.x + direct.x);
 		radiance.y += arriving.y * (color.y + direct.y);
 		radiance.z += arriving.z * (color.z + direct.z);
@@ -230,6 +247,8 @@ override bindings__HAS_SECOND_UVS: bool = true;
 override bindings__HAS_TANGENTS: bool = true;
 
 override bindings__HAS_ANISOTROPY: bool = false;
+
+override bindings__HAS_FEATURES: bool = false;
 
 const types__NONE: u32 = 4294967295u;
 
@@ -1036,6 +1055,9 @@ fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: 
 	if (bindings__STRATIFIED) {
 		within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
 	}
+	if (bindings__HAS_FEATURES) {
+		features__off_centre = dot(within - 0.5, within - 0.5);
+	}
 	let position = vec2f(pixel) + within;
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
 		shutter__shutter_time = dispatch__sample_time(sample, key);
@@ -1537,6 +1559,57 @@ fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
 
 fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
 	return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
+}
+
+struct features__Features {
+	albedo: vec3f,
+	normal: vec3f,
+	direct: vec3f,
+	emission: vec3f,
+	position: vec3f,
+	depth: f32,
+	uv: vec2f,
+	material: u32,
+	primitive: u32,
+	instance: u32,
+	is_followed: bool
+}
+
+var<private> features__features: features__Features;
+
+var<private> features__off_centre: f32;
+
+fn features__start_features() {
+	if (bindings__HAS_FEATURES) {
+		features__features = features__Features();
+		features__features.is_followed = true;
+	}
+}
+
+fn features__see_first(surface: types__Surface, hit: types__Hit, depth: f32) {
+	if (bindings__HAS_FEATURES && features__features.material == 0u) {
+		features__features.position = surface.p;
+		features__features.depth = depth;
+		features__features.uv = surface.uv;
+		features__features.material = surface.material + 1u;
+		features__features.primitive = hit.primitive;
+		features__features.instance = hit.instance;
+	}
+}
+
+fn features__see_albedo(albedo: vec3f, normal: vec3f) {
+	if (bindings__HAS_FEATURES && features__features.is_followed) {
+		features__features.albedo = clamp(albedo, vec3f(0.0), vec3f(1.0));
+		features__features.normal = normal;
+		features__features.is_followed = false;
+	}
+}
+
+fn features__see_light(light: vec3f, scatterings: u32) {
+	if (bindings__HAS_FEATURES) {
+		features__features.emission += select(vec3f(0.0), light, scatterings == 0u);
+		features__features.direct += select(vec3f(0.0), light, scatterings == 1u);
+	}
 }
 
 var<private> shutter__shutter_time: f32 = 0.0;

@@ -43,6 +43,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 		let weight = environment__background_weight(batch, ray.direction, path.pdf);
 		let seen = background__background(batch, ray.direction);
 		record_path__record_found(seen, weight);
+		features__see_albedo(path.throughput * seen, vec3f(0.0));
 		return path__ended(path__gained(path, weight * seen, path.bounces));
 	}
 	let contact = contact__contact_at(ray, hit, path.cone);
@@ -59,6 +60,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 		record_path__record_passing();
 		return path__passed(path, surface);
 	}
+	features__see_first(surface, hit, distance(path.origin, surface.p));
 	if (bindings__HAS_DISPERSION) {
 		path = dispersion__colored(path, met);
 		met = dispersion__dispersed(met, path.channel);
@@ -70,6 +72,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	record_path__record_found(emission, weight);
 	path = path__gained(path, weight * emission, path.bounces);
 	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
+	seen__see_surface(path, bsdf, emission);
 	record_path__record_interface(met, bsdf);
 	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
 		path = path__gained(path, lamp_light(batch, path, surface, bsdf, met), path.bounces + 1u);
@@ -255,6 +258,8 @@ override bindings__HAS_SECOND_UVS: bool = true;
 override bindings__HAS_TANGENTS: bool = true;
 
 override bindings__HAS_ANISOTROPY: bool = false;
+
+override bindings__HAS_FEATURES: bool = false;
 
 const types__NONE: u32 = 4294967295u;
 
@@ -1042,6 +1047,9 @@ fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: 
 	if (bindings__STRATIFIED) {
 		within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
 	}
+	if (bindings__HAS_FEATURES) {
+		features__off_centre = dot(within - 0.5, within - 0.5);
+	}
 	let position = vec2f(pixel) + within;
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
 		shutter__shutter_time = dispatch__sample_time(sample, key);
@@ -1362,6 +1370,7 @@ fn path__gained(before: path__Path, light: vec3f, scatterings: u32) -> path__Pat
 		dispatch__kept_light += dot(gain, tone__LUMINANCE_REC709);
 	}
 	record_path__record_gain(gain);
+	features__see_light(gain, scatterings);
 	path.radiance += gain;
 	return path;
 }
@@ -1631,6 +1640,50 @@ fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
 
 fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
 	return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
+}
+
+struct features__Features {
+	albedo: vec3f,
+	normal: vec3f,
+	direct: vec3f,
+	emission: vec3f,
+	position: vec3f,
+	depth: f32,
+	uv: vec2f,
+	material: u32,
+	primitive: u32,
+	instance: u32,
+	is_followed: bool
+}
+
+var<private> features__features: features__Features;
+
+var<private> features__off_centre: f32;
+
+fn features__see_first(surface: types__Surface, hit: types__Hit, depth: f32) {
+	if (bindings__HAS_FEATURES && features__features.material == 0u) {
+		features__features.position = surface.p;
+		features__features.depth = depth;
+		features__features.uv = surface.uv;
+		features__features.material = surface.material + 1u;
+		features__features.primitive = hit.primitive;
+		features__features.instance = hit.instance;
+	}
+}
+
+fn features__see_albedo(albedo: vec3f, normal: vec3f) {
+	if (bindings__HAS_FEATURES && features__features.is_followed) {
+		features__features.albedo = clamp(albedo, vec3f(0.0), vec3f(1.0));
+		features__features.normal = normal;
+		features__features.is_followed = false;
+	}
+}
+
+fn features__see_light(light: vec3f, scatterings: u32) {
+	if (bindings__HAS_FEATURES) {
+		features__features.emission += select(vec3f(0.0), light, scatterings == 0u);
+		features__features.direct += select(vec3f(0.0), light, scatterings == 1u);
+	}
 }
 
 var<private> shutter__shutter_time: f32 = 0.0;
@@ -4978,6 +5031,22 @@ fn thin_film__thin_film(cos_i: f32, outside: f32, film_ior: f32, thickness: f32,
 	let harmonics = sign * once * thin_film__film_spectrum(path) + once * once * thin_film__film_spectrum(2.0 * path);
 	let reflected = clamp(1.0 - through - 2.0 * through * harmonics, vec3f(0.0), vec3f(1.0));
 	return select(reflected, vec3f(1.0), above.total);
+}
+
+const seen__CLEAR: f32 = 0.01;
+
+const seen__ROUGH_SHARE: f32 = 0.25;
+
+fn seen__see_surface(path: path__Path, bsdf: lobes__Bsdf, glow: vec3f) {
+	if (bindings__HAS_FEATURES) {
+		let is_blurred = bsdf.boundary_alpha.x >= seen__CLEAR;
+		let rough = bsdf.chances.x + bsdf.coating_chances.x + bsdf.coating_chances.y + select(0.0, bsdf.chances.y, bsdf.alpha.x >= seen__CLEAR) + select(0.0, bsdf.chances.z, is_blurred);
+		if (rough >= seen__ROUGH_SHARE || any(glow > vec3f(0.0))) {
+			let boundary = select(vec3f(0.0), bsdf.reflect + bsdf.transmit, is_blurred);
+			let albedo = bsdf.diffuse + bsdf.through + bsdf.gain * bsdf.f0 + boundary + glow;
+			features__see_albedo(path.throughput * albedo, bsdf.normal);
+		}
+	}
 }
 
 const quad_warp__CHANCE_BITS: u32 = 10u;

@@ -34,6 +34,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	if (hit.primitive == types__NONE) {
 		let weight = environment__background_weight(batch, ray.direction, path.pdf);
 		let seen = background__background(batch, ray.direction);
+		features__see_albedo(path.throughput * seen, vec3f(0.0));
 		return path__ended(path__gained(path, weight * seen, path.bounces));
 	}
 	let contact = contact__contact_at(ray, hit, path.cone);
@@ -47,6 +48,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	if (bindings__HAS_COVERAGE && path.passes < path__MAX_PASSES && path__random_1d(path, dimensions__COVERAGE_CHOICE) >= coverage__coverage_at(surface)) {
 		return path__passed(path, surface);
 	}
+	features__see_first(surface, hit, distance(path.origin, surface.p));
 	if (bindings__HAS_DISPERSION) {
 		path = dispersion__colored(path, met);
 		met = dispersion__dispersed(met, path.channel);
@@ -57,6 +59,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	let emission = coat * emitters__emitted(surface, optics, layers.glow);
 	path = path__gained(path, weight * emission, path.bounces);
 	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
+	seen__see_surface(path, bsdf, emission);
 	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
 		path = path__gained(path, lamp_light(batch, path, surface, bsdf, met), path.bounces + 1u);
 	}
@@ -200,6 +203,9 @@ fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: 
 	var within = vec2f(0.5);
 	if (bindings__STRATIFIED) {
 		within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
+	}
+	if (bindings__HAS_FEATURES) {
+		features__off_centre = dot(within - 0.5, within - 0.5);
 	}
 	let position = vec2f(pixel) + within;
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
@@ -1069,6 +1075,10 @@ override bindings__FILM_ROWS: u32 = 1u;
 
 override bindings__SQUARES_ROW: u32 = 1u;
 
+override bindings__HAS_FEATURES: bool = false;
+
+override bindings__FEATURES_ROW: u32 = 2u;
+
 var<private> albedo__albedo_first: u32;
 
 fn albedo__albedo_of(table: u32, cos_o: f32, alpha: f32) -> vec2f {
@@ -1154,7 +1164,12 @@ fn pixels__add_samples(pixels: pixels__Pixels, sample: u32, radiance: wide__Vect
 	loop {
 		if (wide__word_at(pixels.film_index, k) != types__NONE) {
 			let weight = dispatch__sample_weight(wide__word_at(pixels.keys, k), sample);
-			next = pixels__with_sum(next, k, film__add_sample(pixels__sum_at(pixels, k), film__Sample(wide__vector_at(radiance, k)), weight));
+			let before = pixels__sum_at(pixels, k);
+			let sum = film__add_sample(before, film__Sample(wide__vector_at(radiance, k)), weight);
+			next = pixels__with_sum(next, k, sum);
+			if (bindings__HAS_FEATURES && sum.radiance.w != before.radiance.w) {
+				features__add_features(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), sample, weight);
+			}
 		}
 		continuing {
 			k += 1u;
@@ -1277,7 +1292,7 @@ struct film__Sum {
 fn film__load_sum(film_index: u32) -> film__Sum {
 	let row = bindings__FILM_ROWS * film_index;
 	var sum = film__Sum(bindings__film[row], 0.0);
-	if (bindings__ADAPTIVE) {
+	if (bindings__ADAPTIVE || bindings__HAS_FEATURES) {
 		sum.squares = bindings__film[row + bindings__SQUARES_ROW].x;
 	}
 	return sum;
@@ -1286,7 +1301,7 @@ fn film__load_sum(film_index: u32) -> film__Sum {
 fn film__store_sum(film_index: u32, sum: film__Sum) {
 	let row = bindings__FILM_ROWS * film_index;
 	bindings__film[row] = sum.radiance;
-	if (bindings__ADAPTIVE) {
+	if (bindings__ADAPTIVE || bindings__HAS_FEATURES) {
 		bindings__film[row + bindings__SQUARES_ROW].x = sum.squares;
 	}
 }
@@ -1296,7 +1311,7 @@ fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__
 	var next = sum;
 	next.radiance += weight * vec4f(sample.radiance, 1.0);
 	next.squares += luminance * luminance;
-	if (!numeric__is_finite(next.radiance.xyz) || (bindings__ADAPTIVE && !numeric__is_finite(vec3f(next.squares)))) {
+	if (!numeric__is_finite(next.radiance.xyz) || ((bindings__ADAPTIVE || bindings__HAS_FEATURES) && !numeric__is_finite(vec3f(next.squares)))) {
 		atomicAdd(&bindings__dispatch.counters.nonfinite_samples, 1u);
 		return sum;
 	}
@@ -1330,6 +1345,7 @@ struct path__Path {
 const path__ALL_CHANNELS: u32 = 3u;
 
 fn path__camera_path(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32) -> path__Path {
+	features__start_features();
 	return path__path_along(batch, rays__ray_at(pixels__sample_rays(batch, pixels, sample), 0u), wide__word_at(pixels.keys, 0u), sample);
 }
 
@@ -1356,6 +1372,7 @@ fn path__gained(before: path__Path, light: vec3f, scatterings: u32) -> path__Pat
 		gain *= scale;
 		dispatch__kept_light += dot(gain, tone__LUMINANCE_REC709);
 	}
+	features__see_light(gain, scatterings);
 	path.radiance += gain;
 	return path;
 }
@@ -1380,6 +1397,79 @@ fn path__random_1d(path: path__Path, purpose: u32) -> f32 {
 
 fn path__random_2d(path: path__Path, purpose: u32) -> vec2f {
 	return sampling__stratified_2d(path.sample, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
+}
+
+struct features__Features {
+	albedo: vec3f,
+	normal: vec3f,
+	direct: vec3f,
+	emission: vec3f,
+	position: vec3f,
+	depth: f32,
+	uv: vec2f,
+	material: u32,
+	primitive: u32,
+	instance: u32,
+	is_followed: bool
+}
+
+var<private> features__features: features__Features;
+
+var<private> features__off_centre: f32;
+
+fn features__start_features() {
+	if (bindings__HAS_FEATURES) {
+		features__features = features__Features();
+		features__features.is_followed = true;
+	}
+}
+
+fn features__see_first(surface: types__Surface, hit: types__Hit, depth: f32) {
+	if (bindings__HAS_FEATURES && features__features.material == 0u) {
+		features__features.position = surface.p;
+		features__features.depth = depth;
+		features__features.uv = surface.uv;
+		features__features.material = surface.material + 1u;
+		features__features.primitive = hit.primitive;
+		features__features.instance = hit.instance;
+	}
+}
+
+fn features__see_albedo(albedo: vec3f, normal: vec3f) {
+	if (bindings__HAS_FEATURES && features__features.is_followed) {
+		features__features.albedo = clamp(albedo, vec3f(0.0), vec3f(1.0));
+		features__features.normal = normal;
+		features__features.is_followed = false;
+	}
+}
+
+fn features__see_light(light: vec3f, scatterings: u32) {
+	if (bindings__HAS_FEATURES) {
+		features__features.emission += select(vec3f(0.0), light, scatterings == 0u);
+		features__features.direct += select(vec3f(0.0), light, scatterings == 1u);
+	}
+}
+
+fn features__add_features(first_row: u32, sample: u32, weight: f32) {
+	let row = first_row + bindings__FEATURES_ROW;
+	features__add_mean(row, features__features.albedo, weight);
+	features__add_mean(row + 1u, features__features.normal, weight);
+	features__add_mean(row + 2u, features__features.direct, weight);
+	features__add_mean(row + 3u, features__features.emission, weight);
+	let nearness = 1.0 / (1.0 + features__off_centre);
+	if (nearness > bindings__film[row + 4u].x) {
+		let usable = numeric__is_finite(features__features.position) && numeric__is_finite(vec3f(features__features.uv, features__features.depth));
+		bindings__film[row + 4u] = vec4f(nearness, f32(sample), f32(features__features.material), f32(features__features.instance));
+		bindings__film[row + 5u] = select(vec4f(0.0), vec4f(features__features.position, features__features.depth), usable);
+		bindings__film[row + 6u] = vec4f(select(vec2f(0.0), features__features.uv, usable), f32(features__features.primitive & 65535u), f32(features__features.primitive >> 16u));
+	}
+}
+
+fn features__add_mean(row: u32, value: vec3f, weight: f32) {
+	let next = bindings__film[row] + weight * vec4f(value, 1.0);
+	if (numeric__is_finite(next.xyz)) {
+		bindings__film[row] = next;
+	}
 }
 
 const footprint__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
@@ -4815,6 +4905,22 @@ fn thin_film__thin_film(cos_i: f32, outside: f32, film_ior: f32, thickness: f32,
 	let harmonics = sign * once * thin_film__film_spectrum(path) + once * once * thin_film__film_spectrum(2.0 * path);
 	let reflected = clamp(1.0 - through - 2.0 * through * harmonics, vec3f(0.0), vec3f(1.0));
 	return select(reflected, vec3f(1.0), above.total);
+}
+
+const seen__CLEAR: f32 = 0.01;
+
+const seen__ROUGH_SHARE: f32 = 0.25;
+
+fn seen__see_surface(path: path__Path, bsdf: lobes__Bsdf, glow: vec3f) {
+	if (bindings__HAS_FEATURES) {
+		let is_blurred = bsdf.boundary_alpha.x >= seen__CLEAR;
+		let rough = bsdf.chances.x + bsdf.coating_chances.x + bsdf.coating_chances.y + select(0.0, bsdf.chances.y, bsdf.alpha.x >= seen__CLEAR) + select(0.0, bsdf.chances.z, is_blurred);
+		if (rough >= seen__ROUGH_SHARE || any(glow > vec3f(0.0))) {
+			let boundary = select(vec3f(0.0), bsdf.reflect + bsdf.transmit, is_blurred);
+			let albedo = bsdf.diffuse + bsdf.through + bsdf.gain * bsdf.f0 + boundary + glow;
+			features__see_albedo(path.throughput * albedo, bsdf.normal);
+		}
+	}
 }
 
 const quad_warp__CHANCE_BITS: u32 = 10u;

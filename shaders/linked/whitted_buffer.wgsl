@@ -24,12 +24,14 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 	var radiance = wide__no_vectors();
 	var states = ray_stack__camera_states(batch, rays);
 	var is_unfinished = false;
+	features__start_features();
 	loop {
 		let hits = rays__closest_hits(states.rays);
 		var next = states;
 		var receivers = direct__no_receivers();
 		var arriving = wide__no_vectors();
 		var color = wide__no_vectors();
+		var is_first = false;
 		is_unfinished = false;
 		var rows = rays__rows_where(states.rays.t_max >= wide__Floats(0.0));
 		loop {
@@ -37,12 +39,17 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 			ray_stack__current_tree = k;
 			let state = ray_states__state_at(states, k);
 			let hit = rays__hit_at(hits, k);
+			is_first = state.node == 1u;
 			var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_states__no_ray(), ray_states__no_ray());
 			if (state.ray.t_max >= 0.0) {
 				dispatch__count_hit(state.kind, hit);
 				if (hit.primitive == types__NONE) {
 					let seen = escaping_throughput(state) * background__background(batch, state.ray.direction);
 					radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + seen);
+					if (is_first) {
+						features__see_albedo(seen, vec3f(0.0));
+						features__see_light(seen, 0u);
+					}
 				}
 				else {
 					let contact = contact__contact_at(state.ray, hit, state.cone);
@@ -64,7 +71,14 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 					}
 					receivers = direct__receiver_set(receivers, k, surface, -state.ray.direction, key);
 					arriving = wide__vector_set(arriving, k, event.arriving);
-					color = wide__vector_set(color, k, own_light(batch, surface, factors[2]));
+					let own = own_light(batch, surface, factors[2]);
+					color = wide__vector_set(color, k, own);
+					if (is_first) {
+						features__see_first(surface, hit, hit.t);
+						let glow = own - batch.ambient * surface.phong.ambient;
+						features__see_albedo(surface.phong.diffuse + glow, surface.n);
+						features__see_light(event.arriving * glow, 0u);
+					}
 				}
 			}
 			if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
@@ -79,6 +93,9 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 		}
 		loops__cut_off |= rows != 0u;
 		let direct = direct__direct_light(batch, receivers, states.media, sample);
+		if (is_first) {
+			features__see_light(wide__vector_at(arriving, 0u) * wide__vector_at(direct, 0u), 1u);
+		}
 		radiance.x += arriving.x * (color.x + direct.x);
 		radiance.y += arriving.y * (color.y + direct.y);
 		radiance.z += arriving.z * (color.z + direct.z);
@@ -202,6 +219,9 @@ fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: 
 	var within = vec2f(0.5);
 	if (bindings__STRATIFIED) {
 		within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
+	}
+	if (bindings__HAS_FEATURES) {
+		features__off_centre = dot(within - 0.5, within - 0.5);
 	}
 	let position = vec2f(pixel) + within;
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
@@ -1048,6 +1068,10 @@ override bindings__FILM_ROWS: u32 = 1u;
 
 override bindings__SQUARES_ROW: u32 = 1u;
 
+override bindings__HAS_FEATURES: bool = false;
+
+override bindings__FEATURES_ROW: u32 = 2u;
+
 var<private> albedo__albedo_first: u32;
 
 struct pixels__Pixels {
@@ -1118,7 +1142,12 @@ fn pixels__add_samples(pixels: pixels__Pixels, sample: u32, radiance: wide__Vect
 	loop {
 		if (wide__word_at(pixels.film_index, k) != types__NONE) {
 			let weight = dispatch__sample_weight(wide__word_at(pixels.keys, k), sample);
-			next = pixels__with_sum(next, k, film__add_sample(pixels__sum_at(pixels, k), film__Sample(wide__vector_at(radiance, k)), weight));
+			let before = pixels__sum_at(pixels, k);
+			let sum = film__add_sample(before, film__Sample(wide__vector_at(radiance, k)), weight);
+			next = pixels__with_sum(next, k, sum);
+			if (bindings__HAS_FEATURES && sum.radiance.w != before.radiance.w) {
+				features__add_features(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), sample, weight);
+			}
 		}
 		continuing {
 			k += 1u;
@@ -1241,7 +1270,7 @@ struct film__Sum {
 fn film__load_sum(film_index: u32) -> film__Sum {
 	let row = bindings__FILM_ROWS * film_index;
 	var sum = film__Sum(bindings__film[row], 0.0);
-	if (bindings__ADAPTIVE) {
+	if (bindings__ADAPTIVE || bindings__HAS_FEATURES) {
 		sum.squares = bindings__film[row + bindings__SQUARES_ROW].x;
 	}
 	return sum;
@@ -1250,7 +1279,7 @@ fn film__load_sum(film_index: u32) -> film__Sum {
 fn film__store_sum(film_index: u32, sum: film__Sum) {
 	let row = bindings__FILM_ROWS * film_index;
 	bindings__film[row] = sum.radiance;
-	if (bindings__ADAPTIVE) {
+	if (bindings__ADAPTIVE || bindings__HAS_FEATURES) {
 		bindings__film[row + bindings__SQUARES_ROW].x = sum.squares;
 	}
 }
@@ -1260,7 +1289,7 @@ fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__
 	var next = sum;
 	next.radiance += weight * vec4f(sample.radiance, 1.0);
 	next.squares += luminance * luminance;
-	if (!numeric__is_finite(next.radiance.xyz) || (bindings__ADAPTIVE && !numeric__is_finite(vec3f(next.squares)))) {
+	if (!numeric__is_finite(next.radiance.xyz) || ((bindings__ADAPTIVE || bindings__HAS_FEATURES) && !numeric__is_finite(vec3f(next.squares)))) {
 		atomicAdd(&bindings__dispatch.counters.nonfinite_samples, 1u);
 		return sum;
 	}
@@ -1620,6 +1649,79 @@ fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) 
 	}
 	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
 	return select(-bend, bend, side < 0.0) / 3.0;
+}
+
+struct features__Features {
+	albedo: vec3f,
+	normal: vec3f,
+	direct: vec3f,
+	emission: vec3f,
+	position: vec3f,
+	depth: f32,
+	uv: vec2f,
+	material: u32,
+	primitive: u32,
+	instance: u32,
+	is_followed: bool
+}
+
+var<private> features__features: features__Features;
+
+var<private> features__off_centre: f32;
+
+fn features__start_features() {
+	if (bindings__HAS_FEATURES) {
+		features__features = features__Features();
+		features__features.is_followed = true;
+	}
+}
+
+fn features__see_first(surface: types__Surface, hit: types__Hit, depth: f32) {
+	if (bindings__HAS_FEATURES && features__features.material == 0u) {
+		features__features.position = surface.p;
+		features__features.depth = depth;
+		features__features.uv = surface.uv;
+		features__features.material = surface.material + 1u;
+		features__features.primitive = hit.primitive;
+		features__features.instance = hit.instance;
+	}
+}
+
+fn features__see_albedo(albedo: vec3f, normal: vec3f) {
+	if (bindings__HAS_FEATURES && features__features.is_followed) {
+		features__features.albedo = clamp(albedo, vec3f(0.0), vec3f(1.0));
+		features__features.normal = normal;
+		features__features.is_followed = false;
+	}
+}
+
+fn features__see_light(light: vec3f, scatterings: u32) {
+	if (bindings__HAS_FEATURES) {
+		features__features.emission += select(vec3f(0.0), light, scatterings == 0u);
+		features__features.direct += select(vec3f(0.0), light, scatterings == 1u);
+	}
+}
+
+fn features__add_features(first_row: u32, sample: u32, weight: f32) {
+	let row = first_row + bindings__FEATURES_ROW;
+	features__add_mean(row, features__features.albedo, weight);
+	features__add_mean(row + 1u, features__features.normal, weight);
+	features__add_mean(row + 2u, features__features.direct, weight);
+	features__add_mean(row + 3u, features__features.emission, weight);
+	let nearness = 1.0 / (1.0 + features__off_centre);
+	if (nearness > bindings__film[row + 4u].x) {
+		let usable = numeric__is_finite(features__features.position) && numeric__is_finite(vec3f(features__features.uv, features__features.depth));
+		bindings__film[row + 4u] = vec4f(nearness, f32(sample), f32(features__features.material), f32(features__features.instance));
+		bindings__film[row + 5u] = select(vec4f(0.0), vec4f(features__features.position, features__features.depth), usable);
+		bindings__film[row + 6u] = vec4f(select(vec2f(0.0), features__features.uv, usable), f32(features__features.primitive & 65535u), f32(features__features.primitive >> 16u));
+	}
+}
+
+fn features__add_mean(row: u32, value: vec3f, weight: f32) {
+	let next = bindings__film[row] + weight * vec4f(value, 1.0);
+	if (numeric__is_finite(next.xyz)) {
+		bindings__film[row] = next;
+	}
 }
 
 const traverse__EMPTY: u32 = 4294967295u;

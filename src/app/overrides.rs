@@ -65,6 +65,8 @@ pub struct PictureOverrides {
     pub seed: u32,
     /// Columns x0 to x1 − 1 and rows y0 to y1 − 1.
     pub crop: Option<[u32; 4]>,
+    /// Keep features in the film, to denoise it.
+    pub features: bool,
 }
 
 /// How a picture is developed.
@@ -76,6 +78,8 @@ pub struct ToneOverrides {
     pub curve: Option<ToneCurve>,
     /// Transfer function.
     pub transfer: Option<Transfer>,
+    /// Denoise the picture.
+    pub denoise: bool,
 }
 
 /// An exposure as users give it.
@@ -153,6 +157,7 @@ impl PictureOverrides {
             seed: self.seed,
             max_depth: self.max_depth.unwrap_or(max_depth),
             min_throughput: self.min_throughput.unwrap_or(defaults.min_throughput),
+            features: self.features,
             transparent_shadows: self.transparent_shadows,
             bsdf: self.bsdf.unwrap_or(defaults.bsdf),
             clamp_indirect: self.clamp_indirect,
@@ -203,6 +208,7 @@ impl ToneOverrides {
             curve: self.curve.unwrap_or(default.curve),
             transfer: self.transfer.unwrap_or(default.transfer),
             levels: Levels::Raw,
+            denoise: self.denoise,
         };
         match (shows, self.exposure) {
             _ if linear_format => tone,

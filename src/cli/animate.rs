@@ -25,8 +25,8 @@ use crate::cli::interrupt::Interrupt;
 use crate::cli::job::{Job, Outcome};
 use crate::cli::progress::FrameProgress;
 use crate::cli::report::{AnimationReport, Draft};
-use crate::output::OutputError;
 use crate::output::video::{self, FrameRate, VideoOptions};
+use crate::output::{Format, OutputError};
 use crate::render::Stats;
 use frame_renderer::{FrameRenderer, Sink};
 use journal::Journal;
@@ -87,6 +87,7 @@ fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,
+        layers: &arguments.layers,
     };
     let flags = &arguments.output;
     Sequence {
@@ -126,9 +127,16 @@ impl<'a> Sequence<'a> {
         let interrupt = Interrupt::install()?;
         self.job.warn_of_skipped();
         let settings = self.job.settings();
+        let files = self.target.frames.as_ref();
+        let takes_layers = files.is_some_and(|files| files.format == Format::Exr);
+        self.job.layers.check(
+            self.job.picture.develop.denoise,
+            settings.integrator,
+            &self.target.path,
+            takes_layers,
+        )?;
         let size = picture_size(&settings)?;
         let video = self.video_options()?;
-        let files = self.target.frames.as_ref();
         draft.set_image(self.job.image(&self.target.path, &settings, size));
         self.target.protect(&draft.inputs)?;
         self.job.check_report(draft)?;
@@ -163,6 +171,12 @@ impl<'a> Sequence<'a> {
         }
         draft.seconds.set_render_times(&frames.stats);
         draft.seconds.write = renderer.write_seconds();
+        draft.seconds.denoise = self
+            .job
+            .picture
+            .develop
+            .denoise
+            .then(|| renderer.denoise_seconds());
         let encode_seconds = match &video {
             Some(options) => self.encode(options, &interrupt)?,
             None => 0.0,

@@ -7,8 +7,8 @@ mod values;
 #[cfg(feature = "viewer")]
 pub use flags::RecordingFlags;
 pub use flags::{
-    AxisFlags, CameraFlags, DevelopFlags, DeviceFlags, LogFlags, OutputFlags, PartFlags,
-    PictureFlags, ProgressMode, SceneFlags, SizeFlags,
+    AxisFlags, CameraFlags, DevelopFlags, DeviceFlags, LayerFlags, LogFlags, OutputFlags,
+    PartFlags, PictureFlags, ProgressMode, SceneFlags, SizeFlags,
 };
 pub use motion::{
     MomentFlags, MotionFlags, Range, RangeFlags, SequenceFlags, SequenceFormat, TurnFlags,
@@ -178,6 +178,8 @@ pub struct RenderArgs {
     #[command(flatten)]
     pub output: OutputFlags,
     #[command(flatten)]
+    pub layers: LayerFlags,
+    #[command(flatten)]
     pub part: PartFlags,
     #[command(flatten)]
     pub picture: PictureFlags,
@@ -201,6 +203,8 @@ pub struct AnimateArgs {
     pub scene: PathBuf,
     #[command(flatten)]
     pub output: SequenceFlags,
+    #[command(flatten)]
+    pub layers: LayerFlags,
     #[command(flatten)]
     pub range: RangeFlags,
     #[command(flatten)]
@@ -281,6 +285,8 @@ pub struct MergeArgs {
     pub parts: Vec<PathBuf>,
     #[command(flatten)]
     pub output: OutputFlags,
+    #[command(flatten)]
+    pub layers: LayerFlags,
     #[command(flatten)]
     pub develop: DevelopFlags,
     #[command(flatten)]

@@ -2,7 +2,7 @@
 
 use crate::app::error::AppError;
 use crate::app::showcase;
-use crate::cli::args::{DemoArgs, PartFlags, PictureFlags, SizeFlags};
+use crate::cli::args::{DemoArgs, LayerFlags, PartFlags, PictureFlags, SizeFlags};
 use crate::cli::destination::Destination;
 use crate::cli::job;
 use crate::cli::job::Job;
@@ -38,6 +38,7 @@ fn render(
         },
         device: &arguments.device,
         log: &arguments.log,
+        layers: &LayerFlags::default(),
     };
     let part = PartFlags::default();
     picture::run(&job, destination, (0.0, 0.0), &part, draft)

@@ -2,7 +2,7 @@
 
 use crate::app::error::AppError;
 use crate::cli::args::OutputFlags;
-use crate::image::Image;
+use crate::cli::layers::Finished;
 use crate::output::{self, Format, SaveOptions};
 use crate::render::Film;
 use std::io::IsTerminal;
@@ -71,11 +71,17 @@ impl Destination {
         Ok(output::write(&self.path, &bytes, self.options.clobber)?)
     }
 
-    pub fn save(&self, image: &Image) -> Result<(), AppError> {
-        let saved = if self.is_stdout() {
-            output::save_to_stdout(image, &self.options)
-        } else {
-            output::save_with(&self.path, image, &self.options)
+    /// Whether it can take layers.
+    pub fn takes_layers(&self) -> bool {
+        let format = self.options.format;
+        let format = format.or_else(|| Format::from_path(&self.path));
+        self.is_film() || format == Some(Format::Exr)
+    }
+
+    pub fn save(&self, picture: &Finished) -> Result<(), AppError> {
+        let saved = match self.is_stdout() {
+            true => picture.save_to_stdout(&self.options),
+            false => picture.save(&self.path, &self.options),
         };
         saved.map_err(AppError::from)
     }

@@ -6,9 +6,10 @@ use crate::app::console::Console;
 use crate::app::error::AppError;
 use crate::app::inputs;
 use crate::app::value_names::INTEGRATORS;
-use crate::cli::args::{DeviceFlags, LogFlags, PictureFlags};
+use crate::cli::args::{DeviceFlags, LayerFlags, LogFlags, PictureFlags};
 use crate::cli::destination;
 use crate::cli::device;
+use crate::cli::layers::Finished;
 use crate::cli::memory;
 use crate::cli::report;
 use crate::cli::report::{
@@ -16,7 +17,7 @@ use crate::cli::report::{
 };
 use crate::gpu::{AdapterReport, Gpu};
 use crate::output;
-use crate::render::{ExecutionPolicy, Integrator, RenderSettings, Stats, Tone};
+use crate::render::{ExecutionPolicy, Integrator, RenderSettings, Renderer, Stats, Tone};
 use crate::scene::Scene;
 use std::path::Path;
 use std::time::Instant;
@@ -32,6 +33,7 @@ pub struct Job<'a> {
     pub picture: &'a PictureFlags,
     pub device: &'a DeviceFlags,
     pub log: &'a LogFlags,
+    pub layers: &'a LayerFlags,
 }
 
 /// The result of a job.
@@ -67,7 +69,19 @@ impl Job<'_> {
     }
 
     pub fn settings(&self) -> RenderSettings {
-        self.picture.overrides().settings(&self.scene.output)
+        let settings = self.picture.overrides().settings(&self.scene.output);
+        RenderSettings {
+            features: settings.features || !self.layers.layers.is_empty(),
+            ..settings
+        }
+    }
+
+    /// The picture of a renderer that is done.
+    pub fn finish(&self, renderer: &mut Renderer, tone: &Tone) -> Result<Finished, AppError> {
+        match self.settings().features {
+            true => self.layers.finish(&renderer.film()?, renderer.gpu(), tone),
+            false => Ok(Finished::plain(renderer.develop(tone)?)),
+        }
     }
 
     pub fn policy(&self) -> ExecutionPolicy {
@@ -173,7 +187,10 @@ impl Job<'_> {
                 ..self.image(outcome.path, settings, outcome.size)
             },
             adapter: outcome.adapter.map(Into::into),
-            seconds: draft.seconds.clone(),
+            seconds: Seconds {
+                denoise: (draft.seconds.denoise).or(of_paths.then_some(0.0)),
+                ..draft.seconds.clone()
+            },
             rays: stats.rays.as_ref().map(Into::into),
             submissions: stats.into(),
             nonfinite_samples: stats.nonfinite_samples,
@@ -232,6 +249,7 @@ pub fn policy(device: &DeviceFlags, count_rays: bool) -> ExecutionPolicy {
 }
 
 fn details(console: Console, report: &Report) {
+    let denoise = report.seconds.denoise.unwrap_or_default();
     let Seconds {
         load,
         bvh,
@@ -245,7 +263,8 @@ fn details(console: Console, report: &Report) {
     } = &report.seconds;
     console.detail(format_args!(
         "seconds: load {load:.3}, bvh {bvh:.3}, gpu {gpu:.3}, compile {compile:.3}, \
-         upload {upload:.3}, trace {trace:.3}, develop {develop:.3}, write {write:.3}"
+         upload {upload:.3}, trace {trace:.3}, develop {develop:.3}, denoise {denoise:.3}, \
+         write {write:.3}"
     ));
     console.detail(format_args!(
         "{} submissions, the longest {:.1} ms; {:.1} MiB on the GPU",

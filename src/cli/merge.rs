@@ -40,6 +40,12 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
     if !missing.is_empty() {
         return Err(AppError::Missing(incomplete(destination.path(), &missing)));
     }
+    arguments.layers.check(
+        arguments.develop.denoise,
+        film.header().integrator,
+        destination.path(),
+        destination.takes_layers(),
+    )?;
     let (width, height) = film.header().size;
     destination.check(width, height)?;
     if destination.is_film() {
@@ -61,7 +67,7 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
         .overrides()
         .tone(&said, *integrator, is_linear);
     let gpu = Gpu::new(&arguments.device.choice())?;
-    destination.save(&film.develop(&gpu, &tone)?)
+    destination.save(&arguments.layers.finish(&film, &gpu, &tone)?)
 }
 
 fn read(path: &PathBuf) -> Result<Film, FilmError> {

@@ -8,9 +8,9 @@ use crate::cli::destination::Destination;
 use crate::cli::device;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job::{Job, Outcome};
+use crate::cli::layers::Finished;
 use crate::cli::progress::Progress;
 use crate::cli::report::Draft;
-use crate::image::Image;
 use crate::render::{FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK};
 use std::ops::Range;
 use std::time::Instant;
@@ -34,6 +34,12 @@ pub fn run(
         sample_range: range(part, destination, &settings)?,
         ..settings
     };
+    job.layers.check(
+        job.picture.develop.denoise,
+        settings.integrator,
+        destination.path(),
+        destination.takes_layers(),
+    )?;
     let size = picture_size(&settings)?;
     draft.set_image(job.image(destination.path(), &settings, size));
     draft
@@ -57,9 +63,10 @@ pub fn run(
             destination.save_film(&film)?;
             started
         } else {
-            let image = develop(job, &mut renderer, &settings, destination, &interrupt)?;
+            let picture = develop(job, &mut renderer, &settings, destination, &interrupt)?;
+            draft.seconds.denoise = picture.denoise_seconds();
             let started = Instant::now();
-            destination.save(&image)?;
+            destination.save(&picture)?;
             started
         };
         draft.seconds.write = started.elapsed().as_secs_f64();
@@ -146,9 +153,9 @@ fn develop(
     settings: &RenderSettings,
     destination: &Destination,
     interrupt: &Interrupt,
-) -> Result<Image, AppError> {
+) -> Result<Finished, AppError> {
     let tone = job.tone(settings, destination.is_linear());
-    let image = renderer.develop(&tone)?;
+    let image = job.finish(renderer, &tone)?;
     interrupt.check()?;
     if let (Levels::Found, Some(quantity)) = (tone.levels, settings.integrator.quantity())
         && let Some(range) = renderer.range()?

@@ -41,6 +41,7 @@ fn render(
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,
+        layers: &arguments.layers,
     };
     picture::run(&job, destination, shutter, &arguments.part, draft)
 }

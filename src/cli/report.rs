@@ -152,6 +152,9 @@ pub struct Seconds {
     pub trace: f64,
     /// Exposure, tone curve, transfer function and reading the picture back.
     pub develop: f64,
+    /// Denoising; present for path-traced and for denoised pictures.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub denoise: Option<f64>,
     /// Encoding and writing the file.
     pub write: f64,
 }

@@ -4,7 +4,7 @@ use crate::app::clock::Clock;
 use crate::app::error::AppError;
 use crate::cli::animate;
 use crate::cli::animate::{Sequence, Target, Timeline};
-use crate::cli::args::{MotionFlags, Range, RangeFlags, TurnFlags, TurntableArgs};
+use crate::cli::args::{LayerFlags, MotionFlags, Range, RangeFlags, TurnFlags, TurntableArgs};
 use crate::cli::job::Job;
 use crate::cli::report::Draft;
 use crate::scene::{self, Background, Scene, Turntable};
@@ -72,6 +72,7 @@ fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Resul
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,
+        layers: &LayerFlags::default(),
     };
     let flags = &arguments.output;
     Sequence {

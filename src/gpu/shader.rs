@@ -79,6 +79,8 @@ impl Kernel {
         DEVELOP "develop" Buffer "buffer";
         /// Develops the film to a texture for display.
         SHOW "show" Buffer "buffer";
+        /// Denoises a picture.
+        DENOISE "denoise" Buffer "buffer";
         /// Traces the rays of a [`crate::render::RayQuery`].
         TRACE_RAYS "trace_rays" Image "image", Buffer "buffer", Packet "packet";
     }

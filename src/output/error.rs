@@ -52,6 +52,14 @@ pub enum OutputError {
         pixel_count: usize,
     },
 
+    /// Layers cannot be encoded.
+    #[error("cannot write the layers: {source}. Choose another size or other layers.")]
+    Layers {
+        /// The encoder's error.
+        #[source]
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+
     /// The name is that of a folder.
     #[error(
         "cannot write the file ({}): it is a folder. Add a file name.",

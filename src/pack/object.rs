@@ -82,6 +82,16 @@ impl PackedScene {
         Some(ObjectRef::Instance(*index))
     }
 
+    /// The numbers of instances and of shapes of the scene.
+    pub fn object_counts(&self) -> (usize, usize) {
+        let Origins {
+            instance_names,
+            shape_count,
+            ..
+        } = &self.origins;
+        (instance_names.len(), *shape_count)
+    }
+
     /// [`Scene::object_name`] in the scene that this was packed from; `None` if it has no name.
     pub fn object_name(&self, object: ObjectRef) -> Option<&str> {
         let (names, index) = match object {

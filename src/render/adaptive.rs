@@ -3,8 +3,9 @@
 use super::{
     Integrator,
     film_tile::FilmTile,
-    layers::{self, Layer, SQUARES},
+    layers::{self, COUNT, FIRST, Layer, RADIANCE, SQUARES},
     settings::RenderSettings,
+    sums::PixelRows,
 };
 use std::{collections::BTreeMap, ops::Range};
 
@@ -45,6 +46,8 @@ pub struct Adaptive {
     tile_pixels: usize,
     layers: &'static [&'static Layer],
     pixels: Vec<PixelStatistics>,
+    /// The rows of all pixels as in film tiles, for films with features; otherwise empty.
+    features: Vec<[f64; 4]>,
     /// The range of samples of the most sampled pixels in this round.
     front: Range<u32>,
 }
@@ -81,8 +84,16 @@ impl Adaptive {
             brightness,
             samples: settings.samples,
             first_samples,
-            tile_pixels: side * side,
+            // As many rows as without features.
+            tile_pixels: 2 * side * side / layers::rows(layers::of_sampling(settings)),
             layers: layers::of_sampling(settings),
+            features: match settings.has_features() {
+                true => {
+                    let rows = layers::rows(layers::of_sampling(settings));
+                    vec![[0.0; 4]; rows * width as usize * height as usize]
+                }
+                false => Vec::new(),
+            },
             front: 0..first_samples,
             pixels: vec![PixelStatistics::default(); width as usize * height as usize],
         }
@@ -173,6 +184,10 @@ impl Adaptive {
                 statistics.weight += rows[0][3];
                 statistics.squares += rows[squares][0];
                 statistics.count += sample_count;
+                if !self.features.is_empty() {
+                    let own = &mut self.features[index * rows.len()..][..rows.len()];
+                    layers::pixel_rows(self.layers).add_rounded(own, rows);
+                }
             }
         }
     }
@@ -188,18 +203,44 @@ impl Adaptive {
         [r, g, b, 1.0]
     }
 
-    /// For each pixel of the crop its mean, and a row that starts with its sample count.
-    pub fn means_and_counts(&self) -> Vec<[f32; 4]> {
+    /// For each pixel of the crop its rows of a film: the mean, features if there are any, and a row that starts with
+    /// the sample count. Means have a weight of 1, and the squares are a mean too.
+    pub fn means_and_counts(&self, layers: &[&Layer]) -> Vec<[f32; 4]> {
         let [x, y, width, height] = self.crop;
         let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
-        pixels
-            .flat_map(|pixel| {
-                [
-                    self.mean(pixel),
-                    [self.samples_at(pixel) as f32, 0.0, 0.0, 0.0],
-                ]
-            })
-            .collect()
+        let mut rows = Vec::new();
+        for pixel in pixels {
+            for layer in layers {
+                if **layer == RADIANCE {
+                    rows.push(self.mean(pixel));
+                } else if **layer == COUNT {
+                    rows.push([self.samples_at(pixel) as f32, 0.0, 0.0, 0.0]);
+                } else {
+                    rows.extend(self.feature(pixel, layer));
+                }
+            }
+        }
+        rows
+    }
+
+    /// The rows of a layer of a pixel.
+    fn feature(&self, pixel: [u32; 2], layer: &Layer) -> Vec<[f32; 4]> {
+        let PixelRows { count, .. } = layers::pixel_rows(self.layers);
+        let index = self.index(pixel);
+        let first = index * count + layers::row_of(self.layers, layer).unwrap_or_default();
+        let rows = self.features[first..].iter().take(layer.rows);
+        let statistics = &self.pixels[index];
+        let to_mean = |[x, y, z, _]: [f64; 4], scale: f64| {
+            let [x, y, z] = [x, y, z].map(|sum| (sum * scale) as f32);
+            [x, y, z, 1.0]
+        };
+        let squares = 1.0 / f64::from(statistics.count.max(1));
+        rows.map(|&row| match layer {
+            layer if *layer == FIRST => row.map(|number| number as f32),
+            layer if *layer == SQUARES => to_mean([row[0], 0.0, 0.0, 0.0], squares),
+            _ => to_mean(row, statistics.scale()),
+        })
+        .collect()
     }
 
     pub fn samples_at(&self, pixel: [u32; 2]) -> u32 {

@@ -9,6 +9,7 @@ use super::{
     layouts::{Layouts, group},
     levels, pipelines,
     slice::Slice,
+    sums::PixelRows,
 };
 use crate::clock::Instant;
 use crate::{
@@ -39,6 +40,8 @@ pub struct Tone {
     pub transfer: Transfer,
     /// The range for views that show a quantity, such as distances.
     pub levels: Levels,
+    /// Whether a renderer denoises the radiance first, where its film has features.
+    pub denoise: bool,
 }
 
 impl From<&OutputDefaults> for Tone {
@@ -56,6 +59,7 @@ impl Tone {
         curve: ToneCurve::None,
         transfer: Transfer::Linear,
         levels: Levels::Raw,
+        denoise: false,
     };
 
     /// The tone of a scene for pictures of radiance by an integrator.
@@ -66,7 +70,7 @@ impl Tone {
             auto_exposure: output.auto_exposure,
             curve,
             transfer: output.transfer,
-            levels: Levels::Raw,
+            ..Self::LINEAR
         }
     }
 
@@ -76,10 +80,13 @@ impl Tone {
         for number in self.numbers() {
             encoder.number(number);
         }
+        if self.denoise {
+            encoder.bytes(b"denoise");
+        }
         encoder.finish()
     }
 
-    /// All members as numbers that are stable across builds.
+    /// What films keep of it, as numbers that are stable across builds.
     pub(super) fn numbers(&self) -> [u32; 6] {
         let Self {
             exposure_ev,
@@ -87,6 +94,7 @@ impl Tone {
             curve,
             transfer,
             levels,
+            denoise: _,
         } = *self;
         let curve = match curve {
             ToneCurve::None => 0,
@@ -139,6 +147,7 @@ impl Tone {
                 2 => Levels::Fixed([least, most].map(f32::from_bits)),
                 _ => return None,
             },
+            denoise: false,
         };
         (tone.numbers() == numbers).then_some(tone)
     }
@@ -233,6 +242,11 @@ impl Renderer {
     }
 
     fn developed(&mut self, tone: &Tone) -> Result<Image, RenderError> {
+        if self.denoises(tone) {
+            let features = self.features()?;
+            let image = features.picture().denoised(self.gpu(), &features)?;
+            return tone.develop(self.gpu(), &image);
+        }
         let is_direct = self.shows_directly();
         match is_direct {
             true => self.wait()?,
@@ -367,7 +381,7 @@ pub fn develop_sums(
 ) -> Result<Image, RenderError> {
     let [x, y, width, height] = region;
     let mut image = Image::new(width, height);
-    let tiles = rectangles(region, Slicing::default().tile_side, 0..0, 1);
+    let tiles = rectangles(region, Slicing::default().tile_side, 0..0, PixelRows::ONE);
     let Some(most) = tiles.iter().map(FilmTile::pixel_count).max() else {
         return Ok(image);
     };

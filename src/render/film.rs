@@ -8,6 +8,7 @@
 mod coverage;
 mod develop;
 mod error;
+mod features;
 mod file;
 mod gather;
 
@@ -217,7 +218,8 @@ fn combined_sums<'a>(
     coverage: &Coverage,
     parts: impl Iterator<Item = ([u32; 4], &'a Sums)>,
 ) -> Vec<Sums> {
-    let rows = layers::rows(header.layers);
+    let pixel_rows = layers::pixel_rows(header.layers);
+    let rows = pixel_rows.count;
     let empty = |([.., width, height], samples): ([u32; 4], &SampleSet)| {
         let pixels = width as usize * height as usize;
         Sums::zeros(rows * pixels, header.is_block(samples))
@@ -234,7 +236,8 @@ fn combined_sums<'a>(
                 let count = (left + across - (x + column)).min(width - column);
                 let to = (y + row - top) as usize * across as usize + (x + column - left) as usize;
                 let from = row as usize * width as usize + column as usize;
-                sums[index].add(rows * to, part, rows * from, rows * count as usize);
+                let rows_added = rows * count as usize;
+                sums[index].add(rows * to, part, rows * from, rows_added, pixel_rows);
                 column += count;
             }
         }

@@ -6,7 +6,7 @@
 
 use super::{
     layers::{self, Layer, SQUARES},
-    sums::Sums,
+    sums::{PixelRows, Sums},
 };
 use std::ops::Range;
 
@@ -26,8 +26,8 @@ pub struct FilmTile {
     pub samples: Range<u32>,
     /// The pixels of a list, in film order; empty for a rectangle.
     places: Vec<[u32; 2]>,
-    /// Film rows per pixel, and the row that holds the pixel position in a list.
-    rows_per_pixel: usize,
+    /// Rows of a pixel, and the row that holds the pixel position in a list.
+    rows: PixelRows,
     place_row: usize,
     /// Film rows of the current block, layer by layer for each pixel; empty before the block starts.
     pub sums: Vec<[f32; 4]>,
@@ -37,11 +37,7 @@ pub struct FilmTile {
 
 impl FilmTile {
     /// A rectangle of the picture.
-    pub fn new(
-        [x, y, width, height]: [u32; 4],
-        samples: Range<u32>,
-        rows_per_pixel: usize,
-    ) -> Self {
+    pub fn new([x, y, width, height]: [u32; 4], samples: Range<u32>, rows: PixelRows) -> Self {
         Self {
             x,
             y,
@@ -49,7 +45,7 @@ impl FilmTile {
             height,
             samples,
             places: Vec::new(),
-            rows_per_pixel,
+            rows,
             place_row: 0,
             sums: Vec::new(),
             closed: None,
@@ -59,7 +55,7 @@ impl FilmTile {
     /// A list of pixels of the picture, not empty.
     pub fn list(places: Vec<[u32; 2]>, samples: Range<u32>, layers: &[&Layer]) -> Self {
         let side = GROUP_SIDE;
-        let mut tile = Self::new([0, 0, side, side], samples, layers::rows(layers));
+        let mut tile = Self::new([0, 0, side, side], samples, layers::pixel_rows(layers));
         tile.place_row = layers::row_of(layers, &SQUARES).unwrap_or_default();
         tile.places = places;
         tile
@@ -68,7 +64,7 @@ impl FilmTile {
     /// The same rectangle without sums.
     pub fn blank(&self) -> Self {
         let region = [self.x, self.y, self.width, self.height];
-        Self::new(region, self.samples.clone(), self.rows_per_pixel)
+        Self::new(region, self.samples.clone(), self.rows)
     }
 
     /// Number of pixels without padding.
@@ -87,7 +83,12 @@ impl FilmTile {
 
     /// Film rows per pixel.
     pub fn rows_per_pixel(&self) -> usize {
-        self.rows_per_pixel
+        self.rows.count
+    }
+
+    /// The rows of a pixel.
+    pub fn pixel_rows(&self) -> PixelRows {
+        self.rows
     }
 
     pub fn group_columns(&self) -> u32 {
@@ -128,7 +129,7 @@ impl FilmTile {
     pub fn reset_sums(&mut self) {
         self.sums.clear();
         self.sums.resize(self.row_count(), [0.0; 4]);
-        let pixels = self.sums.chunks_exact_mut(self.rows_per_pixel);
+        let pixels = self.sums.chunks_exact_mut(self.rows.count);
         for (rows, [x, y]) in pixels.zip(&self.places) {
             rows[self.place_row] = [0.0, *x as f32, *y as f32, 1.0];
         }
@@ -157,7 +158,7 @@ impl FilmTile {
 
     /// Finishes a block: adds its sums to the totals.
     pub fn close_block(&mut self) {
-        self.closed = Some(Sums::with_block(self.closed.take(), &self.sums));
+        self.closed = Some(Sums::with_block(self.closed.take(), &self.sums, self.rows));
         self.sums.clear();
     }
 
@@ -165,14 +166,15 @@ impl FilmTile {
     pub fn all_sums(&self) -> Option<Sums> {
         match self.sums.is_empty() {
             true => self.closed.clone(),
-            false => Some(Sums::with_block(self.closed.clone(), &self.sums)),
+            false => Some(Sums::with_block(self.closed.clone(), &self.sums, self.rows)),
         }
     }
 
     /// The film rows of all blocks together. For a list, the rows with positions are summed as well and
     /// therefore meaningless.
     pub fn totals(&self) -> Vec<[f64; 4]> {
-        self.all_sums().map_or_else(Vec::new, |sums| sums.rounded())
+        self.all_sums()
+            .map_or_else(Vec::new, |sums| sums.rounded(self.rows))
     }
 
     /// The rows for `develop`: sums and weights of a single block, otherwise means with a weight of 1.
@@ -189,7 +191,7 @@ pub fn rectangles(
     [x, y, width, height]: [u32; 4],
     side: u32,
     samples: Range<u32>,
-    rows_per_pixel: usize,
+    rows: PixelRows,
 ) -> Vec<FilmTile> {
     let cuts = |start: u32, length: u32| {
         (0..length.div_ceil(side)).map(move |i| {
@@ -199,7 +201,7 @@ pub fn rectangles(
     };
     let row = |(wy, wh)| {
         let samples = samples.clone();
-        let tile = move |(wx, ww)| FilmTile::new([wx, wy, ww, wh], samples.clone(), rows_per_pixel);
+        let tile = move |(wx, ww)| FilmTile::new([wx, wy, ww, wh], samples.clone(), rows);
         cuts(x, width).map(tile)
     };
     cuts(y, height).flat_map(row).collect()

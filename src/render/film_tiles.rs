@@ -7,9 +7,9 @@ use super::{
     adaptive::Adaptive,
     film::{Film, FilmError, FilmHeader, Piece},
     film_tile::{FilmTile, rectangles},
-    layers,
+    layers::{self, Layer},
     settings::RenderSettings,
-    sums::{SAMPLE_BLOCK, Sums},
+    sums::{PixelRows, SAMPLE_BLOCK, Sums},
 };
 use std::borrow::Cow;
 use std::ops::Range;
@@ -30,10 +30,10 @@ impl FilmTiles {
         let region = (adaptive.as_ref()).map_or(settings.region(), Adaptive::region);
         // With adaptive sampling, only the mean is arranged in rectangles, to be developed.
         let rows = match adaptive {
-            Some(_) => 1,
-            None => layers::rows(layers::of_sampling(settings)),
+            Some(_) => PixelRows::ONE,
+            None => layers::pixel_rows(layers::of_sampling(settings)),
         };
-        let side = tile_side / (rows as u32).isqrt();
+        let side = tile_side / (rows.count as u32).isqrt();
         let mut tiles = Self {
             list: rectangles(region, side, settings.samples_to_render(), rows),
             adaptive,
@@ -86,7 +86,7 @@ impl FilmTiles {
             let rows = (0..tile.pixel_count()).map(mean).collect();
             (tile, rows)
         };
-        rectangles(adaptive.crop(), tile_side, 0..0, 1)
+        rectangles(adaptive.crop(), tile_side, 0..0, PixelRows::ONE)
             .into_iter()
             .map(means)
             .collect()
@@ -103,7 +103,7 @@ impl FilmTiles {
             pieces.push(Piece {
                 region: adaptive.crop(),
                 samples: 0..header.samples,
-                sums: Sums::Block(adaptive.means_and_counts()),
+                sums: Sums::Block(adaptive.means_and_counts(header.layers)),
             });
         }
         for (index, tile) in self.list.iter().enumerate() {
@@ -117,6 +117,24 @@ impl FilmTiles {
             }
         }
         Film::new(header, pieces)
+    }
+
+    /// The rows of the pixels with samples so far, in the order of films, by rectangle (x, y, width, height).
+    pub fn rows(&self, layers: &[&Layer]) -> Vec<([u32; 4], Vec<[f64; 4]>)> {
+        if let Some(adaptive) = &self.adaptive {
+            let so_far = match self.list.is_empty() {
+                true => Cow::Borrowed(adaptive),
+                false => Cow::Owned(adaptive.with_part_of_round(&self.list)),
+            };
+            let rows = so_far.means_and_counts(layers).into_iter();
+            let rows = rows.map(|row| row.map(f64::from)).collect();
+            return vec![(adaptive.crop(), rows)];
+        }
+        let of_tile = |tile: &FilmTile| {
+            let Piece { region, sums, .. } = piece(tile, 0..0, &tile.all_sums()?);
+            Some((region, sums.rounded(tile.pixel_rows())))
+        };
+        self.list.iter().filter_map(of_tile).collect()
     }
 
     /// Whether some pixels will have more samples than one block.
@@ -148,6 +166,11 @@ impl FilmTiles {
         }
     }
 
+    /// Film rows of a pixel.
+    pub fn rows_per_pixel(&self) -> usize {
+        self.list.first().map_or(1, FilmTile::rows_per_pixel)
+    }
+
     /// Maximum number of film rows of a tile.
     pub fn largest(&self) -> usize {
         self.largest
@@ -167,7 +190,7 @@ fn piece(tile: &FilmTile, samples: Range<u32>, sums: &Sums) -> Piece {
     for index in 0..tile.pixel_count() {
         if let Some([x, y]) = tile.pixel_at(index) {
             let to = (y - tile.y) as usize * tile.width as usize + (x - tile.x) as usize;
-            ordered.add(rows * to, sums, rows * index, rows);
+            ordered.add(rows * to, sums, rows * index, rows, tile.pixel_rows());
         }
     }
     Piece {

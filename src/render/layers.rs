@@ -1,10 +1,10 @@
 //! The layers of films: the data accumulated for each pixel.
 //!
-//! To add a layer, add a constant here and list it in [`of_sampling`] and [`of_pictures`]; then add a member to
-//! `Sample` and `Sum` in `shaders/scene/film.wesl`, with the row that it is loaded from and stored to. Memory,
+//! To add a layer, add a constant here and list it in [`of_sampling`] and [`of_pictures`]; then add its rows to
+//! `add_features` in `shaders/scene/features.wesl`, and its member to [`super::PixelFeatures`]. Memory,
 //! film tiles, exact totals, files and merging follow from the table.
 
-use super::settings::RenderSettings;
+use super::{settings::RenderSettings, sums::PixelRows};
 
 /// One layer of a film.
 #[derive(Debug, PartialEq, Eq)]
@@ -26,6 +26,11 @@ pub enum LayerKind {
     /// The sum of squared luminance, which decides when a pixel has converged; then the pixel position, and 1.
     /// It is not developed.
     Squares,
+    /// Three sums with the weights of the radiance, and the sum of the weights.
+    Mean,
+    /// What the sample nearest the pixel's centre saw: its nearness, 1/(1 + d²) at a distance of d pixels, its
+    /// index, and the rest. It is the last layer of a pixel.
+    Nearest,
     /// The number of samples, which is known without the GPU; then zeros. It is developed as a grey level.
     Count,
 }
@@ -51,9 +56,46 @@ pub const COUNT: Layer = Layer {
     kind: LayerKind::Count,
 };
 
+/// The albedo of what is seen, through mirrors and clear glass; of what shines its radiance, both at most 1.
+pub const ALBEDO: Layer = mean("albedo");
+
+/// Its shading normal in world space; zero where nothing is hit.
+pub const NORMAL: Layer = mean("normal");
+
+/// Light that was scattered once.
+pub const DIRECT: Layer = mean("direct");
+
+/// Light that was not scattered.
+pub const EMISSION: Layer = mean("emission");
+
+/// The first surface. The rows are: nearness, sample, material and instance; position and depth; texture coordinates,
+/// and the lower and the upper half of the primitive's index. A film has the object in place of the instance. Numbers
+/// of materials and objects count from 1, 0 is none.
+pub const FIRST: Layer = Layer {
+    name: "first",
+    rows: 3,
+    kind: LayerKind::Nearest,
+};
+
+const fn mean(name: &'static str) -> Layer {
+    Layer {
+        name,
+        rows: 1,
+        kind: LayerKind::Mean,
+    }
+}
+
+const FEATURED: &[&Layer] = &[
+    &RADIANCE, &SQUARES, &ALBEDO, &NORMAL, &DIRECT, &EMISSION, &FIRST,
+];
+const FEATURED_COUNT: &[&Layer] = &[
+    &RADIANCE, &SQUARES, &ALBEDO, &NORMAL, &DIRECT, &EMISSION, &COUNT, &FIRST,
+];
+
 /// The layers on the GPU during sampling, in row order.
 pub fn of_sampling(settings: &RenderSettings) -> &'static [&'static Layer] {
     match settings.is_adaptive() {
+        _ if settings.has_features() => FEATURED,
         true => &[&RADIANCE, &SQUARES],
         false => &[&RADIANCE],
     }
@@ -61,14 +103,16 @@ pub fn of_sampling(settings: &RenderSettings) -> &'static [&'static Layer] {
 
 /// The layers of the resulting film.
 pub fn of_pictures(settings: &RenderSettings) -> &'static [&'static Layer] {
-    match settings.is_adaptive() {
-        true => &[&RADIANCE, &COUNT],
-        false => &[&RADIANCE],
+    match (settings.is_adaptive(), settings.has_features()) {
+        (true, true) => FEATURED_COUNT,
+        (true, false) => &[&RADIANCE, &COUNT],
+        (false, true) => FEATURED,
+        (false, false) => &[&RADIANCE],
     }
 }
 
 /// Every list of layers that a film can have.
-const LISTS: &[&[&Layer]] = &[&[&RADIANCE], &[&RADIANCE, &COUNT]];
+const LISTS: &[&[&Layer]] = &[&[&RADIANCE], &[&RADIANCE, &COUNT], FEATURED, FEATURED_COUNT];
 
 /// The list of layers with these names.
 pub fn named(names: &[String]) -> Option<&'static [&'static Layer]> {
@@ -79,6 +123,14 @@ pub fn named(names: &[String]) -> Option<&'static [&'static Layer]> {
 /// Total number of rows per pixel.
 pub fn rows(layers: &[&Layer]) -> usize {
     layers.iter().map(|layer| layer.rows).sum()
+}
+
+/// The rows of a pixel, as sums are added.
+pub fn pixel_rows(layers: &[&Layer]) -> PixelRows {
+    PixelRows {
+        count: rows(layers),
+        nearest: row_of(layers, &FIRST),
+    }
 }
 
 /// The first row of a layer within a pixel.

@@ -50,6 +50,7 @@ pub fn of(task: Task) -> Overrides {
     };
     let layers = layers::of_sampling(settings);
     let squares_row = layers::row_of(layers, &layers::SQUARES).unwrap_or_default();
+    let features_row = layers::row_of(layers, &layers::ALBEDO).unwrap_or_default();
     let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
     let mut overrides = vec![
         ("TRIANGLE_TEST", f64::from(triangle_test)),
@@ -132,6 +133,8 @@ pub fn of(task: Task) -> Overrides {
         ("HAS_UVS", flag(!scene.uvs.is_empty())),
         ("FILM_ROWS", layers::rows(layers) as f64),
         ("SQUARES_ROW", squares_row as f64),
+        ("HAS_FEATURES", flag(settings.has_features())),
+        ("FEATURES_ROW", features_row as f64),
     ];
     overrides.extend(geometry(scene, view));
     match integrator.is_lit {
@@ -169,6 +172,11 @@ pub fn of_tone(tone: &PackedTone) -> Overrides {
         ("TONE_TRANSFER", f64::from(tone.transfer)),
         ("VIEW", f64::from(tone.view)),
     ]
+}
+
+/// The overrides of a pass of the denoiser.
+pub fn of_denoiser(is_first: bool) -> Overrides {
+    vec![("FIRST_PASS", flag(is_first))]
 }
 
 /// The overrides for the contents of the trees.

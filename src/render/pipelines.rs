@@ -27,6 +27,7 @@ pub fn rendering(
     };
     let as_packets = as_packets
         && !task.settings.brute_force
+        && !task.settings.has_features()
         && task.scene.materials.len() < MAX_PACKET_MATERIALS;
     let variant = match as_packets && kernel.has(Variant::Packet) {
         true => tracing_variant(gpu, fetch, task.view),
@@ -63,6 +64,18 @@ pub fn developing(
     ];
     let overrides = overrides::of_tone(tone);
     let compiled = gpu.pipeline(&kernel, Variant::Buffer, &groups, overrides)?;
+    Ok(compiled.pipeline)
+}
+
+/// A pipeline of the denoiser, with this layout of bind group 3.
+pub fn denoising(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    is_first: bool,
+) -> Result<wgpu::ComputePipeline, GpuError> {
+    let groups = [None, None, None, Some(layout)];
+    let overrides = overrides::of_denoiser(is_first);
+    let compiled = gpu.pipeline(&Kernel::DENOISE, Variant::Buffer, &groups, overrides)?;
     Ok(compiled.pipeline)
 }
 

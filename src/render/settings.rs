@@ -1,6 +1,6 @@
 //! Render settings.
 
-use super::{Fingerprint, Integrator, fingerprint::Encoder};
+use super::{Fingerprint, Integrator, Shows, fingerprint::Encoder};
 use crate::scene::{Antialias, Filter, LightTransport, OutputDefaults};
 use std::{fmt, ops::Range, str::FromStr};
 
@@ -54,6 +54,8 @@ pub struct RenderSettings {
     /// scattered twice or more; `None` for no limit. It removes fireflies, and light: [`super::Stats::energy_cut`]
     /// says how much.
     pub clamp_indirect: Option<f32>,
+    /// Whether the film keeps features besides the radiance: for [`super::Film::layers`], and to denoise.
+    pub features: bool,
 }
 
 impl Default for RenderSettings {
@@ -78,6 +80,7 @@ impl Default for RenderSettings {
             transparent_shadows: false,
             bsdf: BsdfModel::Full,
             clamp_indirect: None,
+            features: false,
         }
     }
 }
@@ -109,6 +112,11 @@ impl RenderSettings {
     /// Whether sampling is adaptive: pixels stop once they have converged.
     pub fn is_adaptive(&self) -> bool {
         self.antialias == Antialias::Adaptive && self.integrator.entry().is_lit
+    }
+
+    /// Whether the film keeps features: debug views have none.
+    pub fn has_features(&self) -> bool {
+        self.features && self.integrator.entry().shows == Shows::Radiance
     }
 
     /// The width of the part of a pixel that each sample stands for, in pixels: N samples have an N-th of its area each,
@@ -162,6 +170,7 @@ impl RenderSettings {
             transparent_shadows,
             bsdf,
             clamp_indirect,
+            features: _,
         } = self;
         let range = sample_range.as_ref();
         let mut encoder = Encoder::new("render settings", 1);
@@ -209,6 +218,9 @@ impl RenderSettings {
         if let Some(limit) = clamp_indirect {
             encoder.bytes(b"clamp indirect");
             encoder.float(*limit);
+        }
+        if self.has_features() {
+            encoder.bytes(b"features");
         }
         encoder.finish()
     }

@@ -166,7 +166,7 @@ impl Renderer {
     pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
         let tone = &self.exposed(tone)?;
         let range = self.range_of(tone)?;
-        if self.shows_directly() {
+        if self.shows_directly() && !self.denoises(tone) {
             let tone = tone.packed(
                 self.settings.integrator,
                 range,

@@ -15,6 +15,70 @@ const FRACTION_BITS: i32 = 50;
 pub(super) const LARGEST: i128 = 1 << 100;
 const UNIT: f64 = 1.0 / (1_u64 << FRACTION_BITS) as f64;
 
+/// The rows of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PixelRows {
+    /// Their number.
+    pub count: usize,
+    /// The first row that is not a sum. From it on the rows describe the sample nearest the pixel's centre: the first
+    /// number is its nearness, the second its index. Totals hold the bits of these numbers.
+    pub nearest: Option<usize>,
+}
+
+impl PixelRows {
+    /// A single row of sums.
+    pub const ONE: Self = Self {
+        count: 1,
+        nearest: None,
+    };
+
+    /// The number of rows that are sums.
+    fn sums(self) -> usize {
+        self.nearest.unwrap_or(self.count)
+    }
+
+    /// A row of a block in a total.
+    fn exact(self, index: usize, row: [f32; 4]) -> [i128; 4] {
+        match index % self.count < self.sums() {
+            true => row.map(exact),
+            false => row.map(|number| number.to_bits().into()),
+        }
+    }
+
+    /// Adds rounded rows of a pixel.
+    pub fn add_rounded(self, own: &mut [[f64; 4]], other: &[[f64; 4]]) {
+        let (sums, nearest) = own.split_at_mut(self.sums());
+        for (own, other) in sums.iter_mut().flatten().zip(other.iter().flatten()) {
+            *own += other;
+        }
+        let other = &other[self.sums()..];
+        if let (Some(own), Some(first)) = (nearest.first(), other.first())
+            && (first[0], -first[1]) > (own[0], -own[1])
+        {
+            nearest.copy_from_slice(other);
+        }
+    }
+
+    /// Adds the sums of a pixel to its totals, and keeps the nearest sample.
+    fn add(self, totals: &mut [[i128; 4]], other: impl Fn(usize) -> [i128; 4]) {
+        let (sums, nearest) = totals.split_at_mut(self.sums());
+        for (index, total) in sums.iter_mut().enumerate() {
+            for (total, sum) in total.iter_mut().zip(other(index)) {
+                *total += sum;
+            }
+        }
+        // The bits of positive numbers are in the order of the numbers.
+        let order = |[nearness, sample, ..]: [i128; 4]| (nearness, -sample);
+        if let Some(&first) = nearest.first()
+            && order(other(self.sums())) > order(first)
+        {
+            for (index, row) in nearest.iter_mut().enumerate() {
+                *row = other(self.sums() + index);
+            }
+        }
+    }
+}
+
 /// Sums of pixels, in rows of four for each layer of each pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sums {
@@ -34,31 +98,34 @@ impl Sums {
     }
 
     /// The total of these sums, if any, and another block with as many rows.
-    pub fn with_block(sums: Option<Self>, block: &[[f32; 4]]) -> Self {
+    pub fn with_block(sums: Option<Self>, block: &[[f32; 4]], rows: PixelRows) -> Self {
         let mut totals = match sums {
             None => return Self::Block(block.to_vec()),
-            Some(Self::Block(first)) => first.into_iter().map(|row| row.map(exact)).collect(),
+            Some(Self::Block(first)) => {
+                let first = first.into_iter().enumerate();
+                first.map(|(index, row)| rows.exact(index, row)).collect()
+            }
             Some(Self::Totals(totals)) => totals,
         };
-        add_blocks(&mut totals, block);
+        add_blocks(&mut totals, block, rows);
         Self::Totals(totals)
     }
 
-    /// Adds `count` rows of `other`, starting at `from`, to the rows starting at `to`. For sums of one block
+    /// Adds `count` rows of `other`, starting at `from`, to the rows starting at `to`: whole pixels. For sums of one block
     /// this is the first addition.
-    pub fn add(&mut self, to: usize, other: &Self, from: usize, count: usize) {
+    pub fn add(&mut self, to: usize, other: &Self, from: usize, count: usize, rows: PixelRows) {
         match (self, other) {
             (Self::Block(own), Self::Block(other)) => {
                 own[to..to + count].copy_from_slice(&other[from..from + count]);
             }
             (Self::Totals(own), Self::Block(other)) => {
-                add_blocks(&mut own[to..to + count], &other[from..from + count]);
+                add_blocks(&mut own[to..to + count], &other[from..from + count], rows);
             }
             (Self::Totals(own), Self::Totals(other)) => {
-                for (own, other) in own[to..].iter_mut().zip(&other[from..from + count]) {
-                    for (own, other) in own.iter_mut().zip(other) {
-                        *own += other;
-                    }
+                let own = own[to..to + count].chunks_exact_mut(rows.count);
+                let other = other[from..from + count].chunks_exact(rows.count);
+                for (own, other) in own.zip(other) {
+                    rows.add(own, |index| other[index]);
                 }
             }
             // Sums of several blocks are never added to a single block.
@@ -84,21 +151,23 @@ impl Sums {
     }
 
     /// The sums in f64.
-    pub fn rounded(&self) -> Vec<[f64; 4]> {
+    pub fn rounded(&self, rows: PixelRows) -> Vec<[f64; 4]> {
         match self {
             Self::Block(block) => block.iter().map(|row| row.map(f64::from)).collect(),
-            Self::Totals(totals) => (totals.iter())
-                .map(|row| row.map(|sum| sum as f64 * UNIT))
+            Self::Totals(totals) => (totals.iter().enumerate())
+                .map(|(index, row)| match index % rows.count < rows.sums() {
+                    true => row.map(|sum| sum as f64 * UNIT),
+                    false => row.map(|bits| f64::from(f32::from_bits(bits as u32))),
+                })
                 .collect(),
         }
     }
 }
 
-fn add_blocks(totals: &mut [[i128; 4]], block: &[[f32; 4]]) {
-    for (total, sum) in totals.iter_mut().zip(block) {
-        for (total, sum) in total.iter_mut().zip(sum) {
-            *total += exact(*sum);
-        }
+fn add_blocks(totals: &mut [[i128; 4]], block: &[[f32; 4]], rows: PixelRows) {
+    let pixels = totals.chunks_exact_mut(rows.count);
+    for (totals, block) in pixels.zip(block.chunks_exact(rows.count)) {
+        rows.add(totals, |index| rows.exact(index, block[index]));
     }
 }
 

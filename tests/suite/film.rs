@@ -45,7 +45,7 @@ pub fn stratified(samples: u32, (width, height): (u32, u32)) -> RenderSettings {
 
 /// The settings of parts of a picture, split horizontally, vertically or between sample blocks, at random
 /// positions.
-fn cut(whole: &RenderSettings, count: usize, random: &mut Random) -> Vec<RenderSettings> {
+pub fn cut(whole: &RenderSettings, count: usize, random: &mut Random) -> Vec<RenderSettings> {
     let [x, y, width, height] = whole.region();
     let mut below = |limit: u32| random.below(limit as usize) as u32;
     let mut parts = vec![([x, y, x + width, y + height], whole.samples_to_render())];
@@ -78,7 +78,7 @@ fn cut(whole: &RenderSettings, count: usize, random: &mut Random) -> Vec<RenderS
 }
 
 /// Merges them pairwise in a random order.
-fn merged(mut films: Vec<Film>, random: &mut Random) -> Film {
+pub fn merged(mut films: Vec<Film>, random: &mut Random) -> Film {
     while films.len() > 1 {
         let mut any = |films: &mut Vec<Film>| films.swap_remove(random.below(films.len()));
         let (first, second) = (any(&mut films), any(&mut films));

@@ -58,6 +58,7 @@ fn every_setting_changes_the_fingerprint() {
         ("the specification", |s| s.bsdf = BsdfModel::Spec),
         ("clamp", |s| s.clamp_indirect = Some(1.0)),
         ("another clamp", |s| s.clamp_indirect = Some(2.0)),
+        ("features", |s| s.features = true),
     ];
     let mut known: HashMap<Fingerprint, &str> = HashMap::new();
     for (name, change) in changes {

@@ -207,6 +207,10 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (3, 0, "tone", "read"),
     (3, 1, "developed", "read and write"),
     (3, 2, "screen", "screen"),
+    (3, 3, "stride", "read"),
+    (3, 4, "signal", "something else"),
+    (3, 5, "guides", "something else"),
+    (3, 6, "denoised", "something else"),
 ];
 
 /// The bindings of a module: group, slot, name and kind.

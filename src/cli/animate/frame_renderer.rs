@@ -7,10 +7,11 @@ use crate::cli::animate::journal::{Journal, Origin};
 use crate::cli::animate::plan::Plan;
 use crate::cli::animate::target::Files;
 use crate::cli::animate::{Frames, Sequence};
+use crate::cli::args::LayerFlags;
 use crate::cli::interrupt::Interrupt;
+use crate::cli::layers::Finished;
 use crate::cli::progress::FrameProgress;
 use crate::gpu::{AdapterReport, Gpu};
-use crate::image::Image;
 use crate::output::video::{self, Picture8, VideoOptions, Y4mWriter};
 use crate::output::{self, Format, OutputError};
 use crate::pack::{self, PackedScene, PackedView};
@@ -34,6 +35,7 @@ pub struct FrameRenderer<'a> {
     /// Fingerprints of the scene and of the settings.
     fingerprints: (Fingerprint, Fingerprint),
     write_seconds: f64,
+    denoise_seconds: f64,
 }
 
 impl<'a> FrameRenderer<'a> {
@@ -48,7 +50,12 @@ impl<'a> FrameRenderer<'a> {
         Ok(Self {
             fingerprints: (
                 render::Fingerprint::of_scene(&scene).to_string(),
-                of_settings(&settings, &tone, sequence.target.frames.as_ref()),
+                of_settings(
+                    &settings,
+                    &tone,
+                    sequence.target.frames.as_ref(),
+                    sequence.job.layers,
+                ),
             ),
             adapter: gpu.as_ref().map(|gpu| gpu.adapter().clone()),
             sequence,
@@ -58,6 +65,7 @@ impl<'a> FrameRenderer<'a> {
             gpu,
             renderer: None,
             write_seconds: 0.0,
+            denoise_seconds: 0.0,
         })
     }
 
@@ -73,6 +81,11 @@ impl<'a> FrameRenderer<'a> {
     /// Time to write frames, in seconds.
     pub fn write_seconds(&self) -> f64 {
         self.write_seconds
+    }
+
+    /// Time to denoise frames, in seconds.
+    pub fn denoise_seconds(&self) -> f64 {
+        self.denoise_seconds
     }
 
     /// The packed view of a frame: camera, lights and moving geometry during its exposure.
@@ -130,12 +143,12 @@ impl<'a> FrameRenderer<'a> {
                 interrupt.check()?;
                 if !done {
                     let view = self.view(number)?;
-                    let image = self.frame(number, &view, &mut progress, interrupt)?;
-                    self.save(number, &view, &image, journal.as_deref_mut())?;
+                    let picture = self.frame(number, &view, &mut progress, interrupt)?;
+                    self.save(number, &view, &picture, journal.as_deref_mut())?;
                     rendered += 1;
                     progress.finish_frame();
                     if let Some(sink) = &mut sink {
-                        sink.send(&Picture8::from(&image))?;
+                        sink.send(&Picture8::from(&picture.image))?;
                     }
                 } else if let (Some(sink), Some(files)) = (&mut sink, &self.sequence.target.frames)
                 {
@@ -169,7 +182,7 @@ impl<'a> FrameRenderer<'a> {
         view: &PackedView,
         progress: &mut FrameProgress,
         interrupt: &Interrupt,
-    ) -> Result<Image, AppError> {
+    ) -> Result<Finished, AppError> {
         let renderer = match (&mut self.renderer, self.gpu.take()) {
             (Some(renderer), _) => {
                 renderer.set_frame(view)?;
@@ -188,14 +201,16 @@ impl<'a> FrameRenderer<'a> {
             renderer.step()?;
             progress.update(number, renderer.progress());
         }
-        Ok(renderer.develop(&self.tone)?)
+        let picture = self.sequence.job.finish(renderer, &self.tone)?;
+        self.denoise_seconds += picture.denoise_seconds().unwrap_or_default();
+        Ok(picture)
     }
 
     fn save(
         &mut self,
         number: u32,
         view: &PackedView,
-        image: &Image,
+        picture: &Finished,
         journal: Option<&mut Journal>,
     ) -> Result<(), AppError> {
         let (Some(files), Some(journal)) = (&self.sequence.target.frames, journal) else {
@@ -205,10 +220,11 @@ impl<'a> FrameRenderer<'a> {
         let path = files.pattern.path(number);
         if journal.is_unfinished(number) {
             // Removes the partial file of a run that was killed while writing this frame.
+            let image = &picture.image;
             output::check(&path, &files.options, image.width, image.height)?;
         }
         journal.record_start(number)?;
-        output::save_with(&path, image, &files.options)?;
+        picture.save(&path, &files.options)?;
         journal.record_finish(&files.pattern, number, self.origin(view))?;
         self.write_seconds += started.elapsed().as_secs_f64();
         Ok(())
@@ -268,7 +284,12 @@ fn write_error(path: &Path, source: io::Error) -> OutputError {
 }
 
 /// The fingerprint of everything except scene and view that affects a frame's file.
-fn of_settings(settings: &RenderSettings, tone: &Tone, files: Option<&Files>) -> Fingerprint {
+fn of_settings(
+    settings: &RenderSettings,
+    tone: &Tone,
+    files: Option<&Files>,
+    layers: &LayerFlags,
+) -> Fingerprint {
     let format = match files {
         // Quality affects only lossy formats.
         Some(files) if files.format == Format::Jpeg => format!("JPEG {}", files.options.quality),
@@ -276,7 +297,11 @@ fn of_settings(settings: &RenderSettings, tone: &Tone, files: Option<&Files>) ->
         None => String::new(),
     };
     let (settings, tone) = (settings.fingerprint(), tone.fingerprint());
-    fingerprint::of_text(&format!("{settings} {tone} {format}"))
+    let layers = match layers.layers.is_empty() {
+        false => format!(" {layers:?}"),
+        true => String::new(),
+    };
+    fingerprint::of_text(&format!("{settings} {tone} {format}{layers}"))
 }
 
 /// Adds to an error at frame `number` how to resume: `kept` frames are in files, or, without files, `sent`

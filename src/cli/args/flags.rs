@@ -1,6 +1,7 @@
 //! Flags that several commands share, grouped as in their help.
 
 use super::values::{self, BACKENDS, FORMATS, PROGRESS, Up};
+use crate::app::layers::{LAYERS, PictureLayer};
 use crate::app::overrides::{CameraOverrides, Exposure, PictureOverrides, ToneOverrides};
 use crate::app::value_names::{
     ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
@@ -46,6 +47,18 @@ pub struct PartFlags {
     /// [default: all remaining]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
     pub sample_count: Option<u32>,
+}
+
+/// Layers of the picture.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Output")]
+pub struct LayerFlags {
+    /// Layers to write to one OpenEXR file (.exr) or to keep in a film (.film), separated by commas
+    #[arg(long, value_name = "LAYER,…", value_delimiter = ',', value_parser = values::one_of(&LAYERS))]
+    pub layers: Vec<PictureLayer>,
+    /// Write each layer as a part of its own; fewer programs read such files
+    #[arg(long, requires = "layers")]
+    pub layers_parts: bool,
 }
 
 /// Resolution and sample count.
@@ -152,6 +165,11 @@ pub struct DevelopFlags {
     /// Transfer function [default: the scene's, else srgb; linear for .exr, .hdr and debug views]
     #[arg(long, value_parser = values::one_of(&TRANSFERS))]
     pub transfer: Option<Transfer>,
+    /// Denoise the picture; films and, with --layers, the layer beauty keep the noise
+    ///
+    /// The filter is guided by albedo, normals, depth and the noise of each pixel.
+    #[arg(long)]
+    pub denoise: bool,
 }
 
 /// Camera and background.
@@ -329,6 +347,7 @@ impl PictureFlags {
             brute_force: self.no_bvh,
             seed: self.seed,
             crop: self.crop,
+            features: self.develop.denoise,
         }
     }
 }
@@ -339,6 +358,7 @@ impl DevelopFlags {
             exposure: self.exposure,
             curve: self.tone,
             transfer: self.transfer,
+            denoise: self.denoise,
         }
     }
 }

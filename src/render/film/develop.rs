@@ -13,7 +13,8 @@ use crate::{
 };
 
 impl Film {
-    /// Develops the bounding rectangle of all pixels, with the same result as the renderer that made the film.
+    /// Develops the bounding rectangle of all pixels, with the same result as the renderer that made the film, except
+    /// that it is never denoised: see [`Film::features`] and [`Image::denoised`].
     /// Pixels without samples are black.
     ///
     /// # Errors

@@ -1,7 +1,11 @@
 //! Converts the state of a renderer to a film.
 
 use super::{Film, FilmHeader};
-use crate::render::{Fingerprint, RenderError, Renderer, Tone, layers};
+use crate::{
+    pack::{PackedScene, PackedView},
+    render::{Fingerprint, RenderError, Renderer, Tone, layers, sums::Sums},
+    scene::ObjectRef,
+};
 
 impl Renderer {
     /// The film of all finished blocks of samples so far ([`crate::render::SAMPLE_BLOCK`]); of all samples once
@@ -23,6 +27,56 @@ impl Renderer {
             adapters: [self.adapter().name.clone()].into(),
         };
         let (done, sample) = (self.cursor.tile, self.cursor.sample);
-        Ok(self.tiles.film(header, done, sample)?)
+        let layers = header.layers;
+        let mut film = self.tiles.film(header, done, sample)?;
+        if let Some(first) = layers::row_of(layers, &layers::FIRST) {
+            let number =
+                |primitive, instance| number_of(&self.scene, &self.view, primitive, instance);
+            let rows = layers::rows(layers);
+            film.sums
+                .iter_mut()
+                .for_each(|sums| name_objects(sums, rows, first, number));
+        }
+        Ok(film)
     }
+}
+
+/// Replaces the instance and the primitive of the first surface by the number of its object.
+fn name_objects(sums: &mut Sums, rows: usize, first: usize, number: impl Fn(u32, u32) -> u32) {
+    let named = |material: f32, [instance, low, high]: [f32; 3]| match material == 0.0 {
+        true => 0.0,
+        false => number(low as u32 | (high as u32) << 16, instance as u32) as f32,
+    };
+    match sums {
+        Sums::Block(block) => {
+            for pixel in block.chunks_exact_mut(rows) {
+                let [.., low, high] = pixel[first + 2];
+                let [.., material, instance] = pixel[first];
+                pixel[first][3] = named(material, [instance, low, high]);
+                pixel[first + 2][2..].fill(0.0);
+            }
+        }
+        Sums::Totals(totals) => {
+            let float = |bits: i128| f32::from_bits(bits as u32);
+            for pixel in totals.chunks_exact_mut(rows) {
+                let [.., low, high] = pixel[first + 2].map(float);
+                let [.., material, instance] = pixel[first].map(float);
+                pixel[first][3] = named(material, [instance, low, high]).to_bits().into();
+                pixel[first + 2][2..].fill(0);
+            }
+        }
+    }
+}
+
+/// The number of the object of a hit, from 1: the instances of meshes in the scene's order, then its shapes, then its
+/// lights. 0 if there is none.
+pub fn number_of(scene: &PackedScene, view: &PackedView, primitive: u32, instance: u32) -> u32 {
+    let (instances, shapes) = scene.object_counts();
+    let index = match scene.object_at(view, primitive, instance) {
+        None => return 0,
+        Some(ObjectRef::Instance(index)) => index,
+        Some(ObjectRef::Shape(index)) => instances + index,
+        Some(ObjectRef::Light(index)) => instances + shapes + index,
+    };
+    index as u32 + 1
 }

@@ -26,6 +26,9 @@ use std::time::{Duration, Instant};
 /// Minimum interval between presentations of a picture that passes through the host.
 const DETOUR: Duration = Duration::from_millis(500);
 
+/// The same for one that is denoised each time.
+const DENOISED: Duration = Duration::from_secs(2);
+
 /// A picture, its renderer and its screens.
 pub struct ProgressiveImage {
     gpu: Gpu,
@@ -365,6 +368,10 @@ impl ProgressiveImage {
         let interval = match renderer.shows_directly() {
             true => pace::between_looks(&self.gpu),
             false => DETOUR,
+        };
+        let interval = match renderer.denoises(&order.tone) {
+            true => interval.max(DENOISED),
+            false => interval,
         };
         let is_due = renderer.is_done()
             || is_held

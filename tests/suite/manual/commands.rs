@@ -78,7 +78,11 @@ impl Help {
             let Some(value) = value.or_else(|| words.next().copied()) else {
                 return Some(format!("{flag} needs a value"));
             };
-            if !values.is_empty() && !values.iter().any(|known| known == value) {
+            if !values.is_empty()
+                && !value
+                    .split(',')
+                    .all(|one| values.iter().any(|known| known == one))
+            {
                 return Some(format!("{flag} takes {values:?}"));
             }
         }

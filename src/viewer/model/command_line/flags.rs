@@ -254,6 +254,14 @@ fn look(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
             "--transfer",
             TRANSFERS.name(&wanted.transfer).to_owned(),
         ),
+        (
+            wanted.denoise != tone.denoise,
+            "denoising",
+            match wanted.denoise {
+                true => vec![("--denoise", String::new())],
+                false => Vec::new(),
+            },
+        ),
         one(
             shown.fps != parsed.fps,
             "the frame rate",

@@ -287,4 +287,17 @@ fn developing(ui: &mut Ui, look: &mut ViewSettings) {
         &usual.transfer,
         |ui, value| choice(ui, "transfer", &TRANSFERS, value),
     );
+    line(
+        ui,
+        (
+            "Denoise",
+            "Filters the noise, guided by albedo, normals and depth. Switched on for the first time, it \
+             starts the picture over",
+        ),
+        &mut tone.denoise,
+        &usual.denoise,
+        |ui, value| ui.checkbox(value, ""),
+    );
+    // Once the film has features, switching costs no samples.
+    look.settings.features |= tone.denoise;
 }

@@ -1,0 +1,151 @@
+const NORMAL_FALL: f32 = 32.0;
+
+const ALBEDO_WIDTH: f32 = 0.09;
+
+const DEPTH_SHARE: f32 = 0.01;
+
+const DEVIATIONS: f32 = 3.0;
+
+const OUTLIER: f32 = 3.0;
+
+const LEAST_WEIGHT: f32 = 0.3;
+
+const LUMINANCE_SHARE: f32 = 0.001;
+
+struct Guide {
+	normal: vec3f,
+	albedo: vec3f,
+	depth: f32,
+	slope: f32
+}
+
+fn guide_at(p: vec2i) -> Guide {
+	let packed = textureLoad(bindings__guides, p, 0);
+	let normal = vec3f(unpack2x16snorm(packed.x), unpack2x16snorm(packed.y).x);
+	return Guide(normal, unpack4x8unorm(packed.z).xyz, bitcast<f32>(packed.w), bitcast<f32>(packed.y & 4294901760u));
+}
+
+fn likeness(own: Guide, other: Guide, steps: f32) -> f32 {
+	let n = own.normal - other.normal;
+	let a = own.albedo - other.albedo;
+	let depth = abs(own.depth - other.depth) / (own.slope * steps + DEPTH_SHARE * own.depth + 1e-9);
+	return exp(-(NORMAL_FALL * dot(n, n) + dot(a, a) / ALBEDO_WIDTH + depth));
+}
+
+@compute @workgroup_size(64, 1, 1)
+fn denoise(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+	let size = vec2i(textureDimensions(bindings__signal));
+	let last = size - 1;
+	let step = i32(bindings__stride);
+	let own = 8 * vec2i(group.xy) + vec2i(i32(lane % 8u), i32(lane / 8u));
+	let p = min(own, last);
+	var result = vec4f(0.0);
+	if (bindings__FIRST_PASS) {
+		result = without_outlier(p, last);
+	}
+	else {
+		result = averaged(p, last, step);
+	}
+	if (all(own < size)) {
+		textureStore(bindings__denoised, p, result);
+	}
+}
+
+fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
+	let own = textureLoad(bindings__signal, p, 0);
+	let guide = guide_at(p);
+	var total = 0.0;
+	var sum = 0.0;
+	var squares = 0.0;
+	var variance = 0.0;
+	var k = 0;
+	loop {
+		let offset = vec2i(k % 3, k / 3) - 1;
+		let q = p + offset;
+		let other = textureLoad(bindings__signal, clamp(q, vec2i(0), last), 0);
+		let is_usable = k != 4 && all(q == clamp(q, vec2i(0), last)) && other.w >= 0.0;
+		let weight = select(0.0, likeness(guide, guide_at(clamp(q, vec2i(0), last)), 1.0), is_usable);
+		let luminance = dot(other.xyz, tone__LUMINANCE_REC709);
+		total += weight;
+		sum += weight * luminance;
+		squares += weight * luminance * luminance;
+		variance += weight * other.w;
+		continuing {
+			k += 1;
+			break if k >= 9;
+		}
+	}
+	if (own.w < 0.0 || total < LEAST_WEIGHT) {
+		return own;
+	}
+	let mean = sum / total;
+	let most = mean + OUTLIER * sqrt(max(squares / total - mean * mean, 0.0)) + LUMINANCE_SHARE * mean;
+	let luminance = dot(own.xyz, tone__LUMINANCE_REC709);
+	let scale = select(1.0, most / luminance, luminance > most);
+	return vec4f(scale * own.xyz, (variance + scale * scale * own.w) / (total + 1.0));
+}
+
+fn averaged(p: vec2i, last: vec2i, step: i32) -> vec4f {
+	let own = textureLoad(bindings__signal, p, 0);
+	let guide = guide_at(p);
+	let luminance = dot(own.xyz, tone__LUMINANCE_REC709);
+	let width = DEVIATIONS * sqrt(smooth_variance(p, last)) + LUMINANCE_SHARE * luminance + 1e-12;
+	let fall = select(0.0, 1.0 / width, own.w >= 0.0);
+	var total = 0.0;
+	var sum = vec3f(0.0);
+	var variance = 0.0;
+	var k = 0;
+	loop {
+		let offset = vec2i(k % 3, k / 3) - 1;
+		let q = p + step * offset;
+		let inside = clamp(q, vec2i(0), last);
+		let other = textureLoad(bindings__signal, inside, 0);
+		let is_usable = all(q == inside) && other.w >= 0.0;
+		let apart = fall * (dot(other.xyz, tone__LUMINANCE_REC709) - luminance);
+		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
+		let alike = likeness(guide, guide_at(inside), f32(step)) * exp(-min(apart * apart, 80.0));
+		let weight = select(0.0, near * alike, is_usable);
+		total += weight;
+		sum += weight * other.xyz;
+		variance += weight * weight * other.w;
+		continuing {
+			k += 1;
+			break if k >= 9;
+		}
+	}
+	if (total <= 0.0) {
+		return own;
+	}
+	return vec4f(sum / total, variance / (total * total));
+}
+
+fn smooth_variance(p: vec2i, last: vec2i) -> f32 {
+	var sum = 0.0;
+	var k = 0;
+	loop {
+		let offset = vec2i(k % 3, k / 3) - 1;
+		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
+		sum += near * max(textureLoad(bindings__signal, clamp(p + offset, vec2i(0), last), 0).w, 0.0);
+		continuing {
+			k += 1;
+			break if k >= 9;
+		}
+	}
+	return sum / 16.0;
+}
+
+@group(3) @binding(3)
+var<storage, read> bindings__stride: u32;
+
+@group(3) @binding(4)
+var bindings__signal: texture_2d<f32>;
+
+@group(3) @binding(5)
+var bindings__guides: texture_2d<u32>;
+
+@group(3) @binding(6)
+var bindings__denoised: texture_storage_2d<rgba32float, write>;
+
+override bindings__FIRST_PASS: bool = false;
+
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);

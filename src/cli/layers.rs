@@ -1,0 +1,119 @@
+//! Layers of pictures on the command line, and denoised pictures.
+
+use crate::app::error::AppError;
+use crate::app::layers::{LAYERS, color};
+use crate::cli::args::LayerFlags;
+use crate::gpu::Gpu;
+use crate::image::Image;
+use crate::output::{self, LayeredImage, OutputError, SaveOptions};
+use crate::render::{Film, Integrator, Shows, Tone};
+use std::path::Path;
+use std::time::Instant;
+
+/// A finished picture.
+pub struct Finished {
+    /// The picture, denoised if that was requested.
+    pub image: Image,
+    /// All layers of a file that has several.
+    layers: Option<LayeredImage>,
+    denoise_seconds: Option<f64>,
+}
+
+impl Finished {
+    /// A picture of one layer.
+    pub fn plain(image: Image) -> Self {
+        Self {
+            image,
+            layers: None,
+            denoise_seconds: None,
+        }
+    }
+
+    /// Time for denoising, in seconds; `None` if it was not denoised.
+    pub fn denoise_seconds(&self) -> Option<f64> {
+        self.denoise_seconds
+    }
+
+    /// Writes the picture to a file.
+    pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<(), OutputError> {
+        match &self.layers {
+            None => output::save_with(path, &self.image, options),
+            Some(layers) => output::save_layers(path, layers, options),
+        }
+    }
+
+    /// Writes the picture to standard output.
+    pub fn save_to_stdout(&self, options: &SaveOptions) -> Result<(), OutputError> {
+        match &self.layers {
+            None => output::save_to_stdout(&self.image, options),
+            Some(layers) => output::save_layers_to_stdout(layers),
+        }
+    }
+}
+
+impl LayerFlags {
+    /// Refuses layers that cannot be rendered, or not be written to `path`.
+    pub fn check(
+        &self,
+        denoise: bool,
+        integrator: Integrator,
+        path: &Path,
+        takes_layers: bool,
+    ) -> Result<(), AppError> {
+        if !denoise && self.layers.is_empty() {
+            return Ok(());
+        }
+        let refused = |why: String| Err(AppError::Usage(why));
+        if integrator.entry().shows != Shows::Radiance {
+            return refused(format!(
+                "cannot render layers (--integrator {}): a debug view has none. Choose whitted or path.",
+                integrator.entry().name
+            ));
+        }
+        if !self.layers.is_empty() && !takes_layers {
+            return refused(format!(
+                "cannot write layers ({}): only OpenEXR files and films have them. Choose a name that ends in \
+                 .exr or .film.",
+                path.display()
+            ));
+        }
+        Ok(())
+    }
+
+    /// The picture of a film, with the layers that the flags name.
+    ///
+    /// # Errors
+    /// The film has no features, or the device failed.
+    pub fn finish(&self, film: &Film, gpu: &Gpu, tone: &Tone) -> Result<Finished, AppError> {
+        if !tone.denoise && self.layers.is_empty() {
+            return Ok(Finished::plain(film.develop(gpu, tone)?));
+        }
+        let Some(features) = film.features() else {
+            return Err(AppError::Usage(
+                "cannot write layers or denoise: the film has no features. Render it with --layers or --denoise."
+                    .into(),
+            ));
+        };
+        let mut finished = Finished::plain(film.develop(gpu, tone)?);
+        // In the order of the table, each once.
+        let known = LAYERS.0.iter().map(|(.., layer)| layer);
+        let wanted = known.filter(|layer| self.layers.contains(layer));
+        let mut layers: Vec<_> = wanted
+            .map(|layer| layer.of(&finished.image, &features))
+            .collect();
+        if tone.denoise {
+            let started = Instant::now();
+            let denoised = features.picture().denoised(gpu, &features)?;
+            finished.denoise_seconds = Some(started.elapsed().as_secs_f64());
+            finished.image = tone.develop(gpu, &denoised)?;
+            layers.push(color("denoised", &finished.image));
+        }
+        finished.layers = (!self.layers.is_empty()).then_some(LayeredImage {
+            width: features.width,
+            height: features.height,
+            layers,
+            in_parts: self.layers_parts,
+        });
+        Ok(finished)
+    }
+}

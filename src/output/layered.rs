@@ -1,0 +1,145 @@
+//! Pictures of several layers in one OpenEXR file.
+
+use super::{OutputError, SaveOptions, atomic};
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
+    LayerAttributes, Text, Vec2, WritableImage,
+};
+use half::f16;
+use std::io::{Cursor, Write};
+use std::path::Path;
+
+/// A picture of several layers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LayeredImage {
+    /// In pixels.
+    pub width: u32,
+    /// In pixels.
+    pub height: u32,
+    /// The layers, with distinct names.
+    pub layers: Vec<ImageLayer>,
+    /// Whether each layer becomes a part of its own. Otherwise all channels are in one part, which more programs read.
+    pub in_parts: bool,
+}
+
+/// A layer of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImageLayer {
+    /// Its name; empty for channels without a prefix.
+    pub name: &'static str,
+    /// Its channels.
+    pub channels: Vec<Channel>,
+}
+
+/// A channel of a layer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Its name within the layer, such as `R`.
+    pub name: &'static str,
+    /// Its values: row by row from the top left.
+    pub values: Vec<f32>,
+    /// Whether they are stored as half floats, clamped to their range, and not as 32-bit floats.
+    pub is_half: bool,
+}
+
+/// The name of a nameless layer that is a part of its own.
+const NAMELESS: &str = "beauty";
+
+/// Writes a picture to an OpenEXR file.
+///
+/// # Errors
+/// Those of [`super::save_with`].
+pub fn save_layers(
+    path: impl AsRef<Path>,
+    image: &LayeredImage,
+    options: &SaveOptions,
+) -> Result<(), OutputError> {
+    let bytes = encode(image)?;
+    atomic::write(path.as_ref(), &bytes, options.clobber, options.follow_links)
+}
+
+/// Writes a picture to standard output.
+///
+/// # Errors
+/// Those of [`super::save_to_stdout`].
+pub fn save_layers_to_stdout(image: &LayeredImage) -> Result<(), OutputError> {
+    let bytes = encode(image)?;
+    let mut stdout = std::io::stdout().lock();
+    (stdout.write_all(&bytes))
+        .and_then(|()| stdout.flush())
+        .map_err(|source| OutputError::Stdout { source })
+}
+
+/// The contents of the file.
+fn encode(image: &LayeredImage) -> Result<Vec<u8>, OutputError> {
+    let count = image.width as usize * image.height as usize;
+    let channels = image.layers.iter().flat_map(|layer| &layer.channels);
+    for channel in channels {
+        if channel.values.len() != count {
+            return Err(OutputError::Misshapen {
+                width: image.width,
+                height: image.height,
+                pixel_count: channel.values.len(),
+            });
+        }
+    }
+    let size = Vec2(image.width as usize, image.height as usize);
+    let part = |name: Option<&str>, channels: Vec<AnyChannel<FlatSamples>>| {
+        let attributes = LayerAttributes {
+            layer_name: name.map(Text::from),
+            software_name: Some(Text::from("glimray")),
+            ..LayerAttributes::default()
+        };
+        let channels = AnyChannels::sort(channels.into());
+        Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, channels)
+    };
+    let parts: Vec<_> = match image.in_parts {
+        true => (image.layers.iter())
+            .map(|layer| {
+                let name = if layer.name.is_empty() {
+                    NAMELESS
+                } else {
+                    layer.name
+                };
+                let channels = layer.channels.iter();
+                let channels = channels.map(|channel| stored(channel.name.to_owned(), channel));
+                part(Some(name), channels.collect())
+            })
+            .collect(),
+        false => {
+            let named = |layer: &ImageLayer, channel: &Channel| match layer.name {
+                "" => channel.name.to_owned(),
+                name => format!("{name}.{}", channel.name),
+            };
+            let layers = image.layers.iter();
+            let channels = layers.flat_map(|layer| {
+                let channels = layer.channels.iter();
+                channels.map(move |channel| stored(named(layer, channel), channel))
+            });
+            vec![part(None, channels.collect())]
+        }
+    };
+    let attributes = ImageAttributes::new(IntegerBounds::from_dimensions(size));
+    let mut file = Cursor::new(Vec::new());
+    Image::from_layers(attributes, parts)
+        .write()
+        .to_buffered(&mut file)
+        .map_err(|source| OutputError::Layers {
+            source: source.into(),
+        })?;
+    Ok(file.into_inner())
+}
+
+fn stored(name: String, channel: &Channel) -> AnyChannel<FlatSamples> {
+    let values = channel.values.iter();
+    let most = f16::MAX.to_f32();
+    let samples = match channel.is_half {
+        true => FlatSamples::F16(
+            values
+                .map(|v| f16::from_f32(v.clamp(-most, most)))
+                .collect(),
+        ),
+        false => FlatSamples::F32(channel.values.clone()),
+    };
+    AnyChannel::new(name.as_str(), samples)
+}

@@ -1,0 +1,238 @@
+//! Denoises pictures by their features: `kernels/denoise.wesl`.
+
+use super::{
+    Features, PixelFeatures, RenderError, develop::check_memory, layouts::group_at, pipelines,
+};
+use crate::{
+    gpu::{Gpu, GpuError, Source},
+    image::Image,
+};
+use bytemuck::{bytes_of, cast_slice};
+use wgpu::{BufferUsages, TextureFormat};
+
+/// The distances of pixels that the passes after the first average.
+const STRIDES: [u32; 5] = [1, 2, 4, 8, 16];
+/// The least albedo that a picture is divided by.
+const LEAST_ALBEDO: f32 = 0.02;
+/// The largest signal; its square is finite.
+const MOST: f32 = 1e15;
+const SIGNAL: TextureFormat = TextureFormat::Rgba32Float;
+const GUIDES: TextureFormat = TextureFormat::Rgba32Uint;
+const TEXEL_BYTES: u32 = 16;
+
+impl Image {
+    /// Denoises linear radiance with the features of its pixels. Opacity is kept. Pixels that are not finite are
+    /// replaced by what is around them.
+    ///
+    /// # Errors
+    /// The device failed, a side exceeds the adapter's textures, or the features are those of another picture.
+    pub fn denoised(&self, gpu: &Gpu, features: &Features) -> Result<Self, RenderError> {
+        let (width, height) = (self.width, self.height);
+        let is_same = features.pixels.len() == self.pixels.len() && features.width == width;
+        if !is_same || self.pixels.is_empty() {
+            return Ok(self.clone());
+        }
+        check_memory(width, height)?;
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        let side = width.max(height);
+        if side > limit {
+            return Err(GpuError::Limit {
+                name: "width or height of a picture in pixels",
+                need: side.into(),
+                limit: limit.into(),
+            }
+            .into());
+        }
+        let own = self.pixels.iter().zip(&features.pixels);
+        let signal: Vec<_> = own
+            .map(|(pixel, features)| signal(*pixel, features))
+            .collect();
+        let filtered = filter(gpu, (width, height), &signal, &guides(features))?;
+        let mut image = self.clone();
+        for ((pixel, found), features) in (image.pixels.iter_mut())
+            .zip(filtered)
+            .zip(&features.pixels)
+        {
+            let albedo = albedo(features);
+            for channel in 0..3 {
+                pixel[channel] = found[channel] * albedo[channel];
+            }
+        }
+        Ok(image)
+    }
+}
+
+/// The albedo by which a pixel is divided.
+fn albedo(features: &PixelFeatures) -> [f32; 3] {
+    (features.albedo).map(|channel| match channel.is_nan() {
+        true => 1.0,
+        false => channel.clamp(LEAST_ALBEDO, 1.0),
+    })
+}
+
+/// A pixel divided by its albedo, and the variance of its luminance; negative if it is not finite.
+fn signal([r, g, b, _]: [f32; 4], features: &PixelFeatures) -> [f32; 4] {
+    let albedo = albedo(features);
+    let [ar, ag, ab] = albedo;
+    let luminance = 0.2126 * ar + 0.7152 * ag + 0.0722 * ab;
+    let variance = features.variance / (luminance * luminance);
+    if ![r, g, b, variance].iter().all(|number| number.is_finite()) {
+        return [0.0, 0.0, 0.0, -1.0];
+    }
+    let [r, g, b] = [r / ar, g / ag, b / ab].map(|channel| channel.clamp(0.0, MOST));
+    [r, g, b, variance.clamp(0.0, MOST * MOST)]
+}
+
+/// The guides of all pixels: normal, slope of the depth, albedo, and depth.
+fn guides(features: &Features) -> Vec<[u32; 4]> {
+    let (width, height) = (features.width as usize, features.height as usize);
+    let depth = |x: usize, y: usize| features.pixels[y * width + x].depth;
+    // The smaller difference to the neighbours on both sides, so that an edge on one of them does not count.
+    let slope = |own: f32, before: Option<f32>, after: Option<f32>| {
+        let apart = |other: Option<f32>| other.map_or(f32::INFINITY, |other| (other - own).abs());
+        let least = apart(before).min(apart(after));
+        if least.is_finite() { least } else { 0.0 }
+    };
+    let guide = |(index, pixel): (usize, &PixelFeatures)| {
+        let (x, y) = (index % width, index / width);
+        let left = (x > 0).then(|| depth(x - 1, y));
+        let right = (x + 1 < width).then(|| depth(x + 1, y));
+        let above = (y > 0).then(|| depth(x, y - 1));
+        let below = (y + 1 < height).then(|| depth(x, y + 1));
+        let own = pixel.depth;
+        let slope = slope(own, left, right).max(slope(own, above, below));
+        let [x, y, z] = pixel.normal.map(snorm);
+        let [r, g, b] = pixel.albedo.map(unorm);
+        [
+            x | y << 16,
+            // The upper half of an f32.
+            z | slope.to_bits() & 0xffff_0000,
+            r | g << 8 | b << 16,
+            if own.is_finite() { own.to_bits() } else { 0 },
+        ]
+    };
+    features.pixels.iter().enumerate().map(guide).collect()
+}
+
+fn snorm(number: f32) -> u32 {
+    let level = (number.clamp(-1.0, 1.0) * 32767.0).round() as i16;
+    u32::from(level as u16)
+}
+
+fn unorm(number: f32) -> u32 {
+    (number.clamp(0.0, 1.0) * 255.0).round() as u32
+}
+
+/// Runs all passes.
+fn filter(
+    gpu: &Gpu,
+    (width, height): (u32, u32),
+    signal: &[[f32; 4]],
+    guides: &[[u32; 4]],
+) -> Result<Vec<[f32; 4]>, GpuError> {
+    let image = |format| gpu.allocate_screen(width, height, format);
+    let mut images = [image(SIGNAL)?, image(SIGNAL)?];
+    let guide_image = image(GUIDES)?;
+    gpu.write_image(&images[0], 0, cast_slice(signal))?;
+    gpu.write_image(&guide_image, 0, cast_slice(guides))?;
+    let layout = layout(gpu);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    for (pass, stride) in [1].into_iter().chain(STRIDES).enumerate() {
+        let pipeline = pipelines::denoising(gpu, &layout, pass == 0)?;
+        let stride = gpu.upload("stride", bytes_of(&stride))?;
+        let [from, to] = &images;
+        let resources = [
+            (3, stride.as_entire_binding()),
+            (4, wgpu::BindingResource::TextureView(from)),
+            (5, wgpu::BindingResource::TextureView(&guide_image)),
+            (6, wgpu::BindingResource::TextureView(to)),
+        ];
+        let group = group_at(gpu, &layout, &resources);
+        let mut work = encoder.begin_compute_pass(&Default::default());
+        work.set_pipeline(&pipeline);
+        work.set_bind_group(3, &group, &[]);
+        work.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
+        drop(work);
+        images.swap(0, 1);
+    }
+    read(gpu, encoder, &images[0])
+}
+
+/// Submits the work and reads a signal back.
+fn read(
+    gpu: &Gpu,
+    mut encoder: wgpu::CommandEncoder,
+    image: &wgpu::TextureView,
+) -> Result<Vec<[f32; 4]>, GpuError> {
+    let texture = image.texture();
+    let (width, height) = (texture.width(), texture.height());
+    let row = (TEXEL_BYTES * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let bytes = u64::from(row) * u64::from(height);
+    let texels = gpu.allocate(
+        "texels",
+        bytes,
+        BufferUsages::COPY_DST | BufferUsages::COPY_SRC,
+    )?;
+    let staging = gpu.allocate(
+        "staging",
+        bytes,
+        BufferUsages::COPY_DST | BufferUsages::MAP_READ,
+    )?;
+    let target = wgpu::TexelCopyBufferInfo {
+        buffer: &texels,
+        layout: wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(row),
+            rows_per_image: None,
+        },
+    };
+    let size = texture.size();
+    encoder.copy_texture_to_buffer(texture.as_image_copy(), target, size);
+    let source = Source {
+        buffer: &texels,
+        offset: 0,
+        bytes,
+    };
+    gpu.submit_and_read(encoder, &[source], &staging, |bytes| {
+        let rows = bytes.chunks_exact(row as usize);
+        let rows = rows.flat_map(|row| cast_slice(&row[..(TEXEL_BYTES * width) as usize]));
+        rows.copied().collect()
+    })
+}
+
+/// The layout of bind group 3: stride, signal, guides, result.
+fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let texture = |sample_type| wgpu::BindingType::Texture {
+        sample_type,
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let types = [
+        wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        texture(wgpu::TextureSampleType::Float { filterable: false }),
+        texture(wgpu::TextureSampleType::Uint),
+        wgpu::BindingType::StorageTexture {
+            access: wgpu::StorageTextureAccess::WriteOnly,
+            format: SIGNAL,
+            view_dimension: wgpu::TextureViewDimension::D2,
+        },
+    ];
+    let entries: Vec<_> = (3..)
+        .zip(types)
+        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty,
+            count: None,
+        })
+        .collect();
+    gpu.device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("denoise"),
+            entries: &entries,
+        })
+}

@@ -1,0 +1,180 @@
+//! The features of a film's pixels, in scene units.
+
+use super::{
+    RenderError, Renderer, Tone,
+    layers::{self, Layer},
+};
+use crate::image::Image;
+
+/// What the pixels of a rectangle show besides the picture.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Features {
+    /// In pixels.
+    pub width: u32,
+    /// In pixels.
+    pub height: u32,
+    /// `width * height` of them, row by row from the top left; zeros without samples.
+    pub pixels: Vec<PixelFeatures>,
+}
+
+impl Features {
+    /// The picture that was rendered: linear radiance.
+    pub fn picture(&self) -> Image {
+        let pixel = |pixel: &PixelFeatures| {
+            let [r, g, b] = pixel.radiance;
+            [r, g, b, 1.0]
+        };
+        Image {
+            width: self.width,
+            height: self.height,
+            pixels: self.pixels.iter().map(pixel).collect(),
+        }
+    }
+}
+
+/// The features of a pixel. Means are over all its samples, weighted by the filter. `depth`, `position`, `uv`, `object`
+/// and `material` are those of the first surface of the sample nearest the centre, and 0 where that hits nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PixelFeatures {
+    /// Mean linear radiance, not negative.
+    pub radiance: [f32; 3],
+    /// Mean albedo of what is seen through mirrors and clear glass, 0 to 1; of light its radiance, at most 1.
+    pub albedo: [f32; 3],
+    /// Mean shading normal in world space, at most 1 long.
+    pub normal: [f32; 3],
+    /// Mean light that was scattered once.
+    pub direct: [f32; 3],
+    /// Mean light that was scattered twice or more: what remains of the radiance.
+    pub indirect: [f32; 3],
+    /// Mean light that was not scattered.
+    pub emission: [f32; 3],
+    /// Distance from the camera along the ray.
+    pub depth: f32,
+    /// In world space.
+    pub position: [f32; 3],
+    /// Texture coordinates.
+    pub uv: [f32; 2],
+    /// From 1: instances of meshes in the scene's order, then shapes, then lights.
+    pub object: u32,
+    /// Index of the material plus 1.
+    pub material: u32,
+    /// Variance of the mean luminance, as if samples were independent.
+    pub variance: f32,
+    /// Number of samples.
+    pub samples: f32,
+}
+
+/// Where the features are among the rows of a pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Places {
+    squares: usize,
+    albedo: usize,
+    normal: usize,
+    direct: usize,
+    emission: usize,
+    first: usize,
+    count: Option<usize>,
+}
+
+impl Places {
+    /// `None` if these layers lack features.
+    pub fn new(layers: &[&Layer]) -> Option<Self> {
+        let at = |layer| layers::row_of(layers, layer);
+        Some(Self {
+            squares: at(&layers::SQUARES)?,
+            albedo: at(&layers::ALBEDO)?,
+            normal: at(&layers::NORMAL)?,
+            direct: at(&layers::DIRECT)?,
+            emission: at(&layers::EMISSION)?,
+            first: at(&layers::FIRST)?,
+            count: at(&layers::COUNT),
+        })
+    }
+
+    /// The features of a pixel from its rows. `samples` is their number where no row counts them.
+    pub fn pixel(&self, rows: &[[f64; 4]], samples: f64) -> PixelFeatures {
+        let weight = rows[0][3];
+        // Weights of both signs may cancel (lib/filter.wesl).
+        let scale = match weight.abs() > 0.5 {
+            true => 1.0 / weight,
+            false => 0.0,
+        };
+        let mean = |row: usize| [0, 1, 2].map(|channel| rows[row][channel] * scale);
+        let whole = mean(0).map(|channel| channel.max(0.0));
+        let (direct, emission) = (mean(self.direct), mean(self.emission));
+        let rest = |channel: usize| whole[channel] - direct[channel] - emission[channel];
+        let samples = self.count.map_or(samples, |row| rows[row][0]);
+        let squares = match self.count {
+            Some(_) => rows[self.squares][0],
+            None => rows[self.squares][0] / samples.max(1.0),
+        };
+        let [r, g, b] = whole;
+        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let variance = (squares - luminance * luminance).max(0.0) / (samples - 1.0).max(1.0);
+        let first = &rows[self.first..];
+        let [x, y, z, depth] = first[1];
+        PixelFeatures {
+            radiance: single(whole),
+            albedo: single(mean(self.albedo)),
+            normal: single(mean(self.normal)),
+            direct: single(direct),
+            indirect: single([0, 1, 2].map(rest)),
+            emission: single(emission),
+            depth: finite(depth),
+            position: single([x, y, z]),
+            uv: [finite(first[2][0]), finite(first[2][1])],
+            object: first[0][3] as u32,
+            material: first[0][2] as u32,
+            variance: finite(variance),
+            samples: samples as f32,
+        }
+    }
+}
+
+fn single(numbers: [f64; 3]) -> [f32; 3] {
+    numbers.map(finite)
+}
+
+/// Numbers in f32, 0 for what is not finite there.
+fn finite(number: f64) -> f32 {
+    let number = number as f32;
+    if number.is_finite() { number } else { 0.0 }
+}
+
+impl Renderer {
+    /// Whether it denoises a picture of this tone.
+    pub(crate) fn denoises(&self, tone: &Tone) -> bool {
+        tone.denoise && self.settings.has_features()
+    }
+
+    /// The features of the samples so far, without the numbers of objects. Without
+    /// [`super::RenderSettings::features`] there are no pixels.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn features(&mut self) -> Result<Features, RenderError> {
+        self.fetch_film()?;
+        let [x, y, width, height] = self.settings.region();
+        let Some(places) = Places::new(layers::of_pictures(&self.settings)) else {
+            return Ok(Features::default());
+        };
+        let whole = f64::from(self.settings.samples_to_render().len() as u32);
+        let is_done = self.is_done();
+        let mut pixels = vec![PixelFeatures::default(); width as usize * height as usize];
+        for (region, rows) in self.tiles.rows(layers::of_pictures(&self.settings)) {
+            let [left, top, across, _] = region;
+            let count = rows.len() / (across * region[3]) as usize;
+            for (index, rows) in rows.chunks_exact(count).enumerate() {
+                let (row, column) = (index as u32 / across, index as u32 % across);
+                let at = (top + row - y) * width + left + column - x;
+                let samples = if is_done { whole } else { rows[0][3].abs() };
+                pixels[at as usize] = places.pixel(rows, samples);
+            }
+        }
+        Ok(Features {
+            width,
+            height,
+            pixels,
+        })
+    }
+}

@@ -1,0 +1,213 @@
+//! The denoiser: closed forms of its filter, what it keeps, and what it gains on a rendered picture.
+
+use crate::reference::compare::{open_gpu, start};
+use glimray::image::Image;
+use glimray::import;
+use glimray::render::{Features, Integrator, PixelFeatures, RenderSettings, Tone};
+use glimray::scene::{Antialias, Transfer};
+use std::path::Path;
+
+const SIDE: u32 = 160;
+
+/// A picture whose pixels have the given radiance, without noise of their own, on one white surface.
+fn picture(color: impl Fn(u32, u32) -> [f32; 3], variance: f32) -> (Image, Features) {
+    let places = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y)));
+    let pixel = |(x, y)| PixelFeatures {
+        radiance: color(x, y),
+        albedo: [1.0; 3],
+        normal: [0.0, 0.0, 1.0],
+        depth: 2.0,
+        variance,
+        samples: 16.0,
+        ..PixelFeatures::default()
+    };
+    let features = Features {
+        width: SIDE,
+        height: SIDE,
+        pixels: places.map(pixel).collect(),
+    };
+    (features.picture(), features)
+}
+
+fn denoised((image, features): &(Image, Features)) -> Image {
+    image
+        .denoised(&open_gpu(), features)
+        .expect("a denoised picture")
+}
+
+#[test]
+fn a_constant_picture_stays_as_it_is() {
+    for variance in [0.0, 1e-4, 1e6] {
+        let found = denoised(&picture(|_, _| [0.3, 0.5, 7.0], variance));
+        for pixel in &found.pixels {
+            for (value, wanted) in pixel.iter().zip([0.3, 0.5, 7.0, 1.0]) {
+                assert!((value - wanted).abs() <= 1e-5 * wanted, "{pixel:?}");
+            }
+        }
+    }
+}
+
+/// Where nothing stops it, each pass at a distance of s multiplies a wave of frequency f by (1 + cos(f s)) / 2 along each
+/// axis: its weights are 1/4, 1/2 and 1/4.
+#[test]
+fn waves_fall_by_the_closed_form_factor_of_the_filter() {
+    let strides = [1.0, 2.0, 4.0, 8.0, 16.0];
+    for (across, down) in [(0.02, 0.05), (0.1, 0.04), (0.15, 0.0)] {
+        let wave = |x: u32, y: u32| (across * f64::from(x)).cos() * (down * f64::from(y)).cos();
+        let gain = |frequency: f64| -> f64 {
+            let pass = |stride: &f64| (1.0 + (frequency * stride).cos()) / 2.0;
+            strides.iter().map(pass).product()
+        };
+        let given = picture(|x, y| [1.0 + 0.1 * wave(x, y) as f32; 3], 1e8);
+        let found = denoised(&given);
+        // Beyond the reach of the filter from the borders, where it is cut.
+        for (x, y) in (32..SIDE - 32).flat_map(|y| (32..SIDE - 32).map(move |x| (x, y))) {
+            let wanted = 1.0 + 0.1 * gain(across) * gain(down) * wave(x, y);
+            let value = f64::from(found.pixel(x, y).expect("inside")[0]);
+            assert!(
+                (value - wanted).abs() < 2e-4,
+                "{x},{y}: {value}, not {wanted}"
+            );
+        }
+    }
+}
+
+/// Both sides are so noisy that only features keep them apart.
+#[test]
+fn edges_of_every_feature_stay() {
+    type Change = fn(&mut PixelFeatures);
+    let changes: [(&str, Change); 3] = [
+        ("albedo", |pixel| pixel.albedo = [0.1, 0.1, 0.9]),
+        ("normal", |pixel| pixel.normal = [1.0, 0.0, 0.0]),
+        ("depth", |pixel| pixel.depth = 4.0),
+    ];
+    let color = |x: u32, _| if x < SIDE / 2 { [1.0; 3] } else { [3.0; 3] };
+    let (image, plain) = picture(color, 1e8);
+    let middle = SIDE / 2;
+    let error = |found: &Image| {
+        let own = found.pixels.iter().zip(&image.pixels);
+        own.map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f32::max)
+    };
+    let blurred = denoised(&(image.clone(), plain.clone()));
+    assert!(error(&blurred) > 0.5, "without an edge the filter averages");
+    for (name, change) in changes {
+        let mut features = plain.clone();
+        let pixels = features.pixels.iter_mut().enumerate();
+        pixels
+            .filter(|(index, _)| *index as u32 % SIDE >= middle)
+            .for_each(|(_, pixel)| change(pixel));
+        let found = denoised(&(image.clone(), features));
+        assert!(error(&found) < 0.01, "{name}: {}", error(&found));
+    }
+}
+
+#[test]
+fn pixels_that_are_not_finite_do_not_spread() {
+    let (mut image, features) = picture(|_, _| [0.25; 3], 1e-3);
+    let holes = [(0, 0), (40, 40), (41, 40), (SIDE - 1, 7)];
+    for ((x, y), value) in
+        holes
+            .into_iter()
+            .zip([f32::NAN, f32::INFINITY, -f32::INFINITY, f32::NAN])
+    {
+        image.pixels[(y * SIDE + x) as usize][1] = value;
+    }
+    let found = denoised(&(image, features));
+    for pixel in &found.pixels {
+        assert!((pixel[1] - 0.25).abs() < 1e-5, "{pixel:?}");
+    }
+}
+
+#[test]
+fn opacity_is_kept() {
+    let (mut image, features) = picture(|x, _| [x as f32 / 100.0; 3], 1e-2);
+    for (index, pixel) in image.pixels.iter_mut().enumerate() {
+        pixel[3] = (index % 11) as f32 / 10.0;
+    }
+    let found = denoised(&(image.clone(), features));
+    let same = found.pixels.iter().zip(&image.pixels);
+    assert!(same.clone().all(|(a, b)| a[3] == b[3]));
+}
+
+/// The peak signal-to-noise ratio of display values, in decibels.
+fn psnr(image: &Image, reference: &Image) -> f64 {
+    let shown = |value: f32| f64::from(value.clamp(0.0, 1.0)).powf(1.0 / 2.2);
+    let pairs = image.pixels.iter().zip(&reference.pixels);
+    let error: f64 = pairs
+        .map(|(a, b)| {
+            (0..3)
+                .map(|c| (shown(a[c]) - shown(b[c])).powi(2))
+                .sum::<f64>()
+        })
+        .sum();
+    -10.0 * (error / (3 * image.pixels.len()) as f64).log10()
+}
+
+#[test]
+fn a_cornell_box_of_16_samples_gains_4_decibels() {
+    let scene = import::load(Path::new("assets/scenes/cornell_box.toml")).expect("a scene");
+    let rendered = |samples, seed| {
+        let settings = RenderSettings {
+            size: (64, 64),
+            samples,
+            seed,
+            antialias: Antialias::Stratified,
+            integrator: Integrator::Path,
+            max_depth: 16,
+            features: true,
+            ..RenderSettings::default()
+        };
+        let mut renderer = start(&scene, &settings).expect("a renderer");
+        while !renderer.is_done() {
+            renderer.step().expect("a step");
+        }
+        renderer
+            .film()
+            .expect("a film")
+            .features()
+            .expect("features")
+    };
+    let reference = rendered(512, 1).picture();
+    let features = rendered(16, 0);
+    let noisy = features.picture();
+    let found = denoised(&(noisy.clone(), features));
+    let (before, after) = (psnr(&noisy, &reference), psnr(&found, &reference));
+    assert!(after >= before + 4.0, "{before:.2} dB, then {after:.2} dB");
+}
+
+/// What the window shows, which develops its renderer, and what files get, which are made from films.
+#[test]
+fn renderers_and_films_denoise_to_the_same_bits() {
+    let scene = import::load(Path::new("assets/scenes/still_life.toml")).expect("a scene");
+    for antialias in [Antialias::Stratified, Antialias::Adaptive] {
+        let settings = RenderSettings {
+            size: (40, 30),
+            samples: 70,
+            antialias,
+            integrator: Integrator::Path,
+            features: true,
+            ..RenderSettings::default()
+        };
+        let tone = Tone {
+            denoise: true,
+            transfer: Transfer::Srgb,
+            ..Tone::LINEAR
+        };
+        let mut renderer = start(&scene, &settings).expect("a renderer");
+        renderer.step().expect("a step");
+        let early = renderer.develop(&tone).expect("a picture");
+        assert!(early.pixels.iter().flatten().all(|value| value.is_finite()));
+        while !renderer.is_done() {
+            renderer.step().expect("a step");
+        }
+        let shown = renderer.develop(&tone).expect("a picture");
+        let film = renderer.film().expect("a film");
+        let features = film.features().expect("features");
+        let image = features.picture().denoised(renderer.gpu(), &features);
+        let image = image.expect("a denoised picture");
+        let saved = tone.develop(renderer.gpu(), &image).expect("a picture");
+        assert_eq!(shown, saved);
+        let raw = film.develop(renderer.gpu(), &tone).expect("a picture");
+        assert_ne!(shown, raw, "films develop their noise");
+    }
+}
