@@ -74,6 +74,7 @@ fn every_part_of_a_tone_changes_its_fingerprint() {
     let changes: Vec<fn(&mut Tone)> = vec![
         |_| {},
         |tone| tone.exposure_ev = 1.0,
+        |tone| tone.auto_exposure = true,
         |tone| tone.curve = ToneCurve::Aces,
         |tone| tone.curve = ToneCurve::Agx,
         |tone| tone.curve = ToneCurve::Reinhard,
@@ -81,6 +82,7 @@ fn every_part_of_a_tone_changes_its_fingerprint() {
         |tone| tone.levels = Levels::Found,
         |tone| tone.levels = Levels::Fixed([0.0, 0.0]),
         |tone| tone.levels = Levels::Fixed([0.0, 1.0]),
+        |tone| tone.denoise = true,
     ];
     let fingerprint = |change: &fn(&mut Tone)| {
         let mut tone = Tone::LINEAR;

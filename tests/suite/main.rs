@@ -21,6 +21,7 @@ mod environment;
 mod examples;
 mod explain;
 mod export;
+mod exposure;
 mod faults;
 mod features;
 mod film;

@@ -6,8 +6,9 @@ use crate::reference::compare::{assert_none, check_alike, sized, start_packed};
 use glam::{Vec3, vec3};
 use glimray::image::Image;
 use glimray::import::{self, Memory, Options};
+use glimray::pack;
 use glimray::render::{Integrator, RenderSettings, Tone};
-use glimray::{pack, scene::Scene};
+use glimray::scene::{LightTransport, OutputDefaults, Scene, ToneCurve};
 use serde_json::json;
 use std::sync::Arc;
 
@@ -197,6 +198,8 @@ fn load(name: &str, bytes: Vec<u8>) -> Scene {
     files.insert(name, bytes);
     let options = Options {
         size: Some(SIZE),
+        // Pictures of all formats are compared.
+        integrator: Some(LightTransport::Whitted),
         ..Options::default()
     };
     let scene = import::load_from(&files, name, &options).expect("a scene");
@@ -255,17 +258,20 @@ fn a_model_looks_the_same_in_every_format() {
     }));
 }
 
-/// The pictures of all formats, as people see them.
+/// The pictures of all formats by the classical integrator.
 pub fn sheet() -> Image {
     let pictures: Vec<Image> = models()
         .into_iter()
         .map(|(name, bytes)| {
             let scene = load(name, bytes);
-            let settings = RenderSettings {
+            let output = OutputDefaults {
                 size: SIZE,
-                ..RenderSettings::from(&scene.output)
+                samples: 16,
+                integrator: LightTransport::Whitted,
+                tone: Some(ToneCurve::None),
+                ..scene.output.clone()
             };
-            render(&scene, &settings, &Tone::from(&scene.output))
+            render(&scene, &RenderSettings::from(&output), &Tone::from(&output))
         })
         .collect();
     let rows = pictures.len().div_ceil(COLUMNS);

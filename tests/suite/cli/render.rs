@@ -55,3 +55,32 @@ fn the_demo_needs_no_file() {
     let demo = image::open(workspace.path("glimray.png")).expect("a picture");
     assert_eq!((demo.width(), demo.height()), (32, 18));
 }
+
+#[test]
+fn gltf_models_are_path_traced_unless_the_command_line_says_otherwise() {
+    let workspace = Workspace::new();
+    let model = crate::import::gltf::model::Model::triangle(serde_json::json!({}));
+    workspace.write("m.glb", model.glb());
+    let image = |command: &str| {
+        workspace
+            .run(&format!(
+                "render {command} --size 8x6 -o p.png --report r.json"
+            ))
+            .expect(0);
+        let report = fs::read_to_string(workspace.path("r.json")).expect("a report");
+        let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+        report["image"].clone()
+    };
+    for (command, integrator, samples, depth) in [
+        ("m.glb", "path", 64, 16),
+        ("m.glb --integrator whitted", "whitted", 16, 8),
+        ("m.glb --samples 2 --max-depth 3", "path", 2, 3),
+        ("a.scene", "whitted", 1, 0),
+        ("a.scene --integrator path", "path", 64, 16),
+    ] {
+        let image = image(command);
+        assert_eq!(image["integrator"], integrator, "{command}");
+        assert_eq!(image["samples"], samples, "{command}");
+        assert_eq!(image["max_depth"], depth, "{command}");
+    }
+}

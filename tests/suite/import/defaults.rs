@@ -3,7 +3,8 @@
 use super::scene;
 use glimray::export;
 use glimray::import::{self, Options};
-use glimray::scene::Scene;
+use glimray::render::Tone;
+use glimray::scene::{LightTransport, Scene, ToneCurve};
 
 const BALL: &str = "[[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n";
 
@@ -50,6 +51,34 @@ fn explicit_samples_override_the_default_and_survive_conversion() {
             let again = again.unwrap_or_else(|error| panic!("{error}\n{written}"));
             assert_eq!(again.output, scene.output, "{written}");
         }
+    }
+}
+
+#[test]
+fn scenes_for_path_tracing_have_its_samples_bounces_and_tone_curve() {
+    let of = |text: &str| native(&format!("{text}\n{BALL}")).output;
+    let plain = of("");
+    assert_eq!(plain.integrator, LightTransport::Whitted);
+    assert_eq!((plain.samples, plain.max_depth), (1, 5));
+    assert_eq!(Tone::from(&plain).curve, ToneCurve::None);
+    let path = of("[output]\nintegrator = 'path'");
+    assert_eq!((path.samples, path.max_depth), (64, 16));
+    assert_eq!(Tone::from(&path).curve, ToneCurve::Agx);
+    let said = of(
+        "[output]\nintegrator = 'path'\nsamples = 4\nmax_depth = 2\ntone = 'none'\nauto_exposure = true",
+    );
+    assert_eq!((said.samples, said.max_depth), (4, 2));
+    let tone = Tone::from(&said);
+    assert_eq!((tone.curve, tone.auto_exposure), (ToneCurve::None, true));
+    for output in [plain, path, said] {
+        let scene = Scene {
+            output,
+            ..native(BALL)
+        };
+        let text = export::native(&scene, "a", &|_, _| false)
+            .expect("written")
+            .text;
+        assert_eq!(native(&text).output, scene.output, "{text}");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 use glimray::import::{self, Memory, Options, Staging};
-use glimray::scene::{Background, Camera, Geometry, Scene};
+use glimray::scene::{Background, Camera, Geometry, LightTransport, Scene};
 
 /// A box with this minimum and maximum.
 fn cuboid(min: DVec3, max: DVec3) -> String {
@@ -111,6 +111,39 @@ fn the_ground_is_just_below_the_model() {
     };
     assert_eq!(normal, DVec3::Y);
     assert!(point.y < 1.0 && point.y > 0.99, "{point}");
+}
+
+#[test]
+fn a_model_for_path_tracing_stands_under_a_sky_with_a_sun() {
+    let model = cuboid(DVec3::ZERO, DVec3::ONE);
+    let with = |staging, integrator| {
+        let options = Options {
+            staging,
+            integrator,
+            ..Options::default()
+        };
+        load(&model, &options)
+    };
+    let sky = with(Staging::default(), Some(LightTransport::Path));
+    assert!(sky.lights.is_empty() && sky.staged && sky.shapes.len() == 1);
+    let Background::Picture { picture, .. } = sky.background else {
+        panic!("{:?}", sky.background);
+    };
+    let picture = &sky.pictures[picture];
+    let brightest = picture
+        .linear()
+        .fold(0.0, |most: f32, texel| most.max(texel.y));
+    assert!(brightest > 1000.0, "the sun is at most {brightest}");
+    // Without the sky, the lights of the classical integrator.
+    let no_background = Staging {
+        background: false,
+        ..Staging::default()
+    };
+    let lamps = with(no_background, Some(LightTransport::Path));
+    assert_eq!(lamps.lights.len(), 2);
+    assert_eq!(lamps.background, Background::default());
+    let classical = with(Staging::default(), None);
+    assert_eq!(classical.lights.len(), 2, "OBJ models are ray-traced");
 }
 
 #[test]

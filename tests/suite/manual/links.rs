@@ -110,10 +110,10 @@ fn files_and_tests_that_the_manual_names_are_there() {
                 let row = format!("{}: {name}", page.path);
                 verdict.that(row, Path::new(&name).exists(), || "is not there");
             }
-            let Some((module, test)) = name.split_once("::") else {
+            let Some((module, test)) = name.rsplit_once("::") else {
                 continue;
             };
-            let file = format!("tests/suite/{}.rs", module.replace('.', "/"));
+            let file = format!("tests/suite/{}.rs", module.replace("::", "/"));
             if let Ok(text) = fs::read_to_string(file)
                 && test.contains('_')
             {

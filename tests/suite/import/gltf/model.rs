@@ -1,6 +1,7 @@
 //! A writer of small models.
 
-use glimray::scene::Scene;
+use glimray::import::{self, Options};
+use glimray::scene::{LightTransport, Scene};
 use serde_json::{Value, json};
 
 pub const FLOAT: u32 = 5126;
@@ -141,9 +142,15 @@ impl Model {
         json.to_string()
     }
 
-    /// Imports the model.
+    /// Imports the model, lit for the classical integrator, which adds no picture of a sky.
     pub fn scene(&self) -> Scene {
-        super::scene("a.glb", self.glb())
+        let folder = super::folder(&[("a.glb", &self.glb())]);
+        let options = Options {
+            integrator: Some(LightTransport::Whitted),
+            ..Options::default()
+        };
+        let scene = import::load_with(&folder.path().join("a.glb"), &options);
+        scene.unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// The message for the model.
