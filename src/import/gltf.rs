@@ -60,6 +60,8 @@ struct Reader<'a> {
     files: &'a Files<'a>,
     blame: Blame<'a>,
     ledger: &'a Ledger<'a>,
+    /// Whether the model will be path-traced, so that nothing is to be noted that only paths show.
+    traces_paths: bool,
     notes: Notes,
     scene: Scene,
     /// From the file's axes to those of the scene, in which +Y is up.
@@ -119,7 +121,9 @@ pub(super) fn read(
     let parts = container::parts(&bytes, blame)?;
     let mut document = parse(&bytes[parts.json.clone()], blame)?;
     let mut notes = Notes::default();
-    extensions::check(&document, &mut notes, blame)?;
+    let integrator = options.integrator.unwrap_or(LightTransport::Path);
+    let traces_paths = integrator == LightTransport::Path;
+    extensions::check(&document, traces_paths, &mut notes, blame)?;
     let mut buffers = Buffers::read(&document, bytes, parts.bin, files, blame)?;
     let in_files = buffers.total();
     compressed::expand(&mut document, &mut buffers, blame)?;
@@ -134,6 +138,7 @@ pub(super) fn read(
         files,
         blame,
         ledger: &ledger,
+        traces_paths,
         notes,
         scene: Scene {
             shadows: Shadows::Filtered,

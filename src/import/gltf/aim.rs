@@ -294,7 +294,8 @@ impl Reader<'_> {
             Target::Layer(material, _) => !self.scene.materials[material].follows_layers(),
             _ => false,
         };
-        if property != LayerProperty::EmissionStrength && targets.iter().any(is_baked) {
+        let is_classical = !self.traces_paths && property != LayerProperty::EmissionStrength;
+        if is_classical && targets.iter().any(is_baked) {
             let what = match property {
                 LayerProperty::BaseColor => "base colour",
                 LayerProperty::Metallic => "metalness",

@@ -60,6 +60,7 @@ pub const GLTF_EXTENSIONS: &[(&str, Support)] = &[
 /// It requires extensions that are not read; all are named.
 pub(super) fn check(
     document: &Document,
+    traces_paths: bool,
     notes: &mut Notes,
     blame: Blame,
 ) -> Result<(), ImportError> {
@@ -88,6 +89,7 @@ pub(super) fn check(
         let quoted = || quote(name.as_bytes());
         match support(name) {
             Some(Support::Full | Support::Irrelevant) => {}
+            Some(Support::Paths) if traces_paths => {}
             Some(Support::Paths) => notes.add("extensions without effect", || {
                 format!("the extension {} is shown by path tracing only", quoted())
             }),

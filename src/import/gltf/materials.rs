@@ -165,13 +165,14 @@ impl Reader<'_> {
             if self.map(info, &place)?.is_none() {
                 continue;
             }
-            if !SHOWN_MAPS.contains(&parameter) {
-                self.notes.add("maps that are not shown", || {
-                    match PATH_MAPS.contains(&parameter) {
+            let of_paths = PATH_MAPS.contains(&parameter);
+            let is_shown = SHOWN_MAPS.contains(&parameter) || (of_paths && self.traces_paths);
+            if !is_shown {
+                self.notes
+                    .add("maps that are not shown", || match of_paths {
                         true => format!("{place} is shown by path tracing only"),
                         false => format!("{place} is not shown"),
-                    }
-                });
+                    });
             }
         }
         Ok(())

@@ -343,8 +343,8 @@ fn solid_angle([x, y, z]: &[f64; 3]) -> f64 {
     let height = 1.2 - y;
     let corner =
         |u: f64, v: f64| (u * v / (height * (u * u + v * v + height * height).sqrt())).atan();
-    let along = |u: f64| corner(u, -0.5 + 0.3 - z) - corner(u, -0.5 - 0.3 - z);
-    along(0.4 + 0.4 - x) - along(0.4 - 0.4 - x)
+    let along = |u: f64| corner(u, -0.2 - z) - corner(u, -0.8 - z);
+    along(0.8 - x) - along(-x)
 }
 
 #[test]
