@@ -54,7 +54,7 @@ pub struct RenderSettings {
     /// scattered twice or more; `None` for no limit. It removes fireflies, and light: [`super::Stats::energy_cut`]
     /// says how much.
     pub clamp_indirect: Option<f32>,
-    /// Whether the film keeps features besides the radiance: for [`super::Film::layers`], and to denoise.
+    /// Whether the film keeps features besides the radiance: for [`super::Film::features`], and to denoise.
     pub features: bool,
 }
 

@@ -303,3 +303,24 @@ fn progress_reaches_1_and_a_picture_can_be_developed_on_the_way() {
         &render(&detail_in_a_fifth(), &settings).0,
     )]);
 }
+
+#[test]
+fn paths_take_sixteen_samples_at_least_and_no_more_for_brighter_light() {
+    let paths = |noise| RenderSettings {
+        integrator: Integrator::Path,
+        ..settings(Antialias::Adaptive, 64, noise)
+    };
+    let mut even = scenes::empty();
+    even.background = Background::Color(Vec3::splat(0.3));
+    let (_, stats) = render(&even, &paths(0.01));
+    assert_eq!(stats.samples, 16 * 96 * 96);
+    // Highlights are white however bright they are, so their noise does not show.
+    let samples = |strength: f32| {
+        let mut scene = detail_in_a_fifth();
+        scene.background = Background::Color(Vec3::splat(strength));
+        scene.lights.clear();
+        render(&scene, &paths(0.02)).1.samples
+    };
+    let (usual, bright) = (samples(1.0), samples(400.0));
+    assert!(bright < usual, "{bright} samples, {usual} where light is 1");
+}

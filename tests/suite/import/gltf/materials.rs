@@ -412,6 +412,12 @@ fn what_is_not_shown_is_named() {
             "materials[0].clearcoatTexture is shown by path tracing only",
         ]
     );
+    // By default models are path-traced.
+    let path_traced = super::scene("a.glb", model.glb());
+    assert_eq!(
+        path_traced.skipped,
+        ["the extension `EXT_unheard_of` is not supported and was ignored"]
+    );
     let layers = scene.materials[0].layer_textures.as_ref();
     assert!(layers.is_some_and(|layers| layers.clearcoat.is_some()));
 }
