@@ -146,7 +146,10 @@ pub fn fraction(text: &str) -> Result<f32, String> {
 
 /// `EV`, `auto`, or `auto+EV` and `auto-EV`.
 pub fn exposure(text: &str) -> Result<Exposure, String> {
-    let stops = |text: &str| within(text, -64.0, 64.0, "it");
+    let stops = |text: &str| {
+        let number = within(text, -64.0, 64.0, "it");
+        number.map_err(|why| format!("{why}; `auto`, `auto+1` and the like are allowed too"))
+    };
     match text.trim().strip_prefix("auto") {
         Some("") => Ok(Exposure {
             is_auto: true,
