@@ -164,10 +164,9 @@ impl Renderer {
     /// of [`Self::develop`], rounded to 8 bits. Returns the range over which a quantity is shown. If it
     /// [`Self::shows_directly`] and needs neither a range nor an exposure, it does not wait for the GPU.
     pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
-        let tone = &self.exposed(tone)?;
         let range = self.range_of(tone)?;
         if self.shows_directly() && !self.denoises(tone) {
-            let tone = tone.packed(
+            let tone = self.exposed(tone)?.packed(
                 self.settings.integrator,
                 range,
                 self.tiles.list[0].rows_per_pixel(),

@@ -2,8 +2,9 @@
 
 use crate::reference::compare::{open_gpu, sized, start};
 use crate::reference::scenes;
-use glimray::image::Image;
+use glimray::image::{Image, ScreenImage};
 use glimray::render::{Antialias, RenderSettings, Slicing, Tone};
+use glimray::scene::Transfer;
 
 const AUTO: Tone = Tone {
     auto_exposure: true,
@@ -84,4 +85,28 @@ fn films_and_pictures_in_any_tiles_have_the_same_exposure() {
         let first = whole.get_or_insert(picture.clone());
         assert_eq!(*first, picture, "tiles of {tile_side}");
     }
+}
+
+#[test]
+fn a_screen_shows_a_denoised_picture_with_the_exposure_of_the_file() {
+    let settings = RenderSettings {
+        samples: 4,
+        antialias: Antialias::Stratified,
+        features: true,
+        ..sized(50, 40)
+    };
+    let tone = Tone {
+        denoise: true,
+        transfer: Transfer::Srgb,
+        ..AUTO
+    };
+    let mut renderer = start(&scenes::everything(), &settings).expect("a renderer");
+    while !renderer.is_done() {
+        renderer.step().expect("a step");
+    }
+    let screen = renderer.new_screen().expect("a screen");
+    renderer.show(&tone, &screen).expect("shown");
+    let shown = screen.read(renderer.gpu()).expect("pixels");
+    let file = renderer.develop(&tone).expect("a picture");
+    assert_eq!(shown, ScreenImage::from(&file));
 }
