@@ -13,6 +13,8 @@ mod device;
 mod doctor;
 pub mod exit;
 mod explain;
+#[cfg(feature = "archive")]
+mod farm;
 mod inspect;
 mod interrupt;
 mod job;
@@ -36,7 +38,7 @@ use crate::app::console;
 use crate::app::error::AppError;
 use crate::app::window::Window;
 use args::{Cli, Command};
-use clap::Parser;
+use clap::{ArgMatches, CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -55,11 +57,13 @@ pub fn run(
     if wants_json(&arguments) {
         console::use_json();
     }
-    let cli = match Cli::try_parse_from(arguments) {
-        Ok(cli) => cli,
+    let parsed = (Cli::command().try_get_matches_from(arguments))
+        .and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)));
+    let (cli, matches) = match parsed {
+        Ok(parsed) => parsed,
         Err(error) => return exit::command_line(&error),
     };
-    match dispatch(cli.command, started, window) {
+    match dispatch(cli.command, &matches, started, window) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => exit::failure(&error),
     }
@@ -84,7 +88,14 @@ fn wants_json(arguments: &[OsString]) -> bool {
     arguments.windows(2).any(is_pair) || arguments.iter().any(|word| word == "--progress=json")
 }
 
-fn dispatch(command: Command, started: Instant, window: Option<&Window>) -> Result<(), AppError> {
+fn dispatch(
+    command: Command,
+    matches: &ArgMatches,
+    started: Instant,
+    window: Option<&Window>,
+) -> Result<(), AppError> {
+    #[cfg(not(feature = "archive"))]
+    let _ = matches;
     match command {
         Command::Demo(arguments) => demo::run(&arguments, started),
         Command::Render(arguments) => render::run(&arguments, started),
@@ -93,6 +104,11 @@ fn dispatch(command: Command, started: Instant, window: Option<&Window>) -> Resu
         #[cfg(feature = "viewer")]
         Command::View(arguments) => view::run(&arguments, window),
         Command::Merge(arguments) => merge::run(&arguments),
+        #[cfg(feature = "archive")]
+        Command::Farm(arguments) => {
+            let matches = matches.subcommand_matches("farm").unwrap_or(matches);
+            farm::run(&arguments, matches, started)
+        }
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
@@ -101,6 +117,6 @@ fn dispatch(command: Command, started: Instant, window: Option<&Window>) -> Resu
         Command::Bench(arguments) => bench::run(&arguments, window),
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),
-        Command::Schema => schema::run(),
+        Command::Schema(arguments) => schema::run(&arguments),
     }
 }

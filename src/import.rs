@@ -70,6 +70,8 @@ pub use options::{Axis, Environment, EnvironmentSource, Options, Staging};
 pub use resolver::{FileError, Memory, Resolver};
 #[cfg(not(target_arch = "wasm32"))]
 pub use step::Step;
+#[cfg(feature = "archive")]
+pub use zipped::SCENE_MEMBER;
 
 use crate::scene::{Picture, Scene};
 use error::fault;

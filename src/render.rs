@@ -42,7 +42,7 @@ pub use explain::{
     ShadowRay, Sharing, StepOutcome, TracedRay,
 };
 pub use features::{Features, PixelFeatures};
-pub use film::{Film, FilmError, FilmHeader, Missing};
+pub use film::{Film, FilmError, FilmHeader, FilmOutline, Missing};
 pub use fingerprint::Fingerprint;
 pub use integrator::{Integrator, IntegratorEntry, Shows, TABLE as INTEGRATORS};
 pub use layers::{Layer, LayerKind};

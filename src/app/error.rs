@@ -29,6 +29,14 @@ pub enum AppError {
         /// The reason.
         error: FilmError,
     },
+    /// Two films cannot be merged.
+    #[error("cannot merge ({} and {}): {error}", paths[0].display(), paths[1].display())]
+    Films {
+        /// Their files.
+        paths: [PathBuf; 2],
+        /// The reason.
+        error: FilmError,
+    },
     /// `merge` found parts of the picture missing.
     #[error("{0}")]
     Missing(String),
@@ -67,6 +75,14 @@ pub enum AppError {
         /// Which frames are kept and how to resume, as a sentence.
         kept: String,
     },
+    /// A part of a farm failed; the code is that of its error.
+    #[error("cannot finish the parts: {why}")]
+    Part {
+        /// The part and its error.
+        why: String,
+        /// The exit code.
+        code: u8,
+    },
     /// `compare` found the pictures different.
     #[error("{0}")]
     Different(String),
@@ -88,7 +104,7 @@ impl AppError {
             Self::Internal(_) => 1,
             Self::Usage(_) => 2,
             Self::Import(error) if error.is_too_big() => 7,
-            Self::Import(_) | Self::Refused(_) | Self::Film { .. } => 3,
+            Self::Import(_) | Self::Refused(_) | Self::Film { .. } | Self::Films { .. } => 3,
             Self::Output(error) if error.is_usage() => 2,
             Self::Output(error) if error.is_refused_input() => 3,
             Self::Output(error) if error.is_internal() => 1,
@@ -100,6 +116,7 @@ impl AppError {
             Self::Gpu(error) | Self::Render(RenderError::Gpu(error)) => gpu_exit_code(error),
             Self::Render(RenderError::PathTooLong(_) | RenderError::TooManyShadowRays { .. }) => 7,
             Self::Render(RenderError::Film(_)) => 3,
+            Self::Part { code, .. } => *code,
             Self::Interrupted { exit_code } => *exit_code,
         }
     }

@@ -14,6 +14,7 @@ mod plan;
 mod target;
 mod timeline;
 
+pub use pattern::Pattern;
 pub use target::Target;
 pub use timeline::Timeline;
 
@@ -322,7 +323,7 @@ fn short(value: f64) -> f64 {
 ///
 /// # Errors
 /// No video format supports the rate.
-fn rate(fps: f64) -> Result<FrameRate, AppError> {
+pub fn rate(fps: f64) -> Result<FrameRate, AppError> {
     FrameRate::from_f64(fps).ok_or_else(|| {
         AppError::Usage(format!(
             "cannot write a video of {fps} frames per second (--fps, --step): no format supports \

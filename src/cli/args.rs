@@ -1,9 +1,15 @@
 //! The command line as clap declares it. Commands and flags are a stable interface: add to them, rename none.
 
+#[cfg(feature = "archive")]
+mod farm;
 mod flags;
 mod motion;
 mod values;
 
+#[cfg(feature = "archive")]
+pub use farm::{
+    FarmCommand, FarmMergeArgs, FarmPlanArgs, FarmRunArgs, FarmStatusArgs, FarmSubmitArgs,
+};
 #[cfg(feature = "viewer")]
 pub use flags::RecordingFlags;
 pub use flags::{
@@ -103,9 +109,23 @@ pub enum Command {
             glimray render scene.toml --samples 128 --sample-count 64 -o a.film\n  \
             glimray render scene.toml --samples 128 --sample-offset 64 -o b.film\n  \
             glimray merge a.film b.film -o picture.png\n\n\
-            The merged picture is bit-identical to one rendered in a single run. If parts are missing, they \
-            are listed, nothing is written, and the exit code is 8.")]
+            The merged picture is bit-identical to one rendered in a single run. If parts are missing, commands \
+            that render them are printed, nothing is written, and the exit code is 8. Parts are read one at a \
+            time, so that thousands of them take no more memory than two.")]
     Merge(MergeArgs),
+    /// Render one picture or film on many machines.
+    ///
+    /// `plan` cuts it into parts and writes a folder, `run` renders parts, `merge` puts them together to the bytes of one
+    /// run. Any batch engine can run, kill and retry them; `submit` writes the scripts for Slurm.
+    #[cfg(feature = "archive")]
+    #[command(
+        subcommand,
+        after_help = "Example, on one machine:\n  \
+            glimray farm plan scene.toml --samples 4096 --parts 16 -o still.exr\n  \
+            glimray farm run still.exr.farm --all --jobs 2\n  \
+            glimray farm merge still.exr.farm"
+    )]
+    Farm(FarmCommand),
     /// Show the contents of a scene: counts, bounds, cameras, lights, materials.
     ///
     /// The list ends with everything that the importer skipped.
@@ -156,7 +176,7 @@ pub enum Command {
     Man(ManArgs),
     /// Print the JSON Schema of the native scene format (.toml) for editors.
     #[command(after_help = "Example: glimray schema > glimray.schema.json")]
-    Schema,
+    Schema(SchemaArgs),
 }
 
 #[derive(Debug, Args)]
@@ -285,12 +305,26 @@ pub struct MergeArgs {
     pub parts: Vec<PathBuf>,
     #[command(flatten)]
     pub output: OutputFlags,
+    /// Write what is there even if parts are missing: pixels without samples are black
+    #[arg(long)]
+    pub partial: bool,
+    /// Refuse parts that were rendered on different adapters, which may round differently
+    #[arg(long)]
+    pub same_adapter: bool,
     #[command(flatten)]
     pub layers: LayerFlags,
     #[command(flatten)]
     pub develop: DevelopFlags,
     #[command(flatten)]
     pub device: DeviceFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct SchemaArgs {
+    /// Print the schema of the manifest of `farm plan` instead
+    #[cfg(feature = "archive")]
+    #[arg(long)]
+    pub manifest: bool,
 }
 
 #[derive(Debug, Args)]

@@ -1,18 +1,22 @@
 //! `glimray merge PART…`: merges films of parts of a picture into one film or into the picture.
+//!
+//! The outlines of all parts are read first: parts that do not belong together are refused before any sums are read. Then
+//! the sums of one part after the other are added, so that memory depends on the picture and not on the number of parts.
 
+use crate::app::console;
 use crate::app::error::AppError;
 use crate::app::inputs::Inputs;
 use crate::cli::args::MergeArgs;
 use crate::cli::destination::Destination;
 use crate::cli::interrupt::Interrupt;
 use crate::gpu::Gpu;
-use crate::render::{Film, FilmError, FilmHeader, Missing};
+use crate::render::{Film, FilmError, FilmHeader, FilmOutline, Missing};
 use crate::scene::OutputDefaults;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-/// Largest number of missing parts that are listed.
+/// Largest number of missing parts that the error message lists; the commands for them are complete.
 const MAX_LISTED: usize = 8;
 
 pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
@@ -20,34 +24,31 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
     let stem = arguments.parts[0].file_stem().unwrap_or("picture".as_ref());
     let destination = Destination::new(&arguments.output, Path::new(stem));
     Inputs::new(&arguments.parts).refuse_overwrite(destination.path(), "picture", "-o")?;
-    let mut all: Option<Film> = None;
-    for path in &arguments.parts {
-        interrupt.check()?;
-        let refused = |error| AppError::Film {
-            path: path.clone(),
-            error,
-        };
-        let part = read(path).map_err(refused)?;
-        all = Some(match all {
-            None => part,
-            Some(all) => all.merge(&part).map_err(refused)?,
-        });
-    }
-    let Some(film) = all else {
-        return Err(AppError::Internal("merge: no parts".into()));
-    };
-    let missing = film.missing();
+    let outlines = outlines(&arguments.parts, &interrupt)?;
+    let whole = whole(&arguments.parts, &outlines)?;
+    check_adapters(whole.header(), destination.path(), arguments.same_adapter)?;
+    let missing = whole.missing();
     if !missing.is_empty() {
-        return Err(AppError::Missing(incomplete(destination.path(), &missing)));
+        let why = incomplete(destination.path(), &missing);
+        if !arguments.partial {
+            if !destination.is_stdout() {
+                console::print(&commands(whole.header(), &missing))?;
+            }
+            return Err(AppError::Missing(format!(
+                "{why}. Add films of these parts, or write what is there with --partial."
+            )));
+        }
+        console::warning(format_args!("{why}."));
     }
     arguments.layers.check(
         arguments.develop.denoise,
-        film.header().integrator,
+        whole.header().integrator,
         destination.path(),
         destination.takes_layers(),
     )?;
-    let (width, height) = film.header().size;
+    let (width, height) = whole.header().size;
     destination.check(width, height)?;
+    let film = sum(&arguments.parts, &outlines, whole, &interrupt)?;
     if destination.is_film() {
         return destination.save_film(&film);
     }
@@ -70,11 +71,90 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
     destination.save(&arguments.layers.finish(&film, &gpu, &tone)?)
 }
 
-fn read(path: &PathBuf) -> Result<Film, FilmError> {
-    Film::read(BufReader::new(File::open(path)?))
+/// The outline of each part.
+fn outlines(parts: &[PathBuf], interrupt: &Interrupt) -> Result<Vec<FilmOutline>, AppError> {
+    let outline = |path: &PathBuf| {
+        interrupt.check()?;
+        let read = open(path).and_then(FilmOutline::read);
+        read.map_err(|error| refused(path, error))
+    };
+    parts.iter().map(outline).collect()
 }
 
-/// The error message for missing parts.
+/// The outline of all parts together. If one does not belong to the others, the error names both.
+fn whole(parts: &[PathBuf], outlines: &[FilmOutline]) -> Result<FilmOutline, AppError> {
+    let mut whole = outlines[0].clone();
+    for (index, outline) in outlines.iter().enumerate().skip(1) {
+        whole = whole.merge(outline).map_err(|error| {
+            let is_other = |earlier: &FilmOutline| earlier.merge(outline).is_err();
+            let other = outlines[..index].iter().position(is_other).unwrap_or(0);
+            AppError::Films {
+                paths: [parts[other].clone(), parts[index].clone()],
+                error,
+            }
+        })?;
+    }
+    Ok(whole)
+}
+
+/// The film of all parts, whose outline is `whole`.
+fn sum(
+    parts: &[PathBuf],
+    outlines: &[FilmOutline],
+    whole: FilmOutline,
+    interrupt: &Interrupt,
+) -> Result<Film, AppError> {
+    let read = |path: &PathBuf| open(path).and_then(Film::read);
+    // A single film is what it is.
+    let is_one = outlines.len() == 1;
+    let mut film = whole.blank();
+    for (path, outline) in parts.iter().zip(outlines) {
+        interrupt.check()?;
+        let part = read(path).map_err(|error| refused(path, error))?;
+        if part.outline() != *outline {
+            let why = "it changed while it was being merged";
+            return Err(refused(path, FilmError::Damaged { why }));
+        }
+        if is_one {
+            return Ok(part);
+        }
+        film.add(&part);
+    }
+    Ok(film)
+}
+
+fn open(path: &PathBuf) -> Result<BufReader<File>, FilmError> {
+    Ok(BufReader::new(File::open(path)?))
+}
+
+fn refused(path: &Path, error: FilmError) -> AppError {
+    AppError::Film {
+        path: path.into(),
+        error,
+    }
+}
+
+/// Refuses parts of several adapters, or warns about them.
+fn check_adapters(header: &FilmHeader, path: &Path, same_only: bool) -> Result<(), AppError> {
+    if header.adapters.len() < 2 {
+        return Ok(());
+    }
+    let adapters: Vec<_> = header.adapters.iter().map(String::as_str).collect();
+    let adapters = adapters.join(", ");
+    if same_only {
+        return Err(AppError::Refused(format!(
+            "cannot merge ({}): the parts are of different adapters, {adapters}. Render them on one kind of adapter, or \
+             omit --same-adapter.",
+            path.display()
+        )));
+    }
+    console::warning(format_args!(
+        "the parts are of different adapters ({adapters}), which may round differently; --same-adapter refuses them."
+    ));
+    Ok(())
+}
+
+/// What the picture lacks, without a full stop.
 fn incomplete(path: &Path, missing: &[Missing]) -> String {
     let part = |Missing { region, samples }: &Missing| {
         let [x, y, width, height] = region;
@@ -87,8 +167,29 @@ fn incomplete(path: &Path, missing: &[Missing]) -> String {
         count => format!(", and {count} more parts"),
     };
     format!(
-        "cannot complete the picture ({}): missing {}{more}. Add films of these parts.",
+        "the picture is incomplete ({}): missing {}{more}",
         path.display(),
         listed.join(", ")
     )
+}
+
+/// For each missing part the command that renders it. `SCENE` stands for the scene with its flags.
+fn commands(header: &FilmHeader, missing: &[Missing]) -> String {
+    let (width, height) = header.size;
+    let command = |(index, Missing { region, samples }): (usize, &Missing)| {
+        let mut line = format!(
+            "glimray render SCENE --size {width}x{height} --samples {}",
+            header.samples
+        );
+        if *samples != (0..header.samples) {
+            let count = samples.end - samples.start;
+            line += &format!(" --sample-offset {} --sample-count {count}", samples.start);
+        }
+        if *region != [0, 0, width, height] {
+            let [x, y, across, down] = region;
+            line += &format!(" --crop {x},{y},{},{}", x + across, y + down);
+        }
+        format!("{line} -o missing-{}.film\n", index + 1)
+    };
+    missing.iter().enumerate().map(command).collect()
 }

@@ -13,6 +13,12 @@ use std::path::{Path, PathBuf};
 /// The ending of archives.
 const ENDING: &str = "zip";
 
+/// A file of an archive that names the archive's scene, for archives with several.
+pub const SCENE_MEMBER: &str = ".glimray-scene";
+
+/// The most bytes of such a name.
+const MAX_NAME: u64 = 4096;
+
 /// Bytes that files may unpack to, for each byte of the archive. Models compress to about a fifth; of a
 /// decompression bomb every byte becomes up to a thousand.
 const PER_BYTE: u64 = 64;
@@ -39,7 +45,7 @@ impl Resolver for Bounded {
     }
 }
 
-/// The scene in the archive `bytes`, the contents of the file at `path`: the first one of the folder nearest
+/// The scene in the archive `bytes`, the contents of the file at `path`: the one that [`SCENE_MEMBER`] names, or the first one of the folder nearest
 /// to the root, in the order of [`SCENE_ENDINGS`] and then of names. Others are noted.
 pub(super) fn read_scene(
     path: &Path,
@@ -66,6 +72,9 @@ pub(super) fn read_scene(
         .filter_map(|name| rank(name).map(|rank| (name.components().count(), rank, name.into())))
         .collect();
     scenes.sort();
+    if let Some(name) = named(&archive) {
+        scenes.retain(|scene| scene.2 == name);
+    }
     let Some((_, _, name)) = scenes.first().cloned() else {
         let why = format!(
             "none of its {} files is a scene or model",
@@ -90,6 +99,12 @@ pub(super) fn read_scene(
         ));
     }
     Ok(scene)
+}
+
+/// The name of the scene in the archive's [`SCENE_MEMBER`].
+fn named(archive: &Archive) -> Option<PathBuf> {
+    let bytes = archive.read(Path::new(SCENE_MEMBER), MAX_NAME).ok()?;
+    Some(PathBuf::from(String::from_utf8(bytes).ok()?.trim()))
 }
 
 /// The place of a file's ending among those of scenes, but archives; `None` for other files, and those that

@@ -11,8 +11,10 @@ mod error;
 mod features;
 mod file;
 mod gather;
+mod outline;
 
 pub use error::FilmError;
+pub use outline::FilmOutline;
 
 use super::{
     Fingerprint, Integrator, Tone,
@@ -26,6 +28,8 @@ use std::{collections::BTreeSet, fmt::Debug, ops::Range};
 /// adapters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmHeader {
+    /// The version of glimray that rendered it; another version may compute other samples.
+    pub program: String,
     /// Fingerprint of the packed scene.
     pub scene: Fingerprint,
     /// Fingerprint of the packed frame: camera, lights and instances.
@@ -78,6 +82,11 @@ impl FilmHeader {
         self.layers.contains(&&layers::COUNT)
     }
 
+    /// The whole picture as a rectangle: x, y, width, height.
+    fn whole(&self) -> [u32; 4] {
+        [0, 0, self.size.0, self.size.1]
+    }
+
     /// Whether these samples are stored as a single block.
     fn is_block(&self, samples: &SampleSet) -> bool {
         self.is_adaptive() || samples.block_count() == 1
@@ -96,6 +105,7 @@ impl FilmHeader {
             }
         }
         let Self {
+            program,
             scene,
             view,
             settings,
@@ -107,6 +117,7 @@ impl FilmHeader {
             adapters: _,
         } = self;
         let names = |layers: &[&Layer]| layers.iter().map(|layer| layer.name).collect::<Vec<_>>();
+        same("version of glimray", program, &other.program)?;
         same("size", size, &other.size)?;
         same("integrator", integrator, &other.integrator)?;
         same("number of samples", samples, &other.samples)?;
@@ -133,13 +144,11 @@ impl Film {
             let own = Coverage::rectangle(piece.region, SampleSet::new(start..end));
             coverage = united(&coverage, &own)?;
         }
-        let parts = pieces.iter().map(|piece| (piece.region, &piece.sums));
-        let sums = combined_sums(&header, &coverage, parts);
-        Ok(Self {
-            header,
-            coverage,
-            sums,
-        })
+        let mut film = FilmOutline { header, coverage }.blank();
+        for piece in &pieces {
+            film.add_rectangle(piece.region, &piece.sums);
+        }
+        Ok(film)
     }
 
     /// The header.
@@ -162,43 +171,62 @@ impl Film {
         (self.coverage.patches()).map(|(region, samples)| (region, samples.ranges()))
     }
 
-    /// Merges two films.
+    /// What it is a part of, and which part.
+    pub fn outline(&self) -> FilmOutline {
+        FilmOutline {
+            header: self.header.clone(),
+            coverage: self.coverage.clone(),
+        }
+    }
+
+    /// Merges two films. For many, [`FilmOutline::blank`] and [`Film::add`] take less memory and time.
     ///
     /// # Errors
     /// They are not of the same picture, or have samples in common.
     pub fn merge(&self, other: &Self) -> Result<Self, FilmError> {
-        self.header.check_same(&other.header)?;
-        let mut header = self.header.clone();
-        header
-            .adapters
-            .extend(other.header.adapters.iter().cloned());
-        let coverage = united(&self.coverage, &other.coverage)?;
-        let parts = [self, other].into_iter().flat_map(|film| {
-            let regions = film.coverage.patches().map(|(region, _)| region);
-            regions.zip(&film.sums)
-        });
-        let sums = combined_sums(&header, &coverage, parts);
-        Ok(Self {
-            header,
-            coverage,
-            sums,
-        })
+        let mut film = self.outline().merge(&other.outline())?.blank();
+        film.add(self);
+        film.add(other);
+        Ok(film)
+    }
+
+    /// Adds the sums of a part to a film that was [blank](FilmOutline::blank) and whose outline has the part. Each part is
+    /// added once, in any order.
+    pub fn add(&mut self, part: &Self) {
+        for ((region, _), sums) in part.coverage.patches().zip(&part.sums) {
+            self.add_rectangle(region, sums);
+        }
+    }
+
+    /// Adds the sums of a rectangle within the coverage.
+    fn add_rectangle(&mut self, [x, y, width, height]: [u32; 4], part: &Sums) {
+        let pixel_rows = layers::pixel_rows(self.header.layers);
+        let rows = pixel_rows.count;
+        for row in 0..height {
+            let mut column = 0;
+            while column < width {
+                let found = self.coverage.patch_at(x + column, y + row);
+                let Some((index, [left, top, across, _])) = found else {
+                    break;
+                };
+                let count = (left + across - (x + column)).min(width - column);
+                let to = (y + row - top) as usize * across as usize + (x + column - left) as usize;
+                let from = row as usize * width as usize + column as usize;
+                let added = rows * count as usize;
+                self.sums[index].add(rows * to, part, rows * from, added, pixel_rows);
+                column += count;
+            }
+        }
     }
 
     /// The missing parts of the whole picture; empty if the film is complete.
     pub fn missing(&self) -> Vec<Missing> {
-        self.missing_of([0, 0, self.header.size.0, self.header.size.1])
+        self.missing_of(self.header.whole())
     }
 
     /// The missing parts of a rectangle of the picture: x, y, width, height.
     pub fn missing_of(&self, region: [u32; 4]) -> Vec<Missing> {
-        let all = SampleSet::new(0..self.header.samples);
-        let lacking = Coverage::rectangle(region, all).without(&self.coverage);
-        let each = |(region, samples): ([u32; 4], &SampleSet)| {
-            let ranges = samples.ranges().to_vec().into_iter();
-            ranges.map(move |samples| Missing { region, samples })
-        };
-        lacking.patches().flat_map(each).collect()
+        outline::missing(&self.header, &self.coverage, region)
     }
 
     /// Rows per pixel.
@@ -210,37 +238,4 @@ impl Film {
 fn united(first: &Coverage, second: &Coverage) -> Result<Coverage, FilmError> {
     let overlap = |(region, samples)| FilmError::Overlap { region, samples };
     first.union(second).map_err(overlap)
-}
-
-/// The sums of the patches of a coverage, combined from those of rectangles within it.
-fn combined_sums<'a>(
-    header: &FilmHeader,
-    coverage: &Coverage,
-    parts: impl Iterator<Item = ([u32; 4], &'a Sums)>,
-) -> Vec<Sums> {
-    let pixel_rows = layers::pixel_rows(header.layers);
-    let rows = pixel_rows.count;
-    let empty = |([.., width, height], samples): ([u32; 4], &SampleSet)| {
-        let pixels = width as usize * height as usize;
-        Sums::zeros(rows * pixels, header.is_block(samples))
-    };
-    let mut sums: Vec<Sums> = coverage.patches().map(empty).collect();
-    for ([x, y, width, height], part) in parts {
-        for row in 0..height {
-            let mut column = 0;
-            while column < width {
-                let Some((index, [left, top, across, _])) = coverage.patch_at(x + column, y + row)
-                else {
-                    break;
-                };
-                let count = (left + across - (x + column)).min(width - column);
-                let to = (y + row - top) as usize * across as usize + (x + column - left) as usize;
-                let from = row as usize * width as usize + column as usize;
-                let rows_added = rows * count as usize;
-                sums[index].add(rows * to, part, rows * from, rows_added, pixel_rows);
-                column += count;
-            }
-        }
-    }
-    sums
 }

@@ -385,3 +385,25 @@ where
         )),
     }
 }
+
+#[cfg(feature = "archive")]
+pub fn minutes(text: &str) -> Result<f64, String> {
+    within(text, 0.01, 1e5, "it")
+}
+
+#[cfg(feature = "archive")]
+pub fn lease(text: &str) -> Result<f64, String> {
+    within(text, 1.0, 86400.0, "it")
+}
+
+/// `I/N`, with I below N.
+#[cfg(feature = "archive")]
+pub fn slice(text: &str) -> Result<(u32, u32), String> {
+    let parsed = text
+        .split_once('/')
+        .and_then(|(first, step)| Some((first.parse().ok()?, step.parse().ok()?)));
+    match parsed {
+        Some((first, step)) if first < step => Ok((first, step)),
+        _ => Err("it must be I/N with I below N, such as 0/4".into()),
+    }
+}

@@ -8,7 +8,7 @@ use super::{
         Fingerprint, Integrator, Tone, layers,
         sums::{LARGEST, SAMPLE_BLOCK, Sums},
     },
-    Film, FilmError, FilmHeader,
+    Film, FilmError, FilmHeader, FilmOutline,
     coverage::{Coverage, Run, SampleSet},
 };
 use bytemuck::{cast_slice, pod_collect_to_vec};
@@ -19,7 +19,7 @@ use std::{
 use xxhash_rust::xxh3::Xxh3;
 
 const SIGNATURE: [u8; 8] = *b"glimfilm";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// Maximum number of bytes read at once.
 const STEP: usize = 1 << 16;
 
@@ -36,6 +36,7 @@ impl Film {
         out.bytes(&SIGNATURE)?;
         out.number(VERSION)?;
         let FilmHeader {
+            program,
             scene,
             view,
             settings,
@@ -46,6 +47,7 @@ impl Film {
             tone,
             adapters,
         } = &self.header;
+        out.text(program)?;
         for Fingerprint(fingerprint) in [scene, view, settings] {
             out.bytes(&fingerprint.to_le_bytes())?;
         }
@@ -101,18 +103,7 @@ impl Film {
             hash: Xxh3::new(),
             bytes: 0,
         };
-        if input.array().map_err(no_film)? != SIGNATURE {
-            return Err(FilmError::NotAFilm);
-        }
-        let found = input.number()?;
-        if found != VERSION {
-            return Err(FilmError::Version {
-                found,
-                known: VERSION,
-            });
-        }
-        let header = header(&mut input)?;
-        let coverage = coverage(&mut input, &header)?;
+        let FilmOutline { header, coverage } = outline(&mut input)?;
         let mut sums = Vec::new();
         for ([.., width, height], samples) in coverage.patches() {
             let pixels = u64::from(width) * u64::from(height);
@@ -143,7 +134,38 @@ impl Film {
     }
 }
 
+impl FilmOutline {
+    /// Reads the beginning of a film. Its sums are not read, so its checksum is not checked: [`Film::read`] does that.
+    ///
+    /// # Errors
+    /// The input is not a film, has another version, is truncated or damaged, or cannot be read.
+    pub fn read(input: impl Read) -> Result<Self, FilmError> {
+        outline(&mut Reader {
+            input,
+            hash: Xxh3::new(),
+            bytes: 0,
+        })
+    }
+}
+
+fn outline<R: Read>(input: &mut Reader<R>) -> Result<FilmOutline, FilmError> {
+    if input.array().map_err(no_film)? != SIGNATURE {
+        return Err(FilmError::NotAFilm);
+    }
+    let found = input.number()?;
+    if found != VERSION {
+        return Err(FilmError::Version {
+            found,
+            known: VERSION,
+        });
+    }
+    let header = header(input)?;
+    let coverage = coverage(input, &header)?;
+    Ok(FilmOutline { header, coverage })
+}
+
 fn header<R: Read>(input: &mut Reader<R>) -> Result<FilmHeader, FilmError> {
+    let program = input.text()?;
     let mut fingerprints = [Fingerprint(0); 3];
     for fingerprint in &mut fingerprints {
         fingerprint.0 = u128::from_le_bytes(input.array()?);
@@ -176,6 +198,7 @@ fn header<R: Read>(input: &mut Reader<R>) -> Result<FilmHeader, FilmError> {
         adapters.insert(adapter);
     }
     Ok(FilmHeader {
+        program,
         scene,
         view,
         settings,

@@ -16,6 +16,7 @@ impl Renderer {
     /// finished.
     pub fn film(&self) -> Result<Film, RenderError> {
         let header = FilmHeader {
+            program: env!("CARGO_PKG_VERSION").to_owned(),
             scene: Fingerprint::of_scene(&self.scene),
             view: Fingerprint::of_view(&self.view),
             settings: self.settings.of_whole().fingerprint(),

@@ -1,0 +1,183 @@
+//! `glimray farm`: one picture or film over many machines. `plan` cuts it into parts and writes a folder, `run` renders
+//! parts, `merge` puts them together. A batch engine only needs to run commands: `submit` writes its scripts.
+//!
+//! Everything is in files of the folder, each written beside its name and renamed: any process may be killed and started
+//! again at any time.
+
+mod archive;
+mod cut;
+mod flags;
+mod lease;
+mod manifest;
+mod measure;
+mod merge;
+mod plan;
+mod run;
+mod simulate;
+mod slurm;
+mod status;
+mod submit;
+
+pub use manifest::schema;
+pub use submit::Engine;
+
+use crate::app::error::AppError;
+use crate::cli::args::FarmCommand;
+use crate::output::{self, OutputError};
+use clap::ArgMatches;
+use manifest::{Manifest, Part};
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// `matches` are those of the `farm` command.
+pub fn run(command: &FarmCommand, matches: &ArgMatches, started: Instant) -> Result<(), AppError> {
+    match command {
+        FarmCommand::Plan(arguments) => plan::run(arguments, matches, started),
+        FarmCommand::Run(arguments) => run::run(arguments),
+        FarmCommand::Status(arguments) => status::run(arguments),
+        FarmCommand::Submit(arguments) => submit::run(arguments),
+        FarmCommand::Merge(arguments) => merge::run(arguments),
+    }
+}
+
+/// The folder of a farm.
+#[derive(Clone, Debug)]
+struct Folder(PathBuf);
+
+/// What a finished part leaves beside its result.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Done {
+    /// Seconds from the start of the process to the result on disk.
+    seconds: f64,
+    /// The machine.
+    host: String,
+    /// The adapter.
+    adapter: String,
+}
+
+/// What a part that failed leaves.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Failed {
+    /// How often it was tried.
+    attempts: u32,
+    /// The last error and its exit code.
+    error: String,
+    code: u8,
+    /// The machine.
+    host: String,
+}
+
+impl Folder {
+    /// The subfolders.
+    const ALL: [&str; 6] = ["parts", "done", "failed", "leases", "reports", "frames"];
+
+    fn create(&self) -> Result<(), AppError> {
+        for name in Self::ALL {
+            let path = self.0.join(name);
+            fs::create_dir_all(&path).map_err(|source| OutputError::Io { path, source })?;
+        }
+        Ok(())
+    }
+
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn leases(&self) -> PathBuf {
+        self.0.join("leases")
+    }
+
+    /// The film of a part of a picture.
+    fn film(&self, part: u32) -> PathBuf {
+        let name = format!("{}.film", Manifest::number(part));
+        self.0.join("parts").join(name)
+    }
+
+    /// The folder with the frames of a part.
+    fn frames(&self, part: u32) -> PathBuf {
+        self.0.join("parts").join(Manifest::number(part))
+    }
+
+    /// The frame of a part.
+    fn frame(&self, part: u32, frame: u32, ending: &str) -> PathBuf {
+        let name = format!("frame_{frame:05}.{ending}");
+        self.frames(part).join(name)
+    }
+
+    /// A frame that is merged from films.
+    fn merged_frame(&self, frame: u32, ending: &str) -> PathBuf {
+        let name = format!("frame_{frame:05}.{ending}");
+        self.0.join("frames").join(name)
+    }
+
+    fn report(&self, part: u32) -> PathBuf {
+        let name = format!("{}.json", Manifest::number(part));
+        self.0.join("reports").join(name)
+    }
+
+    fn checkpoint(&self, part: u32) -> PathBuf {
+        let name = format!("{}.checkpoint", Manifest::number(part));
+        self.0.join("parts").join(name)
+    }
+
+    fn done_path(&self, part: u32) -> PathBuf {
+        let name = format!("{}.json", Manifest::number(part));
+        self.0.join("done").join(name)
+    }
+
+    fn failed_path(&self, part: u32) -> PathBuf {
+        let name = format!("{}.json", Manifest::number(part));
+        self.0.join("failed").join(name)
+    }
+
+    /// What a part left when it was done; `None` if it is not.
+    fn done(&self, part: u32) -> Option<Done> {
+        read(&self.done_path(part))
+    }
+
+    /// What a part left when it failed.
+    fn failed(&self, part: u32) -> Option<Failed> {
+        read(&self.failed_path(part))
+    }
+}
+
+/// Reads a small JSON file; `None` if it is missing or malformed.
+fn read<T: for<'a> Deserialize<'a>>(path: &Path) -> Option<T> {
+    serde_json::from_slice(&fs::read(path).ok()?).ok()
+}
+
+/// Writes a small JSON file.
+fn write<T: Serialize>(path: &Path, value: &T) -> Result<(), AppError> {
+    let mut text = serde_json::to_vec_pretty(value)
+        .map_err(|error| AppError::Internal(format!("{}: {error}", path.display())))?;
+    text.push(b'\n');
+    Ok(output::write(path, &text, true)?)
+}
+
+/// Removes a file that may be missing.
+fn remove(path: &Path) -> Result<(), AppError> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(failed_io(path, error)),
+        _ => Ok(()),
+    }
+}
+
+fn failed_io(path: &Path, source: io::Error) -> AppError {
+    let path = path.into();
+    OutputError::Io { path, source }.into()
+}
+
+/// The parts of a manifest with their numbers.
+fn numbered(manifest: &Manifest) -> impl Iterator<Item = (u32, &Part)> {
+    (0..).zip(&manifest.parts)
+}
+
+/// The command that follows a step, as it is typed.
+fn command(step: &str, folder: &Folder) -> String {
+    let folder = folder.path().display().to_string();
+    let quoted = shlex::try_quote(&folder).map_or(folder.clone(), Into::into);
+    format!("glimray farm {step} {quoted}")
+}

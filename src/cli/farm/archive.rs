@@ -1,0 +1,145 @@
+//! Packs a scene with everything that it names into one archive, so that other machines need no shared sources.
+
+use super::manifest::PackedFile;
+use super::{Folder, failed_io};
+use crate::app::error::AppError;
+use crate::import::SCENE_MEMBER;
+use crate::output;
+use std::fs::{self, File};
+use std::io::{self, Cursor, Read, Write};
+use std::path::{Component, Path, PathBuf};
+use xxhash_rust::xxh3::Xxh3;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+/// The name of the archive.
+pub const NAME: &str = "scene.zip";
+
+/// Bytes read at once.
+const STEP: usize = 1 << 16;
+
+/// Writes the archive of `scene` and the files that it names. Missing ones, which the scene can do without, are left out.
+///
+/// # Errors
+/// A file cannot be read, or the archive cannot be written.
+pub fn pack(scene: &Path, files: &[PathBuf], folder: &Folder) -> Result<PackedFile, AppError> {
+    let absolute = |path: &Path| {
+        let whole = std::path::absolute(path).map_err(|error| unreadable(path, &error))?;
+        Ok::<_, AppError>(plain(&whole))
+    };
+    let scene = absolute(scene)?;
+    let mut paths = vec![scene.clone()];
+    for file in files.iter().filter(|file| file.is_file()) {
+        let path = absolute(file)?;
+        if !paths.contains(&path) {
+            paths.push(path);
+        }
+    }
+    let root = root_of(&paths);
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    // The same files give the same archive. Pictures and binary meshes hardly compress.
+    let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
+    let name_of = |path: &Path| {
+        let inner = path.strip_prefix(&root).unwrap_or(path);
+        let parts = inner
+            .components()
+            .map(|part| part.as_os_str().to_string_lossy());
+        parts.collect::<Vec<_>>().join("/")
+    };
+    let broken = |error: zip::result::ZipError| AppError::Internal(format!("{NAME}: {error}"));
+    archive.start_file(SCENE_MEMBER, options).map_err(broken)?;
+    let written = archive.write_all(name_of(&scene).as_bytes());
+    written.map_err(|error| AppError::Internal(format!("{NAME}: {error}")))?;
+    for path in &paths {
+        let bytes = fs::read(path).map_err(|error| unreadable(path, &error))?;
+        archive.start_file(name_of(path), options).map_err(broken)?;
+        let written = archive.write_all(&bytes);
+        written.map_err(|error| AppError::Internal(format!("{NAME}: {error}")))?;
+    }
+    let bytes = archive.finish().map_err(broken)?.into_inner();
+    store(NAME, &bytes, folder)
+}
+
+/// Copies a file into the folder, as `stem` with the file's own extension.
+///
+/// # Errors
+/// It cannot be read or written.
+pub fn copy(file: &Path, stem: &str, folder: &Folder) -> Result<PackedFile, AppError> {
+    let bytes = fs::read(file).map_err(|error| unreadable(file, &error))?;
+    let ending = file.extension().unwrap_or_default().to_string_lossy();
+    store(&format!("{stem}.{ending}"), &bytes, folder)
+}
+
+fn store(name: &str, bytes: &[u8], folder: &Folder) -> Result<PackedFile, AppError> {
+    output::write(folder.path().join(name), bytes, true)?;
+    let mut hash = Xxh3::new();
+    hash.update(bytes);
+    Ok(PackedFile {
+        file: name.into(),
+        bytes: bytes.len() as u64,
+        xxh3: format!("{:032x}", hash.digest128()),
+    })
+}
+
+/// Checks that a packed file is there and whole, and returns its path.
+///
+/// # Errors
+/// It is missing, has another length or another checksum.
+pub fn checked(packed: &PackedFile, folder: &Folder) -> Result<PathBuf, AppError> {
+    let path = folder.path().join(&packed.file);
+    let refused = |why: &str| {
+        AppError::Refused(format!(
+            "cannot use the farm ({}): {why}. Copy the folder again, or plan it again.",
+            path.display()
+        ))
+    };
+    let mut file = File::open(&path).map_err(|error| refused(&error.to_string()))?;
+    let mut hash = Xxh3::new();
+    let mut bytes = 0;
+    let mut buffer = vec![0; STEP];
+    loop {
+        let count = file
+            .read(&mut buffer)
+            .map_err(|error| failed_io(&path, error))?;
+        if count == 0 {
+            break;
+        }
+        hash.update(&buffer[..count]);
+        bytes += count as u64;
+    }
+    match bytes == packed.bytes && format!("{:032x}", hash.digest128()) == packed.xxh3 {
+        true => Ok(path),
+        false => Err(refused("the file is not the one that was planned")),
+    }
+}
+
+/// The path without `.` and `..`.
+fn plain(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir => {
+                plain.pop();
+            }
+            part => plain.push(part),
+        }
+    }
+    plain
+}
+
+/// The folder that has all files in it.
+fn root_of(paths: &[PathBuf]) -> PathBuf {
+    let mut root = paths[0].parent().unwrap_or(Path::new("/")).to_owned();
+    for path in paths {
+        while !path.starts_with(&root) && root.pop() {}
+    }
+    root
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> AppError {
+    AppError::Refused(format!(
+        "cannot pack the scene ({}): {error}. Check the file and its permissions.",
+        path.display()
+    ))
+}

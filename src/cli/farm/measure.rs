@@ -1,0 +1,154 @@
+//! Measures what a picture or an animation costs, by rendering a few rows with few samples.
+
+use crate::app::error::AppError;
+use crate::cli::device;
+use crate::cli::interrupt::Interrupt;
+use crate::cli::job::Job;
+use crate::gpu::Gpu;
+use crate::pack;
+use crate::render::{Antialias, RenderSettings, Renderer};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Strips of a picture that are measured, and their height in rows.
+const STRIPS: u32 = 24;
+const STRIP_ROWS: u32 = 8;
+
+/// Frames of an animation that are measured.
+const FRAMES: usize = 5;
+
+/// Least seconds of a measurement: shorter ones measure the submission.
+const LEAST_SECONDS: f64 = 0.05;
+
+/// Most samples of a measurement.
+const MOST_SAMPLES: u32 = 64;
+
+/// What the work costs on this machine.
+pub struct Costs {
+    /// The adapter.
+    pub adapter: String,
+    /// Seconds to load the scene, build its tree, open the adapter and compile the kernels.
+    pub start: f64,
+    /// Seconds of each frame; one for a picture.
+    pub frames: Vec<f64>,
+    /// Seconds of each row of the region, for all samples, of the frame in the middle.
+    pub rows: Vec<f64>,
+}
+
+/// Measures the frames whose shutter is open at these times, in seconds.
+///
+/// # Errors
+/// Those of rendering.
+pub fn measure(
+    job: &Job,
+    settings: &RenderSettings,
+    gpu: Gpu,
+    shutters: &[(f64, f64)],
+    (started, interrupt): (Instant, &Interrupt),
+) -> Result<Costs, AppError> {
+    let packed = Arc::new(pack::scene(&job.scene)?);
+    let view = |(open, close): (f64, f64)| packed.view(&job.scene.motion_samples(open, close));
+    // Few samples tell enough, and those of adaptive sampling cannot be cut.
+    let settings = RenderSettings {
+        antialias: match settings.antialias {
+            Antialias::Adaptive => Antialias::Stratified,
+            other => other,
+        },
+        ..settings.clone()
+    };
+    let adapter = gpu.adapter().clone();
+    let strip = |y: u32, samples: u32| {
+        let [x, top, width, height] = settings.region();
+        let bottom = (y + STRIP_ROWS).min(top + height);
+        RenderSettings {
+            crop: Some([x, y, x + width, bottom]),
+            sample_range: Some(0..samples),
+            ..settings.clone()
+        }
+    };
+    let [_, top, _, height] = settings.region();
+    let middle = shutters.len() / 2;
+    let first = strip(top, 1);
+    let mut renderer = Renderer::new(
+        gpu,
+        packed.clone(),
+        &view(shutters[middle])?,
+        first,
+        job.policy(),
+    )?;
+    finish(&mut renderer, interrupt)?;
+    let start = started.elapsed().as_secs_f64();
+
+    let mut rows_of = |shutter: (f64, f64), strips: u32| -> Result<Vec<f64>, AppError> {
+        let view = view(shutter)?;
+        let strips = strips.clamp(1, height.div_ceil(STRIP_ROWS));
+        let mut rows = vec![0.0; height as usize];
+        for index in 0..strips {
+            let band =
+                |index: u32| (u64::from(height) * u64::from(index) / u64::from(strips)) as u32;
+            let (from, to) = (band(index), band(index + 1));
+            let y = top + ((from + to).saturating_sub(STRIP_ROWS) / 2).max(from);
+            let mut samples = 1;
+            let (mut seconds, mut measured);
+            loop {
+                let settings = strip(y, samples);
+                measured = settings.region()[3];
+                renderer.restart(packed.clone(), &view, settings, job.policy())?;
+                let begun = Instant::now();
+                finish(&mut renderer, interrupt)?;
+                seconds = begun.elapsed().as_secs_f64();
+                if seconds >= LEAST_SECONDS || samples >= MOST_SAMPLES.min(settings_samples(job)) {
+                    break;
+                }
+                samples = (samples * 4).min(MOST_SAMPLES).min(settings_samples(job));
+            }
+            let of_row = seconds / f64::from(measured) / f64::from(samples);
+            let cost = of_row * f64::from(job.settings().samples);
+            rows[from as usize..to as usize].fill(cost);
+        }
+        Ok(rows)
+    };
+    let rows = rows_of(shutters[middle], STRIPS)?;
+    let frames = match shutters.len() {
+        1 => vec![rows.iter().sum()],
+        count => {
+            let points = count.min(FRAMES);
+            let at = |point: usize| point * (count - 1) / (points - 1).max(1);
+            let mut known = Vec::new();
+            for point in 0..points {
+                let rows = rows_of(shutters[at(point)], STRIPS / 4)?;
+                known.push((at(point), rows.iter().sum()));
+            }
+            (0..count).map(|index| between(&known, index)).collect()
+        }
+    };
+    Ok(Costs {
+        adapter: device::describe(&adapter),
+        start,
+        frames,
+        rows,
+    })
+}
+
+fn settings_samples(job: &Job) -> u32 {
+    job.settings().samples
+}
+
+fn finish(renderer: &mut Renderer, interrupt: &Interrupt) -> Result<(), AppError> {
+    while !renderer.is_done() {
+        interrupt.check()?;
+        renderer.step()?;
+    }
+    Ok(())
+}
+
+/// The value at `index` on the straight line between its neighbours among `known`, which are in order.
+fn between(known: &[(usize, f64)], index: usize) -> f64 {
+    let next = known.partition_point(|(at, _)| *at < index);
+    let (right_at, right) = known[next.min(known.len() - 1)];
+    let (left_at, left) = known[next.saturating_sub(1)];
+    match right_at > left_at && index < right_at {
+        true => left + (right - left) * (index - left_at) as f64 / (right_at - left_at) as f64,
+        false => right,
+    }
+}

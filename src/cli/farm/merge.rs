@@ -1,0 +1,211 @@
+//! `glimray farm merge DIR`: puts the parts together, to the bytes of one run.
+
+use super::manifest::{Frames, Manifest};
+use super::run::{frame_ending, invalid, unfinished};
+use super::{Folder, flags, numbered};
+use crate::app::console;
+use crate::app::console::Console;
+use crate::app::error::AppError;
+use crate::cli::animate::{Pattern, rate};
+use crate::cli::args::{Cli, Command, FarmMergeArgs};
+use crate::cli::interrupt::Interrupt;
+use crate::cli::merge;
+use crate::output::video::{self, VideoFormat, VideoOptions};
+use crate::output::{self, OutputError};
+use clap::Parser;
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+/// Parts that the message about missing ones lists; their commands are complete.
+const MAX_LISTED: usize = 8;
+
+pub fn run(arguments: &FarmMergeArgs) -> Result<(), AppError> {
+    let interrupt = Interrupt::install()?;
+    let folder = Folder(arguments.dir.clone());
+    let manifest = Manifest::read(folder.path())?;
+    let output = arguments.path.clone().unwrap_or(manifest.output.clone());
+    if output.extension() != manifest.output.extension() {
+        return Err(AppError::Usage(format!(
+            "cannot merge ({}): the farm was planned for {}. Choose a name with the same extension.",
+            output.display(),
+            manifest.output.display()
+        )));
+    }
+    let missing = unfinished(&folder, &manifest);
+    let is_partial = arguments.partial && manifest.frames.is_none();
+    if !missing.is_empty() && !is_partial {
+        return Err(incomplete(&folder, &missing)?);
+    }
+    let merge = Merge {
+        folder,
+        manifest,
+        arguments,
+    };
+    match &merge.manifest.frames {
+        None => merge.picture(&missing, &output)?,
+        Some(frames) => merge.animation(frames, &output, &interrupt)?,
+    }
+    let console = Console::new(arguments.quiet, false);
+    console.status(format_args!("wrote {}", output.display()));
+    Ok(())
+}
+
+/// The error for parts that are not done; prints their commands.
+fn incomplete(folder: &Folder, missing: &[u32]) -> Result<AppError, AppError> {
+    let commands = missing
+        .iter()
+        .map(|part| format!("{} {part}\n", super::command("run", folder)));
+    console::print(&commands.collect::<String>())?;
+    let listed: Vec<_> = (missing.iter().take(MAX_LISTED))
+        .map(u32::to_string)
+        .collect();
+    let more = match missing.len().saturating_sub(MAX_LISTED) {
+        0 => String::new(),
+        count => format!(" and {count} more"),
+    };
+    Ok(AppError::Missing(format!(
+        "cannot merge ({}): parts {}{more} are not done. Run them, or see `glimray farm status`.",
+        folder.path().display(),
+        listed.join(", ")
+    )))
+}
+
+struct Merge<'a> {
+    folder: Folder,
+    manifest: Manifest,
+    arguments: &'a FarmMergeArgs,
+}
+
+impl Merge<'_> {
+    /// Merges the films of a picture.
+    fn picture(&self, missing: &[u32], output: &Path) -> Result<(), AppError> {
+        let films = numbered(&self.manifest)
+            .map(|(number, _)| number)
+            .filter(|number| !missing.contains(number))
+            .map(|number| self.folder.film(number));
+        let mut extra = Vec::new();
+        if self.arguments.partial {
+            extra.push("--partial");
+        }
+        if self.arguments.same_adapter {
+            extra.push("--same-adapter");
+        }
+        self.films(films.collect(), &extra, output)
+    }
+
+    /// Merges the frames that are in parts, and writes the frames or the video.
+    fn animation(
+        &self,
+        frames: &Frames,
+        output: &Path,
+        interrupt: &Interrupt,
+    ) -> Result<(), AppError> {
+        let ending = frame_ending(&self.manifest.output);
+        let mut files: BTreeMap<u32, PathBuf> = BTreeMap::new();
+        let mut films: BTreeMap<u32, Vec<PathBuf>> = BTreeMap::new();
+        for (number, part) in numbered(&self.manifest) {
+            let [first, last] = part.frames.unwrap_or_default();
+            if part.is_film() {
+                films
+                    .entry(first)
+                    .or_default()
+                    .push(self.folder.film(number));
+                continue;
+            }
+            if let Some(why) = invalid(&self.folder, &self.manifest, number) {
+                return Err(AppError::Refused(format!(
+                    "cannot merge ({}): part {number} is damaged, {why}. Run it again.",
+                    self.folder.path().display()
+                )));
+            }
+            let of_part = frames
+                .numbers()
+                .filter(|frame| (first..=last).contains(frame));
+            files.extend(of_part.map(|frame| (frame, self.folder.frame(number, frame, &ending))));
+        }
+        for (frame, parts) in films {
+            interrupt.check()?;
+            let path = self.folder.merged_frame(frame, &ending);
+            let extra: &[&str] = match self.arguments.mix_adapters {
+                true => &[],
+                false => &["--same-adapter"],
+            };
+            self.films(parts, extra, &path)?;
+            files.insert(frame, path);
+        }
+        let files: Vec<_> = files.into_iter().collect();
+        match VideoFormat::from_path(output) {
+            Some(format) => self.video(&files, format, frames, output, interrupt),
+            None => self.frames(&files, output, interrupt),
+        }
+    }
+
+    fn video(
+        &self,
+        files: &[(u32, PathBuf)],
+        format: VideoFormat,
+        frames: &Frames,
+        output: &Path,
+        interrupt: &Interrupt,
+    ) -> Result<(), AppError> {
+        let options = VideoOptions {
+            rate: rate(frames.fps)?,
+            quality: self.manifest.quality,
+            repeat: frames.repeat,
+            clobber: true,
+        };
+        let _deferred = interrupt.defer();
+        let mut stopped = None;
+        let encoded = video::encode(output, format, &options, files.len(), &mut |index| {
+            let path = &files[index].1;
+            if let Err(error) = interrupt.check() {
+                stopped = Some(error);
+                let source = io::Error::from(ErrorKind::Interrupted);
+                let path = path.clone();
+                return Err(OutputError::Io { path, source });
+            }
+            video::read_frame(path)
+        });
+        match (encoded, stopped) {
+            (_, Some(stopped)) => Err(stopped),
+            (encoded, None) => Ok(encoded?),
+        }
+    }
+
+    fn frames(
+        &self,
+        files: &[(u32, PathBuf)],
+        output: &Path,
+        interrupt: &Interrupt,
+    ) -> Result<(), AppError> {
+        let pattern = Pattern::parse(output)
+            .map_err(|why| AppError::Usage(format!("cannot number the frames: {why}")))?;
+        let folder = pattern.folder();
+        fs::create_dir_all(folder).map_err(|error| super::failed_io(folder, error))?;
+        for (frame, file) in files {
+            interrupt.check()?;
+            let bytes = fs::read(file).map_err(|error| super::failed_io(file, error))?;
+            output::write(pattern.path(*frame), &bytes, true)?;
+        }
+        Ok(())
+    }
+
+    /// Merges films to a picture, as `glimray merge` does.
+    fn films(&self, films: Vec<PathBuf>, extra: &[&str], output: &Path) -> Result<(), AppError> {
+        let mut words: Vec<OsString> = vec!["glimray".into(), "merge".into()];
+        words.extend(flags::finishing(&self.manifest.flags).map(OsString::from));
+        words.extend(extra.iter().map(OsString::from));
+        words.push(format!("--quality={}", self.manifest.quality).into());
+        words.extend(["-o".into(), output.into(), "--".into()]);
+        words.extend(films.into_iter().map(OsString::from));
+        let parsed = Cli::try_parse_from(words)
+            .map_err(|error| AppError::Internal(format!("merge: {error}")))?;
+        match parsed.command {
+            Command::Merge(arguments) => merge::run(&arguments),
+            _ => Err(AppError::Internal("merge: no command".into())),
+        }
+    }
+}

@@ -1,0 +1,375 @@
+//! `glimray farm run DIR PART`: renders parts. What is done and valid is skipped, what another process renders is left to
+//! it.
+
+use super::lease::{Claim, Leases, host};
+use super::manifest::{Manifest, Part};
+use super::{Done, Failed, Folder, archive, failed_io, flags, numbered, read, remove, write};
+use crate::app::console;
+use crate::app::console::Console;
+use crate::app::error::AppError;
+use crate::cli::args::{Cli, Command, FarmRunArgs};
+use crate::cli::interrupt::Interrupt;
+use crate::cli::{animate, render};
+use crate::output::Format;
+use crate::render::Film;
+use clap::Parser;
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+use std::process::{Child, ExitStatus};
+use std::time::{Duration, Instant};
+
+/// Pause before a part that another process renders is looked at again.
+const PAUSE: Duration = Duration::from_millis(500);
+
+/// Seconds between two checkpoints of a part.
+const CHECKPOINT_SECONDS: u32 = 30;
+
+pub fn run(arguments: &FarmRunArgs) -> Result<(), AppError> {
+    let interrupt = Interrupt::install()?;
+    let folder = Folder(arguments.dir.clone());
+    let manifest = Manifest::read(folder.path())?;
+    let parts = chosen(arguments, &manifest)?;
+    if arguments.jobs > 1 {
+        return share(arguments, &interrupt);
+    }
+    let farm = Farm {
+        leases: Leases::new(folder.leases(), Duration::from_secs_f64(arguments.lease)),
+        scene: archive::checked(&manifest.scene, &folder)?,
+        environment: (manifest.environment.as_ref())
+            .map(|packed| archive::checked(packed, &folder))
+            .transpose()?,
+        console: Console::new(arguments.quiet, false),
+        interrupt,
+        folder,
+        manifest,
+    };
+    farm.run(parts, arguments.attempts, !arguments.all)
+}
+
+/// The numbers of the parts to render.
+fn chosen(arguments: &FarmRunArgs, manifest: &Manifest) -> Result<Vec<u32>, AppError> {
+    let count = manifest.parts.len() as u32;
+    match (arguments.part, arguments.slice) {
+        (Some(part), _) if part >= count => Err(AppError::Usage(format!(
+            "cannot run part {part} ({}): the farm has parts 0 to {}. Choose one of them.",
+            arguments.dir.display(),
+            count - 1
+        ))),
+        (Some(part), _) => Ok(vec![part]),
+        (None, Some((first, step))) => Ok((first..count).step_by(step as usize).collect()),
+        (None, None) => Ok((0..count).collect()),
+    }
+}
+
+/// Starts processes that share the parts, and waits for them.
+fn share(arguments: &FarmRunArgs, interrupt: &Interrupt) -> Result<(), AppError> {
+    let failed = |error| AppError::Internal(format!("cannot start a process: {error}"));
+    let program = std::env::current_exe().map_err(failed)?;
+    let _deferred = interrupt.defer();
+    let mut children: Vec<Child> = Vec::new();
+    for _ in 0..arguments.jobs {
+        let mut command = std::process::Command::new(&program);
+        command.args(["farm", "run", "--all"]);
+        command.args(["--attempts", &arguments.attempts.to_string()]);
+        command.args(["--lease", &arguments.lease.to_string()]);
+        command.args(arguments.quiet.then_some("--quiet"));
+        command.arg("--").arg(&arguments.dir);
+        children.push(command.spawn().map_err(failed)?);
+    }
+    let mut first_failure: Option<ExitStatus> = None;
+    while !children.is_empty() {
+        let mut left = Vec::new();
+        for mut child in children {
+            match child.try_wait().map_err(failed)? {
+                None => left.push(child),
+                Some(status) if status.success() => {}
+                Some(status) => {
+                    first_failure.get_or_insert(status);
+                }
+            }
+        }
+        children = left;
+        if let Err(error) = interrupt.check() {
+            // A signal to this process alone: those that it started stop in turn.
+            for child in &mut children {
+                let _ = child.kill();
+                let _ = child.wait();
+            }
+            return Err(error);
+        }
+        std::thread::sleep(PAUSE / 10);
+    }
+    match first_failure {
+        None => Ok(()),
+        Some(status) => Err(AppError::Part {
+            why: format!(
+                "a process of {} ended with {status}",
+                arguments.dir.display()
+            ),
+            code: (status.code())
+                .and_then(|code| u8::try_from(code).ok())
+                .unwrap_or(1),
+        }),
+    }
+}
+
+/// The farm and this process in it.
+struct Farm {
+    folder: Folder,
+    manifest: Manifest,
+    leases: Leases,
+    /// The archive.
+    scene: PathBuf,
+    environment: Option<PathBuf>,
+    console: Console,
+    interrupt: Interrupt,
+}
+
+/// What became of a part.
+enum Outcome {
+    Done,
+    /// This process renders it, as `HOST, process PID`.
+    Elsewhere(String),
+    Failed(AppError),
+}
+
+impl Farm {
+    /// Renders parts until all are done or have failed. With `waits`, parts that other processes render are waited for.
+    fn run(&self, mut parts: Vec<u32>, attempts: u32, waits: bool) -> Result<(), AppError> {
+        let mut failures: Vec<(u32, AppError)> = Vec::new();
+        let (mut tried, mut has_waited) = (0, false);
+        loop {
+            let mut elsewhere = Vec::new();
+            for part in std::mem::take(&mut parts) {
+                self.interrupt.check()?;
+                match self.part(part)? {
+                    Outcome::Done => {}
+                    Outcome::Elsewhere(holder) => elsewhere.push((part, holder)),
+                    Outcome::Failed(error @ AppError::Interrupted { .. }) => return Err(error),
+                    Outcome::Failed(error) => failures.push((part, error)),
+                }
+            }
+            if !failures.is_empty() {
+                tried += 1;
+            }
+            if tried < attempts && !failures.is_empty() {
+                for (part, error) in failures.drain(..) {
+                    console::warning(format_args!(
+                        "part {part} failed and is tried again: {error}"
+                    ));
+                    parts.push(part);
+                }
+                parts.extend(elsewhere.into_iter().map(|(part, _)| part));
+                continue;
+            }
+            if let Some((part, error)) = failures.drain(..).next() {
+                return Err(AppError::Part {
+                    why: format!("part {part} failed: {error}"),
+                    code: error.exit_code(),
+                });
+            }
+            if elsewhere.is_empty() {
+                return Ok(());
+            }
+            if !has_waited && waits {
+                has_waited = true;
+                let (part, holder) = &elsewhere[0];
+                self.console.status(format_args!(
+                    "waiting for part {part}, which {holder}, renders"
+                ));
+            }
+            parts = elsewhere.into_iter().map(|(part, _)| part).collect();
+            std::thread::sleep(PAUSE);
+        }
+    }
+
+    /// Renders a part unless it is done or another process renders it.
+    fn part(&self, number: u32) -> Result<Outcome, AppError> {
+        if self.is_done(number)? {
+            return Ok(Outcome::Done);
+        }
+        let text = Manifest::number(number);
+        let claim = self.leases.claim(&text);
+        let _lease = match claim.map_err(|error| failed_io(&self.folder.leases(), error))? {
+            Claim::Held(holder) => return Ok(Outcome::Elsewhere(holder)),
+            Claim::Taken(lease) => lease,
+        };
+        // Another process may have finished it before the lease was free.
+        if self.is_done(number)? {
+            return Ok(Outcome::Done);
+        }
+        let count = self.manifest.parts.len();
+        self.console
+            .status(format_args!("part {number} of {count}"));
+        match self.render(number) {
+            Ok(done) => {
+                remove(&self.folder.failed_path(number))?;
+                write(&self.folder.done_path(number), &done)?;
+                Ok(Outcome::Done)
+            }
+            Err(error @ AppError::Interrupted { .. }) => Ok(Outcome::Failed(error)),
+            Err(error) => {
+                let earlier = self
+                    .folder
+                    .failed(number)
+                    .map_or(0, |failed| failed.attempts);
+                let failed = Failed {
+                    attempts: earlier + 1,
+                    error: error.to_string(),
+                    code: error.exit_code(),
+                    host: host(),
+                };
+                write(&self.folder.failed_path(number), &failed)?;
+                Ok(Outcome::Failed(error))
+            }
+        }
+    }
+
+    /// Whether the part has its mark and its result, and the result is valid. An invalid one is set aside.
+    fn is_done(&self, number: u32) -> Result<bool, AppError> {
+        if self.folder.done(number).is_none() {
+            return Ok(false);
+        }
+        let Some(why) = invalid(&self.folder, &self.manifest, number) else {
+            return Ok(true);
+        };
+        console::warning(format_args!("part {number} is rendered again: {why}."));
+        let part = &self.manifest.parts[number as usize];
+        let result = match part.is_film() {
+            true => self.folder.film(number),
+            false => self.folder.frames(number),
+        };
+        if result.exists() {
+            let aside = (1..)
+                .map(|index| PathBuf::from(format!("{}.old-{index}", result.display())))
+                .find(|path| !path.exists())
+                .unwrap_or_default();
+            fs::rename(&result, &aside).map_err(|error| failed_io(&result, error))?;
+        }
+        remove(&self.folder.done_path(number))?;
+        Ok(false)
+    }
+
+    /// Renders a part to its place.
+    fn render(&self, number: u32) -> Result<Done, AppError> {
+        let part = &self.manifest.parts[number as usize];
+        let report = self.folder.report(number);
+        let words = self.words(number, part, &report)?;
+        let started = Instant::now();
+        let parsed = Cli::try_parse_from(words)
+            .map_err(|error| AppError::Internal(format!("part {number}: {error}")))?;
+        match parsed.command {
+            Command::Render(arguments) => render::run(&arguments, started)?,
+            Command::Animate(arguments) => animate::run(&arguments, started)?,
+            _ => return Err(AppError::Internal(format!("part {number}: no command"))),
+        }
+        let report: serde_json::Value = read(&report).unwrap_or_default();
+        let adapter = report["adapter"]["name"].as_str().unwrap_or_default();
+        Ok(Done {
+            seconds: started.elapsed().as_secs_f64(),
+            host: host(),
+            adapter: adapter.into(),
+        })
+    }
+
+    /// The command line that renders a part.
+    fn words(&self, number: u32, part: &Part, report: &Path) -> Result<Vec<OsString>, AppError> {
+        let mut words: Vec<OsString> = vec!["glimray".into()];
+        let flag = |name: &str, value: &dyn std::fmt::Display| format!("--{name}={value}").into();
+        let all = &self.manifest.flags;
+        if part.is_film() {
+            words.push("render".into());
+            words.extend(all.iter().map(OsString::from));
+            if let Some([frame, _]) = part.frames {
+                words.push(flag("frame", &frame));
+            }
+            if let Some([start, end]) = part.samples {
+                words.push(flag("sample-offset", &start));
+                words.push(flag("sample-count", &(end - start)));
+            }
+            if let Some([x0, y0, x1, y1]) = part.crop {
+                words.push(flag("crop", &format_args!("{x0},{y0},{x1},{y1}")));
+            }
+            words.extend(["--checkpoint".into(), self.folder.checkpoint(number).into()]);
+            words.push(flag("every", &CHECKPOINT_SECONDS));
+            words.extend(["-o".into(), self.folder.film(number).into()]);
+        } else {
+            let frames = self.folder.frames(number);
+            fs::create_dir_all(&frames).map_err(|error| failed_io(&frames, error))?;
+            words.push("animate".into());
+            words.extend(flags::of_animation(all).map(OsString::from));
+            let [first, last] = part.frames.unwrap_or_default();
+            words.push(flag("frames", &format_args!("{first}..{last}")));
+            if let Some(frames) = &self.manifest.frames {
+                words.push(flag("step", &frames.step));
+            }
+            words.push(flag("quality", &self.manifest.quality));
+            let name = format!("frame_%05d.{}", frame_ending(&self.manifest.output));
+            words.extend(["-o".into(), frames.join(name).into()]);
+        }
+        if let Some(file) = &self.environment {
+            words.extend(["--environment".into(), file.into()]);
+        }
+        words.extend(["--report".into(), report.into()]);
+        words.extend(["--progress=none".into(), "--quiet".into(), "--".into()]);
+        words.push((&self.scene).into());
+        Ok(words)
+    }
+}
+
+/// The extension of the frames of an animation: that of the pattern, or PNG for a video.
+pub fn frame_ending(output: &Path) -> String {
+    match Format::from_path(output) {
+        Some(_) => output
+            .extension()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into(),
+        None => "png".into(),
+    }
+}
+
+/// Why the result of a part cannot be used; `None` if it can.
+pub fn invalid(folder: &Folder, manifest: &Manifest, number: u32) -> Option<String> {
+    let part = &manifest.parts[number as usize];
+    if part.is_film() {
+        let path = folder.film(number);
+        let film = File::open(&path)
+            .map_err(Into::into)
+            .and_then(|file| Film::read(BufReader::new(file)));
+        let film = match film {
+            Ok(film) => film,
+            Err(error) => {
+                return Some(format!(
+                    "{} ({})",
+                    error.to_string().trim_end_matches('.'),
+                    path.display()
+                ));
+            }
+        };
+        let [width, height] = manifest.size;
+        let [x0, y0, x1, y1] = part.crop.unwrap_or([0, 0, width, height]);
+        let [start, end] = part.samples.unwrap_or([0, manifest.samples]);
+        let region = [x0, y0, x1 - x0, y1 - y0];
+        let is_whole = (film.parts()).eq([(region, &[start..end][..])]);
+        return (!is_whole).then(|| format!("{} is of other samples", path.display()));
+    }
+    let [first, last] = part.frames.unwrap_or_default();
+    let frames = manifest.frames.as_ref()?;
+    let ending = frame_ending(&manifest.output);
+    let missing = (frames.numbers())
+        .filter(|frame| (first..=last).contains(frame))
+        .map(|frame| folder.frame(number, frame, &ending))
+        .find(|path| !path.is_file());
+    missing.map(|path| format!("{} is missing", path.display()))
+}
+
+/// The parts that are not done.
+pub fn unfinished(folder: &Folder, manifest: &Manifest) -> Vec<u32> {
+    numbered(manifest)
+        .map(|(number, _)| number)
+        .filter(|number| folder.done(*number).is_none())
+        .collect()
+}
