@@ -117,8 +117,13 @@ struct Position {
 
 impl Position {
     fn of(renderer: &Renderer) -> Self {
+        // After the last round of adaptive sampling there are no tiles left.
+        let tile = renderer.cursor.tile.min(renderer.tiles.list.len());
         Self {
-            cursor: renderer.cursor,
+            cursor: Cursor {
+                tile,
+                ..renderer.cursor
+            },
             unfinished: renderer.work.as_ref().map(Work::unfinished),
         }
     }
