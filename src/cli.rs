@@ -4,6 +4,7 @@
 mod animate;
 mod args;
 pub mod bench;
+mod checkpoint;
 mod compare;
 mod completions;
 mod convert;

@@ -142,6 +142,24 @@ pub fn write(path: impl AsRef<Path>, bytes: &[u8], clobber: bool) -> Result<(), 
     atomic::write(path.as_ref(), bytes, clobber, true)
 }
 
+/// Like [`write_own`], for contents too large for memory: `fill` writes them piece by piece.
+///
+/// # Errors
+/// See [`write_own`], and those of `fill`.
+pub fn write_own_with(
+    path: impl AsRef<Path>,
+    fill: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> Result<(), OutputError> {
+    let path = path.as_ref();
+    atomic::write_with(path, true, false, |file| {
+        let failed = |source| OutputError::Io {
+            path: path.into(),
+            source,
+        };
+        fill(file).map_err(failed)
+    })
+}
+
 /// Writes any `bytes` to `path`, a generated name: see [`check_own`].
 ///
 /// # Errors

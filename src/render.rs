@@ -3,7 +3,9 @@
 
 mod adaptive;
 mod arrays;
+mod binary;
 mod bindings;
+mod checkpoint;
 mod denoise;
 mod develop;
 mod device;
@@ -34,6 +36,7 @@ mod task;
 mod work;
 
 pub use crate::scene::{Antialias, Filter};
+pub use checkpoint::{Checkpoint, CheckpointError};
 pub use develop::Tone;
 pub use effort::LongPath;
 pub use error::RenderError;

@@ -67,12 +67,12 @@ pub enum AppError {
     /// More memory is needed than the process may use.
     #[error("{0}")]
     TooBig(String),
-    /// A run of many frames ended early.
+    /// A run ended early, but a part of its work is kept.
     #[error("{}{kept}", prefix(error))]
     Stopped {
         /// The error that ended it.
         error: Box<AppError>,
-        /// Which frames are kept and how to resume, as a sentence.
+        /// What is kept and how to resume, as a sentence.
         kept: String,
     },
     /// A part of a farm failed; the code is that of its error.
@@ -134,7 +134,7 @@ fn gpu_exit_code(error: &GpuError) -> u8 {
     }
 }
 
-/// The text before the sentence about kept frames.
+/// The text before the sentence about what is kept.
 fn prefix(error: &AppError) -> String {
     match error {
         AppError::Interrupted { .. } => "interrupted: ".into(),

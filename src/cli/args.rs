@@ -1,11 +1,13 @@
 //! The command line as clap declares it. Commands and flags are a stable interface: add to them, rename none.
 
+mod checkpoint;
 #[cfg(feature = "archive")]
 mod farm;
 mod flags;
 mod motion;
 mod values;
 
+pub use checkpoint::CheckpointFlags;
 #[cfg(feature = "archive")]
 pub use farm::{
     FarmCommand, FarmMergeArgs, FarmPlanArgs, FarmRunArgs, FarmStatusArgs, FarmSubmitArgs,
@@ -57,6 +59,7 @@ pub enum Command {
             glimray render scene.toml -o picture.png\n  \
             glimray render model.obj --look-from 0,1,4 --look-at 0,0,0 --samples 16 -o model.exr\n  \
             glimray render scene.toml --frame 12 --shutter 0.5 -o frame.png\n  \
+            glimray render scene.toml --samples 4096 --checkpoint night.ckpt -o night.exr\n  \
             glimray render scene.scene --quiet -o - --format png | display")]
     Render(Box<RenderArgs>),
     /// Render an animation to numbered frames or a video.

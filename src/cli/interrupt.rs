@@ -3,7 +3,8 @@
 //! A thread waits for the first two. It normally ends the program at once. While a picture is rendered
 //! ([`Interrupt::defer`]), the work has a few seconds to notice the signal between two steps and stop by
 //! itself. If it is stuck in the driver or in a pipe that nobody reads, or at a second signal, the thread
-//! ends the program. Either way no partial file is left.
+//! ends the program. Writing a checkpoint ([`Interrupt::saving`]) may take longer. Either way no partial file
+//! is left.
 
 use crate::app::console;
 use crate::app::error::AppError;
@@ -24,6 +25,10 @@ const PAUSE: Duration = Duration::from_millis(20);
 /// Time for the work to stop by itself after a signal.
 const GRACE: Duration = Duration::from_secs(3);
 
+/// Time after a signal in which a checkpoint may be written. With [`GRACE`] it is below the 30 seconds after which
+/// batch engines kill (Slurm's `KillWait`).
+const SAVING: Duration = Duration::from_secs(22);
+
 /// Time limit for the last message: standard error may be a pipe that nobody reads.
 const MESSAGE_LIMIT: Duration = Duration::from_millis(200);
 
@@ -42,6 +47,8 @@ struct State {
     exit_code: AtomicUsize,
     /// Whether the work checks for signals and stops by itself.
     is_deferred: AtomicBool,
+    /// Whether a checkpoint is being written.
+    is_saving: AtomicBool,
 }
 
 impl Interrupt {
@@ -75,8 +82,12 @@ impl Interrupt {
 
     /// Until the result is dropped, the work may stop by itself after the first signal.
     pub fn defer(&self) -> Deferred<'_> {
-        self.0.is_deferred.store(true, Ordering::SeqCst);
-        Deferred(self)
+        Deferred::new(&self.0.is_deferred)
+    }
+
+    /// Until the result is dropped, deferred work may take longer to stop after the first signal.
+    pub fn saving(&self) -> Deferred<'_> {
+        Deferred::new(&self.0.is_saving)
     }
 
     /// Checks for a signal. To be called between two steps.
@@ -92,12 +103,19 @@ impl Interrupt {
     }
 }
 
-/// The guard that [`Interrupt::defer`] returns.
-pub struct Deferred<'a>(&'a Interrupt);
+/// Sets a flag until it is dropped.
+pub struct Deferred<'a>(&'a AtomicBool);
+
+impl<'a> Deferred<'a> {
+    fn new(flag: &'a AtomicBool) -> Self {
+        flag.store(true, Ordering::SeqCst);
+        Self(flag)
+    }
+}
 
 impl Drop for Deferred<'_> {
     fn drop(&mut self) {
-        self.0.0.is_deferred.store(false, Ordering::SeqCst);
+        self.0.store(false, Ordering::SeqCst);
     }
 }
 
@@ -109,16 +127,22 @@ impl State {
             end(first, false);
         }
         self.exit_code.store(first, Ordering::SeqCst);
-        let second = self.next(Some(Instant::now() + GRACE));
+        let second = self.next(Some(Instant::now()));
         end(second.unwrap_or(first), true);
     }
 
-    /// Waits for the next signal and returns its exit code; `None` if none arrives before `deadline`.
-    fn next(&self, deadline: Option<Instant>) -> Option<usize> {
+    /// Waits for the next signal and returns its exit code; `None` if none arrives in the time that the work has
+    /// after the first one, which arrived at `first`.
+    fn next(&self, first: Option<Instant>) -> Option<usize> {
+        let mut deadline = first.map(|first| first + GRACE);
         loop {
             let code = self.signal.swap(0, Ordering::SeqCst);
             if code != 0 {
                 return Some(code);
+            }
+            let is_saving = self.is_saving.load(Ordering::SeqCst);
+            if is_saving && first.is_some_and(|first| first.elapsed() < SAVING) {
+                deadline = Some(Instant::now() + GRACE);
             }
             if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
                 return None;

@@ -201,6 +201,7 @@ impl Job<'_> {
                 gpu_bytes: stats.gpu_bytes,
                 host_peak_bytes: report::host_peak_bytes(),
             },
+            resumed: draft.resumed,
             animation: outcome.animation,
             error: None,
         };

@@ -4,6 +4,7 @@ use crate::app::error::AppError;
 use crate::app::legend;
 use crate::app::overrides::picture_size;
 use crate::cli::args::PartFlags;
+use crate::cli::checkpoint::CheckpointFile;
 use crate::cli::destination::Destination;
 use crate::cli::device;
 use crate::cli::interrupt::Interrupt;
@@ -47,29 +48,35 @@ pub fn run(
         .refuse_overwrite(destination.path(), "picture", "-o")?;
     destination.check(size.0, size.1)?;
     job.check_report(draft)?;
+    let mut checkpoint = CheckpointFile::new(&part.checkpoint, destination.path(), draft)?;
 
     let gpu = job.open_gpu(size, draft)?;
     job.announce("", &settings, gpu.adapter());
     let (mut renderer, bvh_seconds) =
         device::renderer(gpu, &job.scene, shutter, settings.clone(), job.policy())?;
     draft.seconds.bvh = bvh_seconds;
+    if let Some(checkpoint) = &mut checkpoint {
+        draft.resumed = checkpoint.resume(&mut renderer, job.console())?;
+    }
     {
         let _deferred = interrupt.defer();
-        trace(job, &mut renderer, &interrupt)?;
-        let started = if destination.is_film() {
-            let mut film = renderer.film()?;
-            film.set_tone(job.tone(&settings, false));
-            let started = Instant::now();
-            destination.save_film(&film)?;
-            started
-        } else {
-            let picture = develop(job, &mut renderer, &settings, destination, &interrupt)?;
-            draft.seconds.denoise = picture.denoise_seconds();
-            let started = Instant::now();
-            destination.save(&picture)?;
-            started
-        };
-        draft.seconds.write = started.elapsed().as_secs_f64();
+        let outcome = trace(job, &mut renderer, &interrupt, checkpoint.as_mut()).and_then(|()| {
+            write(
+                job,
+                &mut renderer,
+                &settings,
+                destination,
+                &interrupt,
+                draft,
+            )
+        });
+        match (outcome, checkpoint) {
+            (Ok(()), Some(checkpoint)) => checkpoint.remove(),
+            (Err(error), Some(mut checkpoint)) => {
+                return Err(checkpoint.keep(&mut renderer, &interrupt, error));
+            }
+            (outcome, None) => outcome?,
+        }
     }
     let stats = renderer.stats();
     draft.seconds.set_render_times(stats);
@@ -137,13 +144,47 @@ fn range(
     Ok(Some(start..end))
 }
 
-fn trace(job: &Job, renderer: &mut Renderer, interrupt: &Interrupt) -> Result<(), AppError> {
+fn trace(
+    job: &Job,
+    renderer: &mut Renderer,
+    interrupt: &Interrupt,
+    mut checkpoint: Option<&mut CheckpointFile>,
+) -> Result<(), AppError> {
     let mut progress = Progress::new(job.log);
     while !renderer.is_done() {
         interrupt.check()?;
         renderer.step()?;
         progress.update(renderer.progress());
+        if let Some(checkpoint) = &mut checkpoint {
+            checkpoint.save_if_due(renderer, interrupt);
+        }
     }
+    Ok(())
+}
+
+/// Writes the finished picture.
+fn write(
+    job: &Job,
+    renderer: &mut Renderer,
+    settings: &RenderSettings,
+    destination: &Destination,
+    interrupt: &Interrupt,
+    draft: &mut Draft,
+) -> Result<(), AppError> {
+    let started = if destination.is_film() {
+        let mut film = renderer.film()?;
+        film.set_tone(job.tone(settings, false));
+        let started = Instant::now();
+        destination.save_film(&film)?;
+        started
+    } else {
+        let picture = develop(job, renderer, settings, destination, interrupt)?;
+        draft.seconds.denoise = picture.denoise_seconds();
+        let started = Instant::now();
+        destination.save(&picture)?;
+        started
+    };
+    draft.seconds.write = started.elapsed().as_secs_f64();
     Ok(())
 }
 

@@ -40,6 +40,9 @@ pub struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_cut: Option<f64>,
     pub memory: Memory,
+    /// The share of the work that was in the checkpoint from which the run went on, 0 to 1; absent without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resumed: Option<f64>,
     /// Present for `animate` and `turntable`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub animation: Option<AnimationReport>,

@@ -1,5 +1,7 @@
 //! Adaptive sampling: decides after each round which pixels need more samples.
 
+mod saved;
+
 use super::{
     Integrator,
     film_tile::FilmTile,

@@ -6,7 +6,7 @@
 
 use super::{
     layers::{self, Layer, SQUARES},
-    sums::{PixelRows, Sums},
+    sums::{PixelRows, SAMPLE_BLOCK, Sums},
 };
 use std::ops::Range;
 
@@ -154,6 +154,13 @@ impl FilmTile {
         let x = group % self.group_columns() * GROUP_SIDE + (bit(0, 0) | bit(2, 1) | bit(4, 2));
         let y = group / self.group_columns() * GROUP_SIDE + (bit(1, 0) | bit(3, 1) | bit(5, 2));
         (x < self.width && y < self.height).then_some([self.x + x, self.y + y])
+    }
+
+    /// The number of blocks that are in [`Self::closed`] before `sample` is taken, a sample after the first: the last
+    /// block of the tile stays open.
+    pub fn closed_blocks(&self, sample: u32) -> u32 {
+        let last = sample.min(self.samples.end - 1);
+        last / SAMPLE_BLOCK - self.samples.start / SAMPLE_BLOCK
     }
 
     /// Finishes a block: adds its sums to the totals.

@@ -3,6 +3,8 @@
 //! Without adaptive sampling there is one round: all samples, tile by tile. With it (adaptive.rs) there are
 //! several rounds, and a tile is a list of the pixels that need more samples.
 
+mod saved;
+
 use super::{
     adaptive::Adaptive,
     film::{Film, FilmError, FilmHeader, Piece},

@@ -47,6 +47,23 @@ impl Slice {
         self.is_done(counters) && counters.cut_off_paths == 0
     }
 
+    /// Whether a slice is a part of this one.
+    pub fn contains(&self, part: &Self) -> bool {
+        let is_within =
+            |first: u32, end: u32, from: u32, to: u32| from <= first && first < end && end <= to;
+        is_within(
+            part.first_group,
+            part.end_group,
+            self.first_group,
+            self.end_group,
+        ) && is_within(
+            part.first_sample,
+            part.end_sample,
+            self.first_sample,
+            self.end_sample,
+        )
+    }
+
     /// Two slices with half of the workgroups each, if there are several.
     pub fn group_halves(&self) -> Option<(Self, Self)> {
         let middle = self.first_group + (self.end_group - self.first_group) / 2;

@@ -32,6 +32,26 @@ pub struct Work {
     running: Option<Running>,
 }
 
+impl Work {
+    /// Work on a slice of which these parts are left, the last one first.
+    pub fn left(slice: Slice, parts: Vec<Slice>) -> Self {
+        Self {
+            slice,
+            parts,
+            running: None,
+        }
+    }
+
+    /// The slice, and the parts of it that are not finished, the last one first.
+    pub fn unfinished(&self) -> (Slice, Vec<Slice>) {
+        let running = self.running.as_ref().map(|running| running.part);
+        (
+            self.slice,
+            self.parts.iter().copied().chain(running).collect(),
+        )
+    }
+}
+
 /// A submitted part.
 struct Running {
     part: Slice,
@@ -70,11 +90,16 @@ impl Renderer {
             Some(work) => work,
             None => self.plan_slice(),
         };
-        if let Some(part) = work.parts.pop() {
-            work.running = Some(self.launch(part)?);
-        }
+        let launched = match work.parts.pop() {
+            Some(part) => self
+                .launch(part)
+                .map(Some)
+                .inspect_err(|_| work.parts.push(part)),
+            None => Ok(None),
+        };
+        let outcome = launched.map(|running| work.running = running);
         self.work = Some(work);
-        Ok(())
+        outcome
     }
 
     /// Collects finished work without waiting for the GPU. If the device is lost and belongs to the renderer,
@@ -128,11 +153,7 @@ impl Renderer {
         let slice = self
             .planner
             .next_slice(group_count, group, sample, sweep_samples);
-        Work {
-            slice,
-            parts: vec![slice],
-            running: None,
-        }
+        Work::left(slice, vec![slice])
     }
 
     fn launch(&mut self, part: Slice) -> Result<Running, RenderError> {
@@ -219,31 +240,42 @@ impl Renderer {
             self.work = None;
             return Ok(());
         }
-        let work = self.work.take();
-        let smaller = if !part.is_done(counters) {
+        let (parts, outcome) = match self.smaller_parts(part, counters) {
+            Ok(parts) => (parts, Ok(())),
+            // The slice is not finished: a checkpoint has what is left of it.
+            Err(error) => (vec![part], Err(error)),
+        };
+        if let Some(work) = &mut self.work {
+            work.parts.extend(parts);
+        }
+        outcome
+    }
+
+    /// What repeats a part that the driver stopped, the last one first.
+    fn smaller_parts(
+        &mut self,
+        part: Slice,
+        counters: &PackedCounters,
+    ) -> Result<Vec<Slice>, RenderError> {
+        if !part.is_done(counters) {
             self.planner.shrink();
             self.stats.count_loss(self.earlier_losses)?;
-            match part.group_halves() {
+            Ok(match part.group_halves() {
                 Some((first, last)) => vec![last, first],
                 None => vec![part],
-            }
+            })
         } else if self.policy.fetch.allows_packets() && self.device.gpu.traces_packets() {
             // The rays of a packet share the loop limit, and a stack of fixed size. The portable kernels fetch
             // the same data.
             self.policy.fetch = Fetch::Image;
             self.prepare_device(false, 0)?;
-            vec![part]
+            Ok(vec![part])
         } else if let Some((earlier, later)) = part.sample_halves() {
             self.planner.shorten_paths();
-            vec![later, earlier]
+            Ok(vec![later, earlier])
         } else {
-            return Err(self.path_too_long());
-        };
-        self.work = work.map(|mut work| {
-            work.parts.extend(smaller);
-            work
-        });
-        Ok(())
+            Err(self.path_too_long())
+        }
     }
 
     /// The error of a sample that exceeds the driver's loop limit.

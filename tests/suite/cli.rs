@@ -1,6 +1,8 @@
 //! The command line as scripts see it: exit codes, messages, files.
 
 mod adapters;
+#[cfg(unix)]
+mod checkpoint;
 mod compare;
 mod convert;
 mod explain;

@@ -6,6 +6,7 @@ mod backgrounds;
 mod bench;
 mod bsdf;
 mod bvh;
+mod checkpoint;
 mod cli;
 mod closed_mirrors;
 mod contact;

@@ -1,5 +1,6 @@
 //! Flags that several commands share, grouped as in their help.
 
+use super::checkpoint::CheckpointFlags;
 use super::values::{self, BACKENDS, FORMATS, PROGRESS, Up};
 use crate::app::layers::{LAYERS, PictureLayer};
 use crate::app::overrides::{CameraOverrides, Exposure, PictureOverrides, ToneOverrides};
@@ -36,7 +37,7 @@ pub struct OutputFlags {
     pub no_clobber: bool,
 }
 
-/// The sample range of a partial rendering.
+/// The sample range of a partial rendering, and the checkpoints of a long one.
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Output")]
 pub struct PartFlags {
@@ -47,6 +48,8 @@ pub struct PartFlags {
     /// [default: all remaining]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
     pub sample_count: Option<u32>,
+    #[command(flatten)]
+    pub checkpoint: CheckpointFlags,
 }
 
 /// Layers of the picture.

@@ -13,6 +13,7 @@ use glam::{DVec3, Vec3};
 use std::fmt::Display;
 use std::num::NonZero;
 use std::str::FromStr;
+use std::time::Duration;
 
 /// Parses one of a setting's names.
 pub fn one_of<T: Clone + Send + Sync>(
@@ -181,6 +182,13 @@ pub fn texture_limit(text: &str) -> Result<NonZero<u32>, String> {
 
 pub fn environment_strength(text: &str) -> Result<f32, String> {
     within(text, 0.0, 1e6, "it")
+}
+
+/// Seconds, with or without an `s`.
+pub fn interval(text: &str) -> Result<Duration, String> {
+    let number = text.trim();
+    let number = number.strip_suffix('s').unwrap_or(number);
+    within(number, 0.01, 1e6, "it").map(Duration::from_secs_f64)
 }
 
 pub fn angle(text: &str) -> Result<f64, String> {

@@ -29,6 +29,8 @@ pub struct Draft<'a> {
     pub inputs: Inputs,
     pub seconds: Seconds,
     pub adapter: Option<Adapter>,
+    /// The share of the work that was in a checkpoint at the start, if there was one.
+    pub resumed: Option<f64>,
     /// Output path.
     image_path: PathBuf,
     image: Option<ImageReport>,
@@ -54,6 +56,7 @@ impl<'a> Draft<'a> {
             inputs: Inputs::default(),
             seconds: Seconds::default(),
             adapter: None,
+            resumed: None,
             image_path: image_path.into(),
             image: None,
             scene: None,
@@ -146,6 +149,9 @@ impl<'a> Draft<'a> {
             "memory": { "gpu_bytes": null, "host_peak_bytes": host_peak_bytes() },
             "error": { "message": error.to_string(), "code": error.exit_code() },
         });
+        if let Some(resumed) = self.resumed {
+            report["resumed"] = json!(resumed);
+        }
         if matches!(self.command, "animate" | "turntable") {
             report["animation"] = Value::Null;
         }

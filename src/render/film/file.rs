@@ -1,27 +1,26 @@
 //! The file format of films. All numbers are little-endian.
 //!
 //! A signature, the version, the header, the coverage band by band, the sums patch by patch, and a 128-bit XXH3
-//! hash of everything before it. Memory grows with the data that is read, not with counts that the file claims.
+//! hash of everything before it.
 
 use super::{
     super::{
-        Fingerprint, Integrator, Tone, layers,
-        sums::{LARGEST, SAMPLE_BLOCK, Sums},
+        Fingerprint, Integrator, Tone,
+        binary::{ReadError, Reader, Writer},
+        layers,
+        sums::SAMPLE_BLOCK,
     },
     Film, FilmError, FilmHeader, FilmOutline,
     coverage::{Coverage, Run, SampleSet},
 };
-use bytemuck::{cast_slice, pod_collect_to_vec};
 use std::{
     collections::BTreeSet,
-    io::{self, ErrorKind, Read, Write},
+    io::{self, Read, Write},
 };
 use xxhash_rust::xxh3::Xxh3;
 
 const SIGNATURE: [u8; 8] = *b"glimfilm";
 const VERSION: u32 = 2;
-/// Maximum number of bytes read at once.
-const STEP: usize = 1 << 16;
 
 impl Film {
     /// Writes the film. Equal films give the same bytes.
@@ -83,14 +82,9 @@ impl Film {
             }
         }
         for sums in &self.sums {
-            match sums {
-                Sums::Block(rows) => out.words(rows.as_flattened(), f32::to_le_bytes)?,
-                Sums::Totals(rows) => out.words(rows.as_flattened(), i128::to_le_bytes)?,
-            }
+            out.sums(sums)?;
         }
-        let digest = out.hash.digest128();
-        out.out.write_all(&digest.to_le_bytes())?;
-        out.out.flush()
+        out.finish()
     }
 
     /// Reads a film written by [`Film::write`], up to the end of `input`.
@@ -107,25 +101,15 @@ impl Film {
         let mut sums = Vec::new();
         for ([.., width, height], samples) in coverage.patches() {
             let pixels = u64::from(width) * u64::from(height);
-            let numbers = pixels * 4 * layers::rows(header.layers) as u64;
-            let sum = match header.is_block(samples) {
-                true => Sums::Block(block(&input.words(numbers, f32::from_le_bytes)?)?),
-                false => {
-                    let most = LARGEST * i128::from(samples.block_count());
-                    Sums::Totals(totals(&input.words(numbers, i128::from_le_bytes)?, most)?)
-                }
+            let rows = pixels * layers::rows(header.layers) as u64;
+            let blocks = match header.is_block(samples) {
+                true => 1,
+                false => samples.block_count(),
             };
+            let sum = input.sums(rows, blocks)?;
             input.push(&mut sums, sum)?;
         }
-        let digest = input.hash.digest128();
-        if u128::from_le_bytes(input.array()?) != digest {
-            return Err(damaged("its checksum is wrong"));
-        }
-        match input.array::<1>() {
-            Err(FilmError::CutShort { .. }) => {}
-            Err(error) => return Err(error),
-            Ok(_) => return Err(damaged("there is data after its end")),
-        }
+        input.finish()?;
         Ok(Self {
             header,
             coverage,
@@ -252,131 +236,25 @@ fn samples<R: Read>(input: &mut Reader<R>, header: &FilmHeader) -> Result<Sample
     Ok(samples)
 }
 
-fn block(numbers: &[f32]) -> Result<Vec<[f32; 4]>, FilmError> {
-    match numbers.iter().all(|number| number.is_finite()) {
-        true => Ok(pod_collect_to_vec(numbers)),
-        false => Err(damaged("it has sums that are not finite")),
-    }
-}
-
-fn totals(numbers: &[i128], most: i128) -> Result<Vec<[i128; 4]>, FilmError> {
-    match numbers.iter().all(|number| (-most..=most).contains(number)) {
-        true => Ok(cast_slice(numbers).to_vec()),
-        false => Err(damaged("it has sums that are too large")),
-    }
-}
-
 fn damaged(why: &'static str) -> FilmError {
     FilmError::Damaged { why }
 }
 
 /// A file too short for the signature is not a film.
-fn no_film(error: FilmError) -> FilmError {
+fn no_film(error: ReadError) -> FilmError {
     match error {
-        FilmError::CutShort { .. } => FilmError::NotAFilm,
-        other => other,
+        ReadError::CutShort { .. } => FilmError::NotAFilm,
+        other => other.into(),
     }
 }
 
-struct Writer<W> {
-    out: W,
-    hash: Xxh3,
-}
-
-impl<W: Write> Writer<W> {
-    fn bytes(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.hash.update(bytes);
-        self.out.write_all(bytes)
-    }
-
-    fn number(&mut self, number: u32) -> io::Result<()> {
-        self.bytes(&number.to_le_bytes())
-    }
-
-    fn text(&mut self, text: &str) -> io::Result<()> {
-        self.number(text.len() as u32)?;
-        self.bytes(text.as_bytes())
-    }
-
-    fn words<T: Copy, const N: usize>(
-        &mut self,
-        words: &[T],
-        bytes: fn(T) -> [u8; N],
-    ) -> io::Result<()> {
-        for part in words.chunks(STEP / N) {
-            let part: Vec<u8> = part.iter().flat_map(|word| bytes(*word)).collect();
-            self.bytes(&part)?;
+impl From<ReadError> for FilmError {
+    fn from(error: ReadError) -> Self {
+        match error {
+            ReadError::CutShort { bytes } => Self::CutShort { bytes },
+            ReadError::Damaged { why } => Self::Damaged { why },
+            ReadError::TooBig { bytes } => Self::TooBig { bytes },
+            ReadError::Io(error) => Self::Io(error),
         }
-        Ok(())
-    }
-}
-
-struct Reader<R> {
-    input: R,
-    hash: Xxh3,
-    /// Bytes read so far.
-    bytes: u64,
-}
-
-impl<R: Read> Reader<R> {
-    fn array<const N: usize>(&mut self) -> Result<[u8; N], FilmError> {
-        let mut array = [0; N];
-        self.fill(&mut array)?;
-        Ok(array)
-    }
-
-    fn number(&mut self) -> Result<u32, FilmError> {
-        Ok(u32::from_le_bytes(self.array()?))
-    }
-
-    fn text(&mut self) -> Result<String, FilmError> {
-        let length = self.number()?;
-        let bytes = self.words(length.into(), |[byte]: [u8; 1]| byte)?;
-        String::from_utf8(bytes).map_err(|_| damaged("it has a name that is not valid text"))
-    }
-
-    /// Reads `count` words, allocating memory only for those present.
-    fn words<T, const N: usize>(
-        &mut self,
-        count: u64,
-        word: fn([u8; N]) -> T,
-    ) -> Result<Vec<T>, FilmError> {
-        let mut words = Vec::new();
-        let mut left = count;
-        let mut buffer = vec![0; STEP.min(N * count.min(STEP as u64) as usize)];
-        while left > 0 {
-            let now = left.min((STEP / N) as u64) as usize;
-            let part = &mut buffer[..N * now];
-            self.fill(part)?;
-            let too_big = FilmError::TooBig { bytes: self.bytes };
-            words.try_reserve(now).map_err(|_| too_big)?;
-            words.extend(part.as_chunks::<N>().0.iter().map(|bytes| word(*bytes)));
-            left -= now as u64;
-        }
-        Ok(words)
-    }
-
-    fn push<T>(&self, list: &mut Vec<T>, item: T) -> Result<(), FilmError> {
-        let too_big = FilmError::TooBig { bytes: self.bytes };
-        list.try_reserve(1).map_err(|_| too_big)?;
-        list.push(item);
-        Ok(())
-    }
-
-    fn fill(&mut self, part: &mut [u8]) -> Result<(), FilmError> {
-        let mut filled = 0;
-        while filled < part.len() {
-            match self.input.read(&mut part[filled..]) {
-                Ok(0) => return Err(FilmError::CutShort { bytes: self.bytes }),
-                Ok(count) => {
-                    filled += count;
-                    self.bytes += count as u64;
-                }
-                Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Err(error) => return Err(error.into()),
-            }
-        }
-        self.hash.update(part);
-        Ok(())
     }
 }
