@@ -149,7 +149,9 @@ impl Tone {
             },
             denoise: false,
         };
-        (tone.numbers() == numbers).then_some(tone)
+        // What is no number would differ from itself.
+        let has_nan = [exposure, least, most].map(f32::from_bits).iter().any(|it| it.is_nan());
+        (tone.numbers() == numbers && !has_nan).then_some(tone)
     }
 
     /// Develops linear radiance to a picture, as [`Renderer::develop`] does with that of a renderer. Opacity is kept.
