@@ -100,7 +100,9 @@ fn depth_first(linked: &[linked::Node]) -> Tree {
     let mut rest = &mut nodes[..];
     let mut before = 0;
     let jobs = (parts.iter().zip(roots)).map(|(part, root)| {
-        let own = std::mem::take(&mut rest).split_at_mut(part.start - before).1;
+        let own = std::mem::take(&mut rest)
+            .split_at_mut(part.start - before)
+            .1;
         let (own, others) = own.split_at_mut(part.len());
         (rest, before) = (others, part.end);
         (root, part.start as u32, own)

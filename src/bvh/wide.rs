@@ -160,6 +160,7 @@ pub fn collapse(tree: &Tree, groups: &[u8], group_count: usize, limits: Limits) 
             piece.grow(nodes, &plans, source, &[]);
             (piece, at)
         });
+        drop(plans);
         top.append(pieces);
     }
     Bvh {
@@ -291,7 +292,9 @@ fn plans(tree: &Tree, groups: &[u8], limits: Limits) -> Vec<Plan> {
     let mut rest = &mut plans[..];
     let mut before = 0;
     let jobs = tree.parts.iter().map(|part| {
-        let from = std::mem::take(&mut rest).split_at_mut(part.start - before).1;
+        let from = std::mem::take(&mut rest)
+            .split_at_mut(part.start - before)
+            .1;
         let (own, others) = from.split_at_mut(part.len());
         (rest, before) = (others, part.end);
         (part.clone(), own)

@@ -37,6 +37,9 @@ pub fn search(boxes: &[Box4], first: usize, near: &mut [i8]) {
     }
 }
 
+/// The lower and the upper sides of boxes along an axis.
+type Sides<'a> = (&'a [f32], &'a [f32]);
+
 /// Boxes from [`RADIUS`] before the block to [`RADIUS`] after it. Where there are none, anything.
 struct Block {
     min: [[f32; BLOCK + 2 * RADIUS]; 3],
@@ -106,9 +109,10 @@ impl Block {
         };
         let [x, y, z] = [0, 1, 2].map(side);
         for (i, area) in areas.iter_mut().enumerate() {
-            let [x, y, z] = [x, y, z].map(|((min, max), (min_after, max_after))| {
+            let extent = |((min, max), (min_after, max_after)): (Sides<'_>, Sides<'_>)| {
                 greater(max[i], max_after[i]) - less(min[i], min_after[i])
-            });
+            };
+            let (x, y, z) = (extent(x), extent(y), extent(z));
             *area = less(x * y + y * z + z * x, f32::MAX);
         }
     }
