@@ -13,10 +13,12 @@ mod wide;
 pub use crate::threads;
 pub use wide::{Child, Children, WideNode};
 
+use binary::Tree;
+use bytemuck::Zeroable;
 use glam::Vec3;
 
 /// An axis-aligned box; `min` ≤ `max` in every component, both finite, except for [`Aabb::EMPTY`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Zeroable)]
 pub struct Aabb {
     /// Lower corner.
     pub min: Vec3,
@@ -85,13 +87,13 @@ pub struct Limits {
 /// If the two slices differ in length.
 pub fn build(boxes: &[Aabb], groups: &[u8], group_count: usize, limits: Limits) -> Bvh {
     assert_eq!(boxes.len(), groups.len());
-    let collapsed = |tree: &[_]| wide::collapse(tree, groups, group_count, limits);
+    let collapsed = |tree: &Tree| wide::collapse(tree, groups, group_count, limits);
     let (tree, work) = binary::build(boxes);
     let mut bvh = collapsed(&tree);
     // Usually a step down the binary tree takes one stack entry, in the worst case three.
     let mut height = limits.stack_size as u32;
     while bvh.stack_need > limits.stack_size && height > 0 {
-        bvh = collapsed(&binary::limit_height(boxes, &tree, height));
+        bvh = collapsed(&binary::limit_height(boxes, &tree.nodes, height));
         height = height * 3 / 4;
     }
     Bvh { work, ..bvh }

@@ -332,7 +332,11 @@ pub fn load_from(
     let bytes = resolver.read(&path, format.limit());
     let bytes = bytes.map_err(|error| format.unreadable(&path, &error))?;
     let files = Files::of(resolver).named_in(&path);
-    format.scene(&path, bytes, options, &files)
+    let options = Options {
+        environment: Environment::default(),
+        ..options.clone()
+    };
+    format.scene(&path, bytes, &options, &files)
 }
 
 /// Parses the scene in `text`, which must not refer to files. `name` stands for the file's path in

@@ -1,14 +1,40 @@
 //! Finished binary trees with one box in every leaf.
 
-use super::{Aabb, linked, ploc, reinsertion};
+use super::{Aabb, linked, linked::LEAF, ploc, reinsertion, threads};
+use bytemuck::{Zeroable, allocation::zeroed_vec};
 use glam::Vec3;
 use std::ops::Range;
 
+/// Nodes of a tree that is not divided into parts.
+const LEAST: usize = 1 << 15;
+
+/// Parts of a tree have their roots this many steps below its root, so that there are some for every core.
+const STEPS: u32 = 8;
+
+/// A tree, in depth-first order.
+#[derive(Debug)]
+pub struct Tree {
+    /// The root is the first.
+    pub nodes: Vec<Node>,
+    /// Subtrees that several threads can work on: disjoint, in order, and the same on every machine.
+    pub parts: Vec<Range<usize>>,
+}
+
+impl Tree {
+    fn undivided(nodes: Vec<Node>) -> Self {
+        Self {
+            nodes,
+            parts: Vec::new(),
+        }
+    }
+}
+
 /// A node of a tree in depth-first order: an inner node is followed by its left subtree.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Zeroable)]
 pub struct Node {
     pub aabb: Aabb,
-    pub kind: Kind,
+    /// The right child, or [`LEAF`] with the index of a box.
+    link: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,11 +45,28 @@ pub enum Kind {
     Inner(u32),
 }
 
+impl Node {
+    fn new(aabb: Aabb, kind: Kind) -> Self {
+        let link = match kind {
+            Kind::Leaf(index) => LEAF | index,
+            Kind::Inner(right) => right,
+        };
+        Self { aabb, link }
+    }
+
+    #[inline(always)]
+    pub fn kind(&self) -> Kind {
+        match self.link & LEAF {
+            0 => Kind::Inner(self.link),
+            _ => Kind::Leaf(self.link & !LEAF),
+        }
+    }
+}
+
 /// A tree of good quality, and the number of pairs of boxes that were compared to build it.
-pub fn build(boxes: &[Aabb]) -> (Vec<Node>, u64) {
+pub fn build(boxes: &[Aabb]) -> (Tree, u64) {
     match boxes.len() {
-        0 => return (Vec::new(), 0),
-        1 => return (balanced(boxes), 0),
+        0 | 1 => return (balanced(boxes), 0),
         _ => {}
     }
     let (mut linked, compared) = ploc::build(boxes);
@@ -32,49 +75,125 @@ pub fn build(boxes: &[Aabb]) -> (Vec<Node>, u64) {
     (depth_first(&linked), compared + tried)
 }
 
-fn depth_first(linked: &[linked::Node]) -> Vec<Node> {
-    let mut tree = Vec::with_capacity(linked.len());
-    // Nodes to add, and the parents of right children.
+/// The same tree in depth-first order.
+fn depth_first(linked: &[linked::Node]) -> Tree {
+    let roots = match linked.len() < LEAST {
+        true => Vec::new(),
+        false => roots_below(linked, STEPS),
+    };
+    let lens = threads::map(roots.clone(), |root| len_below(linked, root));
+    let mut nodes: Vec<Node> = zeroed_vec(linked.len());
+    // The nodes above the parts, and room for these.
+    let (mut parts, mut len) = (Vec::with_capacity(roots.len()), 0);
     let mut open = vec![(0, None)];
     while let Some((source, parent)) = open.pop() {
-        let node: &linked::Node = &linked[source as usize];
-        let index = tree.len() as u32;
-        let kind = match node.is_leaf() {
-            true => Kind::Leaf(node.link & !linked::LEAF),
-            false => {
-                open.push((node.link + 1, Some(index)));
-                open.push((node.link, None));
-                Kind::Inner(u32::MAX)
-            }
-        };
-        let aabb = node.aabb();
-        tree.push(Node {
-            aabb: Aabb {
-                min: aabb.min.into(),
-                max: aabb.max.into(),
-            },
-            kind,
-        });
-        attach(&mut tree, parent, index);
+        attach(&mut nodes, parent, len as u32);
+        if roots.get(parts.len()) == Some(&source) {
+            let end = len + lens[parts.len()];
+            parts.push(len..end);
+            len = end;
+        } else {
+            copy(linked, source, &mut nodes, len as u32, &mut open);
+            len += 1;
+        }
     }
-    tree
+    let mut rest = &mut nodes[..];
+    let mut before = 0;
+    let jobs = (parts.iter().zip(roots)).map(|(part, root)| {
+        let own = std::mem::take(&mut rest)
+            .split_at_mut(part.start - before)
+            .1;
+        let (own, others) = own.split_at_mut(part.len());
+        (rest, before) = (others, part.end);
+        (root, part.start as u32, own)
+    });
+    threads::map(jobs.collect(), |(root, first, own)| {
+        copy_subtree(linked, root, first, own);
+    });
+    Tree { nodes, parts }
+}
+
+/// The inner nodes at this many steps from the root, left to right.
+fn roots_below(linked: &[linked::Node], steps: u32) -> Vec<u32> {
+    let mut roots = vec![0];
+    for _ in 0..steps {
+        let inner = (roots.into_iter()).filter(|&root: &u32| !linked[root as usize].is_leaf());
+        let children = inner.flat_map(|root| [0, 1].map(|i| linked[root as usize].link + i));
+        roots = children.collect();
+    }
+    roots.retain(|&root| !linked[root as usize].is_leaf());
+    roots
+}
+
+/// The number of nodes of a subtree.
+fn len_below(linked: &[linked::Node], root: u32) -> usize {
+    let (mut len, mut open) = (0, vec![root]);
+    while let Some(source) = open.pop() {
+        len += 1;
+        let node = &linked[source as usize];
+        if !node.is_leaf() {
+            open.extend([node.link, node.link + 1]);
+        }
+    }
+    len
+}
+
+/// Copies a subtree to where it has room; the first of its nodes gets the index `first`.
+fn copy_subtree(linked: &[linked::Node], root: u32, first: u32, nodes: &mut [Node]) {
+    // Nodes to copy, and the parents of right children.
+    let mut open = vec![(root, None)];
+    for index in 0..nodes.len() as u32 {
+        let Some((source, parent)) = open.pop() else {
+            return;
+        };
+        copy(linked, source, nodes, index, &mut open);
+        if let Some(parent) = parent {
+            let parent: &mut Node = &mut nodes[parent as usize];
+            parent.link = first + index;
+        }
+    }
+}
+
+/// Copies a node, and leaves its children open.
+#[inline(always)]
+fn copy(
+    linked: &[linked::Node],
+    source: u32,
+    nodes: &mut [Node],
+    index: u32,
+    open: &mut Vec<(u32, Option<u32>)>,
+) {
+    let node = &linked[source as usize];
+    if !node.is_leaf() {
+        open.push((node.link + 1, Some(index)));
+        open.push((node.link, None));
+    }
+    let aabb = node.aabb();
+    nodes[index as usize] = Node {
+        aabb: Aabb {
+            min: aabb.min.into(),
+            max: aabb.max.into(),
+        },
+        // Of an inner node, until its right child has a place.
+        link: node.link,
+    };
 }
 
 /// Records the right child of a node.
 fn attach(tree: &mut [Node], parent: Option<u32>, right: u32) {
     if let Some(parent) = parent {
-        tree[parent as usize].kind = Kind::Inner(right);
+        tree[parent as usize].link = right;
     }
 }
 
 /// A tree of logarithmic height, by halving along the longest axis of the boxes' centres.
-pub fn balanced(boxes: &[Aabb]) -> Vec<Node> {
+fn balanced(boxes: &[Aabb]) -> Tree {
     let mut tree = Vec::with_capacity(2 * boxes.len());
     let mut indices: Vec<u32> = (0..boxes.len() as u32).collect();
     if !indices.is_empty() {
         halve(boxes, &mut indices, &mut tree);
     }
-    tree
+    Tree::undivided(tree)
 }
 
 /// Appends a balanced tree over some of the boxes, at least one.
@@ -97,7 +216,7 @@ fn halve(boxes: &[Aabb], indices: &mut [u32], tree: &mut Vec<Node>) {
             open.push((range.start..split, None));
             Kind::Inner(u32::MAX)
         };
-        tree.push(Node { aabb, kind });
+        tree.push(Node::new(aabb, kind));
         attach(tree, parent, index);
     }
 }
@@ -112,11 +231,11 @@ fn longest_axis_of_centers(boxes: impl Iterator<Item = Aabb>) -> usize {
 
 /// The same tree with subtrees replaced by balanced ones as far down as possible, such that no leaf is more than
 /// `height` steps below the root; or a balanced tree where that is impossible.
-pub fn limit_height(boxes: &[Aabb], tree: &[Node], height: u32) -> Vec<Node> {
+pub fn limit_height(boxes: &[Aabb], tree: &[Node], height: u32) -> Tree {
     // Of each subtree, the number of steps to its deepest leaf and the index after its last node.
     let mut shapes = vec![(0u32, 0u32); tree.len()];
     for (index, node) in tree.iter().enumerate().rev() {
-        shapes[index] = match node.kind {
+        shapes[index] = match node.kind() {
             Kind::Leaf(_) => (0, index as u32 + 1),
             Kind::Inner(right) => {
                 let (left, right) = (shapes[index + 1], shapes[right as usize]);
@@ -135,13 +254,13 @@ pub fn limit_height(boxes: &[Aabb], tree: &[Node], height: u32) -> Vec<Node> {
         let index = limited.len() as u32;
         let (tall, end) = shapes[source as usize];
         let part = &tree[source as usize..end as usize];
-        match part[0].kind {
-            _ if tall <= left => limited.extend(part.iter().map(|node| Node {
-                kind: match node.kind {
+        match part[0].kind() {
+            _ if tall <= left => limited.extend(part.iter().map(|node| {
+                let kind = match node.kind() {
                     Kind::Inner(right) => Kind::Inner(right - source + index),
                     leaf => leaf,
-                },
-                ..*node
+                };
+                Node::new(node.aabb, kind)
             })),
             Kind::Inner(right) if least(source + 1).max(least(right)) < left => {
                 limited.push(part[0]);
@@ -150,7 +269,7 @@ pub fn limit_height(boxes: &[Aabb], tree: &[Node], height: u32) -> Vec<Node> {
             }
             _ => {
                 let mut leaves: Vec<_> = (part.iter())
-                    .filter_map(|node| match node.kind {
+                    .filter_map(|node| match node.kind() {
                         Kind::Leaf(index) => Some(index),
                         Kind::Inner(_) => None,
                     })
@@ -160,5 +279,5 @@ pub fn limit_height(boxes: &[Aabb], tree: &[Node], height: u32) -> Vec<Node> {
         }
         attach(&mut limited, parent, index);
     }
-    limited
+    Tree::undivided(limited)
 }

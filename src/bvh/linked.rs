@@ -1,12 +1,13 @@
 //! Binary trees under construction: siblings are neighbours, and every node knows its parent.
 
+use bytemuck::Zeroable;
 use glam::{Vec3, Vec3A};
 
 /// In [`Node::link`]: the node is a leaf, and the other bits are the index of its box.
 pub const LEAF: u32 = 1 << 31;
 
 /// A node. Node 0 is the root; its parent is 0.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Zeroable)]
 #[repr(C, align(16))]
 pub struct Node {
     min: Vec3,
@@ -17,7 +18,7 @@ pub struct Node {
 }
 
 /// A box in SIMD registers.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Zeroable)]
 pub struct Box4 {
     pub min: Vec3A,
     pub max: Vec3A,

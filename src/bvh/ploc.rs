@@ -5,26 +5,27 @@
 //! its own, and a pass merges only the first two. Ties are therefore broken in favour of disjoint pairs, and
 //! long chains of preferences are cut into pairs, so that the number of passes stays logarithmic.
 
+mod search;
+
 use super::{
     Aabb,
     linked::{Box4, LEAF, Node},
     threads,
 };
-
-/// How far along the curve neighbours are searched, in either direction.
-const RADIUS: usize = 14;
+use bytemuck::allocation::zeroed_vec;
+use search::search;
 
 /// A preference is part of a long chain if this many steps along it do not lead to a pair.
 const CHAIN: usize = 6;
 
-/// Rows of areas that a search remembers; a power of two greater than [`RADIUS`].
-const ROWS: usize = 16;
-
 /// The nodes over at least one box, without parents, and the number of pairs of boxes that were compared.
 pub fn build(boxes: &[Aabb]) -> (Vec<Node>, u64) {
-    let mut nodes = vec![Node::default(); 2 * boxes.len() - 1];
+    let mut nodes: Vec<Node> = zeroed_vec(2 * boxes.len() - 1);
     let mut clusters = along_curve(boxes);
-    let mut next = Clusters::default();
+    let mut next = Clusters {
+        boxes: zeroed_vec(boxes.len()),
+        links: zeroed_vec(boxes.len()),
+    };
     let mut near = vec![0i8; boxes.len()];
     let mut end = nodes.len();
     let mut work = 0;
@@ -32,13 +33,13 @@ pub fn build(boxes: &[Aabb]) -> (Vec<Node>, u64) {
         let count = clusters.boxes.len();
         let near = &mut near[..count];
         threads::for_chunks(near, |first, near| search(&clusters.boxes, first, near));
-        work += (count * RADIUS) as u64;
+        work += (count * search::RADIUS) as u64;
         // A pass over a mesh usually merges more than half of the boxes.
         let mut pairs = count_pairs(near);
         if pairs < count / 6 {
             pairs += cut_chains(near);
         }
-        next.resize(count - pairs);
+        next.truncate(count - pairs);
         let first = end - 2 * pairs;
         merge(&clusters, near, &mut next, &mut nodes[first..end], first);
         end = first;
@@ -49,16 +50,15 @@ pub fn build(boxes: &[Aabb]) -> (Vec<Node>, u64) {
 }
 
 /// Roots of the subtrees that are not yet merged.
-#[derive(Default)]
 struct Clusters {
     boxes: Vec<Box4>,
     links: Vec<u32>,
 }
 
 impl Clusters {
-    fn resize(&mut self, count: usize) {
-        self.boxes.resize(count, Box4::default());
-        self.links.resize(count, 0);
+    fn truncate(&mut self, count: usize) {
+        self.boxes.truncate(count);
+        self.links.truncate(count);
     }
 }
 
@@ -95,40 +95,6 @@ fn spread_bits(x: u64) -> u64 {
     let x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
     let x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
     (x | x << 2) & 0x1249_2492_4924_9249
-}
-
-/// For each box from `first` on, the distance to the neighbour with which its joint box is smallest. Among
-/// equal ones the nearest wins, and among two at the same distance d the one in the same pair when every d
-/// boxes are paired with the next d. All preferences then lead to a pair that prefer each other.
-fn search(boxes: &[Box4], first: usize, near: &mut [i8]) {
-    // For each recent box, the area of the joint box with the one at each distance after it.
-    let mut rows = [[f32::INFINITY; ROWS]; ROWS];
-    let fill = |row: &mut [f32; ROWS], index: usize| {
-        let after = &boxes[index + 1..boxes.len().min(index + 1 + RADIUS)];
-        for (slot, other) in row[1..].iter_mut().zip(after) {
-            *slot = boxes[index].union(other).half_area();
-        }
-        row[1 + after.len()..=RADIUS].fill(f32::INFINITY);
-    };
-    for index in first.saturating_sub(RADIUS)..first {
-        fill(&mut rows[index % ROWS], index);
-    }
-    for (index, near) in (first..).zip(near) {
-        fill(&mut rows[index % ROWS], index);
-        let (mut best, mut least) = (0, f32::INFINITY);
-        for distance in 1..=RADIUS {
-            let before = rows[index.wrapping_sub(distance) % ROWS][distance];
-            let after = rows[index % ROWS][distance];
-            if before < least {
-                (best, least) = (-(distance as i8), before);
-            }
-            let is_tie = after == least && best == -(distance as i8);
-            if after < least || is_tie && (index / distance).is_multiple_of(2) {
-                (best, least) = (distance as i8, after);
-            }
-        }
-        *near = best;
-    }
 }
 
 /// The place that a box prefers.

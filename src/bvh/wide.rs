@@ -2,9 +2,11 @@
 
 use super::{
     Aabb, Bvh, Limits,
-    binary::{Kind, Node},
+    binary::{Kind, Node, Tree},
+    threads,
 };
-use std::ops::Deref;
+use bytemuck::{Zeroable, allocation::zeroed_vec};
+use std::ops::{Deref, Range};
 
 /// Cost of visiting a node, in primitive tests.
 const NODE_COST: f32 = 1.0;
@@ -73,7 +75,7 @@ pub enum Child {
 }
 
 /// How a subtree is best represented by children of a node (after Ylitie, Karras, Laine 2017, section 3.1).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Zeroable)]
 struct Plan {
     /// Expected cost of a ray that hits it, times its area, when it becomes at most 1, 2 or 3 children.
     costs: [f32; 3],
@@ -147,61 +149,190 @@ impl Plan {
 }
 
 /// The tree of least expected cost that four-way nodes can make of a binary one.
-pub fn collapse(tree: &[Node], groups: &[u8], group_count: usize, limits: Limits) -> Bvh {
-    let mut nodes = Vec::with_capacity(tree.len() / 4 + 1);
-    nodes.push(WideNode::default());
-    let mut bvh = Bvh {
-        nodes,
-        order: vec![Vec::new(); group_count],
-        stack_need: 1,
+pub fn collapse(tree: &Tree, groups: &[u8], group_count: usize, limits: Limits) -> Bvh {
+    let nodes = &tree.nodes[..];
+    let mut top = Piece::new(nodes.len() / 4, group_count);
+    if !nodes.is_empty() {
+        let plans = plans(tree, groups, limits);
+        let below = top.grow(nodes, &plans, 0, &tree.parts);
+        let pieces = threads::map(below, |(source, at)| {
+            let mut piece = Piece::new(0, group_count);
+            piece.grow(nodes, &plans, source, &[]);
+            (piece, at)
+        });
+        drop(plans);
+        top.append(pieces);
+    }
+    Bvh {
+        stack_need: stack_need(&top.nodes),
+        nodes: top.nodes,
+        order: top.order,
         work: 0,
-    };
-    if tree.is_empty() {
-        return bvh;
     }
-    let plans = plans(tree, groups, limits);
-    let mut open = vec![(0u32, 0usize)];
-    while let Some((binary, wide)) = open.pop() {
-        let (parts, count) = divide(tree, &plans, binary);
-        let mut children = Children::default();
-        for &source in &parts[..count] {
-            let plan = &plans[source as usize];
-            let child = if plan.is_leaf {
-                let order = &mut bvh.order[plan.group as usize];
-                let first = order.len() as u32;
-                order.extend(boxes_below(tree, source, plan.count));
-                Child::Leaf {
-                    group: plan.group,
-                    first,
-                    count: plan.count.into(),
-                }
-            } else {
-                bvh.nodes.push(WideNode::default());
-                let index = bvh.nodes.len() - 1;
-                open.push((source, index));
-                Child::Node(index as u32)
-            };
-            children.push(tree[source as usize].aabb, child);
-        }
-        bvh.nodes[wide].children = children;
-    }
-    bvh.stack_need = stack_need(&bvh.nodes);
-    bvh
 }
 
-/// Plans for all subtrees. Children come after their parents, so a single backward pass suffices.
-fn plans(tree: &[Node], groups: &[u8], limits: Limits) -> Vec<Plan> {
-    let mut plans = vec![Plan::default(); tree.len()];
-    for (index, node) in tree.iter().enumerate().rev() {
+/// A part of a tree under construction, as [`Bvh`] has all of it.
+struct Piece {
+    nodes: Vec<WideNode>,
+    order: Vec<Vec<u32>>,
+}
+
+impl Piece {
+    /// One node without children, and room for more.
+    fn new(room: usize, group_count: usize) -> Self {
+        let mut nodes = Vec::with_capacity(1 + room);
+        nodes.push(WideNode::default());
+        Self {
+            nodes,
+            order: vec![Vec::new(); group_count],
+        }
+    }
+
+    /// Makes the first node that of a subtree, and adds those below it, except for those in `parts`: returns the roots
+    /// of these with their nodes, which have no children yet.
+    fn grow(
+        &mut self,
+        tree: &[Node],
+        plans: &[Plan],
+        root: u32,
+        parts: &[Range<usize>],
+    ) -> Vec<(u32, usize)> {
+        let mut open = vec![(root, 0)];
+        let mut left_out = Vec::new();
+        while let Some((binary, wide)) = open.pop() {
+            if is_in(parts, binary as usize) {
+                left_out.push((binary, wide));
+                continue;
+            }
+            let (sources, count) = divide(tree, plans, binary);
+            let mut children = Children::default();
+            for &source in &sources[..count] {
+                let plan = &plans[source as usize];
+                let child = if plan.is_leaf {
+                    let order = &mut self.order[plan.group as usize];
+                    let first = order.len() as u32;
+                    order.extend(boxes_below(tree, source, plan.count));
+                    Child::Leaf {
+                        group: plan.group,
+                        first,
+                        count: plan.count.into(),
+                    }
+                } else {
+                    self.nodes.push(WideNode::default());
+                    let index = self.nodes.len() - 1;
+                    open.push((source, index));
+                    Child::Node(index as u32)
+                };
+                children.push(tree[source as usize].aabb, child);
+            }
+            self.nodes[wide].children = children;
+        }
+        left_out
+    }
+
+    /// Appends pieces, the first node of each in the place of a node that there is.
+    fn append(&mut self, pieces: Vec<(Self, usize)>) {
+        let mut len = self.nodes.len();
+        let mut jobs = Vec::with_capacity(pieces.len());
+        for (mut piece, at) in pieces {
+            let first: Vec<_> = self.order.iter().map(|order| order.len() as u32).collect();
+            for (order, own) in self.order.iter_mut().zip(&piece.order) {
+                order.extend_from_slice(own);
+            }
+            let moved = Moved {
+                nodes: len as u32,
+                order: first,
+            };
+            moved.apply(&mut piece.nodes[..1]);
+            self.nodes[at] = piece.nodes[0];
+            len += piece.nodes.len() - 1;
+            jobs.push((piece.nodes, moved));
+        }
+        let pieces = threads::map(jobs, |(mut nodes, moved)| {
+            moved.apply(&mut nodes[1..]);
+            nodes
+        });
+        self.nodes.reserve_exact(len - self.nodes.len());
+        for nodes in pieces {
+            self.nodes.extend_from_slice(&nodes[1..]);
+        }
+    }
+}
+
+/// Where a piece has come to lie: the place of its second node, and that of its first box in each group.
+struct Moved {
+    nodes: u32,
+    order: Vec<u32>,
+}
+
+impl Moved {
+    fn apply(&self, nodes: &mut [WideNode]) {
+        for node in nodes {
+            let count = node.children.count as usize;
+            for (_, child) in &mut node.children.list[..count] {
+                match child {
+                    Child::Node(index) => *index += self.nodes - 1,
+                    Child::Leaf { group, first, .. } => *first += self.order[usize::from(*group)],
+                }
+            }
+        }
+    }
+}
+
+/// Whether a node is in one of the parts, which are in order.
+fn is_in(parts: &[Range<usize>], node: usize) -> bool {
+    let after = parts.partition_point(|part| part.start <= node);
+    after > 0 && node < parts[after - 1].end
+}
+
+/// Plans for all subtrees: first for those that several threads can work on, then for those above them.
+fn plans(tree: &Tree, groups: &[u8], limits: Limits) -> Vec<Plan> {
+    let nodes = &tree.nodes[..];
+    let mut plans: Vec<Plan> = zeroed_vec(nodes.len());
+    let mut rest = &mut plans[..];
+    let mut before = 0;
+    let jobs = tree.parts.iter().map(|part| {
+        let from = std::mem::take(&mut rest)
+            .split_at_mut(part.start - before)
+            .1;
+        let (own, others) = from.split_at_mut(part.len());
+        (rest, before) = (others, part.end);
+        (part.clone(), own)
+    });
+    threads::map(jobs.collect(), |(part, plans)| {
+        plan(nodes, groups, limits, part.clone(), plans, part.start);
+    });
+    let ends = tree.parts.iter().map(|part| part.end);
+    let starts = tree.parts.iter().map(|part| part.start);
+    let above = std::iter::once(0).chain(ends);
+    let above: Vec<_> = above.zip(starts.chain([nodes.len()])).collect();
+    for (start, end) in above.into_iter().rev() {
+        plan(nodes, groups, limits, start..end, &mut plans, 0);
+    }
+    plans
+}
+
+/// Plans for a range of nodes. Children come after their parents, so a single backward pass suffices. `plans` are
+/// those of the nodes from `first` on.
+fn plan(
+    tree: &[Node],
+    groups: &[u8],
+    limits: Limits,
+    range: Range<usize>,
+    plans: &mut [Plan],
+    first: usize,
+) {
+    for index in range.rev() {
+        let node = &tree[index];
         let area = node.aabb.half_area();
-        plans[index] = match node.kind {
+        plans[index - first] = match node.kind() {
             Kind::Leaf(of) => Plan::of_box(area, groups[of as usize]),
             Kind::Inner(right) => {
-                Plan::of_subtrees(area, &plans[index + 1], &plans[right as usize], limits)
+                let left = &plans[index + 1 - first];
+                Plan::of_subtrees(area, left, &plans[right as usize - first], limits)
             }
         };
     }
-    plans
 }
 
 /// The one to four subtrees that become the children of the wide node for a subtree.
@@ -213,7 +344,7 @@ fn divide(tree: &[Node], plans: &[Plan], root: u32) -> ([u32; 4], usize) {
         waiting -= 1;
         let (source, slots) = open[waiting];
         let plan = &plans[source as usize];
-        match tree[source as usize].kind {
+        match tree[source as usize].kind() {
             Kind::Inner(right) if slots > 1 && !(plan.is_leaf && source == root) => {
                 match plan.left_of(slots) {
                     0 => {
@@ -240,7 +371,7 @@ fn divide(tree: &[Node], plans: &[Plan], root: u32) -> ([u32; 4], usize) {
 fn boxes_below(tree: &[Node], root: u32, count: u8) -> impl Iterator<Item = u32> {
     let boxes = tree[root as usize..]
         .iter()
-        .filter_map(|node| match node.kind {
+        .filter_map(|node| match node.kind() {
             Kind::Leaf(index) => Some(index),
             Kind::Inner(_) => None,
         });

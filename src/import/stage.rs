@@ -1,7 +1,7 @@
 //! View and light for models that have none: a camera that frames the model; two soft lights and a gradient, or a sky
 //! with a sun where paths are traced; and a ground that receives the model's shadow.
 
-use super::{Options, Staging};
+use super::Options;
 use crate::scene::{
     Attenuation, Background, Camera, Framing, Geometry, Light, LightKind, LightTransport, Material,
     Scene, Shape, sky,
@@ -31,7 +31,7 @@ pub(super) fn complete(scene: &mut Scene, options: &Options) {
     }
     if scene.lights.is_empty() {
         let integrator = options.integrator.unwrap_or(scene.output.integrator);
-        light(scene, staging, integrator);
+        light(scene, options, integrator);
     }
     scene.output.samples = scene.default_samples().max(4);
 }
@@ -69,10 +69,6 @@ const LIGHTS: [(DVec3, f64, u32, Vec3); 2] = [
 ];
 const AMBIENT: Vec3 = Vec3::new(0.19, 0.20, 0.22);
 
-/// Where the sun stands, in degrees; see [`sky::towards_sun`].
-const SUN_ELEVATION: f64 = 45.0;
-const SUN_AZIMUTH: f64 = -135.0;
-
 /// The exposure in stops that makes white paper in this sun nearly white with the tone curve of paths.
 const SKY_EXPOSURE: f32 = 0.5;
 
@@ -82,7 +78,8 @@ const TOP: Vec3 = Vec3::new(0.60, 0.60, 0.61);
 
 /// Adds lights, a background and a ground around the bounds of `scene`. Lights come from the side of the
 /// default camera and do not fade, so that large and small models are lit alike.
-fn light(scene: &mut Scene, staging: Staging, integrator: LightTransport) {
+fn light(scene: &mut Scene, options: &Options, integrator: LightTransport) {
+    let staging = options.staging;
     let bounds = scene.bounds_over_time();
     let (min, max) = bounds.unwrap_or((DVec3::NEG_ONE, DVec3::ONE));
     let center = min.midpoint(max);
@@ -91,7 +88,10 @@ fn light(scene: &mut Scene, staging: Staging, integrator: LightTransport) {
     let radius = radius.max(1e-6 * center.abs().max_element().max(1e-6));
     let has_sky = integrator == LightTransport::Path && staging.lights && staging.background;
     if has_sky {
-        scene.background = sky(scene);
+        // Another environment replaces it.
+        if options.environment.source.is_none() {
+            scene.background = sky(scene);
+        }
         scene.output.exposure_ev = SKY_EXPOSURE;
     } else if staging.lights {
         let distance = DISTANCE * radius;
@@ -147,8 +147,8 @@ fn light(scene: &mut Scene, staging: Staging, integrator: LightTransport) {
 /// A clear sky with the sun at the left behind the default camera.
 fn sky(scene: &mut Scene) -> Background {
     scene.pictures.push(Arc::new(sky::picture(
-        SUN_ELEVATION.to_radians(),
-        SUN_AZIMUTH.to_radians(),
+        sky::SUN_ELEVATION_DEG.to_radians(),
+        sky::SUN_AZIMUTH_DEG.to_radians(),
     )));
     Background::Picture {
         picture: scene.pictures.len() - 1,

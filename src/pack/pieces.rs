@@ -86,7 +86,9 @@ impl Divided {
         divided.dedup();
         let is_whole = |triangle: &u32| divided.binary_search(triangle).is_err();
         let whole: Vec<_> = (0..boxes.len() as u32).filter(is_whole).collect();
-        for (place, &triangle) in whole.iter().enumerate() {
+        // The boxes before the first that is divided are in their places.
+        let first = divided.first().map_or(whole.len(), |it| *it as usize);
+        for (place, &triangle) in whole.iter().enumerate().skip(first) {
             boxes[place] = boxes[triangle as usize];
         }
         boxes.truncate(whole.len());

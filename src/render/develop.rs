@@ -149,7 +149,9 @@ impl Tone {
             },
             denoise: false,
         };
-        (tone.numbers() == numbers).then_some(tone)
+        // A tone with a NaN would differ from itself.
+        let numbers_are = [exposure, least, most].map(|bits| !f32::from_bits(bits).is_nan());
+        (tone.numbers() == numbers && numbers_are == [true; 3]).then_some(tone)
     }
 
     /// Develops linear radiance to a picture, as [`Renderer::develop`] does with that of a renderer. Opacity is kept.

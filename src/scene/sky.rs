@@ -19,6 +19,11 @@ const TURBIDITY: f64 = 3.0;
 /// The luminance of 1 in the picture, in cd/m².
 pub const UNIT: f64 = 25_000.0;
 
+/// Where the sun stands unless something else is asked for, in degrees: at the left behind the camera of a model.
+pub const SUN_ELEVATION_DEG: f64 = 45.0;
+/// See [`SUN_ELEVATION_DEG`].
+pub const SUN_AZIMUTH_DEG: f64 = -135.0;
+
 /// Angular radius of the sun's disc in radians: half of 0.53°.
 pub const SUN_RADIUS: f64 = 0.265 * PI / 180.0;
 

@@ -9,7 +9,8 @@ use glimray::import::{self, Environment, EnvironmentSource, ImportError, Options
 use glimray::pack;
 use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{
-    Antialias, Attenuation, Background, Camera, Light, LightKind, Material, Picture, Scene, sky,
+    Antialias, Attenuation, Background, Camera, Light, LightKind, LightTransport, Material,
+    Picture, Scene, sky,
 };
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path;
@@ -352,6 +353,45 @@ fn with_environment(
         ..Options::default()
     };
     import::load_with(&path, &options)
+}
+
+#[test]
+fn no_sky_is_made_where_an_environment_replaces_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("model.stl");
+    let text = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+    std::fs::write(&path, text).expect("a file");
+    let file = folder.path().join("grey.exr");
+    let image = image::Rgb32FImage::from_pixel(8, 4, image::Rgb([0.5; 3]));
+    image.save(&file).expect("a picture");
+    let load = |source| {
+        let options = Options {
+            integrator: Some(LightTransport::Path),
+            environment: Environment {
+                source,
+                ..Environment::default()
+            },
+            ..Options::default()
+        };
+        import::load_with(&path, &options).expect("a scene")
+    };
+    let under_sky = load(None);
+    let replaced = load(Some(EnvironmentSource::File(file)));
+    assert_eq!((under_sky.pictures.len(), replaced.pictures.len()), (1, 1));
+    assert_eq!(
+        (replaced.pictures[0].width, replaced.pictures[0].height),
+        (8, 4)
+    );
+    let Background::Picture { picture, .. } = replaced.background else {
+        panic!("{:?}", replaced.background);
+    };
+    assert_eq!(picture, 0);
+    // The default place of the sun is that of `--environment sky`.
+    let asked = load(Some(EnvironmentSource::Sky {
+        elevation_deg: sky::SUN_ELEVATION_DEG,
+        azimuth_deg: sky::SUN_AZIMUTH_DEG,
+    }));
+    assert_eq!(asked.pictures, under_sky.pictures);
 }
 
 const BALL: &str =

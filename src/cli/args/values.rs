@@ -7,7 +7,7 @@ use crate::gpu::Backend;
 use crate::import::{Axis, EnvironmentSource};
 use crate::output::Format;
 use crate::output::video::VideoFormat;
-use crate::scene::Shutter;
+use crate::scene::{Shutter, sky};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec3, Vec3};
 use std::fmt::Display;
@@ -215,8 +215,8 @@ pub fn environment(text: &str) -> Result<EnvironmentSource, String> {
     };
     let of_sun = |text: &str| within(text, 0.0, 90.0, "the elevation");
     Ok(EnvironmentSource::Sky {
-        elevation_deg: or(elevation, 45.0, of_sun)?,
-        azimuth_deg: or(azimuth, -135.0, |text| {
+        elevation_deg: or(elevation, sky::SUN_ELEVATION_DEG, of_sun)?,
+        azimuth_deg: or(azimuth, sky::SUN_AZIMUTH_DEG, |text| {
             within(text, -360.0, 360.0, "the azimuth")
         })?,
     })
