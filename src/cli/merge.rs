@@ -5,6 +5,7 @@ use crate::app::inputs::Inputs;
 use crate::cli::args::MergeArgs;
 use crate::cli::destination::Destination;
 use crate::cli::interrupt::Interrupt;
+use crate::cli::job;
 use crate::gpu::Gpu;
 use crate::render::{Film, FilmError, FilmHeader, Missing};
 use crate::scene::OutputDefaults;
@@ -46,6 +47,9 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
         destination.path(),
         destination.takes_layers(),
     )?;
+    if film.header().has_opacity() && !destination.takes_opacity() {
+        return Err(AppError::Usage(job::no_opacity(destination.path())));
+    }
     let (width, height) = film.header().size;
     destination.check(width, height)?;
     if destination.is_film() {

@@ -11,11 +11,14 @@ use std::io::Cursor;
 
 /// The contents of the file. Opacity is kept if the format supports it and any pixel is not opaque.
 pub(super) fn encode(image: &Image, format: Format, quality: u8) -> Result<Vec<u8>, OutputError> {
-    let alpha = matches!(format, Format::Png | Format::Exr) && !image.is_opaque();
+    let alpha = format.has_opacity() && !image.is_opaque();
     let pixels = match (format, alpha) {
         (Format::Png, true) => raster(image, |p| Rgba(p.map(level))),
         (Format::Png | Format::Jpeg, _) => raster(image, |p| Rgb(rgb(p).map(level))),
-        (Format::Exr, true) => raster(image, Rgba),
+        (Format::Exr, true) => {
+            let pixels = image.premultiplied().collect();
+            raster(&Image { pixels, ..*image }, Rgba)
+        }
         (Format::Exr, false) => raster(image, |p| Rgb(rgb(p))),
         // `max` also turns a NaN into 0.
         (Format::Hdr, _) => raster(image, |p| Rgb(rgb(p).map(|v| v.max(0.0)))),

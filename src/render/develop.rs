@@ -6,8 +6,9 @@ use super::{
     bindings::Buffers,
     film_tile::{FilmTile, rectangles},
     fingerprint::Encoder,
+    layers,
     layouts::{Layouts, group},
-    levels, pipelines,
+    levels, opacity, pipelines,
     slice::Slice,
     sums::PixelRows,
 };
@@ -247,6 +248,9 @@ impl Renderer {
             let image = features.picture().denoised(self.gpu(), &features)?;
             return tone.develop(self.gpu(), &image);
         }
+        if let Some(image) = self.transparent_picture()? {
+            return tone.develop(self.gpu(), &image);
+        }
         let is_direct = self.shows_directly();
         match is_direct {
             true => self.wait()?,
@@ -282,6 +286,17 @@ impl Renderer {
             })?;
         }
         Ok(image)
+    }
+
+    /// The picture so far in linear radiance, if it has opacity.
+    fn transparent_picture(&mut self) -> Result<Option<Image>, RenderError> {
+        if !self.settings.has_opacity() {
+            return Ok(None);
+        }
+        self.fetch_film()?;
+        let layers = layers::of_pictures(&self.settings);
+        let rows = self.tiles.rows(layers);
+        Ok(opacity::picture(self.settings.region(), layers, rows))
     }
 
     /// Develops the film tile that is in the film buffer to its part of a picture.

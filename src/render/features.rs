@@ -3,6 +3,8 @@
 use super::{
     RenderError, Renderer, Tone,
     layers::{self, Layer},
+    luminance::luminance,
+    opacity::{opacity, straight},
 };
 use crate::image::Image;
 
@@ -18,11 +20,14 @@ pub struct Features {
 }
 
 impl Features {
-    /// The picture that was rendered: linear radiance.
+    /// The picture that was rendered: linear radiance and opacity.
     pub fn picture(&self) -> Image {
         let pixel = |pixel: &PixelFeatures| {
             let [r, g, b] = pixel.radiance;
-            [r, g, b, 1.0]
+            match pixel.opacity < 1.0 {
+                true => straight(pixel.radiance, pixel.opacity),
+                false => [r, g, b, 1.0],
+            }
         };
         Image {
             width: self.width,
@@ -36,8 +41,10 @@ impl Features {
 /// and `material` are those of the first surface of the sample nearest the centre, and 0 where that hits nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PixelFeatures {
-    /// Mean linear radiance, not negative.
+    /// Mean linear radiance, not negative; of a transparent picture, what that adds to the light behind it.
     pub radiance: [f32; 3],
+    /// 0 to 1; see [`crate::scene::Backdrop::Transparent`].
+    pub opacity: f32,
     /// Mean albedo of what is seen through mirrors and clear glass, 0 to 1; of light its radiance, at most 1.
     pub albedo: [f32; 3],
     /// Mean shading normal in world space, at most 1 long.
@@ -67,6 +74,7 @@ pub struct PixelFeatures {
 /// Where the features are among the rows of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Places {
+    opacity: Option<usize>,
     squares: usize,
     albedo: usize,
     normal: usize,
@@ -81,6 +89,7 @@ impl Places {
     pub fn new(layers: &[&Layer]) -> Option<Self> {
         let at = |layer| layers::row_of(layers, layer);
         Some(Self {
+            opacity: at(&layers::OPACITY),
             squares: at(&layers::SQUARES)?,
             albedo: at(&layers::ALBEDO)?,
             normal: at(&layers::NORMAL)?,
@@ -108,13 +117,13 @@ impl Places {
             Some(_) => rows[self.squares][0],
             None => rows[self.squares][0] / samples.max(1.0),
         };
-        let [r, g, b] = whole;
-        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let luminance = luminance(whole);
         let variance = (squares - luminance * luminance).max(0.0) / (samples - 1.0).max(1.0);
         let first = &rows[self.first..];
         let [x, y, z, depth] = first[1];
         PixelFeatures {
             radiance: single(whole),
+            opacity: (self.opacity).map_or(1.0, |row| opacity(weight, &rows[row..])),
             albedo: single(mean(self.albedo)),
             normal: single(mean(self.normal)),
             direct: single(direct),

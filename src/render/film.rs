@@ -78,6 +78,11 @@ impl FilmHeader {
         self.layers.contains(&&layers::COUNT)
     }
 
+    /// Whether the picture has opacity: see [`super::RenderSettings::has_opacity`].
+    pub fn has_opacity(&self) -> bool {
+        self.layers.contains(&&layers::OPACITY)
+    }
+
     /// Whether these samples are stored as a single block.
     fn is_block(&self, samples: &SampleSet) -> bool {
         self.is_adaptive() || samples.block_count() == 1

@@ -75,6 +75,22 @@ fn png_stores_the_nearest_levels() {
     }
 }
 
+/// OpenEXR's colours are multiplied by the opacity (its technical introduction, "Premultiplied vs. Un-Premultiplied").
+#[test]
+fn exr_stores_colors_multiplied_by_the_opacity() {
+    let folder = folder();
+    let path = folder.path().join("a.exr");
+    let image = Image {
+        width: 2,
+        height: 1,
+        pixels: vec![[0.5, 2.0, 1.0, 0.25], [1.0, 1.0, 1.0, 0.0]],
+    };
+    output::save(&path, &image).expect("saved");
+    let read = image::open(&path).expect("a picture").into_rgba32f();
+    assert_eq!(read.get_pixel(0, 0).0, [0.125, 0.5, 0.25, 0.25]);
+    assert_eq!(read.get_pixel(1, 0).0, [0.0; 4]);
+}
+
 #[test]
 fn png_stores_opacity_if_there_is_any() {
     let folder = folder();

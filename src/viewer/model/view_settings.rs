@@ -227,6 +227,7 @@ impl ViewSettings {
             fps: playback.clock.fps,
             duration: before.duration,
             shutter: playback.clock.shutter,
+            backdrop: settings.backdrop,
         }
     }
 

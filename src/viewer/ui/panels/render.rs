@@ -35,7 +35,10 @@ pub fn render(ui: &mut Ui, context: &mut PanelContext) {
                 developing(ui, &mut context.session.view)
             });
             plain_section(ui, "Histogram", |ui| histogram::histogram(ui, context));
-            section(ui, "Environment", |ui| background::background(ui, context));
+            section(ui, "Environment", |ui| {
+                background::background(ui, context);
+                background::backdrop(ui, context);
+            });
             section(ui, "Statistics", |ui| statistics::statistics(ui, context));
         });
     });
