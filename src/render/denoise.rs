@@ -22,7 +22,7 @@ const GUIDES: TextureFormat = TextureFormat::Rgba32Uint;
 const TEXEL_BYTES: u32 = 16;
 
 impl Image {
-    /// Denoises linear radiance, and opacity, with the features of its pixels. Pixels that are not finite are
+    /// Denoises linear radiance with the features of its pixels, and opacity where these have transparency. Pixels that are not finite are
     /// replaced by what is around them.
     ///
     /// # Errors
@@ -46,16 +46,13 @@ impl Image {
         }
         let own = self.pixels.iter().zip(&features.pixels);
         let signals: Vec<_> = own
-            .clone()
             .map(|(pixel, features)| signal(*pixel, features))
             .collect();
         let guides = guides(features);
         let filtered = filter(gpu, (width, height), &signals, &guides)?;
         let mut image = self.clone();
-        if !self.is_opaque() {
-            let signals: Vec<_> = own
-                .map(|(pixel, features)| clear(*pixel, features))
-                .collect();
+        if features.pixels.iter().any(|pixel| pixel.transparency > 0.0) {
+            let signals: Vec<_> = features.pixels.iter().map(clear).collect();
             let clear = filter(gpu, (width, height), &signals, &guides)?;
             for (pixel, [clear, ..]) in image.pixels.iter_mut().zip(clear) {
                 pixel[3] = 1.0 - clear.clamp(0.0, 1.0);
@@ -97,14 +94,10 @@ fn signal([r, g, b, opacity]: [f32; 4], features: &PixelFeatures) -> [f32; 4] {
 
 /// The transparency of a pixel as a signal. Its variance is that of samples which are either opaque or not, the greatest
 /// that the mean allows.
-fn clear([.., opacity]: [f32; 4], features: &PixelFeatures) -> [f32; 4] {
-    let clear = 1.0 - opacity;
-    [
-        clear,
-        clear,
-        clear,
-        clear * opacity / features.samples.max(1.0),
-    ]
+fn clear(features: &PixelFeatures) -> [f32; 4] {
+    let clear = features.transparency;
+    let variance = clear * (1.0 - clear) / features.samples.max(1.0);
+    [clear, clear, clear, variance]
 }
 
 /// The guides of all pixels: normal, slope of the depth, albedo, and depth.

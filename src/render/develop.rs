@@ -6,9 +6,8 @@ use super::{
     bindings::Buffers,
     film_tile::{FilmTile, rectangles},
     fingerprint::Encoder,
-    layers,
     layouts::{Layouts, group},
-    levels, opacity, pipelines,
+    levels, pipelines,
     slice::Slice,
     sums::PixelRows,
 };
@@ -286,17 +285,6 @@ impl Renderer {
             })?;
         }
         Ok(image)
-    }
-
-    /// The picture so far in linear radiance, if it has opacity.
-    fn transparent_picture(&mut self) -> Result<Option<Image>, RenderError> {
-        if !self.settings.has_opacity() {
-            return Ok(None);
-        }
-        self.fetch_film()?;
-        let layers = layers::of_pictures(&self.settings);
-        let rows = self.tiles.rows(layers);
-        Ok(opacity::picture(self.settings.region(), layers, rows))
     }
 
     /// Develops the film tile that is in the film buffer to its part of a picture.

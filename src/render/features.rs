@@ -7,6 +7,8 @@ use super::{
     opacity::{opacity, straight},
 };
 use crate::image::Image;
+use crate::pack::{PackedScene, PackedView};
+use crate::scene::ObjectRef;
 
 /// What the pixels of a rectangle show besides the picture.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,8 +26,8 @@ impl Features {
     pub fn picture(&self) -> Image {
         let pixel = |pixel: &PixelFeatures| {
             let [r, g, b] = pixel.radiance;
-            match pixel.opacity < 1.0 {
-                true => straight(pixel.radiance, pixel.opacity),
+            match pixel.transparency > 0.0 {
+                true => straight(pixel.radiance, 1.0 - pixel.transparency),
                 false => [r, g, b, 1.0],
             }
         };
@@ -43,8 +45,8 @@ impl Features {
 pub struct PixelFeatures {
     /// Mean linear radiance, not negative; of a transparent picture, what that adds to the light behind it.
     pub radiance: [f32; 3],
-    /// 0 to 1; see [`crate::scene::Backdrop::Transparent`].
-    pub opacity: f32,
+    /// How much of what lies behind is seen, 0 to 1; see [`crate::scene::Backdrop::Transparent`].
+    pub transparency: f32,
     /// Mean albedo of what is seen through mirrors and clear glass, 0 to 1; of light its radiance, at most 1.
     pub albedo: [f32; 3],
     /// Mean shading normal in world space, at most 1 long.
@@ -123,7 +125,7 @@ impl Places {
         let [x, y, z, depth] = first[1];
         PixelFeatures {
             radiance: single(whole),
-            opacity: (self.opacity).map_or(1.0, |row| opacity(weight, &rows[row..])),
+            transparency: (self.opacity).map_or(0.0, |row| 1.0 - opacity(weight, &rows[row..])),
             albedo: single(mean(self.albedo)),
             normal: single(mean(self.normal)),
             direct: single(direct),
@@ -156,7 +158,7 @@ impl Renderer {
         tone.denoise && self.settings.has_features()
     }
 
-    /// The features of the samples so far, without the numbers of objects. Without
+    /// The features of the samples so far. Without
     /// [`super::RenderSettings::features`] there are no pixels.
     ///
     /// # Errors
@@ -177,7 +179,14 @@ impl Renderer {
                 let (row, column) = (index as u32 / across, index as u32 % across);
                 let at = (top + row - y) * width + left + column - x;
                 let samples = if is_done { whole } else { rows[0][3].abs() };
-                pixels[at as usize] = places.pixel(rows, samples);
+                let mut pixel = places.pixel(rows, samples);
+                if pixel.material > 0 {
+                    let [.., instance] = rows[places.first];
+                    let [.., low, high] = rows[places.first + 2];
+                    let primitive = low as u32 | (high as u32) << 16;
+                    pixel.object = number_of(&self.scene, &self.view, primitive, instance as u32);
+                }
+                pixels[at as usize] = pixel;
             }
         }
         Ok(Features {
@@ -186,4 +195,17 @@ impl Renderer {
             pixels,
         })
     }
+}
+
+/// The number of the object of a hit, from 1: the instances of meshes in the scene's order, then its shapes, then its
+/// lights. 0 if there is none.
+pub fn number_of(scene: &PackedScene, view: &PackedView, primitive: u32, instance: u32) -> u32 {
+    let (instances, shapes) = scene.object_counts();
+    let index = match scene.object_at(view, primitive, instance) {
+        None => return 0,
+        Some(ObjectRef::Instance(index)) => index,
+        Some(ObjectRef::Shape(index)) => instances + index,
+        Some(ObjectRef::Light(index)) => instances + shapes + index,
+    };
+    index as u32 + 1
 }

@@ -11,7 +11,10 @@
 //! Source: Debevec 1998, Rendering Synthetic Objects into Real Scenes, section 5, with the ratio of the two pictures in
 //! place of their difference, as Cycles has it (`film/read.h`).
 
-use super::layers::{self, Layer};
+use super::{
+    RenderError, Renderer,
+    layers::{self, Layer},
+};
 use crate::image::Image;
 
 /// The least opacity by which colours are divided.
@@ -66,4 +69,17 @@ pub fn picture(
         }
     }
     Some(image)
+}
+
+impl Renderer {
+    /// The picture so far in linear radiance, if it has opacity.
+    pub(super) fn transparent_picture(&mut self) -> Result<Option<Image>, RenderError> {
+        if !self.settings.has_opacity() {
+            return Ok(None);
+        }
+        self.fetch_film()?;
+        let layers = layers::of_pictures(&self.settings);
+        let rows = self.tiles.rows(layers);
+        Ok(picture(self.settings.region(), layers, rows))
+    }
 }

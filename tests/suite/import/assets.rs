@@ -212,6 +212,18 @@ fn the_showcase_needs_no_files() {
     assert!(features.reflection && features.refraction);
 }
 
+/// The demo's version has the same objects, and nothing that needs many samples.
+#[test]
+fn the_demo_is_the_showcase_for_few_paths() {
+    let scene = glimray::app::showcase::scene().expect("the showcase");
+    let demo = glimray::app::showcase::path_traced().expect("the demo");
+    assert_eq!(demo.shapes, scene.shapes);
+    assert_eq!(demo.output.integrator, LightTransport::Path);
+    assert!(demo.cameras[0].lens.is_none());
+    let features = glimray::pack::scene(&demo).expect("packed").features;
+    assert!(features.reflection && !features.refraction);
+}
+
 #[test]
 fn the_lighthouse_reads_as_tobj_reads_it() {
     let options = tobj::LoadOptions {

@@ -1,7 +1,7 @@
 //! View and light of models that have none.
 
 use glam::{DMat3, DVec3};
-use glimray::import::{self, Memory, Options, Ground, Staging};
+use glimray::import::{self, Ground, Memory, Options, Staging};
 use glimray::scene::{Background, Camera, Geometry, LightTransport, Scene};
 
 /// A box with this minimum and maximum.

@@ -8,7 +8,8 @@ use glam::{DAffine3, DVec3, Vec3, dvec3};
 use glimray::image::Image;
 use glimray::render::RenderSettings;
 use glimray::scene::{
-    Attenuation, Backdrop, Background, CanonicalShape, Coverage, Geometry, Light, LightKind, Material, Scene, Shape,
+    Attenuation, Backdrop, Background, CanonicalShape, Coverage, Geometry, Light, LightKind,
+    Material, Scene, Shape,
 };
 
 const GREEN: Vec3 = Vec3::new(0.0, 0.5, 0.0);
@@ -75,7 +76,11 @@ fn the_camera_sees_the_backdrop_and_surfaces_see_the_background() {
     let mirrored = render(&pane(mirror), &behind(Backdrop::Color(GREEN), 4)).0;
     assert_eq!(middle(&mirrored), [1.0; 4], "a mirror shows the background");
     let seen = render(&pane(thin(1.0)), &behind(Backdrop::Color(GREEN), 4)).0;
-    assert_eq!(middle(&seen), [0.0, 0.5, 0.0, 1.0], "glass shows the backdrop");
+    assert_eq!(
+        middle(&seen),
+        [0.0, 0.5, 0.0, 1.0],
+        "glass shows the backdrop"
+    );
 }
 
 #[test]
@@ -200,7 +205,11 @@ fn shadow_catchers_are_as_opaque_as_the_light_that_is_missing() {
         }];
         let name = format!("and as much light from a lamp, {radius} at {height}");
         let is_hidden = radius >= 9.0 * height;
-        let expected = if is_hidden { 0.5 + hidden / 2.0 } else { hidden / 2.0 };
+        let expected = if is_hidden {
+            0.5 + hidden / 2.0
+        } else {
+            hidden / 2.0
+        };
         near(&mut verdict, name, opacity(&both, 512), expected, 0.01);
     }
     verdict.close();
