@@ -78,10 +78,14 @@ impl Job<'_> {
 
     /// The picture of a renderer that is done.
     pub fn finish(&self, renderer: &mut Renderer, tone: &Tone) -> Result<Finished, AppError> {
-        match self.settings().features {
-            true => self.layers.finish(&renderer.film()?, renderer.gpu(), tone),
-            false => Ok(Finished::plain(renderer.develop(tone)?)),
-        }
+        let settings = self.settings();
+        let finished = match settings.features {
+            true => self
+                .layers
+                .finish(&renderer.film()?, renderer.gpu(), tone)?,
+            false => Finished::plain(renderer.develop(tone)?),
+        };
+        Ok(finished.placed(&settings))
     }
 
     /// Refuses a transparent background that the integrator cannot render, or that the file does not keep.

@@ -3,7 +3,8 @@
 use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
 use glimray::scene::{
-    Background, CanonicalShape, Geometry, Interpolation, LightKind, Scene, Target, Track, Values,
+    Background, CanonicalShape, Geometry, Interpolation, LightKind, LightTransport, Scene, Target,
+    Track, Values,
 };
 use std::path::{Path, PathBuf};
 
