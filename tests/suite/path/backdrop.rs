@@ -174,14 +174,14 @@ fn shadow_catchers_are_as_opaque_as_the_light_that_is_missing() {
     let cover = disc(dvec3(0.0, 2.0, 0.0), 0.5);
     for (name, scene, expected, tolerance) in [
         ("no shadow", floor(None, &[above]), 0.0, 0.0),
-        ("an umbra", floor(cover.clone(), &[above]), 1.0, 0.0),
+        ("an umbra", floor(cover, &[above]), 1.0, 0.0),
         (
             "one of two equal lamps",
             floor(disc(dvec3(-1.5, 2.0, 0.0), 0.5), &beside),
             0.5,
             0.01,
         ),
-        ("no light", floor(cover.clone(), &[]), 0.0, 0.0),
+        ("no light", floor(cover, &[]), 0.0, 0.0),
     ] {
         near(&mut verdict, name, opacity(&scene, 64), expected, tolerance);
     }
