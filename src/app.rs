@@ -6,6 +6,8 @@ pub mod clock;
 pub mod console;
 pub mod error;
 pub mod inputs;
+#[cfg(feature = "viewer")]
+pub mod layer_picture;
 pub mod layers;
 pub mod legend;
 pub mod overrides;

@@ -12,7 +12,7 @@ pub struct Image {
     /// In pixels.
     pub height: u32,
     /// Red, green, blue and opacity (1 is opaque), row by row from the top left; `width * height` of
-    /// them. Either scene-linear Rec. 709 radiance or display values after exposure, tone curve and
+    /// them. Colours are not multiplied by the opacity. Either scene-linear Rec. 709 radiance or display values after exposure, tone curve and
     /// transfer function, depending on how the image was developed.
     pub pixels: Vec<[f32; 4]>,
 }
@@ -35,6 +35,12 @@ impl Image {
         }
         let index = y as usize * self.width as usize + x as usize;
         self.pixels.get(index).copied()
+    }
+
+    /// The pixels with colours multiplied by the opacity, as OpenEXR stores them.
+    pub fn premultiplied(&self) -> impl Iterator<Item = [f32; 4]> {
+        let pixels = self.pixels.iter();
+        pixels.map(|&[r, g, b, opacity]| [r * opacity, g * opacity, b * opacity, opacity])
     }
 
     /// Whether every pixel is opaque.

@@ -66,7 +66,7 @@ pub use error::{Excerpt, Fault, ImportError, Position};
 pub use folder::Folder;
 pub use formats::{SCENE_FORMATS, SceneFormat};
 pub use gltf::{GLTF_EXTENSIONS, Support};
-pub use options::{Axis, Environment, EnvironmentSource, Options, Staging};
+pub use options::{Axis, Environment, EnvironmentSource, Ground, Options, Staging};
 pub use resolver::{FileError, Memory, Resolver};
 #[cfg(not(target_arch = "wasm32"))]
 pub use step::Step;

@@ -446,6 +446,8 @@ packed! {
         seed: u32,
         /// Bounces after the first hit.
         max_depth: u32,
+        /// Linear radiance that paths from the camera see where there is nothing; see [`BACKDROP_COLOR`].
+        backdrop: [f32; 3],
         /// Rays of a throughput below this are not sent.
         min_throughput: f32,
         /// Factor on [`PackedLight::sample_count`].
@@ -454,6 +456,8 @@ packed! {
         footprint: f32,
         /// Counts of what the dispatch did; zero before it.
         counters: PackedCounters,
+        /// Not used.
+        _pad: u32,
     }
     /// What a dispatch counted.
     PackedCounters {

@@ -37,16 +37,28 @@ pub struct SaveOptions {
     /// Whether a symbolic link stands for its target. That is right for names given by the user; a link
     /// under a generated name is an error.
     pub follow_links: bool,
+    /// Where the image lies in a larger one, which OpenEXR files tell; `None` if it is all of it.
+    pub place: Option<Place>,
+}
+
+/// The place of an image in a larger one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The column and the row of its upper left pixel.
+    pub corner: (u32, u32),
+    /// Width and height of the larger one in pixels.
+    pub whole: (u32, u32),
 }
 
 impl Default for SaveOptions {
-    /// Format by extension, quality 90, replacing existing files, and following links.
+    /// Format by extension, quality 90, replacing existing files, following links, and no larger image.
     fn default() -> Self {
         Self {
             format: None,
             quality: 90,
             clobber: true,
             follow_links: true,
+            place: None,
         }
     }
 }
@@ -72,7 +84,7 @@ pub fn save_with(
     let path = path.as_ref();
     let format = format_of(path, options)?;
     format.check_size(image.width, image.height)?;
-    let bytes = encode::encode(image, format, options.quality)?;
+    let bytes = encode::encode(image, format, options)?;
     atomic::write(path, &bytes, options.clobber, options.follow_links)
 }
 
@@ -83,7 +95,7 @@ pub fn save_with(
 pub fn save_to_stdout(image: &Image, options: &SaveOptions) -> Result<(), OutputError> {
     let format = options.format.unwrap_or(Format::Png);
     format.check_size(image.width, image.height)?;
-    let bytes = encode::encode(image, format, options.quality)?;
+    let bytes = encode::encode(image, format, options)?;
     let mut stdout = std::io::stdout().lock();
     stdout
         .write_all(&bytes)

@@ -23,6 +23,8 @@ mod layers;
 mod layouts;
 mod levels;
 mod losses;
+mod luminance;
+mod opacity;
 mod overrides;
 mod pipelines;
 mod policy;

@@ -50,7 +50,9 @@ pub use mesh::{Mesh, Repairs, area_normal};
 pub use metallic_roughness::{Lobes, MetallicRoughness, SurfacePoint};
 pub use node::Node;
 pub use object::ObjectRef;
-pub use output::{Antialias, Filter, LightTransport, OutputDefaults, Shutter, ToneCurve, Transfer};
+pub use output::{
+    Antialias, Backdrop, Filter, LightTransport, OutputDefaults, Shutter, ToneCurve, Transfer,
+};
 pub use picture::{Picture, SrgbCurve, Texels, linear_from_srgb};
 pub use shape::{CanonicalShape, Geometry, Shape};
 pub use texture::{Minify, Pattern, Space, Texture, Wrap};

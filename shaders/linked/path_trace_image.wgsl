@@ -33,7 +33,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	dispatch__count_hit(path.kind, hit);
 	if (hit.primitive == types__NONE) {
 		let weight = environment__background_weight(batch, ray.direction, path.pdf);
-		let seen = background__background(batch, ray.direction);
+		let seen = backdrop__radiance_behind(batch, path);
 		features__see_albedo(path.throughput * seen, vec3f(0.0));
 		return path__ended(path__gained(path, weight * seen, path.bounces));
 	}
@@ -49,6 +49,11 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 		return path__passed(path, surface);
 	}
 	features__see_first(surface, hit, distance(path.origin, surface.p));
+	if (bindings__HAS_CATCHERS && backdrop__is_seen(path) && (optics.flags & types__MATERIAL_SHADOW_CATCHER) != 0u) {
+		features__see_albedo(vec3f(1.0), surface.n);
+		shadow_catcher__catch_shadow(batch, path, surface);
+		return path__ended(path);
+	}
 	if (bindings__HAS_DISPERSION) {
 		path = dispersion__colored(path, met);
 		met = dispersion__dispersed(met, path.channel);
@@ -179,6 +184,7 @@ struct dispatch__Batch {
 	first_sample: u32,
 	end_sample: u32,
 	max_depth: u32,
+	backdrop: vec3f,
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
@@ -196,7 +202,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 		albedo__albedo_first = bindings__frame.albedo_first;
 	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
@@ -382,6 +388,8 @@ const types__MATERIAL_THIN: u32 = 128u;
 
 const types__MATERIAL_METALLIC_ROUGHNESS: u32 = 256u;
 
+const types__MATERIAL_SHADOW_CATCHER: u32 = 512u;
+
 const types__MATERIAL_ROWS: u32 = 20u;
 
 const types__LAYERS_ROW: u32 = 9u;
@@ -467,6 +475,10 @@ const types__BACKGROUND_COLOR: u32 = 0u;
 const types__BACKGROUND_GRADIENT: u32 = 1u;
 
 const types__BACKGROUND_PICTURE: u32 = 2u;
+
+const types__BACKDROP_BACKGROUND: u32 = 0u;
+
+const types__BACKDROP_TRANSPARENT: u32 = 2u;
 
 const types__FILTER_BOX: u32 = 0u;
 
@@ -679,10 +691,12 @@ struct types__PackedDispatch {
 	end_sample: u32,
 	seed: u32,
 	max_depth: u32,
+	backdrop: vec3f,
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
-	counters: types__PackedCounters
+	counters: types__PackedCounters,
+	_pad: u32
 }
 
 struct types__PackedCounters {
@@ -1019,6 +1033,10 @@ override bindings__FILTER_RADIUS: f32 = 0.5;
 
 override bindings__BACKGROUND: u32 = types__BACKGROUND_COLOR;
 
+override bindings__BACKDROP: u32 = types__BACKDROP_BACKGROUND;
+
+override bindings__HAS_CATCHERS: bool = false;
+
 override bindings__HAS_TEXTURES: bool = true;
 
 override bindings__HAS_NOISE: bool = true;
@@ -1082,6 +1100,10 @@ override bindings__SQUARES_ROW: u32 = 1u;
 override bindings__HAS_FEATURES: bool = false;
 
 override bindings__FEATURES_ROW: u32 = 2u;
+
+override bindings__HAS_OPACITY: bool = false;
+
+override bindings__OPACITY_ROW: u32 = 1u;
 
 var<private> albedo__albedo_first: u32;
 
@@ -1171,8 +1193,12 @@ fn pixels__add_samples(pixels: pixels__Pixels, sample: u32, radiance: wide__Vect
 			let before = pixels__sum_at(pixels, k);
 			let sum = film__add_sample(before, film__Sample(wide__vector_at(radiance, k)), weight);
 			next = pixels__with_sum(next, k, sum);
-			if (bindings__HAS_FEATURES && sum.radiance.w != before.radiance.w) {
+			let is_kept = sum.radiance.w != before.radiance.w;
+			if (bindings__HAS_FEATURES && is_kept) {
 				features__add_features(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), sample, weight);
+			}
+			if (bindings__HAS_OPACITY && is_kept) {
+				opacity__add_opacity(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), weight);
 			}
 		}
 		continuing {
@@ -1350,6 +1376,7 @@ const path__ALL_CHANNELS: u32 = 3u;
 
 fn path__camera_path(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32) -> path__Path {
 	features__start_features();
+	opacity__start_opacity();
 	return path__path_along(batch, rays__ray_at(pixels__sample_rays(batch, pixels, sample), 0u), wide__word_at(pixels.keys, 0u), sample);
 }
 
@@ -1474,6 +1501,27 @@ fn features__add_mean(row: u32, value: vec3f, weight: f32) {
 	if (numeric__is_finite(next.xyz)) {
 		bindings__film[row] = next;
 	}
+}
+
+struct opacity__Clearness {
+	nothing: f32,
+	catchers: f32,
+	light: f32,
+	unshadowed: f32
+}
+
+var<private> opacity__clearness: opacity__Clearness;
+
+fn opacity__start_opacity() {
+	if (bindings__HAS_OPACITY) {
+		opacity__clearness = opacity__Clearness();
+	}
+}
+
+fn opacity__add_opacity(first_row: u32, weight: f32) {
+	let row = first_row + bindings__OPACITY_ROW;
+	features__add_mean(row, vec3f(opacity__clearness.nothing, opacity__clearness.catchers, 0.0), weight);
+	features__add_mean(row + 1u, vec3f(opacity__clearness.light, opacity__clearness.unshadowed, 0.0), weight);
 }
 
 const footprint__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
@@ -3060,6 +3108,21 @@ fn mis__survival_chance(throughput: vec3f) -> f32 {
 	return min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
 }
 
+fn backdrop__is_seen(path: path__Path) -> bool {
+	return path.bounces == 0u;
+}
+
+fn backdrop__radiance_behind(batch: dispatch__Batch, path: path__Path) -> vec3f {
+	if (bindings__BACKDROP == types__BACKDROP_BACKGROUND || !backdrop__is_seen(path)) {
+		return background__background(batch, path.ray.direction);
+	}
+	if (bindings__BACKDROP == types__BACKDROP_TRANSPARENT) {
+		opacity__clearness.nothing += dot(path.throughput, tone__LUMINANCE_REC709);
+		return vec3f(0.0);
+	}
+	return batch.backdrop;
+}
+
 fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
 	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
 		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
@@ -3872,269 +3935,37 @@ fn leaving__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -
 	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
-fn dispersion__load_dispersion(material: u32) -> f32 {
-	let own = select(material, 0u, material == types__NONE);
-	let row = fetch__material_row(types__MATERIAL_ROWS * own + types__LAYERS_ROW + 5u);
-	return select(bitcast<f32>(row.z), 0.0, material == types__NONE);
-}
-
-fn dispersion__colored(path: path__Path, met: interface__Interface) -> path__Path {
-	let disperses = met.encloses && met.is_boundary && max(dispersion__load_dispersion(met.here), dispersion__load_dispersion(medium__dominant(met.media))) > 0.0;
-	if (!disperses || path.channel != path__ALL_CHANNELS) {
-		return path;
+fn shadow_catcher__catch_shadow(batch: dispatch__Batch, path: path__Path, surface: types__Surface) {
+	let n = select(surface.n, -surface.n, dot(surface.n, path.ray.direction) > 0.0);
+	let arriving = shadow_catcher__light_on(batch, path, surface.p, n);
+	var rays = rays__dead_rays();
+	if (any(arriving.radiance > vec3f(0.0))) {
+		rays = rays__ray_set(rays, 0u, direct__shadow_ray(surface, arriving));
 	}
-	var one = path;
-	one.channel = min(u32(3.0 * path__random_1d(path, dimensions__CHANNEL_CHOICE)), 2u);
-	one.throughput *= select(vec3f(0.0), vec3f(3.0), vec3u(0u, 1u, 2u) == vec3u(one.channel));
-	return one;
+	let media = path.media;
+	let through = wide__vector_at(shadow__light_through(rays, ray_states__Media(media.x, media.y, media.z, media.w)), 0u);
+	let share = dot(path.throughput, tone__LUMINANCE_REC709);
+	opacity__clearness.catchers += share;
+	opacity__clearness.light += share * dot(arriving.radiance * through, tone__LUMINANCE_REC709);
+	opacity__clearness.unshadowed += share * dot(arriving.radiance, tone__LUMINANCE_REC709);
 }
 
-fn dispersion__dispersed(met: interface__Interface, channel: u32) -> interface__Interface {
-	if (channel == path__ALL_CHANNELS) {
-		return met;
+fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, n: vec3f) -> types__Incident {
+	var arriving = types__Incident(n, camera__T_FAR, vec3f(0.0));
+	let has_lamps = bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT;
+	var chance = 0.0;
+	if (!bindings__HAS_ENVIRONMENT && (bindings__BACKGROUND != types__BACKGROUND_COLOR || any(batch.background > vec3f(0.0)))) {
+		chance = select(1.0, 0.5, has_lamps);
 	}
-	let wavelength = select(select(dispersion__WAVELENGTHS.z, dispersion__WAVELENGTHS.y, channel == 1u), dispersion__WAVELENGTHS.x, channel == 0u);
-	let front = dispersion__load_dispersion(met.here);
-	let behind = dispersion__load_dispersion(medium__dominant(met.media));
-	var one = met;
-	one.ior = select(met.ior, dispersion__dispersed_ior(met.ior, front, wavelength), front > 0.0);
-	one.ior_behind = select(met.ior_behind, dispersion__dispersed_ior(met.ior_behind, behind, wavelength), met.encloses && behind > 0.0);
-	return one;
-}
-
-const dispersion__WAVELENGTHS: vec3f = vec3f(611.4, 549.1, 464.2);
-
-fn dispersion__dispersed_ior(ior: f32, dispersion: f32, wavelength: f32) -> f32 {
-	let spread = (ior - 1.0) * dispersion / 20.0;
-	return max(ior + spread * (523655.0 / (wavelength * wavelength) - 1.5168), 1.0);
-}
-
-fn dispersion__anisotropic_alpha(alpha: f32, strength: f32) -> vec2f {
-	return vec2f(mix(alpha, 1.0, strength * strength), alpha);
-}
-
-fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
-	let own = texel * inverseSqrt(max(dot(texel, texel), 1e-12));
-	let turn = vec2f(cos(rotation), sin(rotation));
-	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
-}
-
-const layers__SMOOTH: f32 = 0.0001;
-
-struct layers__Layers {
-	diffuse: vec3f,
-	f0: vec3f,
-	f90: vec3f,
-	over_f0: vec3f,
-	over_f90: vec3f,
-	alpha: f32,
-	reflect: vec3f,
-	transmit: vec3f,
-	boundary_alpha: f32,
-	fresnel: u32,
-	ior: f32,
-	glow: vec3f,
-	coat: f32,
-	coat_roughness: f32,
-	sheen: vec3f,
-	sheen_roughness: f32,
-	anisotropy: f32,
-	along: vec2f,
-	film: f32,
-	film_ior: f32,
-	film_thickness: f32,
-	diffuse_transmission: f32,
-	diffuse_transmission_color: vec3f
-}
-
-fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
-	var own = material__load_layers(surface.material);
-	own.base = surface.phong.diffuse;
-	var reflect = surface.phong.reflect;
-	var transmit = optics.transmit;
-	var glow = vec3f(1.0);
-	var thickness = 1.0;
-	var along = vec2f(1.0, 0.0);
-	if (bindings__HAS_TEXTURES) {
-		var rest = own.slots;
-		loop {
-			let slot = firstTrailingBit(rest | 2147483648u);
-			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
-			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
-			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
-			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
-			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
-			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
-			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
-			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
-			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
-			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
-			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
-			if (bindings__HAS_ANISOTROPY) {
-				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
-				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
-			}
-			if (bindings__HAS_COATINGS) {
-				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
-				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
-				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
-				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
-				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
-				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
-				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
-				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
-			}
-			rest &= rest - 1u;
-			continuing {
-			
-				break if rest == 0u;
-			}
-		}
-		loops__cut_off |= rest != 0u;
+	if (has_lamps) {
+		arriving = emitters__sample_light(batch, p, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON)).incident;
+		arriving.radiance *= max(dot(n, arriving.direction), 0.0) / (warp__PI * max(1.0 - chance, 0.5));
 	}
-	var layers: layers__Layers;
-	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
-		layers = layers__metallic_roughness(own);
+	if (path__random_1d(path, dimensions__SCATTER_CHOICE) < chance) {
+		let direction = warp__turn_to(n, bsdf_diffuse__diffuse_sample(path__random_2d(path, dimensions__SCATTER_DIRECTION)));
+		arriving = types__Incident(direction, camera__T_FAR, background__background(batch, direction) / chance);
 	}
-	else {
-		layers.diffuse = own.base;
-		layers.f0 = own.f0;
-		layers.f90 = own.f0;
-		layers.over_f0 = own.f0;
-		layers.over_f90 = own.f0;
-		layers.alpha = own.roughness * own.roughness;
-		layers.reflect = reflect;
-		layers.transmit = transmit;
-		layers.fresnel = optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK);
-		layers.ior = own.ior;
-	}
-	layers.glow = glow;
-	if (bindings__HAS_ANISOTROPY) {
-		layers.anisotropy = own.anisotropy;
-		layers.along = dispersion__anisotropy_tangent(own.anisotropy_rotation, along);
-	}
-	if (bindings__HAS_COATINGS) {
-		layers.coat = own.coat;
-		layers.coat_roughness = own.coat_roughness;
-		layers.sheen = own.sheen;
-		layers.sheen_roughness = own.sheen_roughness;
-		layers.film = own.iridescence;
-		layers.film_ior = own.iridescence_ior;
-		layers.film_thickness = mix(own.film_thinnest, own.film_thickest, thickness);
-		layers.diffuse_transmission = own.diffuse_transmission;
-		layers.diffuse_transmission_color = own.diffuse_transmission_color;
-	}
-	return layers;
-}
-
-fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
-	var layers: layers__Layers;
-	layers.alpha = own.roughness * own.roughness;
-	layers.ior = own.ior;
-	let body = 1.0 - own.metallic;
-	layers.diffuse = body * own.base;
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
-		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
-		layers.diffuse *= 1.0 - own.transmission;
-		layers.f0 = own.metallic * own.base;
-		layers.f90 = vec3f(own.metallic);
-		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
-		layers.transmit = (body * own.transmission) * own.base;
-		layers.boundary_alpha = layers.alpha;
-		layers.fresnel = types__MATERIAL_FRESNEL;
-		return layers;
-	}
-	layers.f0 = mix(own.f0, own.base, own.metallic);
-	layers.f90 = vec3f(mix(own.f90, 1.0, own.metallic));
-	layers.over_f0 = own.f0;
-	layers.over_f90 = vec3f(own.f90);
-	return layers;
-}
-
-fn layers__textured(own: types__PackedLayers, slot: u32, surface: types__Surface) -> vec4f {
-	if ((own.slots & (1u << slot)) == 0u) {
-		return vec4f(1.0);
-	}
-	return texture__texture_value(material__load_texture(layers__texture_in(own, slot)), surface);
-}
-
-fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
-	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
-	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
-	let word = (slot >> 1u) & 3u;
-	let low = select(four.x, four.y, word == 1u);
-	let high = select(four.z, four.w, word == 3u);
-	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
-}
-
-const pattern__CELL_SHIFT: f32 = 0.00073;
-
-fn pattern__checker(p: vec3f) -> f32 {
-	let cell = vec3i(floor(p + pattern__CELL_SHIFT));
-	return f32((cell.x + cell.y + cell.z) & 1);
-}
-
-fn pattern__stripes(p: vec3f) -> f32 {
-	return f32(i32(floor(2.0 * (p.x + pattern__CELL_SHIFT))) & 1);
-}
-
-fn pattern__gradient(p: vec3f) -> f32 {
-	return clamp(p.x, 0.0, 1.0);
-}
-
-fn pattern__clouds(sum: f32) -> f32 {
-	return clamp(0.5 + 0.5 * sum, 0.0, 1.0);
-}
-
-const noise__NOISE_PERIOD: u32 = 256u;
-
-const noise__OCTAVE_SHIFT = vec3f(0.37, 0.59, 0.83);
-
-struct noise__Octaves {
-	sum: f32,
-	count: u32
-}
-
-fn noise__noise_octaves(p: vec3f, count: u32) -> noise__Octaves {
-	let period = f32(noise__NOISE_PERIOD);
-	let home = p - period * floor(p / period);
-	var octaves = noise__Octaves(0.0, 0u);
-	var scale = 1.0;
-	loop {
-		let q = scale * home + f32(octaves.count) * noise__OCTAVE_SHIFT;
-		octaves.sum += noise__gradient_noise(q, noise__NOISE_PERIOD << octaves.count) / scale;
-		scale *= 2.0;
-		octaves.count += 1u;
-		continuing {
-		
-			break if octaves.count >= count;
-		}
-	}
-	return octaves;
-}
-
-fn noise__gradient_noise(p: vec3f, period: u32) -> f32 {
-	let cell = floor(p);
-	let f = p - cell;
-	let low = vec3u(vec3i(cell)) & vec3u(period - 1u);
-	let high = (low + 1u) & vec3u(period - 1u);
-	let z0 = rng__hash(low.z);
-	let z1 = rng__hash(high.z);
-	let y00 = rng__hash(low.y + z0);
-	let y10 = rng__hash(high.y + z0);
-	let y01 = rng__hash(low.y + z1);
-	let y11 = rng__hash(high.y + z1);
-	let t = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-	let x = vec4f(mix(noise__corner(low.x + y00, f), noise__corner(high.x + y00, f - vec3f(1.0, 0.0, 0.0)), t.x), mix(noise__corner(low.x + y10, f - vec3f(0.0, 1.0, 0.0)), noise__corner(high.x + y10, f - vec3f(1.0, 1.0, 0.0)), t.x), mix(noise__corner(low.x + y01, f - vec3f(0.0, 0.0, 1.0)), noise__corner(high.x + y01, f - vec3f(1.0, 0.0, 1.0)), t.x), mix(noise__corner(low.x + y11, f - vec3f(0.0, 1.0, 1.0)), noise__corner(high.x + y11, f - vec3f(1.0, 1.0, 1.0)), t.x));
-	let y = mix(x.xz, x.yw, t.y);
-	return mix(y.x, y.y, t.z);
-}
-
-fn noise__corner(key: u32, d: vec3f) -> f32 {
-	let h = rng__hash(key) & 15u;
-	let u = select(d.y, d.x, h < 8u);
-	let v = select(select(d.z, d.x, (h == 12u) | (h == 14u)), d.y, h < 4u);
-	return select(u, -u, (h & 1u) != 0u) + select(v, -v, (h & 2u) != 0u);
+	return arriving;
 }
 
 struct emitters__LightSample {
@@ -4313,6 +4144,115 @@ fn emitters__emitted(surface: types__Surface, optics: types__Optics, glow: vec3f
 	return select(vec3f(0.0), glow * material__load_emission(surface.material), shines);
 }
 
+const quad_warp__CHANCE_BITS: u32 = 10u;
+
+const quad_warp__CHANCE_STEPS: f32 = 1023.0;
+
+struct quad_warp__QuadPlace {
+	cell: vec2u,
+	u: vec2f
+}
+
+struct quad_warp__Half {
+	index: u32,
+	u: f32
+}
+
+fn quad_warp__quad_root(word: u32, u: vec2f) -> quad_warp__QuadPlace {
+	let column = quad_warp__half_of(quad_warp__chance_of(word, 0u), u.x);
+	return quad_warp__QuadPlace(vec2u(column.index, 0u), vec2f(column.u, u.y));
+}
+
+fn quad_warp__quad_step(word: u32, place: quad_warp__QuadPlace) -> quad_warp__QuadPlace {
+	let row = quad_warp__half_of(quad_warp__chance_of(word, 0u), place.u.y);
+	let column = quad_warp__half_of(quad_warp__chance_of(word, 1u + row.index), place.u.x);
+	return quad_warp__QuadPlace(2u * place.cell + vec2u(column.index, row.index), vec2f(column.u, row.u));
+}
+
+fn quad_warp__chance_of(word: u32, index: u32) -> f32 {
+	return f32((word >> (quad_warp__CHANCE_BITS * index)) & 1023u) / quad_warp__CHANCE_STEPS;
+}
+
+fn quad_warp__half_of(chance: f32, u: f32) -> quad_warp__Half {
+	let is_second = u >= chance;
+	let start = select(0.0, chance, is_second);
+	let size = select(chance, 1.0 - chance, is_second);
+	return quad_warp__Half(select(0u, 1u, is_second), clamp((u - start) / max(size, 1e-9), 0.0, 0.99999994));
+}
+
+fn emissive_shape__is_sampled(shape: types__PackedShape, instance: u32) -> bool {
+	return shape.kind == types__SHAPE_RECTANGLE || (shape.kind == types__SHAPE_DISC && shape.size0 == 0.0) || (shape.kind == types__SHAPE_SPHERE && instance == types__NO_INSTANCE);
+}
+
+fn emissive_shape__light_of(shape: types__PackedShape, instance: u32) -> types__PackedLight {
+	var light: types__PackedLight;
+	light.attenuation = types__ATTENUATION_INVERSE_SQUARE;
+	light.position = shape.position;
+	if (shape.kind == types__SHAPE_SPHERE) {
+		light.kind = types__LIGHT_SPHERE;
+		light.radius = shape.size0;
+		return light;
+	}
+	light.kind = select(types__LIGHT_DISC, types__LIGHT_RECTANGLE, shape.kind == types__SHAPE_RECTANGLE);
+	let across = cross(shape.row_y, shape.row_z);
+	let determinant = dot(shape.row_x, across);
+	light.edge_u = across / determinant;
+	light.edge_v = cross(shape.row_x, shape.row_y) / determinant;
+	light.direction = shape.row_y;
+	if (bindings__HAS_INSTANCES && instance != types__NO_INSTANCE) {
+		let space = instance__space_of(fetch__load_instance(instance));
+		light.position = space.linear * light.position + space.translation;
+		light.edge_u = space.linear * light.edge_u;
+		light.edge_v = space.linear * light.edge_v;
+		light.direction = instance__placed_normal(space, light.direction);
+	}
+	light.direction = numeric__normalize_or(light.direction, vec3f(0.0, 1.0, 0.0));
+	return light;
+}
+
+fn emissive_shape__area_of(light: types__PackedLight) -> f32 {
+	if (light.kind == types__LIGHT_SPHERE) {
+		return 4.0 * warp__PI * light.radius * light.radius;
+	}
+	return select(warp__PI, 4.0, light.kind == types__LIGHT_RECTANGLE) * length(cross(light.edge_u, light.edge_v));
+}
+
+fn emissive_shape__shape_density(hit: types__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
+	if (!bindings__HAS_EMISSIVE_SHAPES) {
+		return 0.0;
+	}
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	if (!emissive_shape__is_sampled(shape, hit.instance)) {
+		return 0.0;
+	}
+	let light = emissive_shape__light_of(shape, hit.instance);
+	return emissive_shape__area_of(light) * spherical_rectangle__solid_density(light, origin, direction, distance);
+}
+
+fn emissive_shape__shape_place(shape: types__PackedShape, instance: u32, p: vec3f) -> types__Surface {
+	var surface: types__Surface;
+	surface.p = p;
+	surface.place = p;
+	surface.material = shape.material;
+	if (!bindings__HAS_TEXTURES) {
+		return surface;
+	}
+	var q = p;
+	if (bindings__HAS_INSTANCES && instance != types__NO_INSTANCE) {
+		let own: types__PackedInstance = fetch__load_instance(instance);
+		let space = instance__space_of(own);
+		q = space.inverse * (p - space.translation);
+		surface.place = instance__pattern_place(own, q);
+	}
+	let canonical = canonical__canonical_vector(shape, q - shape.position);
+	surface.uv = saturate(0.5 + 0.5 * vec2f(canonical.x, -canonical.z));
+	if (shape.kind == types__SHAPE_SPHERE) {
+		surface.uv = canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
+	}
+	surface.second_uv = surface.uv;
+	return surface;
+}
+
 const spherical_rectangle__LEAST_ANGLE: f32 = 0.02;
 
 struct spherical_rectangle__RectangleView {
@@ -4473,77 +4413,74 @@ fn area_light__max_abs(v: vec3f) -> f32 {
 	return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
-fn emissive_shape__is_sampled(shape: types__PackedShape, instance: u32) -> bool {
-	return shape.kind == types__SHAPE_RECTANGLE || (shape.kind == types__SHAPE_DISC && shape.size0 == 0.0) || (shape.kind == types__SHAPE_SPHERE && instance == types__NO_INSTANCE);
+const pattern__CELL_SHIFT: f32 = 0.00073;
+
+fn pattern__checker(p: vec3f) -> f32 {
+	let cell = vec3i(floor(p + pattern__CELL_SHIFT));
+	return f32((cell.x + cell.y + cell.z) & 1);
 }
 
-fn emissive_shape__light_of(shape: types__PackedShape, instance: u32) -> types__PackedLight {
-	var light: types__PackedLight;
-	light.attenuation = types__ATTENUATION_INVERSE_SQUARE;
-	light.position = shape.position;
-	if (shape.kind == types__SHAPE_SPHERE) {
-		light.kind = types__LIGHT_SPHERE;
-		light.radius = shape.size0;
-		return light;
-	}
-	light.kind = select(types__LIGHT_DISC, types__LIGHT_RECTANGLE, shape.kind == types__SHAPE_RECTANGLE);
-	let across = cross(shape.row_y, shape.row_z);
-	let determinant = dot(shape.row_x, across);
-	light.edge_u = across / determinant;
-	light.edge_v = cross(shape.row_x, shape.row_y) / determinant;
-	light.direction = shape.row_y;
-	if (bindings__HAS_INSTANCES && instance != types__NO_INSTANCE) {
-		let space = instance__space_of(fetch__load_instance(instance));
-		light.position = space.linear * light.position + space.translation;
-		light.edge_u = space.linear * light.edge_u;
-		light.edge_v = space.linear * light.edge_v;
-		light.direction = instance__placed_normal(space, light.direction);
-	}
-	light.direction = numeric__normalize_or(light.direction, vec3f(0.0, 1.0, 0.0));
-	return light;
+fn pattern__stripes(p: vec3f) -> f32 {
+	return f32(i32(floor(2.0 * (p.x + pattern__CELL_SHIFT))) & 1);
 }
 
-fn emissive_shape__area_of(light: types__PackedLight) -> f32 {
-	if (light.kind == types__LIGHT_SPHERE) {
-		return 4.0 * warp__PI * light.radius * light.radius;
-	}
-	return select(warp__PI, 4.0, light.kind == types__LIGHT_RECTANGLE) * length(cross(light.edge_u, light.edge_v));
+fn pattern__gradient(p: vec3f) -> f32 {
+	return clamp(p.x, 0.0, 1.0);
 }
 
-fn emissive_shape__shape_density(hit: types__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
-	if (!bindings__HAS_EMISSIVE_SHAPES) {
-		return 0.0;
-	}
-	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	if (!emissive_shape__is_sampled(shape, hit.instance)) {
-		return 0.0;
-	}
-	let light = emissive_shape__light_of(shape, hit.instance);
-	return emissive_shape__area_of(light) * spherical_rectangle__solid_density(light, origin, direction, distance);
+fn pattern__clouds(sum: f32) -> f32 {
+	return clamp(0.5 + 0.5 * sum, 0.0, 1.0);
 }
 
-fn emissive_shape__shape_place(shape: types__PackedShape, instance: u32, p: vec3f) -> types__Surface {
-	var surface: types__Surface;
-	surface.p = p;
-	surface.place = p;
-	surface.material = shape.material;
-	if (!bindings__HAS_TEXTURES) {
-		return surface;
+const noise__NOISE_PERIOD: u32 = 256u;
+
+const noise__OCTAVE_SHIFT = vec3f(0.37, 0.59, 0.83);
+
+struct noise__Octaves {
+	sum: f32,
+	count: u32
+}
+
+fn noise__noise_octaves(p: vec3f, count: u32) -> noise__Octaves {
+	let period = f32(noise__NOISE_PERIOD);
+	let home = p - period * floor(p / period);
+	var octaves = noise__Octaves(0.0, 0u);
+	var scale = 1.0;
+	loop {
+		let q = scale * home + f32(octaves.count) * noise__OCTAVE_SHIFT;
+		octaves.sum += noise__gradient_noise(q, noise__NOISE_PERIOD << octaves.count) / scale;
+		scale *= 2.0;
+		octaves.count += 1u;
+		continuing {
+		
+			break if octaves.count >= count;
+		}
 	}
-	var q = p;
-	if (bindings__HAS_INSTANCES && instance != types__NO_INSTANCE) {
-		let own: types__PackedInstance = fetch__load_instance(instance);
-		let space = instance__space_of(own);
-		q = space.inverse * (p - space.translation);
-		surface.place = instance__pattern_place(own, q);
-	}
-	let canonical = canonical__canonical_vector(shape, q - shape.position);
-	surface.uv = saturate(0.5 + 0.5 * vec2f(canonical.x, -canonical.z));
-	if (shape.kind == types__SHAPE_SPHERE) {
-		surface.uv = canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
-	}
-	surface.second_uv = surface.uv;
-	return surface;
+	return octaves;
+}
+
+fn noise__gradient_noise(p: vec3f, period: u32) -> f32 {
+	let cell = floor(p);
+	let f = p - cell;
+	let low = vec3u(vec3i(cell)) & vec3u(period - 1u);
+	let high = (low + 1u) & vec3u(period - 1u);
+	let z0 = rng__hash(low.z);
+	let z1 = rng__hash(high.z);
+	let y00 = rng__hash(low.y + z0);
+	let y10 = rng__hash(high.y + z0);
+	let y01 = rng__hash(low.y + z1);
+	let y11 = rng__hash(high.y + z1);
+	let t = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+	let x = vec4f(mix(noise__corner(low.x + y00, f), noise__corner(high.x + y00, f - vec3f(1.0, 0.0, 0.0)), t.x), mix(noise__corner(low.x + y10, f - vec3f(0.0, 1.0, 0.0)), noise__corner(high.x + y10, f - vec3f(1.0, 1.0, 0.0)), t.x), mix(noise__corner(low.x + y01, f - vec3f(0.0, 0.0, 1.0)), noise__corner(high.x + y01, f - vec3f(1.0, 0.0, 1.0)), t.x), mix(noise__corner(low.x + y11, f - vec3f(0.0, 1.0, 1.0)), noise__corner(high.x + y11, f - vec3f(1.0, 1.0, 1.0)), t.x));
+	let y = mix(x.xz, x.yw, t.y);
+	return mix(y.x, y.y, t.z);
+}
+
+fn noise__corner(key: u32, d: vec3f) -> f32 {
+	let h = rng__hash(key) & 15u;
+	let u = select(d.y, d.x, h < 8u);
+	let v = select(select(d.z, d.x, (h == 12u) | (h == 14u)), d.y, h < 4u);
+	return select(u, -u, (h & 1u) != 0u) + select(v, -v, (h & 2u) != 0u);
 }
 
 const coating__COAT_F0: f32 = 0.04;
@@ -4603,6 +4540,154 @@ fn coating__coating_eval(coating: coating__Coating, wo: vec3f, wi: vec3f, chance
 fn coating__coating_sample(coating: coating__Coating, wo: vec3f, u: vec2f, is_coat: bool) -> vec3f {
 	let h = bsdf_ggx__ggx_normal(wo, vec2f(coating.coat_alpha), u);
 	return select(bsdf_sheen__sheen_sample(u), bsdf__reflected_at(wo, h), is_coat);
+}
+
+const layers__SMOOTH: f32 = 0.0001;
+
+struct layers__Layers {
+	diffuse: vec3f,
+	f0: vec3f,
+	f90: vec3f,
+	over_f0: vec3f,
+	over_f90: vec3f,
+	alpha: f32,
+	reflect: vec3f,
+	transmit: vec3f,
+	boundary_alpha: f32,
+	fresnel: u32,
+	ior: f32,
+	glow: vec3f,
+	coat: f32,
+	coat_roughness: f32,
+	sheen: vec3f,
+	sheen_roughness: f32,
+	anisotropy: f32,
+	along: vec2f,
+	film: f32,
+	film_ior: f32,
+	film_thickness: f32,
+	diffuse_transmission: f32,
+	diffuse_transmission_color: vec3f
+}
+
+fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
+	var own = material__load_layers(surface.material);
+	own.base = surface.phong.diffuse;
+	var reflect = surface.phong.reflect;
+	var transmit = optics.transmit;
+	var glow = vec3f(1.0);
+	var thickness = 1.0;
+	var along = vec2f(1.0, 0.0);
+	if (bindings__HAS_TEXTURES) {
+		var rest = own.slots;
+		loop {
+			let slot = firstTrailingBit(rest | 2147483648u);
+			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
+			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
+			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
+			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
+			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
+			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
+			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
+			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
+			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
+			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
+			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			if (bindings__HAS_ANISOTROPY) {
+				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
+				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
+			}
+			if (bindings__HAS_COATINGS) {
+				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
+				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
+				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
+				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
+				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
+				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
+				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
+				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
+			}
+			rest &= rest - 1u;
+			continuing {
+			
+				break if rest == 0u;
+			}
+		}
+		loops__cut_off |= rest != 0u;
+	}
+	var layers: layers__Layers;
+	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
+		layers = layers__metallic_roughness(own);
+	}
+	else {
+		layers.diffuse = own.base;
+		layers.f0 = own.f0;
+		layers.f90 = own.f0;
+		layers.over_f0 = own.f0;
+		layers.over_f90 = own.f0;
+		layers.alpha = own.roughness * own.roughness;
+		layers.reflect = reflect;
+		layers.transmit = transmit;
+		layers.fresnel = optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK);
+		layers.ior = own.ior;
+	}
+	layers.glow = glow;
+	if (bindings__HAS_ANISOTROPY) {
+		layers.anisotropy = own.anisotropy;
+		layers.along = dispersion__anisotropy_tangent(own.anisotropy_rotation, along);
+	}
+	if (bindings__HAS_COATINGS) {
+		layers.coat = own.coat;
+		layers.coat_roughness = own.coat_roughness;
+		layers.sheen = own.sheen;
+		layers.sheen_roughness = own.sheen_roughness;
+		layers.film = own.iridescence;
+		layers.film_ior = own.iridescence_ior;
+		layers.film_thickness = mix(own.film_thinnest, own.film_thickest, thickness);
+		layers.diffuse_transmission = own.diffuse_transmission;
+		layers.diffuse_transmission_color = own.diffuse_transmission_color;
+	}
+	return layers;
+}
+
+fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
+	var layers: layers__Layers;
+	layers.alpha = own.roughness * own.roughness;
+	layers.ior = own.ior;
+	let body = 1.0 - own.metallic;
+	layers.diffuse = body * own.base;
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
+		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
+		layers.diffuse *= 1.0 - own.transmission;
+		layers.f0 = own.metallic * own.base;
+		layers.f90 = vec3f(own.metallic);
+		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
+		layers.transmit = (body * own.transmission) * own.base;
+		layers.boundary_alpha = layers.alpha;
+		layers.fresnel = types__MATERIAL_FRESNEL;
+		return layers;
+	}
+	layers.f0 = mix(own.f0, own.base, own.metallic);
+	layers.f90 = vec3f(mix(own.f90, 1.0, own.metallic));
+	layers.over_f0 = own.f0;
+	layers.over_f90 = vec3f(own.f90);
+	return layers;
+}
+
+fn layers__textured(own: types__PackedLayers, slot: u32, surface: types__Surface) -> vec4f {
+	if ((own.slots & (1u << slot)) == 0u) {
+		return vec4f(1.0);
+	}
+	return texture__texture_value(material__load_texture(layers__texture_in(own, slot)), surface);
+}
+
+fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
+	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
+	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
+	let word = (slot >> 1u) & 3u;
+	let low = select(four.x, four.y, word == 1u);
+	let high = select(four.z, four.w, word == 3u);
+	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
 }
 
 struct fresnel__Boundary {
@@ -4698,6 +4783,215 @@ fn albedo__blended_albedo(entries: vec4u, weights: vec4f) -> vec2f {
 fn albedo__multiple_scattering(f0: vec3f, albedo: vec2f) -> vec3f {
 	let single = clamp(albedo.x + albedo.y, 0.001, 1.0);
 	return 1.0 + f0 * ((1.0 - single) / single);
+}
+
+fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
+	let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
+	return x * x * (3.0 - 2.0 * x);
+}
+
+fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
+	let to_light = light.position - p;
+	let distance = length(to_light);
+	let is_directional = light.kind == types__LIGHT_DIRECTIONAL;
+	let direction = select(numeric__normalize_or(to_light, -light.direction), -light.direction, is_directional);
+	var strength = select(0.0, 1.0, is_directional || distance > 1e-30);
+	if (light.attenuation == types__ATTENUATION_INVERSE_SQUARE) {
+		strength /= max(distance * distance, 1e-30);
+	}
+	if (light.kind == types__LIGHT_SPOT) {
+		strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
+	}
+	return types__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
+}
+
+fn bsdf_diffuse__diffuse_eval(wi: vec3f) -> f32 {
+	return max(wi.z, 0.0) / warp__PI;
+}
+
+fn bsdf_diffuse__diffuse_sample(u: vec2f) -> vec3f {
+	let p = warp__disc_from_square(u);
+	return vec3f(p, sqrt(max(1.0 - dot(p, p), 0.0)));
+}
+
+fn direct__shadow_ray(surface: types__Surface, arriving: types__Incident) -> types__Ray {
+	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
+	ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
+	return ray;
+}
+
+const shadow__MAX_CROSSINGS: u32 = 64u;
+
+fn shadow__light_through(rays: rays__Rays, media: ray_states__Media) -> wide__Vectors {
+	var through: wide__Vectors;
+	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
+		through = shadow__filtered(rays, media);
+	}
+	else {
+		let hits = rays__any_hits(rays);
+		let passed = select(wide__Floats(0.0), wide__Floats(1.0), hits.primitive == wide__Words(types__NONE));
+		through = wide__Vectors(passed, passed, passed);
+	}
+	if (bindings__COUNT_RAYS) {
+		shadow__count_shadows(rays, through);
+	}
+	return through;
+}
+
+fn shadow__count_shadows(rays: rays__Rays, through: wide__Vectors) {
+	var k = 0u;
+	loop {
+		let is_cast = wide__float_at(rays.t_max, k) >= 0.0;
+		let is_blocked = is_cast & all(wide__vector_at(through, k) == vec3f(0.0));
+		dispatch__counts.shadow += select(0u, 1u, is_cast);
+		dispatch__counts.shadow_blocked += select(0u, 1u, is_blocked);
+		continuing {
+			k += 1u;
+			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+		}
+	}
+	loops__cut_off |= k < wide__RAYS_PER_LANE;
+}
+
+fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__Vectors {
+	var rays = shadow_rays;
+	var media = start;
+	var transmitted = wide__Vectors(wide__Floats(1.0), wide__Floats(1.0), wide__Floats(1.0));
+	var crossings = 0u;
+	var is_unfinished = true;
+	loop {
+		let hits = rays__closest_hits(rays);
+		is_unfinished = false;
+		var rows = rays__rows_where(rays.t_max >= wide__Floats(0.0));
+		loop {
+			let k = rays__first_row(rows);
+			let ray = rays__ray_at(rays, k);
+			if (ray.t_max >= 0.0) {
+				let hit = rays__hit_at(hits, k);
+				var passed = wide__vector_at(transmitted, k);
+				var next = rays__DEAD;
+				if (hit.primitive == types__NONE) {
+					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+						passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_states__media_at(media, k))), hit.t);
+					}
+				}
+				else {
+					ray_stack__current_tree = k;
+					let contact = contact__contact_at(ray, hit, types__Cone(0.0, 0.0));
+					let surface = contact.surface;
+					var through = vec3f(0.0);
+					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+						let around = ray_states__media_at(media, k);
+						let beyond = contact__media_behind(around, contact);
+						media = ray_states__media_set(media, k, beyond);
+						through = shadow__passing(ray, hit.t, surface, around, medium__dominant(beyond));
+					}
+					passed *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
+					let rest = ray.t_max - hit.t;
+					if (any(passed > vec3f(0.0)) & (rest > 0.0)) {
+						next = leaving__leaving_ray(surface, ray.direction, rest);
+						is_unfinished = true;
+						passed = select(passed, vec3f(0.0), crossings + 1u >= shadow__MAX_CROSSINGS);
+					}
+				}
+				transmitted = wide__vector_set(transmitted, k, passed);
+				rays = rays__ray_set(rays, k, next);
+			}
+			continuing {
+				rows = rays__later_rows(rows);
+				break if wide__ONE_RAY | (rows == 0u);
+			}
+		}
+		loops__cut_off |= rows != 0u;
+		crossings += 1u;
+		continuing {
+		
+			break if !rays__any_lane(is_unfinished) | (crossings >= shadow__MAX_CROSSINGS);
+		}
+	}
+	loops__cut_off |= is_unfinished & (crossings < shadow__MAX_CROSSINGS);
+	return transmitted;
+}
+
+fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, around: vec4u, behind: u32) -> vec3f {
+	let optics = material__load_optics(surface.material);
+	let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
+	if (bindings__SOLID_GLASS) {
+		let layers = layers__layers_at(surface, optics);
+		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < layers__SMOOTH;
+		let medium = medium__medium_of(behind);
+		var share = 1.0;
+		if ((layers.fresnel & types__MATERIAL_FRESNEL) != 0u) {
+			share -= boundary__boundary_at(layers.fresnel, cos_i, medium.ior / layers.ior).reflectance;
+		}
+		return select(vec3f(0.0), share * layers.transmit * medium__transmittance(medium, distance), is_window);
+	}
+	var here = medium__medium_before(around, surface.material, surface.outside);
+	var ior_behind = medium__medium_of(behind).ior;
+	if ((optics.flags & types__MATERIAL_THIN) != 0u) {
+		here = behind;
+		ior_behind = optics.ior;
+	}
+	var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), distance);
+	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
+		let eta = medium__medium_of(here).ior / ior_behind;
+		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
+	}
+	return through;
+}
+
+const dispersion__WAVELENGTHS: vec3f = vec3f(611.4, 549.1, 464.2);
+
+fn dispersion__dispersed_ior(ior: f32, dispersion: f32, wavelength: f32) -> f32 {
+	let spread = (ior - 1.0) * dispersion / 20.0;
+	return max(ior + spread * (523655.0 / (wavelength * wavelength) - 1.5168), 1.0);
+}
+
+fn dispersion__anisotropic_alpha(alpha: f32, strength: f32) -> vec2f {
+	return vec2f(mix(alpha, 1.0, strength * strength), alpha);
+}
+
+fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
+	let own = texel * inverseSqrt(max(dot(texel, texel), 1e-12));
+	let turn = vec2f(cos(rotation), sin(rotation));
+	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
+}
+
+fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
+	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
+		return fresnel__schlick(cos_i, eta);
+	}
+	return fresnel__fresnel(cos_i, eta);
+}
+
+fn dispersion__load_dispersion(material: u32) -> f32 {
+	let own = select(material, 0u, material == types__NONE);
+	let row = fetch__material_row(types__MATERIAL_ROWS * own + types__LAYERS_ROW + 5u);
+	return select(bitcast<f32>(row.z), 0.0, material == types__NONE);
+}
+
+fn dispersion__colored(path: path__Path, met: interface__Interface) -> path__Path {
+	let disperses = met.encloses && met.is_boundary && max(dispersion__load_dispersion(met.here), dispersion__load_dispersion(medium__dominant(met.media))) > 0.0;
+	if (!disperses || path.channel != path__ALL_CHANNELS) {
+		return path;
+	}
+	var one = path;
+	one.channel = min(u32(3.0 * path__random_1d(path, dimensions__CHANNEL_CHOICE)), 2u);
+	one.throughput *= select(vec3f(0.0), vec3f(3.0), vec3u(0u, 1u, 2u) == vec3u(one.channel));
+	return one;
+}
+
+fn dispersion__dispersed(met: interface__Interface, channel: u32) -> interface__Interface {
+	if (channel == path__ALL_CHANNELS) {
+		return met;
+	}
+	let wavelength = select(select(dispersion__WAVELENGTHS.z, dispersion__WAVELENGTHS.y, channel == 1u), dispersion__WAVELENGTHS.x, channel == 0u);
+	let front = dispersion__load_dispersion(met.here);
+	let behind = dispersion__load_dispersion(medium__dominant(met.media));
+	var one = met;
+	one.ior = select(met.ior, dispersion__dispersed_ior(met.ior, front, wavelength), front > 0.0);
+	one.ior_behind = select(met.ior_behind, dispersion__dispersed_ior(met.ior_behind, behind, wavelength), met.encloses && behind > 0.0);
+	return one;
 }
 
 struct lobes__Bsdf {
@@ -4871,13 +5165,6 @@ fn lobes__from_frame(bsdf: lobes__Bsdf, w: vec3f) -> vec3f {
 	return w.x * bsdf.x + w.y * bsdf.y + w.z * bsdf.normal;
 }
 
-fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
-	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
-		return fresnel__schlick(cos_i, eta);
-	}
-	return fresnel__fresnel(cos_i, eta);
-}
-
 const thin_film__XYZ_TO_RGB: mat3x3f = mat3x3f(vec3f(3.2404542, -0.969266, 0.0556434), vec3f(-1.5371385, 1.8760108, -0.2040259), vec3f(-0.4985314, 0.041556, 1.0572252));
 
 fn thin_film__film_f0(n1: vec3f, n2: vec3f) -> vec3f {
@@ -4925,62 +5212,6 @@ fn seen__see_surface(path: path__Path, bsdf: lobes__Bsdf, glow: vec3f) {
 			features__see_albedo(path.throughput * albedo, bsdf.normal);
 		}
 	}
-}
-
-const quad_warp__CHANCE_BITS: u32 = 10u;
-
-const quad_warp__CHANCE_STEPS: f32 = 1023.0;
-
-struct quad_warp__QuadPlace {
-	cell: vec2u,
-	u: vec2f
-}
-
-struct quad_warp__Half {
-	index: u32,
-	u: f32
-}
-
-fn quad_warp__quad_root(word: u32, u: vec2f) -> quad_warp__QuadPlace {
-	let column = quad_warp__half_of(quad_warp__chance_of(word, 0u), u.x);
-	return quad_warp__QuadPlace(vec2u(column.index, 0u), vec2f(column.u, u.y));
-}
-
-fn quad_warp__quad_step(word: u32, place: quad_warp__QuadPlace) -> quad_warp__QuadPlace {
-	let row = quad_warp__half_of(quad_warp__chance_of(word, 0u), place.u.y);
-	let column = quad_warp__half_of(quad_warp__chance_of(word, 1u + row.index), place.u.x);
-	return quad_warp__QuadPlace(2u * place.cell + vec2u(column.index, row.index), vec2f(column.u, row.u));
-}
-
-fn quad_warp__chance_of(word: u32, index: u32) -> f32 {
-	return f32((word >> (quad_warp__CHANCE_BITS * index)) & 1023u) / quad_warp__CHANCE_STEPS;
-}
-
-fn quad_warp__half_of(chance: f32, u: f32) -> quad_warp__Half {
-	let is_second = u >= chance;
-	let start = select(0.0, chance, is_second);
-	let size = select(chance, 1.0 - chance, is_second);
-	return quad_warp__Half(select(0u, 1u, is_second), clamp((u - start) / max(size, 1e-9), 0.0, 0.99999994));
-}
-
-fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
-	let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
-	return x * x * (3.0 - 2.0 * x);
-}
-
-fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
-	let to_light = light.position - p;
-	let distance = length(to_light);
-	let is_directional = light.kind == types__LIGHT_DIRECTIONAL;
-	let direction = select(numeric__normalize_or(to_light, -light.direction), -light.direction, is_directional);
-	var strength = select(0.0, 1.0, is_directional || distance > 1e-30);
-	if (light.attenuation == types__ATTENUATION_INVERSE_SQUARE) {
-		strength /= max(distance * distance, 1e-30);
-	}
-	if (light.kind == types__LIGHT_SPOT) {
-		strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
-	}
-	return types__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
 }
 
 struct bsdf__BsdfValue {
@@ -5109,15 +5340,6 @@ fn bsdf__reflected_at(wo: vec3f, h: vec3f) -> vec3f {
 	return normalize(2.0 * dot(wo, h) * h - wo);
 }
 
-fn bsdf_diffuse__diffuse_eval(wi: vec3f) -> f32 {
-	return max(wi.z, 0.0) / warp__PI;
-}
-
-fn bsdf_diffuse__diffuse_sample(u: vec2f) -> vec3f {
-	let p = warp__disc_from_square(u);
-	return vec3f(p, sqrt(max(1.0 - dot(p, p), 0.0)));
-}
-
 fn bsdf_ggx__ggx_distribution(h: vec3f, alpha: vec2f) -> f32 {
 	let scaled = vec3f(h.xy / alpha, h.z);
 	let squared = dot(scaled, scaled);
@@ -5197,130 +5419,4 @@ fn bsdf_ggx_transmission__ggx_transmission(wo: vec3f, wi: vec3f, alpha: vec2f, e
 	let refracted_density = abs(dot(wo, h) * dot(wi, h)) / (max(wo.z, 1e-6) * max(dot(sum, sum), 1e-12));
 	let pdf = bsdf_ggx__ggx_distribution(h, alpha) * refracted_density / seen;
 	return select(vec2f(0.0), vec2f(pdf / lit, pdf), wo.z > 0.0 && wi.z < 0.0);
-}
-
-fn direct__shadow_ray(surface: types__Surface, arriving: types__Incident) -> types__Ray {
-	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
-	ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
-	return ray;
-}
-
-const shadow__MAX_CROSSINGS: u32 = 64u;
-
-fn shadow__light_through(rays: rays__Rays, media: ray_states__Media) -> wide__Vectors {
-	var through: wide__Vectors;
-	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
-		through = shadow__filtered(rays, media);
-	}
-	else {
-		let hits = rays__any_hits(rays);
-		let passed = select(wide__Floats(0.0), wide__Floats(1.0), hits.primitive == wide__Words(types__NONE));
-		through = wide__Vectors(passed, passed, passed);
-	}
-	if (bindings__COUNT_RAYS) {
-		shadow__count_shadows(rays, through);
-	}
-	return through;
-}
-
-fn shadow__count_shadows(rays: rays__Rays, through: wide__Vectors) {
-	var k = 0u;
-	loop {
-		let is_cast = wide__float_at(rays.t_max, k) >= 0.0;
-		let is_blocked = is_cast & all(wide__vector_at(through, k) == vec3f(0.0));
-		dispatch__counts.shadow += select(0u, 1u, is_cast);
-		dispatch__counts.shadow_blocked += select(0u, 1u, is_blocked);
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-}
-
-fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__Vectors {
-	var rays = shadow_rays;
-	var media = start;
-	var transmitted = wide__Vectors(wide__Floats(1.0), wide__Floats(1.0), wide__Floats(1.0));
-	var crossings = 0u;
-	var is_unfinished = true;
-	loop {
-		let hits = rays__closest_hits(rays);
-		is_unfinished = false;
-		var rows = rays__rows_where(rays.t_max >= wide__Floats(0.0));
-		loop {
-			let k = rays__first_row(rows);
-			let ray = rays__ray_at(rays, k);
-			if (ray.t_max >= 0.0) {
-				let hit = rays__hit_at(hits, k);
-				var passed = wide__vector_at(transmitted, k);
-				var next = rays__DEAD;
-				if (hit.primitive == types__NONE) {
-					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-						passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_states__media_at(media, k))), hit.t);
-					}
-				}
-				else {
-					ray_stack__current_tree = k;
-					let contact = contact__contact_at(ray, hit, types__Cone(0.0, 0.0));
-					let surface = contact.surface;
-					var through = vec3f(0.0);
-					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-						let around = ray_states__media_at(media, k);
-						let beyond = contact__media_behind(around, contact);
-						media = ray_states__media_set(media, k, beyond);
-						through = shadow__passing(ray, hit.t, surface, around, medium__dominant(beyond));
-					}
-					passed *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
-					let rest = ray.t_max - hit.t;
-					if (any(passed > vec3f(0.0)) & (rest > 0.0)) {
-						next = leaving__leaving_ray(surface, ray.direction, rest);
-						is_unfinished = true;
-						passed = select(passed, vec3f(0.0), crossings + 1u >= shadow__MAX_CROSSINGS);
-					}
-				}
-				transmitted = wide__vector_set(transmitted, k, passed);
-				rays = rays__ray_set(rays, k, next);
-			}
-			continuing {
-				rows = rays__later_rows(rows);
-				break if wide__ONE_RAY | (rows == 0u);
-			}
-		}
-		loops__cut_off |= rows != 0u;
-		crossings += 1u;
-		continuing {
-		
-			break if !rays__any_lane(is_unfinished) | (crossings >= shadow__MAX_CROSSINGS);
-		}
-	}
-	loops__cut_off |= is_unfinished & (crossings < shadow__MAX_CROSSINGS);
-	return transmitted;
-}
-
-fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, around: vec4u, behind: u32) -> vec3f {
-	let optics = material__load_optics(surface.material);
-	let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
-	if (bindings__SOLID_GLASS) {
-		let layers = layers__layers_at(surface, optics);
-		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < layers__SMOOTH;
-		let medium = medium__medium_of(behind);
-		var share = 1.0;
-		if ((layers.fresnel & types__MATERIAL_FRESNEL) != 0u) {
-			share -= boundary__boundary_at(layers.fresnel, cos_i, medium.ior / layers.ior).reflectance;
-		}
-		return select(vec3f(0.0), share * layers.transmit * medium__transmittance(medium, distance), is_window);
-	}
-	var here = medium__medium_before(around, surface.material, surface.outside);
-	var ior_behind = medium__medium_of(behind).ior;
-	if ((optics.flags & types__MATERIAL_THIN) != 0u) {
-		here = behind;
-		ior_behind = optics.ior;
-	}
-	var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), distance);
-	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
-		let eta = medium__medium_of(here).ior / ior_behind;
-		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
-	}
-	return through;
 }

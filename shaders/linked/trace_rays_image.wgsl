@@ -345,10 +345,12 @@ struct types__PackedDispatch {
 	end_sample: u32,
 	seed: u32,
 	max_depth: u32,
+	backdrop: vec3f,
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
-	counters: types__PackedCounters
+	counters: types__PackedCounters,
+	_pad: u32
 }
 
 struct types__PackedCounters {

@@ -378,6 +378,7 @@ struct dispatch__Batch {
 	first_sample: u32,
 	end_sample: u32,
 	max_depth: u32,
+	backdrop: vec3f,
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
@@ -395,7 +396,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 		albedo__albedo_first = bindings__frame.albedo_first;
 	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
@@ -865,10 +866,12 @@ struct types__PackedDispatch {
 	end_sample: u32,
 	seed: u32,
 	max_depth: u32,
+	backdrop: vec3f,
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
-	counters: types__PackedCounters
+	counters: types__PackedCounters,
+	_pad: u32
 }
 
 struct types__PackedCounters {
@@ -1230,6 +1233,10 @@ override bindings__HAS_FEATURES: bool = false;
 
 override bindings__FEATURES_ROW: u32 = 2u;
 
+override bindings__HAS_OPACITY: bool = false;
+
+override bindings__OPACITY_ROW: u32 = 1u;
+
 var<private> albedo__albedo_first: u32;
 
 struct pixels__Pixels {
@@ -1303,8 +1310,12 @@ fn pixels__add_samples(pixels: pixels__Pixels, sample: u32, radiance: wide__Vect
 			let before = pixels__sum_at(pixels, k);
 			let sum = film__add_sample(before, film__Sample(wide__vector_at(radiance, k)), weight);
 			next = pixels__with_sum(next, k, sum);
-			if (bindings__HAS_FEATURES && sum.radiance.w != before.radiance.w) {
+			let is_kept = sum.radiance.w != before.radiance.w;
+			if (bindings__HAS_FEATURES && is_kept) {
 				features__add_features(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), sample, weight);
+			}
+			if (bindings__HAS_OPACITY && is_kept) {
+				opacity__add_opacity(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), weight);
 			}
 		}
 		continuing {
@@ -4746,3 +4757,18 @@ fn filter__inverse_erf(y: vec2f) -> vec2f {
 }
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+
+struct opacity__Clearness {
+	nothing: f32,
+	catchers: f32,
+	light: f32,
+	unshadowed: f32
+}
+
+var<private> opacity__clearness: opacity__Clearness;
+
+fn opacity__add_opacity(first_row: u32, weight: f32) {
+	let row = first_row + bindings__OPACITY_ROW;
+	features__add_mean(row, vec3f(opacity__clearness.nothing, opacity__clearness.catchers, 0.0), weight);
+	features__add_mean(row + 1u, vec3f(opacity__clearness.light, opacity__clearness.unshadowed, 0.0), weight);
+}

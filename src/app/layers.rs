@@ -120,7 +120,7 @@ impl PictureLayer {
     }
 }
 
-/// A layer of colours, with opacity where some pixel is not opaque.
+/// A layer of colours; where some pixel is not opaque with opacity, by which colours are multiplied, as OpenEXR asks.
 pub fn color(name: &'static str, image: &Image) -> ImageLayer {
     let names: &[&str] = match image.is_opaque() {
         true => &["R", "G", "B"],
@@ -128,7 +128,7 @@ pub fn color(name: &'static str, image: &Image) -> ImageLayer {
     };
     let channel = |(index, name): (usize, &&'static str)| Channel {
         name,
-        values: image.pixels.iter().map(|pixel| pixel[index]).collect(),
+        values: image.premultiplied().map(|pixel| pixel[index]).collect(),
         is_half: true,
     };
     ImageLayer {

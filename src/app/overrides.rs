@@ -6,8 +6,8 @@ use crate::render::{
     TriangleTest,
 };
 use crate::scene::{
-    Background, Camera, CameraProperty, Filter, OutputDefaults, Scene, Shutter, Target, ToneCurve,
-    Transfer,
+    Backdrop, Background, Camera, CameraProperty, Filter, OutputDefaults, Scene, Shutter, Target,
+    ToneCurve, Transfer,
 };
 use glam::{DVec3, Vec3};
 
@@ -106,8 +106,19 @@ pub struct CameraOverrides {
     pub look_at: Option<DVec3>,
     /// The direction that is up in the picture.
     pub up: Option<DVec3>,
-    /// Linear radiance of rays that hit nothing.
-    pub background: Option<Vec3>,
+    /// What rays see that hit nothing.
+    pub background: Option<BackgroundChoice>,
+    /// Whether a colour for that is seen by paths from the camera only, and an environment lights the scene.
+    pub has_environment: bool,
+}
+
+/// What rays see that hit nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BackgroundChoice {
+    /// A linear radiance.
+    Color(Vec3),
+    /// See [`Backdrop::Transparent`].
+    Transparent,
 }
 
 /// A moment of an animation: a frame wins over a time.
@@ -236,8 +247,13 @@ impl CameraOverrides {
         if let Some(name) = &self.name {
             scene.camera_index = camera_index(&scene.cameras, name)?;
         }
-        if let Some(background) = self.background {
-            scene.background = Background::Color(background);
+        match self.background {
+            Some(BackgroundChoice::Transparent) => scene.output.backdrop = Backdrop::Transparent,
+            Some(BackgroundChoice::Color(color)) if self.has_environment => {
+                scene.output.backdrop = Backdrop::Color(color);
+            }
+            Some(BackgroundChoice::Color(color)) => scene.background = Background::Color(color),
+            None => {}
         }
         let moved = self.look_from.or(self.look_at).or(self.up).is_some();
         if moved {

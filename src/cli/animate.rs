@@ -80,7 +80,10 @@ fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<
         arguments.picture.integrator,
     );
     let mut scene = draft.load(&arguments.scene, &options, arguments.reading.strict)?;
-    arguments.camera.overrides().apply(&mut scene)?;
+    arguments
+        .camera
+        .overrides(&arguments.reading)
+        .apply(&mut scene)?;
     let clock = Clock::new(&scene.output, &arguments.motion.overrides());
     let timeline = Timeline::new(&scene, &arguments.range, clock)?;
     let job = Job {
@@ -136,6 +139,9 @@ impl<'a> Sequence<'a> {
             &self.target.path,
             takes_layers,
         )?;
+        let takes_opacity =
+            self.target.video.is_none() && files.is_some_and(|files| files.format.has_opacity());
+        Job::check_backdrop(&settings, &self.target.path, takes_opacity)?;
         let size = picture_size(&settings)?;
         let video = self.video_options()?;
         draft.set_image(self.job.image(&self.target.path, &settings, size));

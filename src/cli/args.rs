@@ -49,8 +49,8 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Render a built-in showcase scene; no file is needed.
-    #[command(after_help = "Example: glimray demo --size 1280x720 --samples 16 -o demo.png")]
+    /// Render a built-in showcase scene, path-traced and denoised; no file is needed.
+    #[command(after_help = "Example: glimray demo --size 1280x720 --samples 64 -o demo.png")]
     Demo(Box<DemoArgs>),
     /// Render one picture of a scene.
     ///

@@ -1,8 +1,8 @@
-//! `glimray demo`: renders the built-in showcase scene.
+//! `glimray demo`: renders the built-in showcase scene by path tracing.
 
 use crate::app::error::AppError;
 use crate::app::showcase;
-use crate::cli::args::{DemoArgs, LayerFlags, PartFlags, PictureFlags, SizeFlags};
+use crate::cli::args::{DemoArgs, DevelopFlags, LayerFlags, PartFlags, PictureFlags, SizeFlags};
 use crate::cli::destination::Destination;
 use crate::cli::job;
 use crate::cli::job::Job;
@@ -26,7 +26,7 @@ fn render(
     draft: &mut Draft,
 ) -> Result<(), AppError> {
     let loading = Instant::now();
-    let scene = showcase::scene()?;
+    let scene = showcase::path_traced()?;
     draft.seconds.load = loading.elapsed().as_secs_f64();
     draft.set_scene(&scene);
     let SizeFlags { size, samples } = arguments.size;
@@ -34,6 +34,12 @@ fn render(
         scene,
         picture: &PictureFlags {
             size: SizeFlags { size, samples },
+            develop: DevelopFlags {
+                denoise: true,
+                ..DevelopFlags::default()
+            },
+            // Speckles that six samples would leave: paths that meet the sun by way of the mirror ball.
+            clamp_indirect: Some(2.0),
             ..PictureFlags::default()
         },
         device: &arguments.device,

@@ -53,6 +53,13 @@ impl Destination {
             .is_some_and(Format::is_linear)
     }
 
+    /// Whether it keeps opacity.
+    pub fn takes_opacity(&self) -> bool {
+        let format = self.options.format;
+        let format = format.or_else(|| Format::from_path(&self.path));
+        self.is_film() || format.unwrap_or(Format::Png).has_opacity()
+    }
+
     /// Finds errors of writing the output before rendering starts.
     pub fn check(&self, width: u32, height: u32) -> Result<(), AppError> {
         if self.is_film() {

@@ -27,7 +27,10 @@ pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     );
     let (scene, inputs) = scene_file::load(&arguments.scene, &options, arguments.reading.strict);
     let mut scene = scene?;
-    arguments.camera.overrides().apply(&mut scene)?;
+    arguments
+        .camera
+        .overrides(&arguments.reading)
+        .apply(&mut scene)?;
     let settings = arguments.picture.overrides().settings(&scene.output);
     check(arguments.pixel, &settings)?;
     if let Some(path) = &arguments.obj {

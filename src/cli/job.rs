@@ -18,7 +18,7 @@ use crate::cli::report::{
 use crate::gpu::{AdapterReport, Gpu};
 use crate::output;
 use crate::render::{ExecutionPolicy, Integrator, RenderSettings, Renderer, Stats, Tone};
-use crate::scene::Scene;
+use crate::scene::{Backdrop, Scene};
 use std::path::Path;
 use std::time::Instant;
 
@@ -78,9 +78,35 @@ impl Job<'_> {
 
     /// The picture of a renderer that is done.
     pub fn finish(&self, renderer: &mut Renderer, tone: &Tone) -> Result<Finished, AppError> {
-        match self.settings().features {
-            true => self.layers.finish(&renderer.film()?, renderer.gpu(), tone),
-            false => Ok(Finished::plain(renderer.develop(tone)?)),
+        let settings = self.settings();
+        let finished = match settings.features {
+            true => self
+                .layers
+                .finish(&renderer.film()?, renderer.gpu(), tone)?,
+            false => Finished::plain(renderer.develop(tone)?),
+        };
+        Ok(finished.placed(&settings))
+    }
+
+    /// Refuses a transparent background that the integrator cannot render, or that the file does not keep.
+    pub fn check_backdrop(
+        settings: &RenderSettings,
+        path: &Path,
+        takes_opacity: bool,
+    ) -> Result<(), AppError> {
+        if settings.backdrop != Backdrop::Transparent {
+            return Ok(());
+        }
+        if settings.integrator == Integrator::Whitted {
+            return Err(AppError::Usage(
+                "cannot render a transparent background (--integrator whitted): only paths keep opacity. Choose \
+                 --integrator path."
+                    .into(),
+            ));
+        }
+        match settings.has_opacity() && !takes_opacity {
+            true => Err(AppError::Usage(no_opacity(path))),
+            false => Ok(()),
         }
     }
 
@@ -211,6 +237,15 @@ impl Job<'_> {
             None => Ok(()),
         }
     }
+}
+
+/// Why a transparent picture cannot be written there.
+pub fn no_opacity(path: &Path) -> String {
+    format!(
+        "cannot write a transparent background ({}): the format has no opacity. Choose a name that ends in .png or \
+         .exr, or a colour with --background R,G,B.",
+        path.display()
+    )
 }
 
 /// Refuses a report at the output path or at another path that is `taken` by the output.

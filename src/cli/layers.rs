@@ -5,8 +5,8 @@ use crate::app::layers::{LAYERS, color};
 use crate::cli::args::LayerFlags;
 use crate::gpu::Gpu;
 use crate::image::Image;
-use crate::output::{self, LayeredImage, OutputError, SaveOptions};
-use crate::render::{Film, Integrator, Shows, Tone};
+use crate::output::{self, LayeredImage, OutputError, Place, SaveOptions};
+use crate::render::{Film, Integrator, RenderSettings, Shows, Tone};
 use std::path::Path;
 use std::time::Instant;
 
@@ -17,6 +17,7 @@ pub struct Finished {
     /// All layers of a file that has several.
     layers: Option<LayeredImage>,
     denoise_seconds: Option<f64>,
+    place: Option<Place>,
 }
 
 impl Finished {
@@ -26,6 +27,7 @@ impl Finished {
             image,
             layers: None,
             denoise_seconds: None,
+            place: None,
         }
     }
 
@@ -34,8 +36,19 @@ impl Finished {
         self.denoise_seconds
     }
 
+    /// The picture as the part that the settings say of a larger one.
+    pub fn placed(self, settings: &RenderSettings) -> Self {
+        let whole = settings.size;
+        let place = settings.crop.map(|[x, y, ..]| Place {
+            corner: (x, y),
+            whole,
+        });
+        Self { place, ..self }
+    }
+
     /// Writes the picture to a file.
     pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<(), OutputError> {
+        let options = &self.options(options);
         match &self.layers {
             None => output::save_with(path, &self.image, options),
             Some(layers) => output::save_layers(path, layers, options),
@@ -44,9 +57,17 @@ impl Finished {
 
     /// Writes the picture to standard output.
     pub fn save_to_stdout(&self, options: &SaveOptions) -> Result<(), OutputError> {
+        let options = &self.options(options);
         match &self.layers {
             None => output::save_to_stdout(&self.image, options),
-            Some(layers) => output::save_layers_to_stdout(layers),
+            Some(layers) => output::save_layers_to_stdout(layers, options),
+        }
+    }
+
+    fn options(&self, options: &SaveOptions) -> SaveOptions {
+        SaveOptions {
+            place: self.place,
+            ..options.clone()
         }
     }
 }

@@ -9,6 +9,7 @@ use crate::app::inputs::Inputs;
 use crate::cli::args::MergeArgs;
 use crate::cli::destination::Destination;
 use crate::cli::interrupt::Interrupt;
+use crate::cli::job;
 use crate::gpu::Gpu;
 use crate::render::{Film, FilmError, FilmHeader, FilmOutline, Missing};
 use crate::scene::OutputDefaults;
@@ -46,6 +47,9 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
         destination.path(),
         destination.takes_layers(),
     )?;
+    if whole.header().has_opacity() && !destination.takes_opacity() {
+        return Err(AppError::Usage(job::no_opacity(destination.path())));
+    }
     let (width, height) = whole.header().size;
     destination.check(width, height)?;
     let film = sum(&arguments.parts, &outlines, whole, &interrupt)?;

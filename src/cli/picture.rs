@@ -41,6 +41,7 @@ pub fn run(
         destination.path(),
         destination.takes_layers(),
     )?;
+    Job::check_backdrop(&settings, destination.path(), destination.takes_opacity())?;
     let size = picture_size(&settings)?;
     draft.set_image(job.image(destination.path(), &settings, size));
     draft

@@ -33,7 +33,10 @@ fn render(
         arguments.picture.integrator,
     );
     let mut scene = draft.load(&arguments.scene, &options, arguments.reading.strict)?;
-    arguments.camera.overrides().apply(&mut scene)?;
+    arguments
+        .camera
+        .overrides(&arguments.reading)
+        .apply(&mut scene)?;
     let clock = Clock::new(&scene.output, &arguments.motion.overrides());
     let shutter = clock.moment(&arguments.moment.moment());
     let job = Job {

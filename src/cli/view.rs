@@ -36,7 +36,7 @@ fn request_of(arguments: &ViewArgs) -> ViewRequest {
         overrides: RenderOverrides {
             picture: arguments.picture.overrides(),
             tone: arguments.picture.develop.overrides(),
-            camera: arguments.camera.overrides(),
+            camera: arguments.camera.overrides(&arguments.reading),
             moment: arguments.moment.moment(),
             timing: arguments.motion.overrides(),
         },
@@ -68,11 +68,12 @@ pub fn picture(words: &[String]) -> Result<PictureRequest, String> {
         let why = first.strip_prefix("error: ").unwrap_or(first);
         format!("cannot read the command line: {why}")
     })?;
-    let (scene, picture, camera, moment, motion) = match cli.command {
+    let (scene, picture, camera, reading, moment, motion) = match cli.command {
         Command::Render(it) => (
             it.scene,
             it.picture,
             it.camera,
+            it.reading,
             it.moment.moment(),
             it.motion,
         ),
@@ -81,7 +82,9 @@ pub fn picture(words: &[String]) -> Result<PictureRequest, String> {
                 frame: Some(it.range.frames.map_or(0, |range| range.first)),
                 time: None,
             };
-            (it.scene, it.picture, it.camera, moment, it.motion)
+            (
+                it.scene, it.picture, it.camera, it.reading, moment, it.motion,
+            )
         }
         _ => {
             return Err("cannot paste: only `glimray render` and `animate` have a camera".into());
@@ -92,7 +95,7 @@ pub fn picture(words: &[String]) -> Result<PictureRequest, String> {
         overrides: RenderOverrides {
             picture: picture.overrides(),
             tone: picture.develop.overrides(),
-            camera: camera.overrides(),
+            camera: camera.overrides(&reading),
             moment,
             timing: motion.overrides(),
         },

@@ -40,6 +40,7 @@ impl Writer<'_> {
             let coverage = self.coverage(material);
             table.put_if(!coverage.is_empty(), "coverage", coverage.inline());
             table.put_if(material.thin && !plain.thin, "thin", "true".to_owned());
+            table.put_if(material.shadow_catcher, "shadow_catcher", "true");
             let own = &material.textures;
             if let Some(map) = self.data_map(own.normal, material.normal_scale) {
                 table.put("normal_map", map);

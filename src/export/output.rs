@@ -4,7 +4,8 @@ use super::pictures::Role;
 use super::text::{Table, color, list, number, number32};
 use super::{ExportError, Writer, exact};
 use crate::scene::{
-    Antialias, Background, Filter, LightTransport, OutputDefaults, Shadows, ToneCurve, Transfer,
+    Antialias, Backdrop, Background, Filter, LightTransport, OutputDefaults, Shadows, ToneCurve,
+    Transfer,
 };
 use glam::Vec3;
 
@@ -84,6 +85,7 @@ impl Writer<'_> {
             fps,
             duration,
             shutter,
+            backdrop,
         } = self.scene.output.clone();
         let mut table = Table::default();
         let size_text = list([size.0.to_string(), size.1.to_string()]);
@@ -164,6 +166,11 @@ impl Writer<'_> {
                 "shutter",
                 list([number(shutter.open), number(shutter.close)]),
             );
+        }
+        match backdrop {
+            Backdrop::Background => {}
+            Backdrop::Color(plain) => table.put("backdrop", color(plain)),
+            Backdrop::Transparent => table.put("backdrop", "\"transparent\""),
         }
         if !table.is_empty() {
             self.text.gap();

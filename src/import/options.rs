@@ -102,8 +102,21 @@ pub struct Staging {
     pub lights: bool,
     /// A gradient behind the model, or that sky; black without it.
     pub background: bool,
-    /// A ground below the model that receives its shadow.
-    pub ground: bool,
+    /// A ground below the model.
+    pub ground: Ground,
+}
+
+/// The ground below a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ground {
+    /// There is none.
+    None,
+    /// A surface that receives the model's shadow, if the model has no lights.
+    Default,
+    /// That surface in any case.
+    Surface,
+    /// A shadow catcher in any case, and a transparent background: see [`crate::scene::Material::shadow_catcher`].
+    Shadow,
 }
 
 impl Staging {
@@ -112,7 +125,7 @@ impl Staging {
         camera: false,
         lights: false,
         background: false,
-        ground: false,
+        ground: Ground::None,
     };
 }
 
@@ -123,7 +136,7 @@ impl Default for Staging {
             camera: true,
             lights: true,
             background: true,
-            ground: true,
+            ground: Ground::Default,
         }
     }
 }

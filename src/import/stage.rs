@@ -1,10 +1,10 @@
 //! View and light for models that have none: a camera that frames the model; two soft lights and a gradient, or a sky
 //! with a sun where paths are traced; and a ground that receives the model's shadow.
 
-use super::Options;
+use super::{Ground, Options};
 use crate::scene::{
-    Attenuation, Background, Camera, Framing, Geometry, Light, LightKind, LightTransport, Material,
-    Scene, Shape, sky,
+    Attenuation, Backdrop, Background, Camera, Framing, Geometry, Light, LightKind, LightTransport,
+    Material, Scene, Shape, sky,
 };
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
@@ -32,6 +32,8 @@ pub(super) fn complete(scene: &mut Scene, options: &Options) {
     if scene.lights.is_empty() {
         let integrator = options.integrator.unwrap_or(scene.output.integrator);
         light(scene, options, integrator);
+    } else if matches!(staging.ground, Ground::Surface | Ground::Shadow) {
+        add_ground(scene, staging.ground, false);
     }
     scene.output.samples = scene.default_samples().max(4);
 }
@@ -83,9 +85,7 @@ fn light(scene: &mut Scene, options: &Options, integrator: LightTransport) {
     let bounds = scene.bounds_over_time();
     let (min, max) = bounds.unwrap_or((DVec3::NEG_ONE, DVec3::ONE));
     let center = min.midpoint(max);
-    // Never 0, not even for a single point far from the origin.
-    let radius = (max - min).length() / 2.0;
-    let radius = radius.max(1e-6 * center.abs().max_element().max(1e-6));
+    let radius = radius_of(min, max);
     let has_sky = integrator == LightTransport::Path && staging.lights && staging.background;
     if has_sky {
         // Another environment replaces it.
@@ -119,29 +119,48 @@ fn light(scene: &mut Scene, options: &Options, integrator: LightTransport) {
             top: TOP,
         };
     }
-    if staging.ground && bounds.is_some() {
-        // Slightly below the model, so that its own flat bottom does not coincide with it.
-        let point = DVec3::new(center.x, min.y - 1e-3 * radius, center.z);
-        let color = match has_sky {
-            true => Vec3::splat(sky::GROUND_ALBEDO as f32),
-            false => ground_color(),
-        };
-        scene.materials.push(Material {
-            name: "ground".to_owned(),
-            diffuse: color,
-            ambient: color,
-            ..Material::default()
-        });
-        scene.shapes.push(Shape {
-            geometry: Geometry::Plane {
-                point,
-                normal: DVec3::Y,
-            },
-            material: scene.materials.len() - 1,
-            node: None,
-        });
+    if staging.ground != Ground::None {
+        add_ground(scene, staging.ground, has_sky);
     }
-    scene.staged = staging.lights || staging.background || staging.ground;
+    scene.staged = staging.lights || staging.background || staging.ground != Ground::None;
+}
+
+/// A ground below `scene`, if that is bounded.
+fn add_ground(scene: &mut Scene, ground: Ground, has_sky: bool) {
+    let Some((min, max)) = scene.bounds_over_time() else {
+        return;
+    };
+    // Slightly below the model, so that its own flat bottom does not coincide with it.
+    let center = min.midpoint(max);
+    let point = DVec3::new(center.x, min.y - 1e-3 * radius_of(min, max), center.z);
+    let color = match has_sky {
+        true => Vec3::splat(sky::GROUND_ALBEDO as f32),
+        false => ground_color(),
+    };
+    scene.materials.push(Material {
+        name: "ground".to_owned(),
+        diffuse: color,
+        ambient: color,
+        shadow_catcher: ground == Ground::Shadow,
+        ..Material::default()
+    });
+    scene.shapes.push(Shape {
+        geometry: Geometry::Plane {
+            point,
+            normal: DVec3::Y,
+        },
+        material: scene.materials.len() - 1,
+        node: None,
+    });
+    if ground == Ground::Shadow {
+        scene.output.backdrop = Backdrop::Transparent;
+    }
+}
+
+/// Half the diagonal of bounds, never 0, not even for a single point far from the origin.
+fn radius_of(min: DVec3, max: DVec3) -> f64 {
+    let least = 1e-6 * min.midpoint(max).abs().max_element().max(1e-6);
+    ((max - min).length() / 2.0).max(least)
 }
 
 /// A clear sky with the sun at the left behind the default camera.

@@ -99,6 +99,8 @@ pub const MATERIAL_MASK: u32 = 64;
 pub const MATERIAL_THIN: u32 = 128;
 /// Bit of [`super::PackedMaterial::flags`]: its layers are those of a metallic-roughness material.
 pub const MATERIAL_METALLIC_ROUGHNESS: u32 = 256;
+/// Bit of [`super::PackedMaterial::flags`]: [`crate::scene::Material::shadow_catcher`].
+pub const MATERIAL_SHADOW_CATCHER: u32 = 512;
 /// Rows of 16 bytes of a [`super::PackedMaterial`].
 pub const MATERIAL_ROWS: u32 = 20;
 /// The first of these rows that belongs to [`super::PackedMaterial::layers`].
@@ -190,6 +192,13 @@ pub const BACKGROUND_COLOR: u32 = 0;
 pub const BACKGROUND_GRADIENT: u32 = 1;
 /// Override `BACKGROUND`: [`crate::scene::Background::Picture`].
 pub const BACKGROUND_PICTURE: u32 = 2;
+
+/// Override `BACKDROP`: [`crate::scene::Backdrop::Background`].
+pub const BACKDROP_BACKGROUND: u32 = 0;
+/// Override `BACKDROP`: [`crate::scene::Backdrop::Color`].
+pub const BACKDROP_COLOR: u32 = 1;
+/// Override `BACKDROP`: [`crate::scene::Backdrop::Transparent`].
+pub const BACKDROP_TRANSPARENT: u32 = 2;
 
 /// Override `FILTER`: [`crate::scene::Filter::Box`].
 pub const FILTER_BOX: u32 = 0;

@@ -1,7 +1,7 @@
 //! Encodes images in memory: the encoders of `image` ignore errors of a full disk (PNG's last chunk is
 //! written in `Drop`), but writing to memory cannot fail.
 
-use super::{Format, OutputError};
+use super::{Format, OutputError, SaveOptions, layered};
 use crate::image::Image;
 use ::image::codecs::{
     hdr::HdrEncoder, jpeg::JpegEncoder, openexr::OpenExrEncoder, png::PngEncoder,
@@ -10,12 +10,22 @@ use ::image::{DynamicImage, ImageBuffer, Pixel, Rgb, Rgba};
 use std::io::Cursor;
 
 /// The contents of the file. Opacity is kept if the format supports it and any pixel is not opaque.
-pub(super) fn encode(image: &Image, format: Format, quality: u8) -> Result<Vec<u8>, OutputError> {
-    let alpha = matches!(format, Format::Png | Format::Exr) && !image.is_opaque();
+pub(super) fn encode(
+    image: &Image,
+    format: Format,
+    options: &SaveOptions,
+) -> Result<Vec<u8>, OutputError> {
+    if let (Format::Exr, Some(place)) = (format, options.place) {
+        return layered::encode(&layered::plain(image), Some(place));
+    }
+    let alpha = format.has_opacity() && !image.is_opaque();
     let pixels = match (format, alpha) {
         (Format::Png, true) => raster(image, |p| Rgba(p.map(level))),
         (Format::Png | Format::Jpeg, _) => raster(image, |p| Rgb(rgb(p).map(level))),
-        (Format::Exr, true) => raster(image, Rgba),
+        (Format::Exr, true) => {
+            let pixels = image.premultiplied().collect();
+            raster(&Image { pixels, ..*image }, Rgba)
+        }
         (Format::Exr, false) => raster(image, |p| Rgb(rgb(p))),
         // `max` also turns a NaN into 0.
         (Format::Hdr, _) => raster(image, |p| Rgb(rgb(p).map(|v| v.max(0.0)))),
@@ -31,7 +41,7 @@ pub(super) fn encode(image: &Image, format: Format, quality: u8) -> Result<Vec<u
         Format::Png => pixels.write_with_encoder(PngEncoder::new(&mut file)),
         Format::Jpeg => pixels.write_with_encoder(JpegEncoder::new_with_quality(
             &mut file,
-            quality.clamp(1, 100),
+            options.quality.clamp(1, 100),
         )),
         Format::Exr => pixels.write_with_encoder(OpenExrEncoder::new(&mut file)),
         Format::Hdr => pixels.write_with_encoder(HdrEncoder::new(&mut file)),

@@ -38,6 +38,11 @@ impl Format {
         matches!(self, Self::Exr | Self::Hdr)
     }
 
+    /// Whether it stores the opacity of pixels.
+    pub fn has_opacity(self) -> bool {
+        matches!(self, Self::Png | Self::Exr)
+    }
+
     /// Refuses images that exceed the format's limits.
     pub(super) fn check_size(self, width: u32, height: u32) -> Result<(), OutputError> {
         let (max_width, max_height) = self.max_size();

@@ -1,6 +1,6 @@
 //! Pictures of several layers in one OpenEXR file.
 
-use super::{OutputError, SaveOptions, atomic};
+use super::{OutputError, Place, SaveOptions, atomic};
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
     LayerAttributes, Text, Vec2, WritableImage,
@@ -54,7 +54,7 @@ pub fn save_layers(
     image: &LayeredImage,
     options: &SaveOptions,
 ) -> Result<(), OutputError> {
-    let bytes = encode(image)?;
+    let bytes = encode(image, options.place)?;
     atomic::write(path.as_ref(), &bytes, options.clobber, options.follow_links)
 }
 
@@ -62,16 +62,41 @@ pub fn save_layers(
 ///
 /// # Errors
 /// Those of [`super::save_to_stdout`].
-pub fn save_layers_to_stdout(image: &LayeredImage) -> Result<(), OutputError> {
-    let bytes = encode(image)?;
+pub fn save_layers_to_stdout(
+    image: &LayeredImage,
+    options: &SaveOptions,
+) -> Result<(), OutputError> {
+    let bytes = encode(image, options.place)?;
     let mut stdout = std::io::stdout().lock();
     (stdout.write_all(&bytes))
         .and_then(|()| stdout.flush())
         .map_err(|source| OutputError::Stdout { source })
 }
 
-/// The contents of the file.
-fn encode(image: &LayeredImage) -> Result<Vec<u8>, OutputError> {
+/// An image of one layer in 32-bit floats, with opacity if some pixel is not opaque.
+pub(super) fn plain(image: &crate::image::Image) -> LayeredImage {
+    let names: &[&str] = match image.is_opaque() {
+        true => &["R", "G", "B"],
+        false => &["R", "G", "B", "A"],
+    };
+    let channel = |(index, name): (usize, &&'static str)| Channel {
+        name,
+        values: image.premultiplied().map(|pixel| pixel[index]).collect(),
+        is_half: false,
+    };
+    LayeredImage {
+        width: image.width,
+        height: image.height,
+        layers: vec![ImageLayer {
+            name: "",
+            channels: names.iter().enumerate().map(channel).collect(),
+        }],
+        in_parts: false,
+    }
+}
+
+/// The contents of the file. Its data window is the place of the image, its display window the larger image.
+pub(super) fn encode(image: &LayeredImage, place: Option<Place>) -> Result<Vec<u8>, OutputError> {
     let count = image.width as usize * image.height as usize;
     let channels = image.layers.iter().flat_map(|layer| &layer.channels);
     for channel in channels {
@@ -87,6 +112,9 @@ fn encode(image: &LayeredImage) -> Result<Vec<u8>, OutputError> {
     let part = |name: Option<&str>, channels: Vec<AnyChannel<FlatSamples>>| {
         let attributes = LayerAttributes {
             layer_name: name.map(Text::from),
+            layer_position: place.map_or(Vec2(0, 0), |it| {
+                Vec2(it.corner.0 as i32, it.corner.1 as i32)
+            }),
             software_name: Some(Text::from("glimray")),
             ..LayerAttributes::default()
         };
@@ -119,7 +147,8 @@ fn encode(image: &LayeredImage) -> Result<Vec<u8>, OutputError> {
             vec![part(None, channels.collect())]
         }
     };
-    let attributes = ImageAttributes::new(IntegerBounds::from_dimensions(size));
+    let whole = place.map_or(size, |it| Vec2(it.whole.0 as usize, it.whole.1 as usize));
+    let attributes = ImageAttributes::new(IntegerBounds::from_dimensions(whole));
     let mut file = Cursor::new(Vec::new());
     Image::from_layers(attributes, parts)
         .write()

@@ -28,6 +28,8 @@ pub struct Features {
     pub rough_glass: bool,
     /// Some volume disperses light.
     pub dispersion: bool,
+    /// Some material catches shadows.
+    pub shadow_catchers: bool,
     /// There are textures.
     pub textures: bool,
     /// Some mesh has a second set of texture coordinates.

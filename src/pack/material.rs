@@ -4,11 +4,12 @@ use super::{Features, PackError, layers, light};
 use crate::{
     layout::{
         MATERIAL_BLEND, MATERIAL_COVERAGE, MATERIAL_FRESNEL, MATERIAL_MASK,
-        MATERIAL_METALLIC_ROUGHNESS, MATERIAL_SCHLICK, MATERIAL_SUM, MATERIAL_THIN,
-        MATERIAL_TWO_SIDED, NO_TEXTURE, PATTERN_CHECKER, PATTERN_GRADIENT, PATTERN_NOISE,
-        PATTERN_PICTURE, PATTERN_STRIPES, PackedMaterial, PackedTexture, TEXTURE_BETWEEN_LEVELS,
-        TEXTURE_LEVELS, TEXTURE_MINIFY_NEAREST, TEXTURE_NEAREST, TEXTURE_SECOND_UV, TEXTURE_UV,
-        TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT,
+        MATERIAL_METALLIC_ROUGHNESS, MATERIAL_SCHLICK, MATERIAL_SHADOW_CATCHER, MATERIAL_SUM,
+        MATERIAL_THIN, MATERIAL_TWO_SIDED, NO_TEXTURE, PATTERN_CHECKER, PATTERN_GRADIENT,
+        PATTERN_NOISE, PATTERN_PICTURE, PATTERN_STRIPES, PackedMaterial, PackedTexture,
+        TEXTURE_BETWEEN_LEVELS, TEXTURE_LEVELS, TEXTURE_MINIFY_NEAREST, TEXTURE_NEAREST,
+        TEXTURE_SECOND_UV, TEXTURE_UV, TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP,
+        WRAP_MIRROR, WRAP_REPEAT,
     },
     scene::{
         Coverage, Fresnel, LayerProperty, Material, MaterialProperty, MetallicRoughness, Mixing,
@@ -59,6 +60,11 @@ pub fn material(material: &Material, lamp: Option<usize>) -> PackedMaterial {
             | mixing
             | covers
             | if material.thin { MATERIAL_THIN } else { 0 }
+            | if material.shadow_catcher {
+                MATERIAL_SHADOW_CATCHER
+            } else {
+                0
+            }
             | match material.metallic_roughness {
                 Some(_) => MATERIAL_METALLIC_ROUGHNESS,
                 None => 0,
@@ -183,6 +189,7 @@ pub fn features(scene: &Scene) -> Features {
         dispersion: has_layers(scene, |material, it| it.dispersion > 0.0 && !material.thin),
         thin_walls: (may_transmit(scene).into_iter().zip(&scene.materials))
             .any(|(transmits, material)| transmits && material.thin),
+        shadow_catchers: scene.materials.iter().any(|it| it.shadow_catcher),
         textures: !scene.textures.is_empty(),
         noise: has_pattern(|it| matches!(it, Pattern::Noise { .. })),
         pictures: has_pattern(|it| matches!(it, Pattern::Picture { .. })),

@@ -6,6 +6,7 @@ use super::{
     Integrator,
     film_tile::FilmTile,
     layers::{self, COUNT, FIRST, Layer, RADIANCE, SQUARES},
+    luminance::luminance,
     settings::RenderSettings,
     sums::PixelRows,
 };
@@ -48,7 +49,7 @@ pub struct Adaptive {
     tile_pixels: usize,
     layers: &'static [&'static Layer],
     pixels: Vec<PixelStatistics>,
-    /// The rows of all pixels as in film tiles, for films with features; otherwise empty.
+    /// The rows of all pixels as in film tiles, for films with features or opacity; otherwise empty.
     features: Vec<[f64; 4]>,
     /// The range of samples of the most sampled pixels in this round.
     front: Range<u32>,
@@ -89,7 +90,7 @@ impl Adaptive {
             // As many rows as without features.
             tile_pixels: 2 * side * side / layers::rows(layers::of_sampling(settings)),
             layers: layers::of_sampling(settings),
-            features: match settings.has_features() {
+            features: match settings.has_features() || settings.has_opacity() {
                 true => {
                     let rows = layers::rows(layers::of_sampling(settings));
                     vec![[0.0; 4]; rows * width as usize * height as usize]
@@ -328,9 +329,7 @@ impl PixelStatistics {
     }
 
     fn luminance(&self) -> f64 {
-        let [r, g, b] = self.sum;
-        let sum = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-        (sum * self.scale()).max(0.0)
+        (luminance(self.sum) * self.scale()).max(0.0)
     }
 
     /// The standard error of the luminance.

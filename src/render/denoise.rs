@@ -1,7 +1,8 @@
 //! Denoises pictures by their features: `kernels/denoise.wesl`.
 
 use super::{
-    Features, PixelFeatures, RenderError, develop::check_memory, layouts::group_at, pipelines,
+    Features, PixelFeatures, RenderError, develop::check_memory, layouts::group_at,
+    luminance::luminance, opacity::straight, pipelines,
 };
 use crate::{
     gpu::{Gpu, GpuError, Source},
@@ -21,7 +22,7 @@ const GUIDES: TextureFormat = TextureFormat::Rgba32Uint;
 const TEXEL_BYTES: u32 = 16;
 
 impl Image {
-    /// Denoises linear radiance with the features of its pixels. Opacity is kept. Pixels that are not finite are
+    /// Denoises linear radiance with the features of its pixels, and opacity where these have transparency. Pixels that are not finite are
     /// replaced by what is around them.
     ///
     /// # Errors
@@ -44,19 +45,26 @@ impl Image {
             .into());
         }
         let own = self.pixels.iter().zip(&features.pixels);
-        let signal: Vec<_> = own
+        let signals: Vec<_> = own
             .map(|(pixel, features)| signal(*pixel, features))
             .collect();
-        let filtered = filter(gpu, (width, height), &signal, &guides(features))?;
+        let guides = guides(features);
+        let filtered = filter(gpu, (width, height), &signals, &guides)?;
         let mut image = self.clone();
+        if features.pixels.iter().any(|pixel| pixel.transparency > 0.0) {
+            let signals: Vec<_> = features.pixels.iter().map(clear).collect();
+            let clear = filter(gpu, (width, height), &signals, &guides)?;
+            for (pixel, [clear, ..]) in image.pixels.iter_mut().zip(clear) {
+                pixel[3] = 1.0 - clear.clamp(0.0, 1.0);
+            }
+        }
         for ((pixel, found), features) in (image.pixels.iter_mut())
             .zip(filtered)
             .zip(&features.pixels)
         {
             let albedo = albedo(features);
-            for channel in 0..3 {
-                pixel[channel] = found[channel] * albedo[channel];
-            }
+            let color = [0, 1, 2].map(|channel| found[channel] * albedo[channel]);
+            *pixel = straight(color, pixel[3]);
         }
         Ok(image)
     }
@@ -71,16 +79,25 @@ fn albedo(features: &PixelFeatures) -> [f32; 3] {
 }
 
 /// A pixel divided by its albedo, and the variance of its luminance; negative if it is not finite.
-fn signal([r, g, b, _]: [f32; 4], features: &PixelFeatures) -> [f32; 4] {
+fn signal([r, g, b, opacity]: [f32; 4], features: &PixelFeatures) -> [f32; 4] {
     let albedo = albedo(features);
     let [ar, ag, ab] = albedo;
-    let luminance = 0.2126 * ar + 0.7152 * ag + 0.0722 * ab;
+    let luminance = luminance(albedo.map(f64::from)) as f32;
     let variance = features.variance / (luminance * luminance);
     if ![r, g, b, variance].iter().all(|number| number.is_finite()) {
         return [0.0, 0.0, 0.0, -1.0];
     }
-    let [r, g, b] = [r / ar, g / ag, b / ab].map(|channel| channel.clamp(0.0, MOST));
+    let [r, g, b] = [r * opacity / ar, g * opacity / ag, b * opacity / ab]
+        .map(|channel| channel.clamp(0.0, MOST));
     [r, g, b, variance.clamp(0.0, MOST * MOST)]
+}
+
+/// The transparency of a pixel as a signal. Its variance is that of samples which are either opaque or not, the greatest
+/// that the mean allows.
+fn clear(features: &PixelFeatures) -> [f32; 4] {
+    let clear = features.transparency;
+    let variance = clear * (1.0 - clear) / features.samples.max(1.0);
+    [clear, clear, clear, variance]
 }
 
 /// The guides of all pixels: normal, slope of the depth, albedo, and depth.

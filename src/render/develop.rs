@@ -249,6 +249,9 @@ impl Renderer {
             let image = features.picture().denoised(self.gpu(), &features)?;
             return tone.develop(self.gpu(), &image);
         }
+        if let Some(image) = self.transparent_picture()? {
+            return tone.develop(self.gpu(), &image);
+        }
         let is_direct = self.shows_directly();
         match is_direct {
             true => self.wait()?,

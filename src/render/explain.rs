@@ -272,6 +272,7 @@ impl Renderer {
             grid_width: groups,
             seed: settings.seed,
             max_depth: settings.max_depth,
+            backdrop: settings.backdrop_color(),
             min_throughput: settings.min_throughput,
             light_samples: settings.light_samples,
             footprint: settings.footprint(),

@@ -1,20 +1,17 @@
 //! Automatic exposure: the exposure that makes the average of a picture a medium grey, by the log-average of its
 //! luminance (Reinhard, Stark, Shirley, Ferwerda 2002, Photographic Tone Reproduction for Digital Images, section 3.1).
 
-use super::{RenderError, Renderer, Tone};
+use super::{RenderError, Renderer, Tone, luminance::luminance};
 
 /// The luminance that the average becomes: a medium grey.
 const KEY: f64 = 0.18;
 
-/// Luminance of linear Rec. 709, as `LUMINANCE_REC709` in `lib/tone.wesl`.
-const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
-
 /// Luminances are counted in steps of this fraction of a stop. Sums of whole numbers do not depend on the order of the
 /// pixels, so films in any tiles and parts have the same exposure.
-const STEPS: f32 = 64.0;
+const STEPS: f64 = 64.0;
 
 /// The stops around 1 that are told apart.
-const MOST_STOPS: f32 = 64.0;
+const MOST_STOPS: f64 = 64.0;
 
 /// The share of the pixels that is left out at either end: lamps and what lies in the dark.
 const OUTLIERS: f64 = 0.05;
@@ -26,12 +23,17 @@ impl Tone {
         I: Iterator<Item = &'a [f32; 4]>,
     {
         match self.auto_exposure {
-            true => Self {
-                exposure_ev: self.exposure_ev + average_exposure(rows()),
-                auto_exposure: false,
-                ..*self
-            },
+            true => self.fixed(average_exposure(rows())),
             false => *self,
+        }
+    }
+
+    /// The tone with a fixed exposure where that of the average is this, in stops.
+    fn fixed(&self, average: f32) -> Self {
+        Self {
+            exposure_ev: self.exposure_ev + average,
+            auto_exposure: false,
+            ..*self
         }
     }
 }
@@ -39,14 +41,10 @@ impl Tone {
 impl Renderer {
     /// The tone with a fixed exposure, for the samples so far.
     pub(super) fn exposed(&mut self, tone: &Tone) -> Result<Tone, RenderError> {
-        if !tone.auto_exposure {
-            return Ok(*tone);
+        match tone.auto_exposure {
+            true => Ok(tone.fixed(self.exposure()?)),
+            false => Ok(*tone),
         }
-        Ok(Tone {
-            exposure_ev: tone.exposure_ev + self.exposure()?,
-            auto_exposure: false,
-            ..*tone
-        })
     }
 
     /// The exposure in stops that makes the average of the picture so far a medium grey: 0.18. The average is that of
@@ -68,7 +66,7 @@ impl Renderer {
 fn average_exposure<'a>(rows: impl Iterator<Item = &'a [f32; 4]>) -> f32 {
     let mut counts = vec![0_u64; (2.0 * MOST_STOPS * STEPS) as usize];
     for &[r, g, b, weight] in rows {
-        let luminance = (LUMINANCE[0] * r + LUMINANCE[1] * g + LUMINANCE[2] * b) / weight;
+        let luminance = luminance([r, g, b].map(f64::from)) / f64::from(weight);
         // Padding and pixels without samples have no weight, which gives no number.
         if luminance > 0.0 && luminance.is_finite() {
             let step = (STEPS * (luminance.log2() + MOST_STOPS)).round();
@@ -89,7 +87,7 @@ fn average_exposure<'a>(rows: impl Iterator<Item = &'a [f32; 4]>) -> f32 {
     match total - 2 * skipped {
         0 => 0.0,
         count => {
-            let mean = sum as f64 / count as f64 / f64::from(STEPS) - f64::from(MOST_STOPS);
+            let mean = sum as f64 / count as f64 / STEPS - MOST_STOPS;
             (KEY.log2() - mean) as f32
         }
     }

@@ -3,8 +3,12 @@
 use super::{
     RenderError, Renderer, Tone,
     layers::{self, Layer},
+    luminance::luminance,
+    opacity::{opacity, straight},
 };
 use crate::image::Image;
+use crate::pack::{PackedScene, PackedView};
+use crate::scene::ObjectRef;
 
 /// What the pixels of a rectangle show besides the picture.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,11 +22,14 @@ pub struct Features {
 }
 
 impl Features {
-    /// The picture that was rendered: linear radiance.
+    /// The picture that was rendered: linear radiance and opacity.
     pub fn picture(&self) -> Image {
         let pixel = |pixel: &PixelFeatures| {
             let [r, g, b] = pixel.radiance;
-            [r, g, b, 1.0]
+            match pixel.transparency > 0.0 {
+                true => straight(pixel.radiance, 1.0 - pixel.transparency),
+                false => [r, g, b, 1.0],
+            }
         };
         Image {
             width: self.width,
@@ -36,8 +43,10 @@ impl Features {
 /// and `material` are those of the first surface of the sample nearest the centre, and 0 where that hits nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PixelFeatures {
-    /// Mean linear radiance, not negative.
+    /// Mean linear radiance, not negative; of a transparent picture, what that adds to the light behind it.
     pub radiance: [f32; 3],
+    /// How much of what lies behind is seen, 0 to 1; see [`crate::scene::Backdrop::Transparent`].
+    pub transparency: f32,
     /// Mean albedo of what is seen through mirrors and clear glass, 0 to 1; of light its radiance, at most 1.
     pub albedo: [f32; 3],
     /// Mean shading normal in world space, at most 1 long.
@@ -67,6 +76,7 @@ pub struct PixelFeatures {
 /// Where the features are among the rows of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Places {
+    opacity: Option<usize>,
     squares: usize,
     albedo: usize,
     normal: usize,
@@ -81,6 +91,7 @@ impl Places {
     pub fn new(layers: &[&Layer]) -> Option<Self> {
         let at = |layer| layers::row_of(layers, layer);
         Some(Self {
+            opacity: at(&layers::OPACITY),
             squares: at(&layers::SQUARES)?,
             albedo: at(&layers::ALBEDO)?,
             normal: at(&layers::NORMAL)?,
@@ -108,13 +119,13 @@ impl Places {
             Some(_) => rows[self.squares][0],
             None => rows[self.squares][0] / samples.max(1.0),
         };
-        let [r, g, b] = whole;
-        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let luminance = luminance(whole);
         let variance = (squares - luminance * luminance).max(0.0) / (samples - 1.0).max(1.0);
         let first = &rows[self.first..];
         let [x, y, z, depth] = first[1];
         PixelFeatures {
             radiance: single(whole),
+            transparency: (self.opacity).map_or(0.0, |row| 1.0 - opacity(weight, &rows[row..])),
             albedo: single(mean(self.albedo)),
             normal: single(mean(self.normal)),
             direct: single(direct),
@@ -147,7 +158,7 @@ impl Renderer {
         tone.denoise && self.settings.has_features()
     }
 
-    /// The features of the samples so far, without the numbers of objects. Without
+    /// The features of the samples so far. Without
     /// [`super::RenderSettings::features`] there are no pixels.
     ///
     /// # Errors
@@ -168,7 +179,14 @@ impl Renderer {
                 let (row, column) = (index as u32 / across, index as u32 % across);
                 let at = (top + row - y) * width + left + column - x;
                 let samples = if is_done { whole } else { rows[0][3].abs() };
-                pixels[at as usize] = places.pixel(rows, samples);
+                let mut pixel = places.pixel(rows, samples);
+                if pixel.material > 0 {
+                    let [.., instance] = rows[places.first];
+                    let [.., low, high] = rows[places.first + 2];
+                    let primitive = low as u32 | (high as u32) << 16;
+                    pixel.object = number_of(&self.scene, &self.view, primitive, instance as u32);
+                }
+                pixels[at as usize] = pixel;
             }
         }
         Ok(Features {
@@ -177,4 +195,17 @@ impl Renderer {
             pixels,
         })
     }
+}
+
+/// The number of the object of a hit, from 1: the instances of meshes in the scene's order, then its shapes, then its
+/// lights. 0 if there is none.
+pub fn number_of(scene: &PackedScene, view: &PackedView, primitive: u32, instance: u32) -> u32 {
+    let (instances, shapes) = scene.object_counts();
+    let index = match scene.object_at(view, primitive, instance) {
+        None => return 0,
+        Some(ObjectRef::Instance(index)) => index,
+        Some(ObjectRef::Shape(index)) => instances + index,
+        Some(ObjectRef::Light(index)) => instances + shapes + index,
+    };
+    index as u32 + 1
 }

@@ -82,6 +82,11 @@ impl FilmHeader {
         self.layers.contains(&&layers::COUNT)
     }
 
+    /// Whether the picture has opacity: see [`super::RenderSettings::has_opacity`].
+    pub fn has_opacity(&self) -> bool {
+        self.layers.contains(&&layers::OPACITY)
+    }
+
     /// The whole picture as a rectangle: x, y, width, height.
     fn whole(&self) -> [u32; 4] {
         [0, 0, self.size.0, self.size.1]

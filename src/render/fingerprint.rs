@@ -26,6 +26,7 @@ impl Fingerprint {
             coated_emission: _,
             rough_glass: _,
             dispersion: _,
+            shadow_catchers: _,
             thin_walls: _,
             textures,
             second_uvs,

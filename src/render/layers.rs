@@ -85,39 +85,62 @@ const fn mean(name: &'static str) -> Layer {
     }
 }
 
-const FEATURED: &[&Layer] = &[
-    &RADIANCE, &SQUARES, &ALBEDO, &NORMAL, &DIRECT, &EMISSION, &FIRST,
+/// How much of what lies behind the picture can be seen: see [`super::opacity`]. The rows are: what is seen of nothing, and
+/// of shadow catchers; the light on these, and the same without shadows.
+pub const OPACITY: Layer = Layer {
+    name: "opacity",
+    rows: 2,
+    kind: LayerKind::Mean,
+};
+
+/// Lists of layers without and with opacity.
+type Lists = [&'static [&'static Layer]; 2];
+const EVEN: Lists = [&[&RADIANCE], &[&RADIANCE, &OPACITY]];
+const LISTED: Lists = [&[&RADIANCE, &SQUARES], &[&RADIANCE, &OPACITY, &SQUARES]];
+const COUNTED: Lists = [&[&RADIANCE, &COUNT], &[&RADIANCE, &OPACITY, &COUNT]];
+const FEATURED: Lists = [
+    &[
+        &RADIANCE, &SQUARES, &ALBEDO, &NORMAL, &DIRECT, &EMISSION, &FIRST,
+    ],
+    &[
+        &RADIANCE, &OPACITY, &SQUARES, &ALBEDO, &NORMAL, &DIRECT, &EMISSION, &FIRST,
+    ],
 ];
-const FEATURED_COUNT: &[&Layer] = &[
-    &RADIANCE, &SQUARES, &ALBEDO, &NORMAL, &DIRECT, &EMISSION, &COUNT, &FIRST,
+const FEATURED_COUNT: Lists = [
+    &[
+        &RADIANCE, &SQUARES, &ALBEDO, &NORMAL, &DIRECT, &EMISSION, &COUNT, &FIRST,
+    ],
+    &[
+        &RADIANCE, &OPACITY, &SQUARES, &ALBEDO, &NORMAL, &DIRECT, &EMISSION, &COUNT, &FIRST,
+    ],
 ];
 
 /// The layers on the GPU during sampling, in row order.
 pub fn of_sampling(settings: &RenderSettings) -> &'static [&'static Layer] {
-    match settings.is_adaptive() {
+    let lists = match settings.is_adaptive() {
         _ if settings.has_features() => FEATURED,
-        true => &[&RADIANCE, &SQUARES],
-        false => &[&RADIANCE],
-    }
+        true => LISTED,
+        false => EVEN,
+    };
+    lists[usize::from(settings.has_opacity())]
 }
 
 /// The layers of the resulting film.
 pub fn of_pictures(settings: &RenderSettings) -> &'static [&'static Layer] {
-    match (settings.is_adaptive(), settings.has_features()) {
+    let lists = match (settings.is_adaptive(), settings.has_features()) {
         (true, true) => FEATURED_COUNT,
-        (true, false) => &[&RADIANCE, &COUNT],
+        (true, false) => COUNTED,
         (false, true) => FEATURED,
-        (false, false) => &[&RADIANCE],
-    }
+        (false, false) => EVEN,
+    };
+    lists[usize::from(settings.has_opacity())]
 }
-
-/// Every list of layers that a film can have.
-const LISTS: &[&[&Layer]] = &[&[&RADIANCE], &[&RADIANCE, &COUNT], FEATURED, FEATURED_COUNT];
 
 /// The list of layers with these names.
 pub fn named(names: &[String]) -> Option<&'static [&'static Layer]> {
     let is_wanted = |list: &&&[&Layer]| list.iter().map(|layer| layer.name).eq(names);
-    LISTS.iter().find(is_wanted).copied()
+    let lists = [EVEN, COUNTED, FEATURED, FEATURED_COUNT];
+    lists.as_flattened().iter().find(is_wanted).copied()
 }
 
 /// Total number of rows per pixel.

@@ -9,11 +9,12 @@ use super::{
 use crate::{
     gpu::Overrides,
     layout::{
-        FILTER_BLACKMAN_HARRIS, FILTER_BOX, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_TENT,
-        PackedTone, TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT,
+        BACKDROP_BACKGROUND, BACKDROP_COLOR, BACKDROP_TRANSPARENT, FILTER_BLACKMAN_HARRIS,
+        FILTER_BOX, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_TENT, PackedTone,
+        TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT,
     },
     pack::{PackedScene, PackedView},
-    scene::{Antialias, Filter},
+    scene::{Antialias, Backdrop, Filter},
 };
 
 /// Features that the scene, the frame and the settings need; all others are compiled out.
@@ -50,6 +51,7 @@ pub fn of(task: Task) -> Overrides {
     };
     let layers = layers::of_sampling(settings);
     let squares_row = layers::row_of(layers, &layers::SQUARES).unwrap_or_default();
+    let opacity_row = layers::row_of(layers, &layers::OPACITY).unwrap_or_default();
     let features_row = layers::row_of(layers, &layers::ALBEDO).unwrap_or_default();
     let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
     let mut overrides = vec![
@@ -135,6 +137,20 @@ pub fn of(task: Task) -> Overrides {
         ("SQUARES_ROW", squares_row as f64),
         ("HAS_FEATURES", flag(settings.has_features())),
         ("FEATURES_ROW", features_row as f64),
+        ("HAS_OPACITY", flag(settings.has_opacity())),
+        ("OPACITY_ROW", opacity_row as f64),
+        (
+            "HAS_CATCHERS",
+            flag(settings.has_opacity() && features.shadow_catchers),
+        ),
+        (
+            "BACKDROP",
+            f64::from(match settings.backdrop {
+                Backdrop::Background => BACKDROP_BACKGROUND,
+                Backdrop::Color(_) => BACKDROP_COLOR,
+                Backdrop::Transparent => BACKDROP_TRANSPARENT,
+            }),
+        ),
     ];
     overrides.extend(geometry(scene, view));
     match integrator.is_lit {

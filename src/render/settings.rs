@@ -1,7 +1,7 @@
 //! Render settings.
 
 use super::{Fingerprint, Integrator, Shows, fingerprint::Encoder};
-use crate::scene::{Antialias, Filter, LightTransport, OutputDefaults};
+use crate::scene::{Antialias, Backdrop, Filter, LightTransport, OutputDefaults};
 use std::{fmt, ops::Range, str::FromStr};
 
 /// The default minimum throughput of rays: half of the smallest 8-bit step.
@@ -56,6 +56,8 @@ pub struct RenderSettings {
     pub clamp_indirect: Option<f32>,
     /// Whether the film keeps features besides the radiance: for [`super::Film::features`], and to denoise.
     pub features: bool,
+    /// Path tracing: what paths from the camera see where there is nothing.
+    pub backdrop: Backdrop,
 }
 
 impl Default for RenderSettings {
@@ -81,6 +83,7 @@ impl Default for RenderSettings {
             bsdf: BsdfModel::Full,
             clamp_indirect: None,
             features: false,
+            backdrop: Backdrop::Background,
         }
     }
 }
@@ -103,6 +106,7 @@ impl From<&OutputDefaults> for RenderSettings {
             light_samples: output.light_samples,
             integrator: output.integrator.into(),
             max_depth: output.max_depth,
+            backdrop: output.backdrop,
             ..Self::default()
         }
     }
@@ -117,6 +121,19 @@ impl RenderSettings {
     /// Whether the film keeps features: debug views have none.
     pub fn has_features(&self) -> bool {
         self.features && self.integrator.entry().shows == Shows::Radiance
+    }
+
+    /// Whether the film keeps opacity: what paths from the camera see is transparent where there is nothing.
+    pub fn has_opacity(&self) -> bool {
+        self.backdrop == Backdrop::Transparent && self.integrator == Integrator::Path
+    }
+
+    /// The radiance of a backdrop that is a colour.
+    pub(super) fn backdrop_color(&self) -> [f32; 3] {
+        match self.backdrop {
+            Backdrop::Color(color) => color.to_array(),
+            Backdrop::Background | Backdrop::Transparent => [0.0; 3],
+        }
     }
 
     /// The width of the part of a pixel that each sample stands for, in pixels: N samples have an N-th of its area each,
@@ -171,6 +188,7 @@ impl RenderSettings {
             bsdf,
             clamp_indirect,
             features: _,
+            backdrop,
         } = self;
         let range = sample_range.as_ref();
         let mut encoder = Encoder::new("render settings", 1);
@@ -221,6 +239,16 @@ impl RenderSettings {
         }
         if self.has_features() {
             encoder.bytes(b"features");
+        }
+        match backdrop {
+            Backdrop::Background => {}
+            Backdrop::Color(color) => {
+                encoder.bytes(b"backdrop");
+                for channel in color.to_array() {
+                    encoder.float(channel);
+                }
+            }
+            Backdrop::Transparent => encoder.bytes(b"transparent"),
         }
         encoder.finish()
     }

@@ -155,9 +155,11 @@ impl Renderer {
     }
 
     /// Whether [`Self::show`] works on the GPU alone. The host is needed for several film tiles, for more
-    /// samples than one block, and for adaptive sampling.
+    /// samples than one block, for adaptive sampling, and for opacity.
     pub fn shows_directly(&self) -> bool {
-        self.settings.integrator.quantity() != Some(Quantity::Samples) && self.tiles.is_one_block()
+        self.settings.integrator.quantity() != Some(Quantity::Samples)
+            && !self.settings.has_opacity()
+            && self.tiles.is_one_block()
     }
 
     /// Develops the samples so far to a screen of the size of the picture: pixels with samples get the result

@@ -107,6 +107,7 @@ impl Slice {
             end_sample: self.end_sample,
             seed: settings.seed,
             max_depth: settings.max_depth,
+            backdrop: settings.backdrop_color(),
             min_throughput: settings.min_throughput,
             light_samples: settings.light_samples,
             footprint: settings.footprint(),

@@ -56,6 +56,9 @@ pub struct Material {
     pub coverage: Coverage,
     /// The number that `coverage` is about, in 0..=1, multiplied by the alpha of [`Textures::alpha`].
     pub alpha: f32,
+    /// Whether paths from the camera see only the shadows on it, where the picture is transparent:
+    /// [`super::Backdrop::Transparent`]. All other light sees the material.
+    pub shadow_catcher: bool,
     /// The physically based material that the members above show, if the file has one; the path tracer uses
     /// it. Shared by materials that differ in vertex colours.
     pub metallic_roughness: Option<Arc<MetallicRoughness>>,
@@ -342,6 +345,7 @@ impl Default for Material {
             occlusion_strength: 1.0,
             coverage: Coverage::Opaque,
             alpha: 1.0,
+            shadow_catcher: false,
             metallic_roughness: None,
             tint: Vec3::ONE,
             layer_textures: None,

@@ -1,5 +1,7 @@
 //! A scene's output settings.
 
+use glam::Vec3;
+
 /// The output settings in a scene file. Command-line flags override them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutputDefaults {
@@ -35,6 +37,21 @@ pub struct OutputDefaults {
     pub duration: Option<f64>,
     /// When the shutter is open.
     pub shutter: Shutter,
+    /// What paths from the camera see where there is nothing.
+    pub backdrop: Backdrop,
+}
+
+/// What paths from the camera see where there is nothing, directly and straight or refracted through smooth
+/// transparent surfaces. Everything else sees [`super::Scene::background`], which lights the scene and shows in mirrors.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Backdrop {
+    /// The background.
+    #[default]
+    Background,
+    /// A linear radiance, 0 or more per channel.
+    Color(Vec3),
+    /// Nothing: the picture is transparent there, and shadow catchers are transparent but for the shadows on them.
+    Transparent,
 }
 
 /// The shutter interval in frames, relative to the frame's own time: `open` ≤ `close`. Equal times freeze
@@ -66,6 +83,7 @@ impl Default for OutputDefaults {
             fps: 24.0,
             duration: None,
             shutter: Shutter::default(),
+            backdrop: Backdrop::Background,
         }
     }
 }

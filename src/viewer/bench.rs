@@ -175,6 +175,7 @@ impl Stage {
             background: None,
             shutter_interval: (0.0, 0.0),
             tone: Tone::LINEAR,
+            layer: crate::app::layers::PictureLayer::Beauty,
         });
         thread.order(orders.clone());
         Ok(Self {

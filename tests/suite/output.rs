@@ -2,7 +2,7 @@
 
 use crate::support::skip::{Need, skip};
 use glimray::image::Image;
-use glimray::output::{self, Format, OutputError, SaveOptions};
+use glimray::output::{self, Format, OutputError, Place, SaveOptions};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -73,6 +73,55 @@ fn png_stores_the_nearest_levels() {
     for (pixel, stored) in image.pixels.iter().zip(read.pixels()) {
         assert_eq!([pixel[0], pixel[1], pixel[2]].map(nearest_level), stored.0);
     }
+}
+
+/// A part of a picture has its data window inside of the display window.
+#[test]
+fn exr_tells_where_a_part_lies_in_its_picture() {
+    let folder = folder();
+    let path = folder.path().join("a.exr");
+    let image = sample(5, 3);
+    let options = SaveOptions {
+        place: Some(Place {
+            corner: (7, 9),
+            whole: (40, 30),
+        }),
+        ..SaveOptions::default()
+    };
+    output::save_with(&path, &image, &options).expect("saved");
+    let meta = exr::meta::MetaData::read_from_file(&path, false).expect("a header");
+    let header = &meta.headers[0];
+    let position = header.own_attributes.layer_position;
+    assert_eq!((position.x(), position.y()), (7, 9));
+    assert_eq!((header.layer_size.x(), header.layer_size.y()), (5, 3));
+    let display = header.shared_attributes.display_window;
+    assert_eq!((display.position.x(), display.position.y()), (0, 0));
+    assert_eq!((display.size.x(), display.size.y()), (40, 30));
+    let read = exr::prelude::read_first_rgba_layer_from_file(
+        &path,
+        |size, _| vec![[0.0; 4]; size.area()],
+        |pixels: &mut Vec<[f32; 4]>, at, (r, g, b, a): (f32, f32, f32, f32)| {
+            pixels[at.y() * 5 + at.x()] = [r, g, b, a];
+        },
+    );
+    let read = read.expect("a picture").layer_data.channel_data.pixels;
+    assert_eq!(read, image.pixels);
+}
+
+/// OpenEXR's colours are multiplied by the opacity (its technical introduction, "Premultiplied vs. Un-Premultiplied").
+#[test]
+fn exr_stores_colors_multiplied_by_the_opacity() {
+    let folder = folder();
+    let path = folder.path().join("a.exr");
+    let image = Image {
+        width: 2,
+        height: 1,
+        pixels: vec![[0.5, 2.0, 1.0, 0.25], [1.0, 1.0, 1.0, 0.0]],
+    };
+    output::save(&path, &image).expect("saved");
+    let read = image::open(&path).expect("a picture").into_rgba32f();
+    assert_eq!(read.get_pixel(0, 0).0, [0.125, 0.5, 0.25, 0.25]);
+    assert_eq!(read.get_pixel(1, 0).0, [0.0; 4]);
 }
 
 #[test]

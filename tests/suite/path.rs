@@ -1,5 +1,6 @@
 //! The path tracer against closed forms and against the classical integrator.
 
+mod backdrop;
 mod emitters;
 mod explained;
 mod layers;

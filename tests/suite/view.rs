@@ -10,6 +10,7 @@ mod files;
 mod focus;
 mod hands;
 mod harness;
+mod layers;
 mod loading;
 mod look;
 mod looks;

@@ -114,6 +114,7 @@ impl Target {
                     quality: flags.quality,
                     clobber: true,
                     follow_links: false,
+                    place: None,
                 },
             }),
             path,

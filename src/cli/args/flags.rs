@@ -1,9 +1,11 @@
 //! Flags that several commands share, grouped as in their help.
 
 use super::checkpoint::CheckpointFlags;
-use super::values::{self, BACKENDS, FORMATS, PROGRESS, Up};
+use super::values::{self, BACKENDS, FORMATS, GROUNDS, PROGRESS, Up};
 use crate::app::layers::{LAYERS, PictureLayer};
-use crate::app::overrides::{CameraOverrides, Exposure, PictureOverrides, ToneOverrides};
+use crate::app::overrides::{
+    BackgroundChoice, CameraOverrides, Exposure, PictureOverrides, ToneOverrides,
+};
 use crate::app::value_names::{
     ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
 };
@@ -13,7 +15,7 @@ use crate::output::Format;
 use crate::render::{Antialias, BsdfModel, Integrator, RayOffset, TriangleTest};
 use crate::scene::{Filter, ToneCurve, Transfer};
 use clap::Args;
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use std::num::NonZero;
 use std::path::PathBuf;
 
@@ -198,9 +200,12 @@ pub struct CameraFlags {
     /// z for .stl, else y]
     #[arg(long, value_name = "X,Y,Z|x|y|z", allow_hyphen_values = true, value_parser = values::up)]
     pub up: Option<Up>,
-    /// Background colour: linear radiance, 0 or more per channel; wins over --environment
-    #[arg(long, value_name = "R,G,B", allow_hyphen_values = true, value_parser = values::color)]
-    pub background: Option<Vec3>,
+    /// Background colour: linear radiance, 0 or more per channel; or transparent
+    ///
+    /// Beside --environment, the camera sees the colour where there is nothing, also through clear glass, and the
+    /// environment lights the scene and shows in mirrors. With transparent, the picture has an alpha channel (.png, .exr).
+    #[arg(long, value_name = "R,G,B|transparent", allow_hyphen_values = true, value_parser = values::background)]
+    pub background: Option<BackgroundChoice>,
 }
 
 /// How a scene file is read.
@@ -251,6 +256,10 @@ pub struct SceneFlags {
     /// Add no ground to a model without lights
     #[arg(long)]
     pub no_ground: bool,
+    /// The ground below a model: a surface, or only the shadow on it, with a transparent background
+    /// [default: a surface below models without lights]
+    #[arg(long, value_parser = values::one_of(&GROUNDS), conflicts_with_all = ["no_ground", "bare"])]
+    pub ground: Option<import::Ground>,
 }
 
 /// The axis of a model that points up, for commands without the flags of a camera.
@@ -274,7 +283,11 @@ impl SceneFlags {
             camera: !self.bare,
             lights: !self.bare && !self.no_lights,
             background: !self.bare && !self.no_background,
-            ground: !self.bare && !self.no_ground,
+            ground: match self.ground {
+                None if self.bare || self.no_ground => import::Ground::None,
+                None => import::Ground::Default,
+                Some(ground) => ground,
+            },
         };
         import::Options {
             allow_dirs: self.allow_dirs.clone(),
@@ -372,7 +385,8 @@ impl CameraFlags {
         self.up.and_then(Up::axis)
     }
 
-    pub fn overrides(&self) -> CameraOverrides {
+    /// Those of a command that reads its scene with these flags.
+    pub fn overrides(&self, reading: &SceneFlags) -> CameraOverrides {
         CameraOverrides {
             name: self.camera.clone(),
             fov_y_deg: self.fov_y,
@@ -384,6 +398,7 @@ impl CameraFlags {
                 Some(Up::Model(_)) | None => None,
             },
             background: self.background,
+            has_environment: reading.environment.is_some(),
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Parsers for the values of flags, with their error messages.
 
-use crate::app::overrides::Exposure;
+use crate::app::overrides::{BackgroundChoice, Exposure};
 use crate::app::value_names::ValueNames;
 use crate::cli::args::{ProgressMode, Range, SequenceFormat};
 use crate::gpu::Backend;
-use crate::import::{Axis, EnvironmentSource};
+use crate::import::{Axis, EnvironmentSource, Ground};
 use crate::output::Format;
 use crate::output::video::VideoFormat;
 use crate::scene::{Shutter, sky};
@@ -92,6 +92,15 @@ pub static PROGRESS: ValueNames<ProgressMode> = ValueNames(&[
     ("none", "nothing", ProgressMode::None),
 ]);
 
+pub static GROUNDS: ValueNames<Ground> = ValueNames(&[
+    ("surface", "a grey plane", Ground::Surface),
+    (
+        "shadow",
+        "only the shadow on it, with a transparent background",
+        Ground::Shadow,
+    ),
+]);
+
 /// Largest width or height of a picture, in pixels.
 const MAX_SIDE: u32 = 1_000_000;
 
@@ -131,6 +140,14 @@ pub fn vector(text: &str) -> Result<DVec3, String> {
 pub fn color(text: &str) -> Result<Vec3, String> {
     let part = |part: &str| within(part, 0.0, 1e6_f32, "every channel");
     list(text, "R,G,B", part).map(Vec3::from_array)
+}
+
+/// `R,G,B` or `transparent`.
+pub fn background(text: &str) -> Result<BackgroundChoice, String> {
+    match text {
+        "transparent" => Ok(BackgroundChoice::Transparent),
+        _ => color(text).map(BackgroundChoice::Color),
+    }
 }
 
 pub fn noise(text: &str) -> Result<f32, String> {

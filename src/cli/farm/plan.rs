@@ -62,7 +62,10 @@ pub fn run(
     memory::check_file(&arguments.scene)?;
     let (scene, files) = import::load_watched(&arguments.scene, &options, &|_| ());
     let mut scene = scene?;
-    arguments.camera.overrides().apply(&mut scene)?;
+    arguments
+        .camera
+        .overrides(&arguments.reading)
+        .apply(&mut scene)?;
     let clock = Clock::new(&scene.output, &arguments.motion.overrides());
     let timeline = match is_animation {
         true => Some(Timeline::new(&scene, &arguments.range, clock)?),
@@ -348,7 +351,10 @@ fn check_packed(
         ..options.clone()
     };
     let mut scene = import::load_with(path, &options)?;
-    arguments.camera.overrides().apply(&mut scene)?;
+    arguments
+        .camera
+        .overrides(&arguments.reading)
+        .apply(&mut scene)?;
     let fingerprint = |scene| Ok::<_, AppError>(Fingerprint::of_scene(&pack::scene(scene)?));
     match fingerprint(&scene)? == fingerprint(&job.scene)? {
         true => Ok(()),

@@ -14,7 +14,7 @@ use crate::import::notes::Notes;
 use crate::import::number::in_range;
 use crate::import::paths::Files;
 use crate::import::{Options, stage};
-use crate::scene::{LightTransport, Material, OutputDefaults, Scene, Shutter};
+use crate::scene::{Backdrop, LightTransport, Material, OutputDefaults, Scene, Shutter};
 use glam::DAffine3;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
@@ -264,5 +264,6 @@ fn output(table: &OutputTable) -> OutputDefaults {
         fps: table.fps.0,
         duration: table.duration.map(|duration| duration.0),
         shutter: Shutter { open, close },
+        backdrop: table.backdrop.map_or(Backdrop::Background, |it| it.0),
     }
 }

@@ -35,8 +35,8 @@ pub(super) use textures::{
 };
 
 use super::values::{
-    AntialiasName, Bounces, Color, Count, Duration, Factor, FilterName, FrameRate, IntegratorName,
-    Noise, Radius, ShadowsName, ShutterTimes, Size, Stops, ToneName, TransferName,
+    AntialiasName, BackdropValue, Bounces, Color, Count, Duration, Factor, FilterName, FrameRate,
+    IntegratorName, Noise, Radius, ShadowsName, ShutterTimes, Size, Stops, ToneName, TransferName,
 };
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -151,6 +151,9 @@ pub(super) struct OutputTable {
     /// How long the shutter is open: a fraction of the frame interval, an angle such as "180deg", or
     /// [open, close] in frames; default 0, without motion blur.
     pub shutter: ShutterTimes,
+    /// What paths from the camera see where there is nothing, directly and through smooth transparent surfaces: a colour,
+    /// or "transparent"; default the background. All other light sees the background.
+    pub backdrop: Option<BackdropValue>,
 }
 
 impl Default for OutputTable {
@@ -172,6 +175,7 @@ impl Default for OutputTable {
             fps: FrameRate(24.0),
             duration: None,
             shutter: ShutterTimes([0.0, 0.0]),
+            backdrop: None,
         }
     }
 }

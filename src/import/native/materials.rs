@@ -48,6 +48,7 @@ pub(super) fn material(
     name.clone_into(&mut material.name);
     material.two_sided = table.two_sided;
     material.thin |= table.thin;
+    material.shadow_catcher = table.shadow_catcher;
     (material.coverage, material.alpha) = (coverage, alpha);
     if let Some(map) = table.coverage.as_ref().and_then(|it| it.map.as_ref()) {
         material.textures.alpha = textures.color(map)?.1;

@@ -3,6 +3,7 @@
 
 mod names;
 
+pub(super) use backdrop::BackdropValue;
 pub(super) use moving::{
     Copies, Duration, FrameRate, GridCount, Pace, Quaternion, ScaleRange, Seed, Share,
     ShutterTimes, Time,
@@ -114,6 +115,7 @@ macro_rules! value {
 }
 
 // Below the macro, because they use it.
+mod backdrop;
 mod moving;
 mod places;
 

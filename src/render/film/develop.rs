@@ -8,7 +8,7 @@ use crate::{
         Levels, Quantity, RenderError, Tone,
         develop::{check_memory, develop_sums, sample_count_image},
         layers::{self, LayerKind},
-        levels,
+        levels, opacity,
     },
 };
 
@@ -33,6 +33,13 @@ impl Film {
                 self.header.samples,
                 range,
             ));
+        }
+        let layers = self.header.layers;
+        let patches = self.coverage.patches().zip(&self.sums);
+        let patches =
+            patches.map(|((region, _), sums)| (region, sums.rounded(layers::pixel_rows(layers))));
+        if let Some(image) = opacity::picture(region, layers, patches) {
+            return tone.develop(gpu, &image);
         }
         let sums = self.layer(LayerKind::Weighted);
         let tone = tone.exposed(|| sums.iter());

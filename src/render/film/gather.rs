@@ -1,10 +1,8 @@
 //! Converts the state of a renderer to a film.
 
 use super::{Film, FilmHeader};
-use crate::{
-    pack::{PackedScene, PackedView},
-    render::{Fingerprint, RenderError, Renderer, Tone, layers, sums::Sums},
-    scene::ObjectRef,
+use crate::render::{
+    Fingerprint, RenderError, Renderer, Tone, features::number_of, layers, sums::Sums,
 };
 
 impl Renderer {
@@ -67,17 +65,4 @@ fn name_objects(sums: &mut Sums, rows: usize, first: usize, number: impl Fn(u32,
             }
         }
     }
-}
-
-/// The number of the object of a hit, from 1: the instances of meshes in the scene's order, then its shapes, then its
-/// lights. 0 if there is none.
-pub fn number_of(scene: &PackedScene, view: &PackedView, primitive: u32, instance: u32) -> u32 {
-    let (instances, shapes) = scene.object_counts();
-    let index = match scene.object_at(view, primitive, instance) {
-        None => return 0,
-        Some(ObjectRef::Instance(index)) => index,
-        Some(ObjectRef::Shape(index)) => instances + index,
-        Some(ObjectRef::Light(index)) => instances + shapes + index,
-    };
-    index as u32 + 1
 }

@@ -111,6 +111,8 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
                 session.view.settings.integrator = integrator;
             }
         }
+        Action::NextLayer => session.view.step_layer(1),
+        Action::PreviousLayer => session.view.step_layer(-1),
         Action::SplitWipe => session.view.compare(Sharing::Wipe(0.5)),
         Action::SideBySide => session.view.compare(Sharing::SideBySide),
         Action::ShowDifference => session.view.compare(Sharing::Difference(GAIN)),

@@ -7,7 +7,7 @@ mod flags;
 
 use crate::app::clock::Clock;
 use crate::app::window::{ParsePicture, PictureRequest};
-use crate::import::{EnvironmentSource, Staging};
+use crate::import::{EnvironmentSource, Ground, Staging};
 use crate::render::{RenderSettings, Tone};
 use crate::scene::{Background, Camera, Scene, Shutter, Target};
 use std::borrow::Cow;
@@ -127,7 +127,9 @@ pub fn copy(shown: &Shown) -> CommandLine {
         ("--bare", is_bare),
         ("--no-lights", !is_bare && !staging.lights),
         ("--no-background", !is_bare && !staging.background),
-        ("--no-ground", !is_bare && !staging.ground),
+        ("--no-ground", !is_bare && staging.ground == Ground::None),
+        ("--ground=surface", staging.ground == Ground::Surface),
+        ("--ground=shadow", staging.ground == Ground::Shadow),
     ] {
         arguments.extend(is_given.then(|| flag.to_owned()));
     }

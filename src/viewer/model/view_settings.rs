@@ -1,5 +1,6 @@
 //! Render and view settings that do not change the scene.
 
+use crate::app::layers::{LAYERS, PictureLayer};
 use crate::render::{Antialias, Integrator, Levels, RenderSettings, Shows, Tone};
 use crate::scene::{Background, LightTransport, OutputDefaults, ToneCurve};
 use crate::viewer::model::gallery::StillId;
@@ -21,6 +22,8 @@ pub struct ViewSettings {
     pub settings: RenderSettings,
     /// Tone mapping of the full render; debug views ignore it.
     pub tone: Tone,
+    /// The layer of the picture that is shown; debug views have no layers.
+    pub layer: PictureLayer,
     /// Overrides the scene's background.
     pub background: Option<Background>,
     /// Whether the picture has the size of its panel; else the size of the settings.
@@ -93,6 +96,7 @@ impl ViewSettings {
             scene_settings: settings.clone(),
             settings,
             tone,
+            layer: PictureLayer::Beauty,
             background: None,
             fits,
             comparison: None,
@@ -171,6 +175,20 @@ impl ViewSettings {
         }
     }
 
+    /// Shows a layer. The first other than the beauty starts the picture over, as its film has no layers.
+    pub fn show_layer(&mut self, layer: PictureLayer) {
+        self.layer = layer;
+        self.settings.features |= layer != PictureLayer::Beauty;
+    }
+
+    /// Shows the layer that many places further in the list, which is a circle.
+    pub fn step_layer(&mut self, by: isize) {
+        let count = LAYERS.0.len() as isize;
+        let own = LAYERS.0.iter().position(|(.., layer)| *layer == self.layer);
+        let next = (own.unwrap_or_default() as isize + by).rem_euclid(count);
+        self.show_layer(LAYERS.0[next as usize].2);
+    }
+
     /// Selects the next tone curve.
     pub fn next_tone_curve(&mut self) {
         self.tone.curve = match self.tone.curve {
@@ -227,6 +245,7 @@ impl ViewSettings {
             fps: playback.clock.fps,
             duration: before.duration,
             shutter: playback.clock.shutter,
+            backdrop: settings.backdrop,
         }
     }
 

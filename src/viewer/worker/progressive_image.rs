@@ -12,6 +12,8 @@ pub(super) use pace::policy;
 pub use pace::{Pace, patience};
 pub use shown::{Progress, Shown};
 
+use crate::app::layer_picture;
+use crate::app::layers::PictureLayer;
 use crate::gpu::Gpu;
 use crate::pack::{self, PackedScene, PackedView};
 use crate::render::{Antialias, RenderSettings, Renderer, Screen};
@@ -140,7 +142,7 @@ impl ProgressiveImage {
         let has_settings =
             before.is_some_and(|b| b.settings == order.settings && b.policy == order.policy);
         self.stays_coarse = coarse;
-        if before.is_some_and(|before| before.tone != order.tone) {
+        if before.is_some_and(|b| b.tone != order.tone || b.layer != order.layer) {
             self.is_shown = false;
             self.noise = Noise::default();
         }
@@ -365,7 +367,7 @@ impl ProgressiveImage {
             let share = renderer.progress();
             (self.report)(Stage::FirstSamples { share });
         }
-        let interval = match renderer.shows_directly() {
+        let interval = match renderer.shows_directly() && order.layer == PictureLayer::Beauty {
             true => pace::between_looks(&self.gpu),
             false => DETOUR,
         };
@@ -392,7 +394,15 @@ impl ProgressiveImage {
             Some(screen) if screen.size() == (width, height) => screen,
             _ => screen.insert(renderer.new_screen()?),
         };
-        self.range = renderer.show(&order.tone, screen)?;
+        self.range = match order.layer {
+            layer if layer != PictureLayer::Beauty && order.settings.has_features() => {
+                let features = renderer.features()?;
+                let image = layer_picture::picture(layer, &features, &order.tone, &self.gpu)?;
+                screen.write(&self.gpu, &(&image).into())?;
+                None
+            }
+            _ => renderer.show(&order.tone, screen)?,
+        };
         self.busy += started.elapsed().as_secs_f64();
         if self.is_coarse && self.last_look.is_none() {
             (self.pace).measured(self.busy, u64::from(width) * u64::from(height));

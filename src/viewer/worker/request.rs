@@ -1,5 +1,6 @@
 //! The request of a picture in the window.
 
+use crate::app::layers::PictureLayer;
 use crate::pack::PackedScene;
 use crate::render::{ExecutionPolicy, RenderSettings, Tone};
 use crate::scene::{Background, Camera, Scene};
@@ -24,6 +25,8 @@ pub struct RenderRequest {
     pub policy: ExecutionPolicy,
     /// The tone mapping.
     pub tone: Tone,
+    /// The layer that is shown, if the film has layers.
+    pub layer: PictureLayer,
 }
 
 impl PartialEq for RenderRequest {
@@ -32,6 +35,7 @@ impl PartialEq for RenderRequest {
             && self.settings == other.settings
             && self.policy == other.policy
             && self.tone == other.tone
+            && self.layer == other.layer
     }
 }
 

@@ -3,7 +3,8 @@
 use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
 use glimray::scene::{
-    Background, CanonicalShape, Geometry, Interpolation, LightKind, Scene, Target, Track, Values,
+    Background, CanonicalShape, Geometry, Interpolation, LightKind, LightTransport, Scene, Target,
+    Track, Values,
 };
 use std::path::{Path, PathBuf};
 
@@ -175,11 +176,11 @@ fn every_scene_of_the_project_loads_whole() {
         assert_promises(&scene);
         assert_guarantees_of_animation(&scene);
         assert_eq!(scene.skipped, [""; 0], "{}", path.display());
-        assert!(
-            !scene.lights.is_empty() && scene.bounds().is_some(),
-            "{}",
-            path.display()
-        );
+        let is_path = scene.output.integrator == LightTransport::Path;
+        let is_lit = !scene.lights.is_empty()
+            || is_path && scene.background.shines()
+            || is_path && scene.materials.iter().any(|it| it.emission != Vec3::ZERO);
+        assert!(is_lit && scene.bounds().is_some(), "{}", path.display());
         count += 1;
     }
     assert!(count >= 11, "{count} scenes");
@@ -210,6 +211,20 @@ fn the_showcase_needs_no_files() {
     assert!(scene.cameras[0].lens.is_some());
     let features = glimray::pack::scene(&scene).expect("packed").features;
     assert!(features.reflection && features.refraction);
+}
+
+/// The demo's version has the same objects, and nothing that needs many samples.
+#[test]
+fn the_demo_is_the_showcase_for_few_paths() {
+    let scene = glimray::app::showcase::scene().expect("the showcase");
+    let demo = glimray::app::showcase::path_traced().expect("the demo");
+    let shapes = demo.shapes.iter().zip(&scene.shapes);
+    assert_eq!(demo.shapes.len(), scene.shapes.len());
+    assert!(shapes.clone().all(|(a, b)| a.geometry == b.geometry));
+    assert_eq!(demo.output.integrator, LightTransport::Path);
+    assert!(demo.cameras[0].lens.is_none());
+    let features = glimray::pack::scene(&demo).expect("packed").features;
+    assert!(features.reflection && !features.refraction);
 }
 
 #[test]

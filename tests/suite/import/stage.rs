@@ -1,7 +1,7 @@
 //! View and light of models that have none.
 
 use glam::{DMat3, DVec3};
-use glimray::import::{self, Memory, Options, Staging};
+use glimray::import::{self, Ground, Memory, Options, Staging};
 use glimray::scene::{Background, Camera, Geometry, LightTransport, Scene};
 
 /// A box with this minimum and maximum.
@@ -185,7 +185,7 @@ fn each_part_can_be_left_out() {
     assert_eq!((no_lights.lights.len(), no_lights.shapes.len()), (0, 1));
     assert_eq!(no_lights.cameras, whole.cameras);
     let no_ground = with(Staging {
-        ground: false,
+        ground: Ground::None,
         ..Staging::default()
     });
     assert_eq!(

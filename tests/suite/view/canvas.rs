@@ -42,6 +42,7 @@ impl Easel {
             settings,
             policy: ExecutionPolicy::default(),
             tone: Tone::LINEAR,
+            layer: glimray::app::layers::PictureLayer::Beauty,
         });
         let easel = Self {
             gpu,

@@ -102,6 +102,7 @@ fn order(scene: Arc<Scene>) -> RenderRequest {
         shutter_interval: (0.0, 0.0),
         policy: ExecutionPolicy::default(),
         tone: Tone::LINEAR,
+        layer: glimray::app::layers::PictureLayer::Beauty,
     }
 }
 

@@ -39,6 +39,9 @@ pub(in crate::import::native) struct MaterialTable {
     /// Whether transmitted light goes straight on, as through a window pane: the surface encloses no medium. Default
     /// false.
     pub thin: bool,
+    /// Whether paths from the camera see only the shadows on it, where the picture is transparent: with `backdrop =
+    /// "transparent"` of the output. All other light sees the material. Default false.
+    pub shadow_catcher: bool,
     /// Holes in the surface, such as those between the leaves of a picture of foliage; default none.
     pub coverage: Option<CoverageTable>,
     /// The light that it emits, in radiance of any strength; default none.
@@ -59,6 +62,7 @@ impl Default for MaterialTable {
             normal_map: None,
             occlusion_map: None,
             thin: false,
+            shadow_catcher: false,
             coverage: None,
             emission: None,
             two_sided: true,

@@ -156,6 +156,8 @@ actions! {
         IntegratorUv "integrator-uv" Press "Show texture coordinates",
         IntegratorHeat "integrator-heat" Press "Show the BVH heatmap",
         IntegratorSamples "integrator-samples" Press "Show samples per pixel",
+        NextLayer "next-layer" Press "Show the next layer of the picture",
+        PreviousLayer "previous-layer" Press "Show the previous layer of the picture",
         SplitWipe "split-wipe" Press "Compare two pictures with a wipe",
         SideBySide "side-by-side" Press "Compare two pictures side by side",
         ShowDifference "show-difference" Press "Show the difference of two pictures",

@@ -108,6 +108,8 @@ pub(super) const GLIMRAY: &str = "
     integrator-heat: Shift+6
     integrator-samples: Shift+7
     integrator-path: Shift+8
+    next-layer: Shift+PageDown
+    previous-layer: Shift+PageUp
     split-wipe: X
     side-by-side: Shift+X
     show-difference: Y

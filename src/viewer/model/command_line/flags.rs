@@ -3,7 +3,7 @@
 use crate::app::value_names::{
     ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
 };
-use crate::scene::{Background, Camera, Scene, Shutter};
+use crate::scene::{Backdrop, Background, Camera, Scene, Shutter};
 use crate::viewer::model::command_line::{Pasted, Shown};
 use glam::DVec3;
 
@@ -197,6 +197,15 @@ fn settings(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
             "the way materials scatter",
             "--bsdf",
             BSDF_MODELS.name(&wanted.bsdf).to_owned(),
+        ),
+        one(
+            wanted.backdrop != parsed.backdrop,
+            "the backdrop",
+            "--background",
+            match wanted.backdrop {
+                Backdrop::Color(color) => color.to_array().map(|c| c.to_string()).join(","),
+                Backdrop::Background | Backdrop::Transparent => "transparent".to_owned(),
+            },
         ),
         (
             wanted.clamp_indirect != parsed.clamp_indirect,

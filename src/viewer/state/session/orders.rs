@@ -1,6 +1,7 @@
 //! The render requests of the session.
 
 use super::Session;
+use crate::app::layers::PictureLayer;
 use crate::render::{Antialias, Integrator, RenderSettings};
 use crate::viewer::model::gallery::Still;
 use crate::viewer::model::view_settings::Source;
@@ -22,7 +23,11 @@ impl Session {
             ..RenderRequests::default()
         };
         if self.room.taken.0 > 0 && self.room.taken.1 > 0 {
-            orders.pictures[PictureSlot::Main as usize] = self.order(self.view.settings.integrator);
+            let main = self.order(self.view.settings.integrator);
+            orders.pictures[PictureSlot::Main as usize] = main.map(|order| RenderRequest {
+                layer: self.view.layer,
+                ..order
+            });
             if let Some(comparison) = self.view.comparison.filter(|_| self.scene().is_some()) {
                 orders.pictures[PictureSlot::Beside as usize] =
                     (comparison.integrator()).and_then(|integrator| self.order(integrator));
@@ -45,6 +50,7 @@ impl Session {
             settings: self.view.settings_in(self.room.taken, integrator),
             policy: self.request.policy,
             tone: self.view.tone_of(integrator),
+            layer: PictureLayer::Beauty,
         })
     }
 
@@ -90,6 +96,7 @@ impl Session {
             },
             policy: self.request.policy,
             tone: self.view.tone_of(integrator),
+            layer: PictureLayer::Beauty,
         })
     }
 }

@@ -273,6 +273,8 @@ fn render(menu: &mut Menu) {
             menu.tick(shown == integrator, shown.entry().title, *action);
         }
     }
+    menu.entry("Next layer", A::NextLayer);
+    menu.entry("Previous layer", A::PreviousLayer);
     menu.line();
     let is_wipe = matches!(sharing, Some(Sharing::Wipe(_)));
     menu.tick(is_wipe, "Compare with a wipe", A::SplitWipe);

@@ -1,6 +1,7 @@
 //! The picture panel, with camera navigation by mouse.
 
 mod caption;
+mod checker;
 mod compare;
 mod framing;
 mod legend;
@@ -54,6 +55,9 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     };
     surround(&painter, space, covered, ui.visuals().extreme_bg_color);
     if let Some(shown) = shown {
+        if context.session.view.settings.has_opacity() {
+            checker::checker(&painter, viewports[0].rect.intersect(space));
+        }
         draw(&painter, context, &shown, viewports[0]);
     }
     if let Some(comparison) = comparison {

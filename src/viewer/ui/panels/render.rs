@@ -8,10 +8,11 @@ mod statistics;
 
 pub use statistics::{remaining, seconds};
 
+use crate::app::layers::{LAYERS, PictureLayer};
 use crate::app::value_names::{
     ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
 };
-use crate::render::Integrator;
+use crate::render::{Integrator, Shows};
 use crate::scene::Antialias;
 use crate::viewer::model::view_settings::{MAX_SAMPLES, ViewSettings};
 use crate::viewer::ui::context::PanelContext;
@@ -35,7 +36,10 @@ pub fn render(ui: &mut Ui, context: &mut PanelContext) {
                 developing(ui, &mut context.session.view)
             });
             plain_section(ui, "Histogram", |ui| histogram::histogram(ui, context));
-            section(ui, "Environment", |ui| background::background(ui, context));
+            section(ui, "Environment", |ui| {
+                background::background(ui, context);
+                background::backdrop(ui, context);
+            });
             section(ui, "Statistics", |ui| statistics::statistics(ui, context));
         });
     });
@@ -68,7 +72,32 @@ fn shown(ui: &mut Ui, context: &mut PanelContext) {
         &look.scene_settings.integrator,
         |ui, value| choice(ui, "integrator", &INTEGRATORS, value),
     );
+    layer(ui, &mut context.session.view);
     compare::compare(ui, context);
+}
+
+/// The layer of a path-traced picture; of a classical one if a key has chosen it.
+fn layer(ui: &mut Ui, look: &mut ViewSettings) {
+    let integrator = look.settings.integrator;
+    let is_layered = integrator.entry().shows == Shows::Radiance;
+    if !is_layered || integrator != Integrator::Path && look.layer == PictureLayer::Beauty {
+        return;
+    }
+    let mut layer = look.layer;
+    line(
+        ui,
+        (
+            "Layer",
+            "What is shown of the picture; numbers in false colours. The first layer other than the beauty starts \
+             the picture over",
+        ),
+        &mut layer,
+        &PictureLayer::Beauty,
+        |ui, value| choice(ui, "layer", &LAYERS, value),
+    );
+    if layer != look.layer {
+        look.show_layer(layer);
+    }
 }
 
 fn samples(ui: &mut Ui, look: &mut ViewSettings) {

@@ -1,6 +1,7 @@
 //! The background override.
 
-use crate::scene::Background;
+use crate::render::Integrator;
+use crate::scene::{Backdrop, Background};
 use crate::viewer::ui::context::PanelContext;
 use crate::viewer::ui::panels::setting_rows::reset_button;
 use eframe::egui::{self, Ui};
@@ -61,6 +62,42 @@ pub fn background(ui: &mut Ui, context: &mut PanelContext) {
             color(ui, "Above", top);
         }
         _ => {}
+    }
+}
+
+/// What paths from the camera see in place of the background.
+pub fn backdrop(ui: &mut Ui, context: &mut PanelContext) {
+    let settings = &mut context.session.view.settings;
+    if settings.integrator != Integrator::Path {
+        return;
+    }
+    let tip = "What the camera sees where there is nothing, also through clear glass. Mirrors and light keep the \
+               background";
+    let choices = [
+        ("The background", Backdrop::Background),
+        ("Colour", Backdrop::Color(Vec3::ONE)),
+        ("Transparent", Backdrop::Transparent),
+    ];
+    let kind = std::mem::discriminant::<Backdrop>;
+    let own = kind(&settings.backdrop);
+    let chosen = choices.iter().find(|(_, choice)| kind(choice) == own);
+    let label = ui.label("Backdrop").on_hover_text(tip);
+    egui::ComboBox::from_id_salt("backdrop")
+        .selected_text(chosen.map_or("", |(name, _)| name))
+        .show_ui(ui, |ui| {
+            for (name, choice) in choices {
+                let is_chosen = kind(&choice) == own;
+                if ui.selectable_label(is_chosen, name).clicked() && !is_chosen {
+                    settings.backdrop = choice;
+                }
+            }
+        })
+        .response
+        .labelled_by(label.id)
+        .on_hover_text(tip);
+    ui.end_row();
+    if let Backdrop::Color(light) = &mut settings.backdrop {
+        color(ui, "Seen colour", light);
     }
 }
 

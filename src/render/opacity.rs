@@ -1,0 +1,85 @@
+//! Opacity: how much of what lies behind a picture can be seen through it.
+//!
+//! A sample sees through holes and smooth transparent surfaces to nothing, to a shadow catcher, or to neither. With the
+//! sums over a pixel's samples of their filter weights W, of what is seen of nothing N and of catchers C, of the light L on
+//! these, and of the light U that they would get if nothing were in its way,
+//!
+//! opacity = 1 − (N + C L / U) / W
+//!
+//! The ratio is that of sums, so it has no bias from the noise of single samples, and U = 0 is no shadow. Light that the
+//! scene scatters onto a catcher does not count. Colours of glass count by their luminance, as a picture has one opacity.
+//! Source: Debevec 1998, Rendering Synthetic Objects into Real Scenes, section 5, with the ratio of the two pictures in
+//! place of their difference, as Cycles has it (`film/read.h`).
+
+use super::{
+    RenderError, Renderer,
+    layers::{self, Layer},
+};
+use crate::image::Image;
+
+/// The least opacity by which colours are divided.
+const LEAST: f32 = 1e-4;
+
+/// The opacity of a pixel, from 0 to 1, from the sum of its weights and its rows of the layer
+/// [`layers::OPACITY`]. A pixel without samples is transparent.
+pub fn opacity(weight: f64, rows: &[[f64; 4]]) -> f32 {
+    let ([nothing, catchers, ..], [light, unshadowed, ..]) = (rows[0], rows[1]);
+    // Weights of both signs may cancel (lib/filter.wesl).
+    if weight.abs() <= 0.5 {
+        return 0.0;
+    }
+    let lit = match unshadowed > 0.0 {
+        true => (light / unshadowed).clamp(0.0, 1.0),
+        false => 1.0,
+    };
+    let clear = ((nothing + catchers * lit) / weight).clamp(0.0, 1.0);
+    (1.0 - clear) as f32
+}
+
+/// A colour that was multiplied by its opacity, without that.
+pub fn straight([r, g, b]: [f32; 3], opacity: f32) -> [f32; 4] {
+    match opacity > LEAST {
+        true => [r / opacity, g / opacity, b / opacity, opacity],
+        false => [0.0, 0.0, 0.0, opacity],
+    }
+}
+
+/// The picture in linear radiance of a film with opacity: of the rows of rectangles (x, y, width, height) of pixels. Pixels
+/// without samples are transparent.
+pub fn picture(
+    [left, top, width, height]: [u32; 4],
+    layers: &[&Layer],
+    patches: impl IntoIterator<Item = ([u32; 4], Vec<[f64; 4]>)>,
+) -> Option<Image> {
+    let place = layers::row_of(layers, &layers::OPACITY)?;
+    let count = layers::rows(layers);
+    let mut image = Image {
+        width,
+        height,
+        pixels: vec![[0.0; 4]; width as usize * height as usize],
+    };
+    for ([x, y, across, _], rows) in patches {
+        for (index, rows) in (0..).zip(rows.chunks_exact(count)) {
+            let (row, column) = (index / across, index % across);
+            let at = (y + row - top) as usize * width as usize + (x + column - left) as usize;
+            let weight = rows[0][3];
+            let opacity = opacity(weight, &rows[place..]);
+            let mean = [0, 1, 2].map(|channel| (rows[0][channel] / weight).max(0.0) as f32);
+            image.pixels[at] = straight(mean, opacity);
+        }
+    }
+    Some(image)
+}
+
+impl Renderer {
+    /// The picture so far in linear radiance, if it has opacity.
+    pub(super) fn transparent_picture(&mut self) -> Result<Option<Image>, RenderError> {
+        if !self.settings.has_opacity() {
+            return Ok(None);
+        }
+        self.fetch_film()?;
+        let layers = layers::of_pictures(&self.settings);
+        let rows = self.tiles.rows(layers);
+        Ok(picture(self.settings.region(), layers, rows))
+    }
+}
