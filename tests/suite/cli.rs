@@ -6,6 +6,8 @@ mod checkpoint;
 mod compare;
 mod convert;
 mod explain;
+#[cfg(all(unix, feature = "archive"))]
+mod farm;
 mod help;
 mod inspect;
 mod merge;

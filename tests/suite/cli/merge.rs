@@ -28,6 +28,27 @@ fn films_of_parts_merge_to_the_picture_of_one_run() {
     let missing = "missing samples 64 to 149 of 40×11 pixels at 0,0";
     assert!(run.stderr.contains(missing), "{}", run.stderr);
     assert!(!workspace.path("less.png").exists());
+    // The missing parts are printed as commands that render them.
+    let command = "glimray render SCENE --size 40x30 --samples 150 --sample-offset 64 --sample-count 86 \
+                   --crop 0,0,40,11 -o missing-1.film\n";
+    assert_eq!(run.text(), command);
+    let flags = command
+        .trim()
+        .replace("glimray render SCENE", "render a.scene --quiet");
+    workspace.run(&flags).expect(0);
+    workspace
+        .run("merge a.film c.film missing-1.film -o again.film")
+        .expect(0);
+    assert!(read("again.film") == read("one.film"));
+    let run = workspace
+        .run("merge a.film c.film --partial -o less.png")
+        .expect(0);
+    assert!(run.stderr.contains(missing), "{}", run.stderr);
+    assert!(workspace.path("less.png").exists());
+    let run = workspace
+        .run("merge b.film a.film all.film -o more.film")
+        .expect(3);
+    assert!(run.stderr.contains("b.film and all.film"), "{}", run.stderr);
     let run = workspace
         .run("merge a.film all.film -o more.film")
         .expect(3);
