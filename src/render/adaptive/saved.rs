@@ -47,7 +47,7 @@ impl Adaptive {
         self.features = features.as_chunks().0.to_vec();
         // As before the round.
         self.rounds = rounds - 1;
-        self.front = 0..front;
+        self.front = front..front;
         Ok(Some(self.next_round()))
     }
 }
