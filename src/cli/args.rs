@@ -10,7 +10,7 @@ mod values;
 pub use checkpoint::CheckpointFlags;
 #[cfg(feature = "archive")]
 pub use farm::{
-    FarmCommand, FarmMergeArgs, FarmPlanArgs, FarmRunArgs, FarmStatusArgs, FarmSubmitArgs,
+    Engine, FarmCommand, FarmMergeArgs, FarmPlanArgs, FarmRunArgs, FarmStatusArgs, FarmSubmitArgs,
 };
 #[cfg(feature = "viewer")]
 pub use flags::RecordingFlags;

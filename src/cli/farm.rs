@@ -19,7 +19,6 @@ mod status;
 mod submit;
 
 pub use manifest::schema;
-pub use submit::Engine;
 
 use crate::app::error::AppError;
 use crate::cli::args::FarmCommand;

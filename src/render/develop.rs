@@ -427,8 +427,7 @@ pub fn develop_sums(
 /// Copies the pixels of a film tile to their position in a picture whose upper left corner is `[x, y]`.
 fn copy_tile(image: &mut Image, pixels: &[[f32; 4]], tile: &FilmTile, [x, y]: [u32; 2]) {
     for (row, line) in pixels.chunks_exact(tile.width as usize).enumerate() {
-        let start = (tile.y - y) as usize + row;
-        let start = start * image.width as usize + (tile.x - x) as usize;
+        let start = ((tile.y - y) as usize + row) * image.width as usize + (tile.x - x) as usize;
         image.pixels[start..start + line.len()].copy_from_slice(line);
     }
 }
@@ -442,10 +441,9 @@ pub fn sample_count_image(
 ) -> Image {
     let mut image = Image::new(width, height);
     for (pixel, count) in image.pixels.iter_mut().zip(counts) {
-        let level = match range {
-            Some(range) => levels::position_in_range(*count, range),
-            None => count / max as f32,
-        };
+        let level = range.map_or(count / max as f32, |range| {
+            levels::position_in_range(*count, range)
+        });
         *pixel = [level, level, level, 1.0];
     }
     image

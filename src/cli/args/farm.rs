@@ -5,9 +5,15 @@ use super::{
     CameraFlags, DeviceFlags, LayerFlags, LogFlags, MomentFlags, MotionFlags, PictureFlags,
     RangeFlags, SceneFlags,
 };
-use crate::cli::farm::Engine;
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
+
+/// The batch engines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Engine {
+    /// Slurm: an array job and a job that depends on it
+    Slurm,
+}
 
 /// The steps of a farm.
 #[derive(Debug, Subcommand)]

@@ -353,7 +353,8 @@ pub fn invalid(folder: &Folder, manifest: &Manifest, number: u32) -> Option<Stri
         let [x0, y0, x1, y1] = part.crop.unwrap_or([0, 0, width, height]);
         let [start, end] = part.samples.unwrap_or([0, manifest.samples]);
         let region = [x0, y0, x1 - x0, y1 - y0];
-        let is_whole = (film.parts()).eq([(region, &[start..end][..])]);
+        let wanted = start..end;
+        let is_whole = film.parts().eq([(region, std::slice::from_ref(&wanted))]);
         return (!is_whole).then(|| format!("{} is of other samples", path.display()));
     }
     let [first, last] = part.frames.unwrap_or_default();

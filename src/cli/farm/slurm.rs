@@ -4,7 +4,7 @@ use super::Folder;
 use super::manifest::Manifest;
 use crate::app::error::AppError;
 use crate::cli::args::FarmSubmitArgs;
-use std::path::PathBuf;
+use std::path::Path;
 
 /// Seconds before the time limit at which Slurm sends SIGTERM: enough to write a checkpoint.
 const WARNING_SECONDS: u32 = 60;
@@ -26,7 +26,7 @@ pub fn scripts(
 ) -> Result<Scripts, AppError> {
     let program = std::env::current_exe()
         .map_err(|error| AppError::Internal(format!("path of the program: {error}")))?;
-    let (program, dir) = (quoted(&program)?, quoted(&folder.path().into())?);
+    let (program, dir) = (quoted(&program)?, quoted(folder.path())?);
     let tasks = arguments.tasks.min(manifest.parts.len() as u32);
     let mut common = Vec::new();
     let named = [
@@ -90,7 +90,7 @@ pub fn scripts(
     Ok(Scripts { parts, merge })
 }
 
-fn quoted(path: &PathBuf) -> Result<String, AppError> {
+fn quoted(path: &Path) -> Result<String, AppError> {
     let text = path.to_str().map(shlex::try_quote);
     match text {
         Some(Ok(text)) => Ok(text.into()),

@@ -5,18 +5,11 @@ use super::slurm::{self, Scripts};
 use super::{Folder, failed_io};
 use crate::app::console;
 use crate::app::error::AppError;
-use crate::cli::args::FarmSubmitArgs;
+use crate::cli::args::{Engine, FarmSubmitArgs};
 use crate::output;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-
-/// The batch engines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Engine {
-    /// Slurm: an array job and a job that depends on it
-    Slurm,
-}
 
 pub fn run(arguments: &FarmSubmitArgs) -> Result<(), AppError> {
     let Engine::Slurm = arguments.engine;

@@ -1,6 +1,6 @@
 //! `farm`: parts of a picture or film, rendered by processes that may be killed at any time, merge to the bytes of one run.
 
-use crate::support::program::{Run, Workspace};
+use crate::support::program::Workspace;
 use crate::support::random::Random;
 use serde_json::Value;
 use std::fs;
@@ -124,7 +124,7 @@ fn processes_killed_at_random_lose_nothing_that_is_done() {
         sleep(Duration::from_millis(300 + random.below(900) as u64));
         let id = child.id().to_string();
         let _ = Command::new("kill").args(["-KILL", &id]).status();
-        Run::from(child.wait_with_output().expect("it ends"));
+        child.wait_with_output().expect("it ends");
         let done = workspace.names("all.film.farm/done").len();
         assert_eq!(status(&workspace, "all.film.farm")["done"], done);
     }

@@ -124,6 +124,13 @@ fn commands_of_the_manual_are_those_of_the_program_with_their_flags_and_values()
                 let Some((&name, arguments)) = words.split_first() else {
                     continue;
                 };
+                // Its steps are commands of their own.
+                let (name, arguments) = match arguments.split_first() {
+                    Some((step, arguments)) if name == "farm" => {
+                        (&*format!("farm {step}"), arguments)
+                    }
+                    _ => (name, arguments),
+                };
                 let is_absent = !cfg!(feature = "viewer") && name == "view";
                 if is_absent || ["help", "COMMAND", "--help", "--version"].contains(&name) {
                     continue;
