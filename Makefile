@@ -29,11 +29,12 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench peers docs gallery strips man size hand-in fuzz build shaders linker compiler display driver opengl lint features headless wasm
+.PHONY: help demo test farm-test bench peers docs gallery strips man size hand-in fuzz build shaders linker compiler display driver opengl lint features headless wasm
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
 	@echo 'make test      format, lints, documentation, all tests (about 20 minutes the first time)'
+	@echo 'make farm-test render on a Slurm of its own, which it installs (Debian, as root), and compare the bytes'
 	@echo 'make bench     measure speed on built-in scenes'
 	@echo 'make peers     measure speed beside POV-Ray, Embree, Mitsuba and obvhs, which it installs'
 	@echo 'make docs      build the manual with mdBook and check its links'
@@ -59,6 +60,14 @@ test: lint features headless wasm
 	$(CARGO) test $(FLAGS) --no-run
 	@$(MAKE) --no-print-directory driver opengl display GLIMRAY=$(GLIMRAY)
 	$(CARGO) test $(FLAGS)
+
+# Skipped where it cannot be installed or started: it needs Debian or Ubuntu and root.
+farm-test: build driver
+	@{ command -v slurmctld && command -v slurmd && command -v munged; } >/dev/null || \
+		$(install) slurm-wlm munge || { echo 'farm-test: skipped, Slurm cannot be installed here'; exit 0; }; \
+		[ "$$(id -u)" -eq 0 ] || { echo 'farm-test: skipped, Slurm needs root here'; exit 0; }; \
+		command -v slurmctld >/dev/null || exit 0; \
+		tests/farm/slurm.sh $(GLIMRAY) assets/scenes
 
 bench: build driver
 	$(GLIMRAY) bench

@@ -14,6 +14,7 @@ mod plan;
 mod target;
 mod timeline;
 
+#[cfg(feature = "archive")]
 pub use pattern::Pattern;
 pub use target::Target;
 pub use timeline::Timeline;

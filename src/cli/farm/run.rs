@@ -147,7 +147,7 @@ impl Farm {
                 match self.part(part)? {
                     Outcome::Done => {}
                     Outcome::Elsewhere(holder) => elsewhere.push((part, holder)),
-                    Outcome::Failed(error @ AppError::Interrupted { .. }) => return Err(error),
+                    Outcome::Failed(error) if is_interrupt(&error) => return Err(error),
                     Outcome::Failed(error) => failures.push((part, error)),
                 }
             }
@@ -209,7 +209,7 @@ impl Farm {
                 write(&self.folder.done_path(number), &done)?;
                 Ok(Outcome::Done)
             }
-            Err(error @ AppError::Interrupted { .. }) => Ok(Outcome::Failed(error)),
+            Err(error) if is_interrupt(&error) => Ok(Outcome::Failed(error)),
             Err(error) => {
                 let earlier = self
                     .folder
@@ -317,6 +317,11 @@ impl Farm {
         words.push((&self.scene).into());
         Ok(words)
     }
+}
+
+/// Whether a signal ended the work, which is then no failure of the part.
+fn is_interrupt(error: &AppError) -> bool {
+    matches!(error.exit_code(), 130 | 143)
 }
 
 /// The extension of the frames of an animation: that of the pattern, or PNG for a video.

@@ -79,11 +79,13 @@ pub fn scripts(
         arguments.attempts,
     );
     let merge = format!(
-        "#!/bin/sh\n{}\nexec {program} farm merge {dir}\n",
+        "#!/bin/sh\n{}\nset -e\n# What killed tasks left is rendered here.\nsrun --ntasks=1 {program} farm run {dir} --all\nexec {program} farm merge {dir}\n",
         header(&[
             "job-name=glimray-merge".into(),
             "ntasks=1".into(),
-            "kill-on-invalid-dep=yes".into(),
+            "requeue".into(),
+            "open-mode=append".into(),
+            format!("signal=TERM@{WARNING_SECONDS}"),
             log("merge.log"),
         ]),
     );

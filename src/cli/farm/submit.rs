@@ -1,4 +1,5 @@
-//! `glimray farm submit DIR`: writes the scripts of a batch engine and submits them.
+//! `glimray farm submit DIR`: writes the scripts of a batch engine and submits them. The merge runs after the parts, however
+//! they ended, and first renders what killed tasks left.
 
 use super::manifest::Manifest;
 use super::slurm::{self, Scripts};
@@ -31,7 +32,7 @@ pub fn run(arguments: &FarmSubmitArgs) -> Result<(), AppError> {
     };
     let (parts, merge) = (write("parts.sh", &parts)?, write("merge.sh", &merge)?);
     let array = sbatch(&[], &parts)?;
-    let after = format!("--dependency=afterok:{array}");
+    let after = format!("--dependency=afterany:{array}");
     let merging = sbatch(&[&after], &merge)?;
     console::print(&format!(
         "submitted job {array} for the parts and job {merging} for the merge after them\n\
