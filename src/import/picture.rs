@@ -163,6 +163,7 @@ fn decode(bytes: &[u8], name: &str, roles: &[Role]) -> Result<Vec<Picture>, Refu
 ///
 /// # Errors
 /// It is empty, damaged, too large, of an unsupported kind, or not twice as wide as high.
+#[cfg(not(target_arch = "wasm32"))]
 pub(super) fn environment(bytes: &[u8], name: &str) -> Result<(Picture, usize), Refused> {
     let unfit = Unfit { name };
     if bytes.is_empty() {
