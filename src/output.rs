@@ -22,8 +22,9 @@ pub(crate) use remove_on_exit::RemoveOnExit;
 pub use remove_on_exit::remove_unfinished_files;
 
 use crate::image::Image;
-use std::io::Write;
-use std::path::Path;
+use std::fs;
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
 
 /// How to write an image.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -126,6 +127,25 @@ pub fn check(
 /// Those of [`write()`] that can be detected in advance.
 pub fn check_file(path: impl AsRef<Path>, clobber: bool) -> Result<(), OutputError> {
     atomic::check(path.as_ref(), clobber, true)
+}
+
+/// Renames a file or folder to the first free name of `NAME.old-1`, `NAME.old-2` and so on, and returns that name.
+///
+/// # Errors
+/// Why it cannot be renamed, without a full stop.
+pub fn set_aside(path: &Path) -> Result<PathBuf, String> {
+    let name = |number: u32| {
+        let mut name = path.as_os_str().to_owned();
+        name.push(format!(".old-{number}"));
+        PathBuf::from(name)
+    };
+    let is_free = |path: &PathBuf| {
+        fs::symlink_metadata(path).is_err_and(|error| error.kind() == ErrorKind::NotFound)
+    };
+    let aside = (1..1000).map(name).find(is_free);
+    let aside = aside.ok_or("all names up to .old-999 are taken")?;
+    fs::rename(path, &aside).map_err(|error| reason(&error))?;
+    Ok(aside)
 }
 
 /// Like [`check_file`], for a generated name: an existing file may be replaced, but the name must not be

@@ -119,27 +119,12 @@ impl<'a> CheckpointFile<'a> {
 
     /// Renames the file and returns its new name.
     fn set_aside(&self) -> Result<PathBuf, AppError> {
-        let name = |number: u64| {
-            let mut name = self.path.as_os_str().to_owned();
-            name.push(format!(".old-{number}"));
-            PathBuf::from(name)
-        };
-        let is_free = |path: &PathBuf| {
-            fs::symlink_metadata(path).is_err_and(|error| error.kind() == ErrorKind::NotFound)
-        };
-        let aside = (1..1000).map(name).find(is_free);
-        let outcome = match &aside {
-            Some(aside) => fs::rename(self.path, aside).map_err(|error| output::reason(&error)),
-            None => Err("all names up to .old-999 are taken".into()),
-        };
-        match (outcome, aside) {
-            (Ok(()), Some(aside)) => Ok(aside),
-            (outcome, _) => Err(AppError::Unwritable(format!(
-                "cannot set the checkpoint aside ({}): {}. Move it away or name another file with --checkpoint.",
+        output::set_aside(self.path).map_err(|why| {
+            AppError::Unwritable(format!(
+                "cannot set the checkpoint aside ({}): {why}. Move it away or name another file with --checkpoint.",
                 self.path.display(),
-                outcome.err().unwrap_or_default()
-            ))),
-        }
+            ))
+        })
     }
 
     /// Writes the file if that is due. If it cannot be written, a warning says so, once.

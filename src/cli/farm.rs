@@ -89,10 +89,31 @@ impl Folder {
         self.0.join("leases")
     }
 
+    /// The file of a part in a subfolder.
+    fn of_part(&self, subfolder: &str, part: u32, ending: &str) -> PathBuf {
+        let name = format!("{}.{ending}", Manifest::number(part));
+        self.0.join(subfolder).join(name)
+    }
+
     /// The film of a part of a picture.
     fn film(&self, part: u32) -> PathBuf {
-        let name = format!("{}.film", Manifest::number(part));
-        self.0.join("parts").join(name)
+        self.of_part("parts", part, "film")
+    }
+
+    fn checkpoint(&self, part: u32) -> PathBuf {
+        self.of_part("parts", part, "checkpoint")
+    }
+
+    fn report(&self, part: u32) -> PathBuf {
+        self.of_part("reports", part, "json")
+    }
+
+    fn done_path(&self, part: u32) -> PathBuf {
+        self.of_part("done", part, "json")
+    }
+
+    fn failed_path(&self, part: u32) -> PathBuf {
+        self.of_part("failed", part, "json")
     }
 
     /// The folder with the frames of a part.
@@ -102,34 +123,12 @@ impl Folder {
 
     /// The frame of a part.
     fn frame(&self, part: u32, frame: u32, ending: &str) -> PathBuf {
-        let name = format!("frame_{frame:05}.{ending}");
-        self.frames(part).join(name)
+        self.frames(part).join(frame_name(frame, ending))
     }
 
     /// A frame that is merged from films.
     fn merged_frame(&self, frame: u32, ending: &str) -> PathBuf {
-        let name = format!("frame_{frame:05}.{ending}");
-        self.0.join("frames").join(name)
-    }
-
-    fn report(&self, part: u32) -> PathBuf {
-        let name = format!("{}.json", Manifest::number(part));
-        self.0.join("reports").join(name)
-    }
-
-    fn checkpoint(&self, part: u32) -> PathBuf {
-        let name = format!("{}.checkpoint", Manifest::number(part));
-        self.0.join("parts").join(name)
-    }
-
-    fn done_path(&self, part: u32) -> PathBuf {
-        let name = format!("{}.json", Manifest::number(part));
-        self.0.join("done").join(name)
-    }
-
-    fn failed_path(&self, part: u32) -> PathBuf {
-        let name = format!("{}.json", Manifest::number(part));
-        self.0.join("failed").join(name)
+        self.0.join("frames").join(frame_name(frame, ending))
     }
 
     /// What a part left when it was done; `None` if it is not.
@@ -141,6 +140,10 @@ impl Folder {
     fn failed(&self, part: u32) -> Option<Failed> {
         read(&self.failed_path(part))
     }
+}
+
+fn frame_name(frame: u32, ending: &str) -> String {
+    format!("frame_{frame:05}.{ending}")
 }
 
 /// Reads a small JSON file; `None` if it is missing or malformed.

@@ -108,19 +108,20 @@ fn sum(
     whole: FilmOutline,
     interrupt: &Interrupt,
 ) -> Result<Film, AppError> {
-    let read = |path: &PathBuf| open(path).and_then(Film::read);
-    // A single film is what it is.
-    let is_one = outlines.len() == 1;
+    let read = |path: &PathBuf| {
+        let film = open(path).and_then(Film::read);
+        film.map_err(|error| refused(path, error))
+    };
+    if let [only] = parts {
+        return read(only);
+    }
     let mut film = whole.blank();
     for (path, outline) in parts.iter().zip(outlines) {
         interrupt.check()?;
-        let part = read(path).map_err(|error| refused(path, error))?;
+        let part = read(path)?;
         if part.outline() != *outline {
             let why = "it changed while it was being merged";
             return Err(refused(path, FilmError::Damaged { why }));
-        }
-        if is_one {
-            return Ok(part);
         }
         film.add(&part);
     }

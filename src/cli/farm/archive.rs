@@ -1,22 +1,20 @@
 //! Packs a scene with everything that it names into one archive, so that other machines need no shared sources.
 
+use super::Folder;
 use super::manifest::PackedFile;
-use super::{Folder, failed_io};
 use crate::app::error::AppError;
 use crate::import::SCENE_MEMBER;
 use crate::output;
-use std::fs::{self, File};
-use std::io::{self, Cursor, Read, Write};
+use crate::render::Fingerprint;
+use std::fs;
+use std::io::{self, Cursor, Write};
 use std::path::{Component, Path, PathBuf};
-use xxhash_rust::xxh3::Xxh3;
+use xxhash_rust::xxh3::xxh3_128;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 /// The name of the archive.
 pub const NAME: &str = "scene.zip";
-
-/// Bytes read at once.
-const STEP: usize = 1 << 16;
 
 /// Writes the archive of `scene` and the files that it names. Missing ones, which the scene can do without, are left out.
 ///
@@ -72,13 +70,15 @@ pub fn copy(file: &Path, stem: &str, folder: &Folder) -> Result<PackedFile, AppE
 
 fn store(name: &str, bytes: &[u8], folder: &Folder) -> Result<PackedFile, AppError> {
     output::write(folder.path().join(name), bytes, true)?;
-    let mut hash = Xxh3::new();
-    hash.update(bytes);
-    Ok(PackedFile {
+    Ok(described(name, bytes))
+}
+
+fn described(name: &str, bytes: &[u8]) -> PackedFile {
+    PackedFile {
         file: name.into(),
         bytes: bytes.len() as u64,
-        xxh3: format!("{:032x}", hash.digest128()),
-    })
+        xxh3: Fingerprint(xxh3_128(bytes)).to_string(),
+    }
 }
 
 /// Checks that a packed file is there and whole, and returns its path.
@@ -93,21 +93,8 @@ pub fn checked(packed: &PackedFile, folder: &Folder) -> Result<PathBuf, AppError
             path.display()
         ))
     };
-    let mut file = File::open(&path).map_err(|error| refused(&error.to_string()))?;
-    let mut hash = Xxh3::new();
-    let mut bytes = 0;
-    let mut buffer = vec![0; STEP];
-    loop {
-        let count = file
-            .read(&mut buffer)
-            .map_err(|error| failed_io(&path, error))?;
-        if count == 0 {
-            break;
-        }
-        hash.update(&buffer[..count]);
-        bytes += count as u64;
-    }
-    match bytes == packed.bytes && format!("{:032x}", hash.digest128()) == packed.xxh3 {
+    let bytes = fs::read(&path).map_err(|error| refused(&error.to_string()))?;
+    match described(&packed.file, &bytes) == *packed {
         true => Ok(path),
         false => Err(refused("the file is not the one that was planned")),
     }

@@ -48,20 +48,11 @@ impl Picture {
             .min_by(|a, b| waste(*a).total_cmp(&waste(*b)))
             .unwrap_or(most_bands);
         let ranges = count.div_ceil(bands).min(blocks);
-        let total: f64 = self.rows.iter().sum();
-        let [x0, y0, x1, y1] = self.region;
+        let [x0, y0, x1, _] = self.region;
         let mut pieces = Vec::with_capacity(bands * ranges);
         for rows in even(&self.rows, bands) {
-            let share = match total > 0.0 {
-                true => self.rows[rows.clone()].iter().sum::<f64>(),
-                false => 0.0,
-            };
-            let crop = [
-                x0,
-                y0 + rows.start as u32,
-                x1,
-                (y0 + rows.end as u32).min(y1),
-            ];
+            let seconds: f64 = self.rows[rows.clone()].iter().sum();
+            let crop = [x0, y0 + rows.start as u32, x1, y0 + rows.end as u32];
             for index in 0..ranges {
                 let block = |index: usize| {
                     let sample = (index * blocks / ranges) as u32 * SAMPLE_BLOCK;
@@ -75,7 +66,7 @@ impl Picture {
                 pieces.push(Piece {
                     samples,
                     crop,
-                    seconds: share * part,
+                    seconds: seconds * part,
                 });
             }
         }

@@ -4,7 +4,7 @@ use crate::cli::args::Cli;
 use clap::{ArgAction, ArgMatches, CommandFactory, parser::ValueSource};
 
 /// Flags of `farm plan` that are not for rendering, or that the farm sets for each part.
-const OWN: [&str; 18] = [
+const OWN: [&str; 17] = [
     "output",
     "dir",
     "parts",
@@ -15,7 +15,6 @@ const OWN: [&str; 18] = [
     "step",
     "loop",
     "crop",
-    "environment",
     "allow-dir",
     "report",
     "progress",

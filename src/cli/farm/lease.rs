@@ -5,6 +5,7 @@
 //! are not needed for correct results: two processes that render a part write the same bytes, each at once.
 
 use crate::output::RemoveOnExit;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
@@ -83,33 +84,40 @@ impl Leases {
         Ok(Claim::Held(holder))
     }
 
-    /// Whether a process renders the part.
-    pub fn is_held(&self, part: &str) -> io::Result<bool> {
-        match self.current(part)? {
-            None => Ok(false),
-            Some(number) => Ok(self.held_by(part, number)?.is_some()),
+    /// The parts that processes render.
+    pub fn held(&self) -> io::Result<BTreeSet<String>> {
+        let mut current: BTreeMap<String, u32> = BTreeMap::new();
+        for (part, number) in self.list()? {
+            let highest = current.entry(part).or_default();
+            *highest = number.max(*highest);
         }
-    }
-
-    /// The parts that have a lease, expired or not.
-    pub fn parts(&self) -> io::Result<Vec<String>> {
-        let names = names(&self.folder)?;
-        let mut parts: Vec<_> = (names.iter())
-            .filter_map(|name| Some(name.split_once('.')?.0.to_owned()))
-            .collect();
-        parts.sort();
-        parts.dedup();
-        Ok(parts)
+        let mut held = BTreeSet::new();
+        for (part, number) in current {
+            if self.held_by(&part, number)?.is_some() {
+                held.insert(part);
+            }
+        }
+        Ok(held)
     }
 
     /// The highest number among the leases of a part.
     fn current(&self, part: &str) -> io::Result<Option<u32>> {
-        let names = names(&self.folder)?;
-        let numbers = names.iter().filter_map(|name| {
-            let (owner, number) = name.split_once('.')?;
-            (owner == part).then(|| number.parse().ok()).flatten()
-        });
-        Ok(numbers.max())
+        let leases = self.list()?.into_iter();
+        let own = leases.filter(|(owner, _)| owner == part);
+        Ok(own.map(|(_, number)| number).max())
+    }
+
+    /// All leases, expired or not: their parts and numbers.
+    fn list(&self) -> io::Result<Vec<(String, u32)>> {
+        let mut leases = Vec::new();
+        for entry in fs::read_dir(&self.folder)? {
+            let name = entry?.file_name();
+            let parts = name.to_str().and_then(|name| name.split_once('.'));
+            if let Some((part, Ok(number))) = parts.map(|(part, number)| (part, number.parse())) {
+                leases.push((part.to_owned(), number));
+            }
+        }
+        Ok(leases)
     }
 
     /// Who holds a lease; `None` if it has expired or is gone.
@@ -190,19 +198,6 @@ impl Drop for Lease {
 
 fn is_timeout(error: std::sync::mpsc::RecvTimeoutError) -> bool {
     error == std::sync::mpsc::RecvTimeoutError::Timeout
-}
-
-/// The names of the files in a folder.
-fn names(folder: &Path) -> io::Result<Vec<String>> {
-    let mut names = Vec::new();
-    for entry in fs::read_dir(folder)? {
-        if let Ok(name) = entry?.file_name().into_string()
-            && !name.starts_with('.')
-        {
-            names.push(name);
-        }
-    }
-    Ok(names)
 }
 
 /// Whether a process of this machine has ended. Those of other machines cannot be seen.

@@ -42,7 +42,7 @@ pub struct Manifest {
 }
 
 /// A file in the farm's folder.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PackedFile {
     /// Name in the folder.
     pub file: String,

@@ -67,6 +67,7 @@ pub fn measure(
         }
     };
     let [_, top, _, height] = settings.region();
+    let most_samples = MOST_SAMPLES.min(settings.samples);
     let middle = shutters.len() / 2;
     let first = strip(top, 1);
     let mut renderer = Renderer::new(
@@ -91,19 +92,19 @@ pub fn measure(
             let mut samples = 1;
             let (mut seconds, mut measured);
             loop {
-                let settings = strip(y, samples);
-                measured = settings.region()[3];
-                renderer.restart(packed.clone(), &view, settings, job.policy())?;
+                let strip = strip(y, samples);
+                measured = strip.region()[3];
+                renderer.restart(packed.clone(), &view, strip, job.policy())?;
                 let begun = Instant::now();
                 finish(&mut renderer, interrupt)?;
                 seconds = begun.elapsed().as_secs_f64();
-                if seconds >= LEAST_SECONDS || samples >= MOST_SAMPLES.min(settings_samples(job)) {
+                if seconds >= LEAST_SECONDS || samples >= most_samples {
                     break;
                 }
-                samples = (samples * 4).min(MOST_SAMPLES).min(settings_samples(job));
+                samples = (samples * 4).min(most_samples);
             }
             let of_row = seconds / f64::from(measured) / f64::from(samples);
-            let cost = of_row * f64::from(job.settings().samples);
+            let cost = of_row * f64::from(settings.samples);
             rows[from as usize..to as usize].fill(cost);
         }
         Ok(rows)
@@ -128,10 +129,6 @@ pub fn measure(
         frames,
         rows,
     })
-}
-
-fn settings_samples(job: &Job) -> u32 {
-    job.settings().samples
 }
 
 fn finish(renderer: &mut Renderer, interrupt: &Interrupt) -> Result<(), AppError> {

@@ -60,7 +60,7 @@ pub fn run(
         arguments.picture.integrator,
     );
     memory::check_file(&arguments.scene)?;
-    let (scene, files) = import::load_watched(&arguments.scene, &options, &|_| ());
+    let (scene, mut files) = import::load_watched(&arguments.scene, &options, &|_| ());
     let mut scene = scene?;
     arguments
         .camera
@@ -111,20 +111,19 @@ pub fn run(
     };
     let parts = work.cut(count);
     folder.create()?;
-    let is_file = |source: &EnvironmentSource| matches!(source, EnvironmentSource::File(_));
-    let environment = match arguments.reading.environment.as_ref() {
-        Some(EnvironmentSource::File(file)) => Some(archive::copy(file, "environment", &folder)?),
-        _ => None,
+    // It is read from a path of its own, and copied beside the archive.
+    let panorama = match &arguments.reading.environment {
+        Some(EnvironmentSource::File(file)) => Some(file),
+        Some(EnvironmentSource::Sky { .. }) | None => None,
     };
-    let own = (options.environment.source.as_ref()).filter(|source| is_file(source));
-    let files: Vec<_> = (files.into_iter())
-        .filter(|file| own != Some(&EnvironmentSource::File(file.clone())))
-        .collect();
+    let environment =
+        (panorama.map(|file| archive::copy(file, "environment", &folder))).transpose()?;
+    files.retain(|file| Some(file) != panorama);
     let packed = archive::pack(&arguments.scene, &files, &folder)?;
     check_packed(&job, arguments, &options, &folder.path().join(&packed.file))?;
     let mut given = flags::given(matches);
-    if let (Some(source), None) = (&arguments.reading.environment, &environment) {
-        given.push(format!("--environment={}", text_of(source)));
+    if environment.is_some() {
+        given.retain(|flag| !flag.starts_with("--environment="));
     }
     let manifest = Manifest {
         version: Manifest::VERSION,
@@ -362,16 +361,6 @@ fn check_packed(
             "cannot pack the scene ({}): packed, it is not the same. Keep its files in one folder.",
             arguments.scene.display()
         ))),
-    }
-}
-
-fn text_of(source: &EnvironmentSource) -> String {
-    match source {
-        EnvironmentSource::File(path) => path.display().to_string(),
-        EnvironmentSource::Sky {
-            elevation_deg,
-            azimuth_deg,
-        } => format!("sky:{elevation_deg},{azimuth_deg}"),
     }
 }
 

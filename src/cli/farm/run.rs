@@ -10,7 +10,7 @@ use crate::app::error::AppError;
 use crate::cli::args::{Cli, Command, FarmRunArgs};
 use crate::cli::interrupt::Interrupt;
 use crate::cli::{animate, render};
-use crate::output::Format;
+use crate::output::{self, Format};
 use crate::render::Film;
 use clap::Parser;
 use std::ffi::OsString;
@@ -242,11 +242,12 @@ impl Farm {
             false => self.folder.frames(number),
         };
         if result.exists() {
-            let aside = (1..)
-                .map(|index| PathBuf::from(format!("{}.old-{index}", result.display())))
-                .find(|path| !path.exists())
-                .unwrap_or_default();
-            fs::rename(&result, &aside).map_err(|error| failed_io(&result, error))?;
+            output::set_aside(&result).map_err(|why| {
+                AppError::Unwritable(format!(
+                    "cannot set a part aside ({}): {why}. Move it away.",
+                    result.display()
+                ))
+            })?;
         }
         remove(&self.folder.done_path(number))?;
         Ok(false)

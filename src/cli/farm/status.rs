@@ -84,8 +84,8 @@ fn follow(folder: &Folder, manifest: &Manifest, interrupt: &Interrupt) -> Result
 impl Status {
     fn of(folder: &Folder, manifest: &Manifest) -> Result<Self, AppError> {
         let leases = Leases::new(folder.leases(), LEASE);
-        let unreadable = |error| failed_io(&folder.leases(), error);
-        let leased = leases.parts().map_err(unreadable)?;
+        let held = leases.held();
+        let held = held.map_err(|error| failed_io(&folder.leases(), error))?;
         let mut status = Self {
             parts: manifest.parts.len(),
             done: 0,
@@ -112,8 +112,7 @@ impl Status {
                 continue;
             }
             left += cost;
-            let text = Manifest::number(number);
-            let is_running = leased.contains(&text) && leases.is_held(&text).map_err(unreadable)?;
+            let is_running = held.contains(&Manifest::number(number));
             match (is_running, folder.failed(number)) {
                 (true, _) => status.running += 1,
                 (false, None) => status.waiting += 1,
