@@ -95,16 +95,18 @@ impl Resolver for Memory {
     }
 }
 
-/// Looks a file up in a map with normalised paths; see [`Resolver::resolve`].
+/// Looks a file up in a map with normalised paths; see [`Resolver::resolve`]. All files of the map belong to the scene, so a
+/// name may go up, but not above the root.
 pub(super) fn located<T>(
     files: &BTreeMap<PathBuf, T>,
     base: &Path,
     name: &Path,
 ) -> Result<PathBuf, FileError> {
-    if !goes_down(name) {
+    let path = base.join(name);
+    if !stays_inside(&path) {
         return Err(FileError::Outside);
     }
-    let path = normalized(&base.join(name));
+    let path = normalized(&path);
     if files.contains_key(&path) {
         return Ok(path);
     }
@@ -119,6 +121,21 @@ pub(super) fn located<T>(
 pub(super) fn goes_down(name: &Path) -> bool {
     name.components()
         .all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
+}
+
+/// Whether no part of the path is above its root.
+fn stays_inside(path: &Path) -> bool {
+    let mut depth = 0_usize;
+    path.components().all(|part| {
+        let next = match part {
+            Component::Normal(_) => depth.checked_add(1),
+            Component::CurDir => Some(depth),
+            Component::ParentDir => depth.checked_sub(1),
+            Component::RootDir | Component::Prefix(_) => None,
+        };
+        depth = next.unwrap_or_default();
+        next.is_some()
+    })
 }
 
 /// `path` with `.` and `..` resolved lexically.

@@ -73,7 +73,7 @@ pub(super) fn read_scene(
         .collect();
     scenes.sort();
     if let Some(name) = named(&archive) {
-        scenes.retain(|scene| scene.2 == name);
+        scenes = vec![(0, 0, name)];
     }
     let Some((_, _, name)) = scenes.first().cloned() else {
         let why = format!(
@@ -101,10 +101,14 @@ pub(super) fn read_scene(
     Ok(scene)
 }
 
-/// The name of the scene in the archive's [`SCENE_MEMBER`].
+/// The scene that the archive's [`SCENE_MEMBER`] names, if it is there.
 fn named(archive: &Archive) -> Option<PathBuf> {
     let bytes = archive.read(Path::new(SCENE_MEMBER), MAX_NAME).ok()?;
-    Some(PathBuf::from(String::from_utf8(bytes).ok()?.trim()))
+    let text = String::from_utf8(bytes).ok()?;
+    let name = Path::new(text.trim());
+    (archive.names())
+        .find(|found| *found == name)
+        .map(Into::into)
 }
 
 /// The place of a file's ending among those of scenes, but archives; `None` for other files, and those that

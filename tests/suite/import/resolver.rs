@@ -228,7 +228,14 @@ fn bad_archives_are_refused() {
     ));
     let resolved = |name: &str| archive.resolve(Path::new("folder"), Path::new(name));
     assert_eq!(resolved("long.bin").expect("there"), long_file);
-    assert!(matches!(resolved("../../x"), Err(FileError::Outside)));
+    // Up is allowed, but not out, even on a way back in.
+    assert_eq!(resolved("../folder/long.bin").expect("there"), long_file);
+    for outside in ["../../x", "../../folder/long.bin", "/folder/long.bin"] {
+        assert!(
+            matches!(resolved(outside), Err(FileError::Outside)),
+            "{outside}"
+        );
+    }
     assert!(matches!(resolved("short.bin"), Err(FileError::Missing)));
     assert!(matches!(
         archive.resolve(Path::new(""), Path::new("folder")),
