@@ -23,7 +23,7 @@ pub use remove_on_exit::remove_unfinished_files;
 
 use crate::image::Image;
 use std::fs;
-use std::io::{ErrorKind, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// How to write an image.
@@ -97,7 +97,7 @@ pub fn save_to_stdout(image: &Image, options: &SaveOptions) -> Result<(), Output
     let format = options.format.unwrap_or(Format::Png);
     format.check_size(image.width, image.height)?;
     let bytes = encode::encode(image, format, options)?;
-    let mut stdout = std::io::stdout().lock();
+    let mut stdout = io::stdout().lock();
     stdout
         .write_all(&bytes)
         .and_then(|()| stdout.flush())
@@ -174,21 +174,42 @@ pub fn write(path: impl AsRef<Path>, bytes: &[u8], clobber: bool) -> Result<(), 
     atomic::write(path.as_ref(), bytes, clobber, true)
 }
 
+/// Like [`write()`], for contents too large for memory: `fill` writes them piece by piece.
+///
+/// # Errors
+/// See [`write()`], and those of `fill`.
+pub fn write_with(
+    path: impl AsRef<Path>,
+    clobber: bool,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), OutputError> {
+    write_pieces(path.as_ref(), clobber, true, fill)
+}
+
 /// Like [`write_own`], for contents too large for memory: `fill` writes them piece by piece.
 ///
 /// # Errors
 /// See [`write_own`], and those of `fill`.
 pub fn write_own_with(
     path: impl AsRef<Path>,
-    fill: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), OutputError> {
-    let path = path.as_ref();
-    atomic::write_with(path, true, false, |file| {
-        let failed = |source| OutputError::Io {
+    write_pieces(path.as_ref(), true, false, fill)
+}
+
+fn write_pieces(
+    path: &Path,
+    clobber: bool,
+    follow_links: bool,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), OutputError> {
+    atomic::write_with(path, clobber, follow_links, |file| {
+        let mut file = BufWriter::new(file);
+        let filled = fill(&mut file).and_then(|()| file.flush());
+        filled.map_err(|source| OutputError::Io {
             path: path.into(),
             source,
-        };
-        fill(file).map_err(failed)
+        })
     })
 }
 

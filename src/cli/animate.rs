@@ -4,6 +4,7 @@
 //! Frames are first written to files. A run renders the frames that are missing or out of date and then
 //! encodes all of them. So runs are resumable, and a video can be encoded again without rendering.
 
+mod encode;
 mod fingerprint;
 mod frame_renderer;
 mod journal;
@@ -14,6 +15,7 @@ mod plan;
 mod target;
 mod timeline;
 
+pub use encode::encode;
 #[cfg(feature = "archive")]
 pub use pattern::Pattern;
 pub use target::Target;
@@ -27,15 +29,14 @@ use crate::cli::interrupt::Interrupt;
 use crate::cli::job::{Job, Outcome};
 use crate::cli::progress::FrameProgress;
 use crate::cli::report::{AnimationReport, Draft};
-use crate::output::video::{self, FrameRate, VideoOptions};
-use crate::output::{Format, OutputError};
+use crate::output::Format;
+use crate::output::video::{FrameRate, VideoOptions};
 use crate::render::Stats;
 use frame_renderer::{FrameRenderer, Sink};
 use journal::Journal;
 use lock::Lock;
 use plan::Plan;
 use std::fs;
-use std::io::{self, ErrorKind};
 use std::path::Path;
 use std::time::Instant;
 use target::{Files, Video};
@@ -234,22 +235,20 @@ impl<'a> Sequence<'a> {
         let started = Instant::now();
         let count = self.timeline.count;
         let mut progress = FrameProgress::encoding(self.job.log, count);
-        let numbers: Vec<_> = self.timeline.numbers().collect();
-        let mut stopped = None;
-        let encoded = video::encode(&self.target.path, *format, options, count, &mut |index| {
-            let path = files.pattern.path(numbers[index]);
-            if let Err(error) = interrupt.check() {
-                stopped = Some(error);
-                let source = io::Error::from(ErrorKind::Interrupted);
-                return Err(OutputError::Io { path, source });
-            }
-            progress.encoded(index);
-            video::read_frame(&path)
-        });
-        match (encoded, stopped) {
-            (Ok(()), _) => Ok(started.elapsed().as_secs_f64()),
-            (Err(error), stopped) => Err(AppError::Stopped {
-                error: Box::new(stopped.unwrap_or(error.into())),
+        let numbers = self.timeline.numbers();
+        let paths: Vec<_> = numbers.map(|number| files.pattern.path(number)).collect();
+        let encoded = encode(
+            &self.target.path,
+            *format,
+            options,
+            &paths,
+            interrupt,
+            |index| progress.encoded(index),
+        );
+        match encoded {
+            Ok(()) => Ok(started.elapsed().as_secs_f64()),
+            Err(error) => Err(AppError::Stopped {
+                error: Box::new(error),
                 kept: format!(
                     "All {count} frames are kept in {}; the same command resumes with encoding.",
                     files.pattern.folder().display()

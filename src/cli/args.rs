@@ -308,6 +308,9 @@ pub struct MergeArgs {
     pub parts: Vec<PathBuf>,
     #[command(flatten)]
     pub output: OutputFlags,
+    /// The pixels that must be complete, those of `render --crop` [default: the whole picture]
+    #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = values::crop)]
+    pub crop: Option<[u32; 4]>,
     /// Write what is there even if parts are missing: pixels without samples are black
     #[arg(long)]
     pub partial: bool,

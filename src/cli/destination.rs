@@ -72,10 +72,10 @@ impl Destination {
     }
 
     pub fn save_film(&self, film: &Film) -> Result<(), AppError> {
-        let mut bytes = Vec::new();
-        let written = film.write(&mut bytes);
-        written.map_err(|error| AppError::Internal(format!("film: {error}")))?;
-        Ok(output::write(&self.path, &bytes, self.options.clobber)?)
+        let clobber = self.options.clobber;
+        Ok(output::write_with(&self.path, clobber, |file| {
+            film.write(file)
+        })?)
     }
 
     /// Whether it can take layers.

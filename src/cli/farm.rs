@@ -11,12 +11,14 @@ mod lease;
 mod manifest;
 mod measure;
 mod merge;
+mod merge_costs;
 mod plan;
 mod run;
 mod simulate;
 mod slurm;
 mod status;
 mod submit;
+mod work;
 
 pub use manifest::schema;
 

@@ -85,7 +85,7 @@ impl Job<'_> {
                 .finish(&renderer.film()?, renderer.gpu(), tone)?,
             false => Finished::plain(renderer.develop(tone)?),
         };
-        Ok(finished.placed(&settings))
+        Ok(finished.placed(settings.region(), settings.size))
     }
 
     /// Refuses a transparent background that the integrator cannot render, or that the file does not keep.

@@ -6,7 +6,7 @@ use crate::cli::args::LayerFlags;
 use crate::gpu::Gpu;
 use crate::image::Image;
 use crate::output::{self, LayeredImage, OutputError, Place, SaveOptions};
-use crate::render::{Film, Integrator, RenderSettings, Shows, Tone};
+use crate::render::{Film, Integrator, Shows, Tone};
 use std::path::Path;
 use std::time::Instant;
 
@@ -36,13 +36,11 @@ impl Finished {
         self.denoise_seconds
     }
 
-    /// The picture as the part that the settings say of a larger one.
-    pub fn placed(self, settings: &RenderSettings) -> Self {
-        let whole = settings.size;
-        let place = settings.crop.map(|[x, y, ..]| Place {
-            corner: (x, y),
-            whole,
-        });
+    /// The picture as a region (x, y, width, height) of a larger one, if it is not all of it.
+    pub fn placed(self, [x, y, width, height]: [u32; 4], whole: (u32, u32)) -> Self {
+        let is_all = [x, y, width, height] == [0, 0, whole.0, whole.1];
+        let corner = (x, y);
+        let place = (!is_all).then_some(Place { corner, whole });
         Self { place, ..self }
     }
 

@@ -28,7 +28,7 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
     let outlines = outlines(&arguments.parts, &interrupt)?;
     let whole = whole(&arguments.parts, &outlines)?;
     check_adapters(whole.header(), destination.path(), arguments.same_adapter)?;
-    let missing = whole.missing();
+    let missing = whole.missing_of(region(arguments.crop, whole.header().size)?);
     if !missing.is_empty() {
         let why = incomplete(destination.path(), &missing);
         if !arguments.partial {
@@ -72,7 +72,19 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
         .overrides()
         .tone(&said, *integrator, is_linear);
     let gpu = Gpu::new(&arguments.device.choice())?;
-    destination.save(&arguments.layers.finish(&film, &gpu, &tone)?)
+    let finished = arguments.layers.finish(&film, &gpu, &tone)?;
+    destination.save(&finished.placed(film.region(), film.header().size))
+}
+
+/// The pixels that must be complete: x, y, width, height.
+fn region(crop: Option<[u32; 4]>, (width, height): (u32, u32)) -> Result<[u32; 4], AppError> {
+    match crop {
+        None => Ok([0, 0, width, height]),
+        Some([x0, y0, x1, y1]) if x1 <= width && y1 <= height => Ok([x0, y0, x1 - x0, y1 - y0]),
+        Some([.., x1, y1]) => Err(AppError::Usage(format!(
+            "cannot merge (--crop): it ends at {x1},{y1}, outside of {width}×{height} pixels. Choose a smaller one."
+        ))),
+    }
 }
 
 /// The outline of each part.

@@ -97,6 +97,15 @@ impl FilmHeader {
         self.is_adaptive() || samples.block_count() == 1
     }
 
+    /// A range of samples, if it consists of whole blocks.
+    fn blocks(&self, samples: Range<u32>) -> Result<SampleSet, FilmError> {
+        let ends = samples.end.is_multiple_of(SAMPLE_BLOCK) || samples.end == self.samples;
+        match samples.start.is_multiple_of(SAMPLE_BLOCK) && ends {
+            true => Ok(SampleSet::new(samples)),
+            false => Err(FilmError::Unaligned { samples }),
+        }
+    }
+
     /// Rejects the header of another picture.
     fn check_same(&self, other: &Self) -> Result<(), FilmError> {
         fn same<T: PartialEq + Debug>(what: &'static str, a: &T, b: &T) -> Result<(), FilmError> {
@@ -139,14 +148,7 @@ impl Film {
     pub(super) fn new(header: FilmHeader, pieces: Vec<Piece>) -> Result<Self, FilmError> {
         let mut coverage = Coverage::default();
         for piece in &pieces {
-            let Range { start, end } = piece.samples;
-            let ends = end.is_multiple_of(SAMPLE_BLOCK) || end == header.samples;
-            if !start.is_multiple_of(SAMPLE_BLOCK) || !ends {
-                return Err(FilmError::Unaligned {
-                    samples: piece.samples.clone(),
-                });
-            }
-            let own = Coverage::rectangle(piece.region, SampleSet::new(start..end));
+            let own = Coverage::rectangle(piece.region, header.blocks(piece.samples.clone())?);
             coverage = united(&coverage, &own)?;
         }
         let mut film = FilmOutline { header, coverage }.blank();

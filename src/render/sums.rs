@@ -89,6 +89,14 @@ pub enum Sums {
 }
 
 impl Sums {
+    /// Bytes of a row, of one block or of several.
+    pub fn row_bytes(is_block: bool) -> u64 {
+        match is_block {
+            true => size_of::<[f32; 4]>() as u64,
+            false => size_of::<[i128; 4]>() as u64,
+        }
+    }
+
     /// `rows` rows of zeros, of one block or of several.
     pub fn zeros(rows: usize, is_block: bool) -> Self {
         match is_block {

@@ -8,9 +8,13 @@ mod convert;
 mod explain;
 #[cfg(all(unix, feature = "archive"))]
 mod farm;
+#[cfg(all(unix, feature = "archive"))]
+mod farm_faults;
 mod help;
 mod inspect;
 mod merge;
+#[cfg(unix)]
+mod parts;
 mod refusals;
 mod render;
 mod report;

@@ -4,7 +4,7 @@ use crate::cli::args::Cli;
 use clap::{ArgAction, ArgMatches, CommandFactory, parser::ValueSource};
 
 /// Flags of `farm plan` that are not for rendering, or that the farm sets for each part.
-const OWN: [&str; 17] = [
+const OWN: [&str; 16] = [
     "output",
     "dir",
     "parts",
@@ -14,7 +14,6 @@ const OWN: [&str; 17] = [
     "frames",
     "step",
     "loop",
-    "crop",
     "allow-dir",
     "report",
     "progress",
@@ -25,7 +24,8 @@ const OWN: [&str; 17] = [
 ];
 
 /// Flags that matter when films become a picture.
-const FINISHING: [&str; 9] = [
+const FINISHING: [&str; 10] = [
+    "crop",
     "exposure",
     "tone",
     "transfer",
@@ -76,6 +76,12 @@ pub fn finishing(flags: &[String]) -> impl Iterator<Item = &String> {
 pub fn of_animation(flags: &[String]) -> impl Iterator<Item = &String> {
     let is_moment = |flag: &str| ["frame", "time"].contains(&name(flag));
     flags.iter().filter(move |flag| !is_moment(flag))
+}
+
+/// Those of `render` for a part with these pixels.
+pub fn of_part(flags: &[String], crop: Option<[u32; 4]>) -> impl Iterator<Item = &String> {
+    let is_replaced = move |flag: &str| crop.is_some() && name(flag) == "crop";
+    flags.iter().filter(move |flag| !is_replaced(flag))
 }
 
 fn name(flag: &str) -> &str {

@@ -1,5 +1,6 @@
 //! Leases: which process renders a part. A lease is a file that only one process can create; it is renewed while the
-//! process lives, and expires if it is not. No locks are needed, so it works on network file systems.
+//! process lives, and expires if it is not, after a time that it names. No locks are needed, so it works on network file
+//! systems.
 //!
 //! Whoever finds that lease N has expired creates lease N + 1, which again only one process can do. Leases save work; they
 //! are not needed for correct results: two processes that render a part write the same bytes, each at once.
@@ -12,6 +13,12 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
+
+/// Time after which a lease expires that is not renewed and does not say another one.
+pub const LASTS: Duration = Duration::from_secs(60);
+
+/// Longest time of a lease in seconds.
+const MOST_SECONDS: f64 = 86400.0;
 
 /// Attempts of taking a lease while others come and go.
 const ATTEMPTS: usize = 8;
@@ -38,7 +45,7 @@ pub enum Claim {
 #[derive(Clone, Debug)]
 pub struct Leases {
     folder: PathBuf,
-    /// Time after which a lease expires that is not renewed.
+    /// Time after which the leases of this process expire if they are not renewed.
     duration: Duration,
 }
 
@@ -132,7 +139,9 @@ impl Leases {
         let mut text = String::new();
         // It is empty for a moment after it was created.
         let _ = (&mut file).take(1024).read_to_string(&mut text);
-        let (host, process) = text.trim_end().split_once(' ').unwrap_or(("", ""));
+        let mut words = text.split_whitespace();
+        let mut word = || words.next().unwrap_or_default();
+        let (host, process, seconds) = (word(), word(), word());
         if is_dead(host, process) {
             return Ok(None);
         }
@@ -145,7 +154,7 @@ impl Leases {
                 file.as_file().metadata()?.modified()
             })?;
         let age = now.duration_since(renewed).unwrap_or_default();
-        Ok((age <= self.duration).then(|| format!("{host}, process {process}")))
+        Ok((age <= lasting(seconds)).then(|| format!("{host}, process {process}")))
     }
 
     fn path(&self, part: &str, number: u32) -> PathBuf {
@@ -160,7 +169,8 @@ impl Lease {
         registered: RemoveOnExit,
         duration: Duration,
     ) -> io::Result<Self> {
-        let text = format!("{} {}\n", host(), std::process::id());
+        let seconds = duration.as_secs_f64();
+        let text = format!("{} {} {seconds}\n", host(), std::process::id());
         file.write_all(text.as_bytes())?;
         drop(file);
         let (stop, stopped) = channel();
@@ -198,6 +208,15 @@ impl Drop for Lease {
 
 fn is_timeout(error: std::sync::mpsc::RecvTimeoutError) -> bool {
     error == std::sync::mpsc::RecvTimeoutError::Timeout
+}
+
+/// How long a lease lasts that names so many seconds; a default if it does not, as for a moment after it was created.
+fn lasting(seconds: &str) -> Duration {
+    let seconds: f64 = seconds.parse().unwrap_or_default();
+    match (1.0..=MOST_SECONDS).contains(&seconds) {
+        true => Duration::from_secs_f64(seconds),
+        false => LASTS,
+    }
 }
 
 /// Whether a process of this machine has ended. Those of other machines cannot be seen.

@@ -5,8 +5,9 @@ use crate::cli::device;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job::Job;
 use crate::gpu::Gpu;
-use crate::pack;
-use crate::render::{Antialias, RenderSettings, Renderer};
+use crate::image::Image;
+use crate::pack::{self, PackedScene};
+use crate::render::{Antialias, FilmOutline, RenderSettings, Renderer};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -33,6 +34,12 @@ pub struct Costs {
     pub frames: Vec<f64>,
     /// Seconds of each row of the region, for all samples, of the frame in the middle.
     pub rows: Vec<f64>,
+    /// The outline of a film of the picture.
+    pub film: FilmOutline,
+    /// Some rows of the picture, as they are developed.
+    pub sample: Image,
+    /// The device that was measured.
+    pub gpu: Gpu,
 }
 
 /// Measures the frames whose shutter is open at these times, in seconds.
@@ -41,47 +48,90 @@ pub struct Costs {
 /// Those of rendering.
 pub fn measure(
     job: &Job,
-    settings: &RenderSettings,
+    planned: &RenderSettings,
     gpu: Gpu,
     shutters: &[(f64, f64)],
     (started, interrupt): (Instant, &Interrupt),
 ) -> Result<Costs, AppError> {
-    let packed = Arc::new(pack::scene(&job.scene)?);
-    let view = |(open, close): (f64, f64)| packed.view(&job.scene.motion_samples(open, close));
-    // Few samples tell enough, and those of adaptive sampling cannot be cut.
-    let settings = RenderSettings {
-        antialias: match settings.antialias {
-            Antialias::Adaptive => Antialias::Stratified,
-            other => other,
-        },
-        ..settings.clone()
-    };
-    let adapter = gpu.adapter().clone();
-    let strip = |y: u32, samples: u32| {
-        let [x, top, width, height] = settings.region();
-        let bottom = (y + STRIP_ROWS).min(top + height);
-        RenderSettings {
-            crop: Some([x, y, x + width, bottom]),
-            sample_range: Some(0..samples),
-            ..settings.clone()
+    let middle = shutters[shutters.len() / 2];
+    let mut meter = Meter::new(job, planned, gpu, middle, interrupt)?;
+    let start = started.elapsed().as_secs_f64();
+    let rows = meter.rows(middle, STRIPS)?;
+    let renderer = &mut meter.renderer;
+    let film = renderer.outline_of(planned);
+    let sample = renderer.develop(&job.tone(planned, false))?;
+    let frames = match shutters.len() {
+        1 => vec![rows.iter().sum()],
+        count => {
+            let points = count.min(FRAMES);
+            let at = |point: usize| point * (count - 1) / (points - 1).max(1);
+            let mut known = Vec::new();
+            for point in 0..points {
+                let rows = meter.rows(shutters[at(point)], STRIPS / 4)?;
+                known.push((at(point), rows.iter().sum()));
+            }
+            (0..count).map(|index| between(&known, index)).collect()
         }
     };
-    let [_, top, _, height] = settings.region();
-    let most_samples = MOST_SAMPLES.min(settings.samples);
-    let middle = shutters.len() / 2;
-    let first = strip(top, 1);
-    let mut renderer = Renderer::new(
+    let gpu = meter.renderer.gpu().clone();
+    Ok(Costs {
+        adapter: device::describe(gpu.adapter()),
+        start,
+        frames,
+        rows,
+        film,
+        sample,
         gpu,
-        packed.clone(),
-        &view(shutters[middle])?,
-        first,
-        job.policy(),
-    )?;
-    finish(&mut renderer, interrupt)?;
-    let start = started.elapsed().as_secs_f64();
+    })
+}
 
-    let mut rows_of = |shutter: (f64, f64), strips: u32| -> Result<Vec<f64>, AppError> {
-        let view = view(shutter)?;
+/// Renders strips of frames.
+struct Meter<'a> {
+    job: &'a Job<'a>,
+    settings: RenderSettings,
+    packed: Arc<PackedScene>,
+    renderer: Renderer,
+    interrupt: &'a Interrupt,
+}
+
+impl<'a> Meter<'a> {
+    /// Has everything compiled, by rendering a strip.
+    fn new(
+        job: &'a Job<'a>,
+        planned: &RenderSettings,
+        gpu: Gpu,
+        shutter: (f64, f64),
+        interrupt: &'a Interrupt,
+    ) -> Result<Self, AppError> {
+        // Few samples tell enough, and those of adaptive sampling cannot be cut.
+        let settings = RenderSettings {
+            antialias: match planned.antialias {
+                Antialias::Adaptive => Antialias::Stratified,
+                other => other,
+            },
+            ..planned.clone()
+        };
+        let packed = Arc::new(pack::scene(&job.scene)?);
+        let view = packed.view(&job.scene.motion_samples(shutter.0, shutter.1))?;
+        let [_, top, ..] = settings.region();
+        let first = strip(&settings, top, 1);
+        let renderer = Renderer::new(gpu, packed.clone(), &view, first, job.policy())?;
+        let mut meter = Self {
+            job,
+            settings,
+            packed,
+            renderer,
+            interrupt,
+        };
+        meter.finish()?;
+        Ok(meter)
+    }
+
+    /// Seconds of each row of a frame.
+    fn rows(&mut self, (open, close): (f64, f64), strips: u32) -> Result<Vec<f64>, AppError> {
+        let view = (self.packed).view(&self.job.scene.motion_samples(open, close))?;
+        let [_, top, _, height] = self.settings.region();
+        let most_samples = MOST_SAMPLES.min(self.settings.samples);
         let strips = strips.clamp(1, height.div_ceil(STRIP_ROWS));
         let mut rows = vec![0.0; height as usize];
         for index in 0..strips {
@@ -92,11 +142,12 @@ pub fn measure(
             let mut samples = 1;
             let (mut seconds, mut measured);
             loop {
-                let strip = strip(y, samples);
+                let strip = strip(&self.settings, y, samples);
                 measured = strip.region()[3];
-                renderer.restart(packed.clone(), &view, strip, job.policy())?;
+                let policy = self.job.policy();
+                (self.renderer).restart(self.packed.clone(), &view, strip, policy)?;
                 let begun = Instant::now();
-                finish(&mut renderer, interrupt)?;
+                self.finish()?;
                 seconds = begun.elapsed().as_secs_f64();
                 if seconds >= LEAST_SECONDS || samples >= most_samples {
                     break;
@@ -104,41 +155,31 @@ pub fn measure(
                 samples = (samples * 4).min(most_samples);
             }
             let of_row = seconds / f64::from(measured) / f64::from(samples);
-            let cost = of_row * f64::from(settings.samples);
+            let cost = of_row * f64::from(self.settings.samples);
             rows[from as usize..to as usize].fill(cost);
         }
         Ok(rows)
-    };
-    let rows = rows_of(shutters[middle], STRIPS)?;
-    let frames = match shutters.len() {
-        1 => vec![rows.iter().sum()],
-        count => {
-            let points = count.min(FRAMES);
-            let at = |point: usize| point * (count - 1) / (points - 1).max(1);
-            let mut known = Vec::new();
-            for point in 0..points {
-                let rows = rows_of(shutters[at(point)], STRIPS / 4)?;
-                known.push((at(point), rows.iter().sum()));
-            }
-            (0..count).map(|index| between(&known, index)).collect()
-        }
-    };
-    Ok(Costs {
-        adapter: device::describe(&adapter),
-        start,
-        frames,
-        rows,
-    })
-}
-
-fn finish(renderer: &mut Renderer, interrupt: &Interrupt) -> Result<(), AppError> {
-    while !renderer.is_done() {
-        interrupt.check()?;
-        renderer.step()?;
     }
-    Ok(())
+
+    fn finish(&mut self) -> Result<(), AppError> {
+        while !self.renderer.is_done() {
+            self.interrupt.check()?;
+            self.renderer.step()?;
+        }
+        Ok(())
+    }
 }
 
+/// The settings of a strip with its first row at `y`.
+fn strip(settings: &RenderSettings, y: u32, samples: u32) -> RenderSettings {
+    let [x, top, width, height] = settings.region();
+    let bottom = (y + STRIP_ROWS).min(top + height);
+    RenderSettings {
+        crop: Some([x, y, x + width, bottom]),
+        sample_range: Some(0..samples),
+        ..settings.clone()
+    }
+}
 /// The value at `index` on the straight line between its neighbours among `known`, which are in order.
 fn between(known: &[(usize, f64)], index: usize) -> f64 {
     let next = known.partition_point(|(at, _)| *at < index);

@@ -6,17 +6,16 @@ use super::{Folder, flags, numbered};
 use crate::app::console;
 use crate::app::console::Console;
 use crate::app::error::AppError;
-use crate::cli::animate::{Pattern, rate};
+use crate::cli::animate::{Pattern, encode, rate};
 use crate::cli::args::{Cli, Command, FarmMergeArgs};
 use crate::cli::interrupt::Interrupt;
 use crate::cli::merge;
-use crate::output::video::{self, VideoFormat, VideoOptions};
-use crate::output::{self, OutputError};
+use crate::output;
+use crate::output::video::{VideoFormat, VideoOptions};
 use clap::Parser;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fs;
-use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// Parts that the message about missing ones lists; their commands are complete.
@@ -138,14 +137,17 @@ impl Merge<'_> {
         }
         let files: Vec<_> = files.into_iter().collect();
         match VideoFormat::from_path(output) {
-            Some(format) => self.video(&files, format, frames, output, interrupt),
+            Some(format) => {
+                let files: Vec<_> = files.into_iter().map(|(_, file)| file).collect();
+                self.video(&files, format, frames, output, interrupt)
+            }
             None => self.frames(&files, output, interrupt),
         }
     }
 
     fn video(
         &self,
-        files: &[(u32, PathBuf)],
+        files: &[PathBuf],
         format: VideoFormat,
         frames: &Frames,
         output: &Path,
@@ -158,21 +160,7 @@ impl Merge<'_> {
             clobber: true,
         };
         let _deferred = interrupt.defer();
-        let mut stopped = None;
-        let encoded = video::encode(output, format, &options, files.len(), &mut |index| {
-            let path = &files[index].1;
-            if let Err(error) = interrupt.check() {
-                stopped = Some(error);
-                let source = io::Error::from(ErrorKind::Interrupted);
-                let path = path.clone();
-                return Err(OutputError::Io { path, source });
-            }
-            video::read_frame(path)
-        });
-        match (encoded, stopped) {
-            (_, Some(stopped)) => Err(stopped),
-            (encoded, None) => Ok(encoded?),
-        }
+        encode(output, format, &options, files, interrupt, |_| ())
     }
 
     fn frames(

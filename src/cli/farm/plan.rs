@@ -1,10 +1,10 @@
 //! `glimray farm plan SCENE`: measures, cuts, and writes the folder.
 
-use super::cut::{self, Picture};
-use super::manifest::{self, Frames, Manifest, Measured, Part};
+use super::manifest::{self, Frames, Manifest, Measured};
 use super::measure::{Costs, measure};
-use super::simulate::{Spread, drawn, efficiency};
-use super::{Folder, archive, command, flags, write};
+use super::merge_costs::MergeCosts;
+use super::work::Work;
+use super::{Folder, archive, command, flags, simulate, write};
 use crate::app::clock::Clock;
 use crate::app::console;
 use crate::app::error::AppError;
@@ -19,19 +19,12 @@ use crate::import::{self, EnvironmentSource};
 use crate::output::video::VideoFormat;
 use crate::output::{Format, OutputError};
 use crate::pack;
-use crate::render::{Fingerprint, RenderSettings, SAMPLE_BLOCK};
+use crate::render::Fingerprint;
 use clap::ArgMatches;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-
-/// Parts for each machine that `--simulate` tries.
-const PARTS_PER_NODE: [usize; 7] = [1, 2, 4, 8, 16, 32, 64];
-
-/// Spread of the costs in a simulation, and the seed of their errors.
-const SPREAD: Spread = Spread(0.1);
-const SEED: u64 = 18;
 
 pub fn run(
     arguments: &FarmPlanArgs,
@@ -98,7 +91,12 @@ pub fn run(
         costs,
     };
     if !arguments.simulate.is_empty() {
-        return console::print(&simulation(&work, &arguments.simulate));
+        let Costs {
+            film, sample, gpu, ..
+        } = &work.costs;
+        let output = (arguments.path.as_path(), arguments.quality);
+        let merging = MergeCosts::measure(film, sample, gpu, output)?;
+        return console::print(&simulate::table(&work, &arguments.simulate, &merging)?);
     }
     let total = work.seconds();
     let count = match (arguments.parts, arguments.minutes) {
@@ -153,150 +151,6 @@ pub fn run(
     write(&folder.path().join(manifest::NAME), &manifest)?;
     report(&job, &manifest, count, &folder);
     Ok(())
-}
-
-/// What is to be cut.
-struct Work<'a> {
-    settings: &'a RenderSettings,
-    timeline: Option<Timeline>,
-    costs: Costs,
-}
-
-impl Work<'_> {
-    fn seconds(&self) -> f64 {
-        self.costs.frames.iter().sum()
-    }
-
-    /// At least `count` parts, or as many as there can be.
-    fn cut(&self, count: usize) -> Vec<Part> {
-        let Some(timeline) = &self.timeline else {
-            return self.pieces(None, self.costs.frames[0], count);
-        };
-        let numbers: Vec<u32> = timeline.numbers().collect();
-        if count <= numbers.len() {
-            let ranges = cut::even(&self.costs.frames, count);
-            let part = |range: std::ops::Range<usize>| Part {
-                frames: Some([numbers[range.start], numbers[range.end - 1]]),
-                samples: None,
-                crop: None,
-                seconds: self.costs.frames[range].iter().sum(),
-            };
-            return ranges.into_iter().map(part).collect();
-        }
-        let each = count.div_ceil(numbers.len());
-        (numbers.iter().zip(&self.costs.frames))
-            .flat_map(|(number, seconds)| self.pieces(Some(*number), *seconds, each))
-            .collect()
-    }
-
-    /// The parts of one picture, which takes `seconds`.
-    fn pieces(&self, frame: Option<u32>, seconds: f64, count: usize) -> Vec<Part> {
-        let [x, y, width, height] = self.settings.region();
-        let region = [x, y, x + width, y + height];
-        let known: f64 = self.costs.rows.iter().sum();
-        let factor = if known > 0.0 { seconds / known } else { 0.0 };
-        let picture = Picture {
-            region,
-            samples: self.settings.samples,
-            has_blocks: !self.settings.is_adaptive(),
-            rows: self.costs.rows.iter().map(|row| row * factor).collect(),
-        };
-        let pieces = picture.cut(count);
-        // A frame that is not cut is rendered as a frame.
-        let is_whole_frame = frame.is_some() && pieces.len() == 1;
-        let whole = [0, 0, self.settings.size.0, self.settings.size.1];
-        let part = |piece: cut::Piece| Part {
-            frames: frame.map(|frame| [frame, frame]),
-            samples: (!is_whole_frame && piece.samples != (0..self.settings.samples))
-                .then_some([piece.samples.start, piece.samples.end]),
-            crop: (!is_whole_frame && piece.crop != whole).then_some(piece.crop),
-            seconds: piece.seconds,
-        };
-        pieces.into_iter().map(part).collect()
-    }
-}
-
-/// A table of what the cut is worth on these numbers of machines.
-fn simulation(work: &Work, nodes: &[u32]) -> String {
-    let rows = work.settings.region()[3];
-    let (width, height) = work.settings.size;
-    let what = match &work.timeline {
-        Some(timeline) => format!("{} frames of ", timeline.count),
-        None => String::new(),
-    };
-    let mut table = format!(
-        "{what}{width}x{height} with {} samples: {:.0} s of rendering on {}, {:.1} s to start a process\n\n\
-         | machines | parts | a part, s | all, s | efficiency | part, MB | merge, MB read | memory, MB |\n\
-         |---|---|---|---|---|---|---|---|\n",
-        work.settings.samples,
-        work.seconds(),
-        work.costs.adapter,
-        work.costs.start,
-    );
-    for &nodes in nodes {
-        let nodes = nodes as usize;
-        let candidates = PARTS_PER_NODE.iter().map(|each| {
-            let parts = work.cut(each * nodes);
-            let seconds: Vec<f64> = parts.iter().map(|part| part.seconds).collect();
-            let seconds = drawn(&seconds, SPREAD, SEED);
-            (
-                efficiency(&seconds, work.costs.start, nodes),
-                seconds,
-                parts,
-            )
-        });
-        let best = candidates.max_by(|(a, ..), (b, ..)| a.total_cmp(b));
-        let Some((share, seconds, parts)) = best else {
-            continue;
-        };
-        let total: f64 = seconds.iter().sum();
-        let bytes: u64 = parts
-            .iter()
-            .map(|part| film_bytes(work.settings, part))
-            .sum();
-        let largest = parts.iter().map(|part| film_bytes(work.settings, part));
-        let largest = largest.max().unwrap_or(0);
-        // Sums of the whole picture, and one part.
-        let pixels = u64::from(width) * u64::from(rows);
-        let memory = match parts[0].is_film() {
-            true => pixels * row_bytes(work.settings.samples) + largest,
-            false => pixels * 4 * size_of::<f32>() as u64,
-        };
-        let mega = |bytes: u64| bytes as f64 / 1e6;
-        table += &format!(
-            "| {nodes} | {} | {:.1} | {:.1} | {share:.3} | {:.1} | {:.0} | {:.0} |\n",
-            parts.len(),
-            total / parts.len() as f64,
-            total / (share * nodes as f64),
-            mega(largest),
-            mega(bytes),
-            mega(memory),
-        );
-    }
-    table += "\nCosts are drawn with a spread of 10 % around what was measured.\n";
-    table
-}
-
-/// Bytes of a row of a pixel with so many samples in a film: f32 sums of one block, or exact totals.
-fn row_bytes(samples: u32) -> u64 {
-    match samples <= SAMPLE_BLOCK {
-        true => size_of::<[f32; 4]>() as u64,
-        false => size_of::<[i128; 4]>() as u64,
-    }
-}
-
-/// Bytes of the film of a part without layers; 0 for whole frames.
-fn film_bytes(settings: &RenderSettings, part: &Part) -> u64 {
-    if !part.is_film() {
-        return 0;
-    }
-    let [x0, y0, x1, y1] = part
-        .crop
-        .unwrap_or([0, 0, settings.size.0, settings.size.1]);
-    let samples = part
-        .samples
-        .map_or(settings.samples, |[start, end]| end - start);
-    u64::from(x1 - x0) * u64::from(y1 - y0) * row_bytes(samples)
 }
 
 /// Whether the output is an animation.

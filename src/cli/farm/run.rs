@@ -92,9 +92,10 @@ fn share(arguments: &FarmRunArgs, interrupt: &Interrupt) -> Result<(), AppError>
         }
         children = left;
         if let Err(error) = interrupt.check() {
-            // A signal to this process alone: those that it started stop in turn.
+            // The signal may be for this process alone. The others write their checkpoints before they end.
+            let _saving = interrupt.saving();
+            children.iter_mut().for_each(terminate);
             for child in &mut children {
-                let _ = child.kill();
                 let _ = child.wait();
             }
             return Err(error);
@@ -113,6 +114,19 @@ fn share(arguments: &FarmRunArgs, interrupt: &Interrupt) -> Result<(), AppError>
                 .unwrap_or(1),
         }),
     }
+}
+
+/// Asks a process to end.
+#[cfg(unix)]
+fn terminate(child: &mut Child) {
+    use rustix::process::{Pid, Signal, kill_process};
+    let _ = kill_process(Pid::from_child(child), Signal::TERM);
+}
+
+/// Ends a process: other systems have no signal to ask for it.
+#[cfg(not(unix))]
+fn terminate(child: &mut Child) {
+    let _ = child.kill();
 }
 
 /// The farm and this process in it.
@@ -147,7 +161,7 @@ impl Farm {
                 match self.part(part)? {
                     Outcome::Done => {}
                     Outcome::Elsewhere(holder) => elsewhere.push((part, holder)),
-                    Outcome::Failed(error) if is_interrupt(&error) => return Err(error),
+                    Outcome::Failed(error) if is_of_process(&error) => return Err(error),
                     Outcome::Failed(error) => failures.push((part, error)),
                 }
             }
@@ -209,7 +223,7 @@ impl Farm {
                 write(&self.folder.done_path(number), &done)?;
                 Ok(Outcome::Done)
             }
-            Err(error) if is_interrupt(&error) => Ok(Outcome::Failed(error)),
+            Err(error) if is_of_process(&error) => Ok(Outcome::Failed(error)),
             Err(error) => {
                 let earlier = self
                     .folder
@@ -282,7 +296,7 @@ impl Farm {
         let all = &self.manifest.flags;
         if part.is_film() {
             words.push("render".into());
-            words.extend(all.iter().map(OsString::from));
+            words.extend(flags::of_part(all, part.crop).map(OsString::from));
             if let Some([frame, _]) = part.frames {
                 words.push(flag("frame", &frame));
             }
@@ -320,9 +334,9 @@ impl Farm {
     }
 }
 
-/// Whether a signal ended the work, which is then no failure of the part.
-fn is_interrupt(error: &AppError) -> bool {
-    matches!(error.exit_code(), 130 | 143)
+/// Whether an error is none of the part: a signal, or a machine without a usable adapter. Another process can render it.
+fn is_of_process(error: &AppError) -> bool {
+    matches!(error.exit_code(), 5 | 130 | 143)
 }
 
 /// The extension of the frames of an animation: that of the pattern, or PNG for a video.

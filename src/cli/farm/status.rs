@@ -1,6 +1,6 @@
 //! `glimray farm status DIR`: what is done, running and failed, and when all of it will be done.
 
-use super::lease::Leases;
+use super::lease::{self, Leases};
 use super::manifest::Manifest;
 use super::{Folder, failed_io, numbered};
 use crate::app::console;
@@ -13,9 +13,6 @@ use std::time::Duration;
 
 /// Time between two looks at the folder.
 const PAUSE: Duration = Duration::from_secs(1);
-
-/// Time after which a lease that nobody renews no longer counts; `run --lease` may choose another one for itself.
-const LEASE: Duration = Duration::from_secs(60);
 
 /// Steps of the bar.
 const STEPS: u64 = 1000;
@@ -83,7 +80,7 @@ fn follow(folder: &Folder, manifest: &Manifest, interrupt: &Interrupt) -> Result
 
 impl Status {
     fn of(folder: &Folder, manifest: &Manifest) -> Result<Self, AppError> {
-        let leases = Leases::new(folder.leases(), LEASE);
+        let leases = Leases::new(folder.leases(), lease::LASTS);
         let held = leases.held();
         let held = held.map_err(|error| failed_io(&folder.leases(), error))?;
         let mut status = Self {

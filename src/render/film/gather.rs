@@ -1,8 +1,12 @@
 //! Converts the state of a renderer to a film.
 
-use super::{Film, FilmHeader};
+use super::{
+    Film, FilmHeader, FilmOutline,
+    coverage::{Coverage, SampleSet},
+};
 use crate::render::{
-    Fingerprint, RenderError, Renderer, Tone, features::number_of, layers, sums::Sums,
+    Fingerprint, RenderError, RenderSettings, Renderer, Tone, features::number_of, layers,
+    sums::Sums,
 };
 
 impl Renderer {
@@ -13,18 +17,7 @@ impl Renderer {
     /// The sample range of the settings does not consist of whole blocks, or the picture is adaptive and not
     /// finished.
     pub fn film(&self) -> Result<Film, RenderError> {
-        let header = FilmHeader {
-            program: env!("CARGO_PKG_VERSION").to_owned(),
-            scene: Fingerprint::of_scene(&self.scene),
-            view: Fingerprint::of_view(&self.view),
-            settings: self.settings.of_whole().fingerprint(),
-            integrator: self.settings.integrator,
-            size: self.settings.size,
-            samples: self.settings.samples,
-            layers: layers::of_pictures(&self.settings),
-            tone: Tone::LINEAR,
-            adapters: [self.adapter().name.clone()].into(),
-        };
+        let header = self.header(&self.settings);
         let (done, sample) = (self.cursor.tile, self.cursor.sample);
         let layers = header.layers;
         let mut film = self.tiles.film(header, done, sample)?;
@@ -37,6 +30,31 @@ impl Renderer {
                 .for_each(|sums| name_objects(sums, rows, first, number));
         }
         Ok(film)
+    }
+
+    /// The outline of the film of the whole picture with other settings, of the same scene and view.
+    pub fn outline_of(&self, settings: &RenderSettings) -> FilmOutline {
+        let header = self.header(settings);
+        let all = SampleSet::new(0..header.samples);
+        FilmOutline {
+            coverage: Coverage::rectangle(header.whole(), all),
+            header,
+        }
+    }
+
+    fn header(&self, settings: &RenderSettings) -> FilmHeader {
+        FilmHeader {
+            program: env!("CARGO_PKG_VERSION").to_owned(),
+            scene: Fingerprint::of_scene(&self.scene),
+            view: Fingerprint::of_view(&self.view),
+            settings: settings.of_whole().fingerprint(),
+            integrator: settings.integrator,
+            size: settings.size,
+            samples: settings.samples,
+            layers: layers::of_pictures(settings),
+            tone: Tone::LINEAR,
+            adapters: [self.adapter().name.clone()].into(),
+        }
     }
 }
 

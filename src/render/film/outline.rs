@@ -8,6 +8,7 @@ use super::{
     united,
 };
 use crate::render::layers;
+use std::ops::Range;
 
 /// The header of a film, and the pixels and samples that it has.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,13 +37,33 @@ impl FilmOutline {
         Ok(Self { header, coverage })
     }
 
-    /// The missing parts of the whole picture.
-    pub fn missing(&self) -> Vec<Missing> {
-        missing(&self.header, &self.coverage, self.header.whole())
+    /// The outline of another part of the picture: these samples of a rectangle (x, y, width, height).
+    ///
+    /// # Errors
+    /// The samples are not whole blocks ([`crate::render::SAMPLE_BLOCK`]).
+    pub fn part(&self, region: [u32; 4], samples: Range<u32>) -> Result<Self, FilmError> {
+        let header = self.header.clone();
+        let coverage = Coverage::rectangle(region, header.blocks(samples)?);
+        Ok(Self { header, coverage })
     }
 
-    /// A film of zeros, to which the parts of this outline are [added](Film::add). Its sums take 16 bytes for each row of a
-    /// pixel with one block of samples, and 64 with more, however many parts there are.
+    /// Size of the film in bytes, in memory and in a file, where a header of some hundred bytes comes on top.
+    pub fn bytes(&self) -> u64 {
+        let rows = layers::rows(self.header.layers) as u64;
+        let of_patch = |([.., width, height], samples): ([u32; 4], &SampleSet)| {
+            let pixels = u64::from(width) * u64::from(height);
+            rows * pixels * Sums::row_bytes(self.header.is_block(samples))
+        };
+        self.coverage.patches().map(of_patch).sum()
+    }
+
+    /// The missing parts of a rectangle of the picture: x, y, width, height.
+    pub fn missing_of(&self, region: [u32; 4]) -> Vec<Missing> {
+        missing(&self.header, &self.coverage, region)
+    }
+
+    /// A film of zeros, to which the parts of this outline are [added](Film::add). Its [size](Self::bytes) does not depend on
+    /// the number of parts.
     pub fn blank(self) -> Film {
         let Self { header, coverage } = self;
         let rows = layers::rows(header.layers);

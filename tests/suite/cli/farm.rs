@@ -1,9 +1,10 @@
 //! `farm`: parts of a picture or film, rendered by processes that may be killed at any time, merge to the bytes of one run.
 
-use crate::support::program::Workspace;
+use crate::support::program::{SCENE, Workspace};
 use crate::support::random::Random;
 use serde_json::Value;
 use std::fs;
+use std::io::Write;
 use std::process::Command;
 use std::thread::sleep;
 use std::time::Duration;
@@ -208,9 +209,9 @@ fn a_lease_of_another_machine_expires() {
     workspace
         .run("farm plan a.scene --size 24x18 --samples 128 --parts 1 -o all.png")
         .expect(0);
-    workspace.write("all.png.farm/leases/00000.0", "elsewhere 1\n");
+    workspace.write("all.png.farm/leases/00000.0", "elsewhere 1 3\n");
     assert_eq!(status(&workspace, "all.png.farm")["running"], 1);
-    let run = workspace.run("farm run all.png.farm 0 --lease 1").expect(0);
+    let run = workspace.run("farm run all.png.farm 0").expect(0);
     assert!(
         run.stderr.contains("elsewhere, process 1"),
         "{}",
@@ -247,4 +248,240 @@ fn the_scripts_for_slurm_have_the_tasks_and_the_options() {
     let mut checked = Command::new("sh");
     checked.arg("-n").arg(workspace.path("jobs.sh"));
     assert!(checked.status().expect("a shell").success());
+}
+
+#[test]
+fn a_part_of_a_picture_is_cut_and_merged_as_such() {
+    let workspace = Workspace::moving();
+    let flags = "--size 60x40 --samples 128 --crop 11,7,47,30";
+    for ending in ["png", "exr", "film"] {
+        workspace
+            .run(&format!("render a.toml {flags} --quiet -o one.{ending}"))
+            .expect(0);
+        workspace
+            .run(&format!(
+                "farm plan a.toml {flags} --parts 4 -o all.{ending}"
+            ))
+            .expect(0);
+        let folder = format!("all.{ending}.farm");
+        workspace
+            .run(&format!("farm run {folder} --all --quiet"))
+            .expect(0);
+        workspace.run(&format!("farm merge {folder}")).expect(0);
+        let read = |stem: &str| workspace.read(&format!("{stem}.{ending}"));
+        assert!(read("all") == read("one"), "{ending}");
+    }
+    let range = "--frames 2..3";
+    workspace
+        .run(&format!(
+            "animate a.toml {flags} {range} --quiet -o one_%d.exr"
+        ))
+        .expect(0);
+    for parts in [1, 4] {
+        workspace
+            .run(&format!(
+                "farm plan a.toml {flags} {range} --parts {parts} --dir f{parts} -o f{parts}_%d.exr"
+            ))
+            .expect(0);
+        workspace
+            .run(&format!("farm run f{parts} --all --quiet"))
+            .expect(0);
+        workspace.run(&format!("farm merge f{parts}")).expect(0);
+        for frame in 2..4 {
+            let one = workspace.read(&format!("one_{frame}.exr"));
+            let all = workspace.read(&format!("f{parts}_{frame}.exr"));
+            assert!(one == all, "frame {frame} of {parts} parts");
+        }
+    }
+}
+
+#[test]
+fn a_video_has_the_bytes_of_one_run() {
+    let workspace = Workspace::moving();
+    let flags = "--size 32x24 --samples 70 --loop --fps 12";
+    for ending in ["mp4", "gif", "y4m"] {
+        workspace
+            .run(&format!("animate a.toml {flags} --quiet -o one.{ending}"))
+            .expect(0);
+        for parts in [2, 9] {
+            workspace
+                .run(&format!(
+                    "farm plan a.toml {flags} --parts {parts} --dir {ending}{parts} -o all.{ending}"
+                ))
+                .expect(0);
+            workspace
+                .run(&format!("farm run {ending}{parts} --all --quiet"))
+                .expect(0);
+            workspace
+                .run(&format!("farm merge {ending}{parts}"))
+                .expect(0);
+            let read = |stem: &str| workspace.read(&format!("{stem}.{ending}"));
+            assert!(read("all") == read("one"), "{ending} of {parts} parts");
+        }
+    }
+}
+
+#[test]
+fn parts_need_no_source_tree() {
+    let workspace = Workspace::new();
+    // A scene that names a picture beside its folder, and light from another folder.
+    for folder in ["scenes", "shared", "sky"] {
+        fs::create_dir(workspace.path(folder)).expect("a folder");
+    }
+    let pixels: Vec<[f32; 3]> = (0..32)
+        .map(|index| [0.1 * (index % 8) as f32, 0.5, 1.0 / (1 + index) as f32])
+        .collect();
+    workspace.picture("shared/map.png", 8, &pixels);
+    workspace.picture("sky/day.exr", 8, &pixels);
+    workspace.write(
+        "scenes/a.toml",
+        r#"
+[camera]
+look_from = [0, 0, 6]
+look_at = [0, 0, 0]
+fov_y_deg = 45
+
+[textures]
+map = { picture = { file = "../shared/map.png" } }
+
+[materials]
+painted = { phong = { diffuse = { texture = "map" } } }
+
+[[objects]]
+sphere = { center = [0, 0, 0], radius = 1.5 }
+material = "painted"
+"#,
+    );
+    let flags = "scenes/a.toml --allow-dir shared --environment sky/day.exr --environment-rotation 30 --size 40x30 \
+                 --samples 128 --integrator path";
+    workspace
+        .run(&format!("render {flags} --quiet -o one.exr"))
+        .expect(0);
+    workspace
+        .run(&format!("farm plan {flags} --parts 3 -o all.exr"))
+        .expect(0);
+    for folder in ["scenes", "shared", "sky"] {
+        fs::remove_dir_all(workspace.path(folder)).expect("removed");
+    }
+    // The folder may lie elsewhere on another machine.
+    fs::rename(workspace.path("all.exr.farm"), workspace.path("moved")).expect("renamed");
+    workspace.run("farm run moved --all --quiet").expect(0);
+    workspace.run("farm merge moved").expect(0);
+    assert!(workspace.read("all.exr") == workspace.read("one.exr"));
+}
+
+#[test]
+fn archives_and_hidden_folders_can_be_planned() {
+    let workspace = Workspace::new();
+    let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    let options = zip::write::SimpleFileOptions::default();
+    archive
+        .start_file("inner/a.scene", options)
+        .expect("a file");
+    archive.write_all(SCENE.as_bytes()).expect("written");
+    let archive = archive.finish().expect("an archive").into_inner();
+    workspace.write("packed.zip", archive);
+    fs::create_dir(workspace.path(".hidden")).expect("a folder");
+    workspace.write(".hidden/a.scene", SCENE);
+    for scene in ["packed.zip", ".hidden/a.scene"] {
+        let flags = format!("{scene} --size 24x18 --samples 128");
+        workspace
+            .run(&format!("render {flags} --quiet -o one.png"))
+            .expect(0);
+        workspace
+            .run(&format!(
+                "farm plan {flags} --parts 2 --dir farm -o all.png"
+            ))
+            .expect(0);
+        workspace.run("farm run farm --all --quiet").expect(0);
+        workspace.run("farm merge farm").expect(0);
+        assert!(
+            workspace.read("all.png") == workspace.read("one.png"),
+            "{scene}"
+        );
+        fs::remove_dir_all(workspace.path("farm")).expect("removed");
+    }
+}
+
+#[test]
+fn parts_are_as_long_as_was_asked_for() {
+    let workspace = Workspace::new();
+    let flags = "--size 320x240 --samples 16384 --integrator path";
+    workspace
+        .run(&format!(
+            "farm plan a.scene {flags} --minutes 0.1 -o all.exr"
+        ))
+        .expect(0);
+    let manifest = manifest(&workspace, "all.exr.farm");
+    let measured = |name: &str| manifest["measured"][name].as_f64().expect(name);
+    let (start, work) = (measured("start_seconds"), measured("render_seconds"));
+    let parts = manifest["parts"].as_array().expect("parts");
+    let seconds = |part: &Value| part["seconds"].as_f64().expect("seconds");
+    let sum: f64 = parts.iter().map(seconds).sum();
+    assert!((sum / work - 1.0).abs() < 1e-9, "{sum} of {work}");
+    // Not one part fewer than needed, and at most a quarter more.
+    let needed = work / (6.0 - start).max(1.0);
+    let count = parts.len() as f64;
+    assert!(
+        count >= needed && count < 1.25 * needed + 2.0,
+        "{count}, {needed}"
+    );
+    let longest = parts.iter().map(seconds).fold(0.0, f64::max);
+    // Rows of uneven cost cannot be cut evenly to the last second.
+    assert!(start + longest < 1.25 * 6.0, "{longest}");
+}
+
+#[test]
+fn a_simulation_predicts_the_sizes_of_films_with_layers() {
+    let workspace = Workspace::new();
+    let flags = "--size 512x384 --samples 64 --layers beauty,albedo,depth";
+    let run = workspace
+        .run(&format!(
+            "farm plan a.scene {flags} --simulate 4 -o all.exr"
+        ))
+        .expect(0);
+    assert_eq!(workspace.made(), [""; 0]);
+    let row = run.text().lines().find(|line| line.starts_with("| 4 |"));
+    let cells = row.expect("a row").split('|').map(str::trim);
+    let cells: Vec<f64> = cells.filter_map(|cell| cell.parse().ok()).collect();
+    let [
+        _,
+        parts,
+        _,
+        all,
+        efficiency,
+        part_mb,
+        read_mb,
+        merge,
+        memory_mb,
+    ] = cells[..]
+    else {
+        panic!("{row:?}");
+    };
+    assert!(
+        efficiency > 0.1 && efficiency <= 1.0 && all > 0.0,
+        "{row:?}"
+    );
+
+    workspace
+        .run(&format!(
+            "farm plan a.scene {flags} --parts {parts} -o all.exr"
+        ))
+        .expect(0);
+    workspace
+        .run("farm run all.exr.farm --all --quiet")
+        .expect(0);
+    let films = workspace.files("all.exr.farm/parts").into_values();
+    let megabytes: Vec<f64> = films.map(|film| film.len() as f64 / 1e6).collect();
+    let (sum, largest) = (
+        megabytes.iter().sum::<f64>(),
+        megabytes.iter().copied().fold(0.0, f64::max),
+    );
+    assert!((read_mb - sum).abs() < 1.0, "{read_mb} of {sum}");
+    // What rows cost is measured again, so bands differ a little.
+    assert!(
+        (part_mb / largest - 1.0).abs() < 0.5,
+        "{part_mb}, {largest}"
+    );
+    assert!(memory_mb >= sum && merge < 60.0, "{row:?}");
 }
