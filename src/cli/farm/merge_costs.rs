@@ -21,8 +21,8 @@ const PIXELS: u32 = 1 << 20;
 /// Frames of the video that is measured.
 const FRAMES: usize = 4;
 
-/// Bytes of a pixel that is being developed: its sums in f64, and the picture in f32.
-const DEVELOPED_BYTES: u64 = (size_of::<[f64; 4]>() + size_of::<[f32; 4]>()) as u64;
+/// Bytes of a pixel that is being developed: its sums in f64 and f32, three buffers of the device, and the picture.
+const DEVELOPED_BYTES: u64 = (size_of::<[f64; 4]>() + 5 * size_of::<[f32; 4]>()) as u64;
 
 /// What merging costs.
 pub struct MergeCosts {
