@@ -108,9 +108,9 @@ impl Gpu {
             adapter,
             report,
         } = found;
-        let (required_features, workgroup_bytes) = match adapter::can_trace_packets(&adapter) {
-            true => (wgpu::Features::SUBGROUP, PACKET_WORKGROUP_BYTES),
-            false => (wgpu::Features::empty(), 0),
+        let (required_features, workgroup_bytes) = match adapter::packet_lanes(&adapter) {
+            Some(_) => (wgpu::Features::SUBGROUP, PACKET_WORKGROUP_BYTES),
+            None => (wgpu::Features::empty(), 0),
         };
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("glimray"),
@@ -248,12 +248,17 @@ impl Gpu {
         &self.report
     }
 
-    /// Whether the 8 lanes of a subgroup can trace their rays together, as on lavapipe. Subgroups must have
-    /// exactly that size.
+    /// Whether the lanes of a subgroup can trace their rays together, as on lavapipe. Subgroups must have exactly
+    /// 8 or exactly 16 lanes.
     pub fn traces_packets(&self) -> bool {
-        adapter::can_trace_packets(&self.adapter)
-            && self.device.features().contains(wgpu::Features::SUBGROUP)
-            && self.device.limits().max_compute_workgroup_storage_size >= PACKET_WORKGROUP_BYTES
+        self.packet_lanes().is_some()
+    }
+
+    /// The number of lanes of a subgroup, if they can trace their rays together.
+    pub(crate) fn packet_lanes(&self) -> Option<u32> {
+        let has_needs = self.device.features().contains(wgpu::Features::SUBGROUP)
+            && self.device.limits().max_compute_workgroup_storage_size >= PACKET_WORKGROUP_BYTES;
+        adapter::packet_lanes(&self.adapter).filter(|_| has_needs)
     }
 
     /// Whether the adapter is a software renderer.

@@ -78,6 +78,9 @@ fn lanes__or_of_packet(bits: u32) -> u32 {
 	all |= subgroupShuffle(all, lanes__packet_lane ^ 1u);
 	all |= subgroupShuffle(all, lanes__packet_lane ^ 2u);
 	all |= subgroupShuffle(all, lanes__packet_lane ^ 4u);
+	if (bindings__PACKET_LANES == 16u) {
+		all |= subgroupShuffle(all, lanes__packet_lane ^ 8u);
+	}
 	return all;
 }
 
@@ -182,6 +185,8 @@ override bindings__HAS_SHAPES: bool = true;
 override bindings__HAS_PLANES: bool = true;
 
 override bindings__MOSTLY_SHAPES: bool = false;
+
+override bindings__PACKET_LANES: u32 = 8u;
 
 override bindings__COUNT_STEPS: bool = false;
 
@@ -529,7 +534,8 @@ fn query__ray_row(row: u32) -> vec4u {
 
 fn dispatch__place_of(lane: u32, k: u32) -> u32 {
 	{
-		return ((lane & 4294967288u) << 2u) | (k << 3u) | (lane & 7u);
+		let within = lane & (bindings__PACKET_LANES - 1u);
+		return 4u * (lane - within) + bindings__PACKET_LANES * k + within;
 	}
 }
 
@@ -828,6 +834,39 @@ fn stack__top_of(stack: stack__Stack) -> u32 {
 }
 
 fn stack__pushed(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
+	if (bindings__PACKET_LANES == 16u) {
+		return stack__pushed16(stack, reference, count);
+	}
+	return stack__pushed8(stack, reference, count);
+}
+
+fn stack__pushed16(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
+	let is_pop = count == stack__POP;
+	let moves_one = !is_pop & ((count & 1u) != 0u);
+	let moves_two = !is_pop & (count >= 2u);
+	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 16u) & (stack.s2 != traverse__EMPTY);
+	let one_up = (lanes__packet_lane - 1u) & 15u;
+	let u0 = subgroupShuffle(stack.s0, one_up);
+	let u1 = subgroupShuffle(stack.s1, one_up);
+	let u2 = subgroupShuffle(stack.s2, one_up);
+	let one_down = (lanes__packet_lane + 1u) & 15u;
+	let d0 = subgroupShuffle(stack.s0, one_down);
+	let d1 = subgroupShuffle(stack.s1, one_down);
+	let d2 = subgroupShuffle(stack.s2, one_down);
+	let is_first = lanes__packet_lane == 0u;
+	let is_last = lanes__packet_lane == 15u;
+	let m0 = select(select(stack.s0, u0, moves_one), select(d0, d1, is_last), is_pop);
+	let m1 = select(select(stack.s1, select(u1, u0, is_first), moves_one), select(d1, d2, is_last), is_pop);
+	let m2 = select(select(stack.s2, select(u2, u1, is_first), moves_one), select(d2, traverse__EMPTY, is_last), is_pop);
+	let two_up = (lanes__packet_lane - 2u) & 15u;
+	let w0 = subgroupShuffle(m0, two_up);
+	let w1 = subgroupShuffle(m1, two_up);
+	let w2 = subgroupShuffle(m2, two_up);
+	let is_low = lanes__packet_lane < 2u;
+	return stack__Stack(select(select(m0, w0, moves_two), reference, !is_pop & (lanes__packet_lane < count)), select(m1, select(w1, w0, is_low), moves_two), select(m2, select(w2, w1, is_low), moves_two), traverse__EMPTY, traverse__EMPTY, traverse__EMPTY);
+}
+
+fn stack__pushed8(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
 	let source = (lanes__packet_lane - count) & 7u;
 	let is_pop = count == stack__POP;
 	let is_new = !is_pop & (lanes__packet_lane < count);
@@ -930,7 +969,7 @@ struct node__SharedNode {
 
 fn node__load_shared_node(index: u32) -> node__SharedNode {
 	let child = lanes__packet_lane & 3u;
-	let is_max = lanes__packet_lane >= 4u;
+	let is_max = (lanes__packet_lane & 4u) != 0u;
 	let row = fetch__node_row(4u * index + child);
 	let words = vec3u(select(subgroupShuffle(row.z, 1u), subgroupShuffle(row.w, 1u), is_max), select(subgroupShuffle(row.x, 2u), subgroupShuffle(row.y, 2u), is_max), select(subgroupShuffle(row.z, 2u), subgroupShuffle(row.w, 2u), is_max));
 	let is_even = (child & 1u) == 0u;
@@ -955,18 +994,32 @@ fn node__order_children(node: node__SharedNode, rays: lanes__FourRays, limits: v
 	let a = min(select(v1, v0, is_even), subgroupShuffle(select(v0, v1, is_even), lane ^ 1u));
 	let b = min(select(v3, v2, is_even), subgroupShuffle(select(v2, v3, is_even), lane ^ 1u));
 	let c = min(select(b, a, is_low), subgroupShuffle(select(a, b, is_low), lane ^ 2u));
-	let closest = min(c, subgroupShuffle(c, lane ^ 4u));
+	var closest = min(c, subgroupShuffle(c, lane ^ 4u));
+	if (bindings__PACKET_LANES == 16u) {
+		closest = min(closest, subgroupShuffle(closest, lane ^ 8u));
+	}
 	var key = (select(closest, node__MISS, node.reference == 0u) & 4294967292u) | (lane & 3u);
-	var other = subgroupShuffle(key, lane ^ 1u);
-	key = select(max(key, other), min(key, other), is_even == is_low);
-	other = subgroupShuffle(key, lane ^ 2u);
-	key = select(max(key, other), min(key, other), is_low);
-	other = subgroupShuffle(key, lane ^ 1u);
-	key = select(max(key, other), min(key, other), is_even);
+	var sorted = node__Entry(key, node.reference);
+	sorted = node__exchanged(sorted, 1u, is_even == is_low);
+	sorted = node__exchanged(sorted, 2u, is_low);
+	sorted = node__exchanged(sorted, 1u, is_even);
+	key = sorted.key;
 	var count = select(0u, 1u, key < node__MISS);
 	count += subgroupShuffle(count, lane ^ 1u);
 	count += subgroupShuffle(count, lane ^ 2u);
-	return node__Children(subgroupShuffle(node.reference, key & 3u), count);
+	return node__Children(sorted.reference, count);
+}
+
+struct node__Entry {
+	key: u32,
+	reference: u32
+}
+
+fn node__exchanged(own: node__Entry, distance: u32, takes_lower: bool) -> node__Entry {
+	let key = subgroupShuffle(own.key, lanes__packet_lane ^ distance);
+	let reference = subgroupShuffle(own.reference, lanes__packet_lane ^ distance);
+	let is_own = (own.key < key) == takes_lower;
+	return node__Entry(select(key, own.key, is_own), select(reference, own.reference, is_own));
 }
 
 fn node__closest_entry(node: node__SharedNode, rays: lanes__FourRays, limits: vec4i, child: u32) -> u32 {
@@ -1032,16 +1085,17 @@ fn leaf__meet_rare(rays: lanes__FourRays, hits: lanes__FourHits, reference: u32)
 fn leaf__meet_triangles(rays: lanes__FourRays, before: lanes__FourHits, reference: u32) -> lanes__FourHits {
 	let count = leaf__tested_triangles(reference);
 	let first = select(reference & types__LEAF_FIRST_MASK, 0u, leaf__has_shapes(reference));
-	let row = fetch__triangle_row(3u * first + lanes__packet_lane);
+	var row = fetch__triangle_row(3u * first + lanes__packet_lane);
 	if (bindings__COUNT_STEPS) {
 		loops__primitives_tested += count;
 	}
 	var hits = before;
 	var index = 0u;
 	loop {
-		hits = leaf__meet_triangle(rays, hits, leaf__triangle_of(row, 3u * index), first + index);
+		hits = leaf__meet_triangle(rays, hits, leaf__triangle_of(row), first + index);
 		continuing {
 			index += 1u;
+			row = leaf__three_lanes_down(row);
 			break if index >= count;
 		}
 	}
@@ -1049,8 +1103,13 @@ fn leaf__meet_triangles(rays: lanes__FourRays, before: lanes__FourHits, referenc
 	return hits;
 }
 
-fn leaf__triangle_of(row: vec4u, lane: u32) -> types__PackedTriangle {
-	return types__PackedTriangle(leaf__corner_of(row, lane), 0u, leaf__corner_of(row, lane + 1u), 0u, leaf__corner_of(row, lane + 2u), 0u);
+fn leaf__triangle_of(row: vec4u) -> types__PackedTriangle {
+	return types__PackedTriangle(leaf__corner_of(row, 0u), 0u, leaf__corner_of(row, 1u), 0u, leaf__corner_of(row, 2u), 0u);
+}
+
+fn leaf__three_lanes_down(row: vec4u) -> vec4u {
+	let lane = (lanes__packet_lane + 3u) & (bindings__PACKET_LANES - 1u);
+	return vec4u(subgroupShuffle(row.x, lane), subgroupShuffle(row.y, lane), subgroupShuffle(row.z, lane), 0u);
 }
 
 fn leaf__row_of(row: vec4u, lane: u32) -> vec4u {

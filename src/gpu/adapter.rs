@@ -202,12 +202,16 @@ fn enumerate(backends: wgpu::Backends) -> (Option<wgpu::Instance>, Vec<wgpu::Ada
     (instance, found.into_iter().filter(has_compute).collect())
 }
 
-/// Whether all subgroups of the adapter have 8 lanes, and it has the memory that packet kernels need.
-pub(super) fn can_trace_packets(adapter: &wgpu::Adapter) -> bool {
+/// The number of lanes of all subgroups of the adapter, 8 or 16, if packet kernels exist for it and the adapter has the memory
+/// that they need.
+pub(super) fn packet_lanes(adapter: &wgpu::Adapter) -> Option<u32> {
     let info = adapter.get_info();
-    (info.subgroup_min_size, info.subgroup_max_size) == (8, 8)
+    let lanes = info.subgroup_min_size;
+    let can_trace = info.subgroup_max_size == lanes
+        && [8, 16].contains(&lanes)
         && adapter.features().contains(wgpu::Features::SUBGROUP)
-        && adapter.limits().max_compute_workgroup_storage_size >= super::PACKET_WORKGROUP_BYTES
+        && adapter.limits().max_compute_workgroup_storage_size >= super::PACKET_WORKGROUP_BYTES;
+    can_trace.then_some(lanes)
 }
 
 /// The report of an adapter with this index.

@@ -42,8 +42,11 @@ pub fn tracing(
     variant: Variant,
     layouts: &Layouts,
     kernel: Kernel,
-    overrides: Overrides,
+    mut overrides: Overrides,
 ) -> Result<Compiled, GpuError> {
+    if let (Variant::Packet, Some(lanes)) = (variant, gpu.packet_lanes()) {
+        overrides.push(("PACKET_LANES", f64::from(lanes)));
+    }
     let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
     gpu.pipeline(&kernel, variant, &groups, overrides)
 }

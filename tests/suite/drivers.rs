@@ -1,4 +1,4 @@
-//! The same pictures through a second driver: the OpenGL backend of wgpu, if available.
+//! The same pictures through a second driver, the OpenGL backend of wgpu if available, and in vectors of another width.
 
 use crate::reference::compare::{assert_none, check_alike, render};
 use crate::support::devices::Devices;
@@ -8,7 +8,7 @@ use glimray::import;
 use glimray::render::{Antialias, ExecutionPolicy, RenderSettings, Renderer, Tone};
 use glimray::scene::{Scene, Shadows};
 use glimray::{image::Image, pack};
-use std::{path::Path, sync::Arc};
+use std::{path::Path, process::Command, sync::Arc};
 
 /// The adapter of the OpenGL backend, if available.
 const GL: AdapterChoice = AdapterChoice {
@@ -75,4 +75,33 @@ fn every_scene_looks_the_same_through_opengl() {
             fraction,
         )
     }));
+}
+
+/// lavapipe has subgroups of 8 lanes in vectors of 256 bits, and of 16 in those of 512. It chooses when it is loaded, so
+/// the other width has a process of its own.
+#[test]
+fn packets_of_8_and_of_16_lanes_pass_the_same_tests() {
+    const WIDTH: &str = "LP_NATIVE_VECTOR_WIDTH";
+    let tests = [
+        "pictures::images_buffers_and_packets_give_the_same_bits",
+        "ray_query::packets_and_single_rays_find_the_same_in_a_deep_tree",
+        "golden::golden_pictures_are_as_they_were",
+    ];
+    let other = match std::env::var(WIDTH).as_deref() {
+        Ok("512") => "256",
+        _ => "512",
+    };
+    let mut command = Command::new(std::env::current_exe().expect("the test program"));
+    let output = command
+        .arg("--exact")
+        .args(tests)
+        .env(WIDTH, other)
+        .output();
+    let output = output.expect("the tests run");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let passed = format!("{} passed", tests.len());
+    assert!(
+        output.status.success() && text.contains(&passed),
+        "{other} bits: {text}"
+    );
 }

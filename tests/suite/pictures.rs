@@ -148,7 +148,7 @@ fn all_triangle_tests_give_the_reference_picture() {
     }));
 }
 
-/// Adapters without subgroups of 8 lanes have no packets.
+/// Adapters whose subgroups do not all have 8 or all 16 lanes have no packets.
 #[test]
 fn images_buffers_and_packets_give_the_same_bits() {
     let scene = scenes::everything();

@@ -82,3 +82,28 @@ fn the_adapter_is_named_unless_quiet() {
     let run = workspace.run("render a.scene --size 8x6 --quiet").expect(0);
     assert_eq!(run.stderr, "");
 }
+
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+#[test]
+fn lavapipe_takes_the_widest_vectors_unless_told_otherwise() {
+    let workspace = Workspace::new();
+    let name = |width: Option<&str>| {
+        let mut command = workspace.command("doctor --json");
+        match width {
+            Some(width) => command.env("LP_NATIVE_VECTOR_WIDTH", width),
+            None => command.env_remove("LP_NATIVE_VECTOR_WIDTH"),
+        };
+        let doctor = Run::from(command.output().expect("glimray runs")).json();
+        doctor["adapters"][0]["name"].as_str().map(str::to_owned)
+    };
+    let narrow = name(Some("256")).expect("an adapter");
+    if !narrow.contains("256 bits") {
+        return;
+    }
+    let widest = match std::arch::is_x86_feature_detected!("avx512vl") {
+        true => "512 bits",
+        false => "256 bits",
+    };
+    let chosen = name(None).expect("an adapter");
+    assert!(chosen.contains(widest), "{chosen}");
+}
