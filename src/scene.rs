@@ -11,6 +11,7 @@
 
 mod animation;
 mod bounds;
+mod classical;
 mod curve;
 mod deformation;
 mod frame;
@@ -40,6 +41,7 @@ pub use animation::{
     MaterialProperty, NodeProperty, Target, Track, Values,
 };
 pub(crate) use bounds::corners;
+pub use classical::ClassicalMaps;
 pub use curve::Value;
 pub use deformation::{Deformation, Influences, Joint, MorphTarget, Pose, PosedMesh, Skin};
 pub use frame::{Frame, NodeState};
@@ -53,7 +55,7 @@ pub use object::ObjectRef;
 pub use output::{
     Antialias, Backdrop, Filter, LightTransport, OutputDefaults, Shutter, ToneCurve, Transfer,
 };
-pub use picture::{Picture, SrgbCurve, Texels, linear_from_srgb};
+pub use picture::{MAX_PICTURE_BYTES, Picture, SrgbCurve, Texels, linear_from_srgb};
 pub use shape::{CanonicalShape, Geometry, Shape};
 pub use texture::{Minify, Pattern, Space, Texture, Wrap};
 pub use transform::{Transform, angles, rotation};

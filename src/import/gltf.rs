@@ -8,7 +8,6 @@
 mod accessor;
 mod aim;
 mod animation;
-mod bake;
 mod blame;
 mod buffers;
 mod compressed;

@@ -2,6 +2,10 @@
 
 use glam::{Vec3, Vec4};
 
+/// Most bytes that the texels of all pictures take together: 44 pictures of 4096 × 4096 texels of 8 bits per channel.
+/// With smaller copies for minification they fit into the array that WebGPU guarantees.
+pub const MAX_PICTURE_BYTES: usize = 11 << 28;
+
 /// An image in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {

@@ -13,6 +13,19 @@ pub struct Texture {
     pub pattern_from_space: DAffine3,
 }
 
+impl Texture {
+    /// Whether both are pictures whose texels at the same place belong to the same points of a surface.
+    pub fn is_aligned(&self, other: &Self) -> bool {
+        let wrap = |it: &Self| match it.pattern {
+            Pattern::Picture { wrap, .. } => Some(wrap),
+            _ => None,
+        };
+        self.space == other.space
+            && self.pattern_from_space == other.pattern_from_space
+            && wrap(self).is_some_and(|own| Some(own) == wrap(other))
+    }
+}
+
 /// The coordinates that a [`Texture`] is evaluated at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Space {

@@ -262,6 +262,7 @@ impl Reader<'_> {
                 material.thin = thickness == Some(0.0);
             }
         }
+        let follows = |shown: &Material| shown.follows_layers() && !shown.has_classical_maps();
         let targets = self.targets_of_material(index, |material, shown| {
             let Some(model) = &shown.metallic_roughness else {
                 return Vec::new();
@@ -276,7 +277,7 @@ impl Reader<'_> {
                     vec![classical(MaterialProperty::Emission, tint)]
                 }
                 // These are kept when the scene is converted.
-                LayerProperty::BaseColor if shown.follows_layers() => {
+                LayerProperty::BaseColor if follows(shown) => {
                     let mut white = model.point();
                     white.base_color = shown.tint;
                     let factor = model.lobes(&white, model.roughness).diffuse.as_dvec3();
@@ -291,7 +292,7 @@ impl Reader<'_> {
             }
         });
         let is_baked = |(target, _): &Scaled| match *target {
-            Target::Layer(material, _) => !self.scene.materials[material].follows_layers(),
+            Target::Layer(material, _) => !follows(&self.scene.materials[material]),
             _ => false,
         };
         let is_classical = !self.traces_paths && property != LayerProperty::EmissionStrength;

@@ -28,14 +28,6 @@ pub(super) struct FoundMap {
     pub wrap: [Wrap; 2],
 }
 
-impl FoundMap {
-    /// Whether a texel of one map belongs to the same point as that of the other.
-    pub fn is_aligned(&self, other: &Self) -> bool {
-        (self.uv_set, self.wrap) == (other.uv_set, other.wrap)
-            && self.picture_from_uv == other.picture_from_uv
-    }
-}
-
 /// The transform that `KHR_texture_transform` describes.
 fn transform(info: &TextureInfo) -> DAffine3 {
     let Some(it) = &info.extensions.transform else {
