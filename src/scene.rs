@@ -38,7 +38,7 @@ mod turntable;
 
 pub use animation::{
     Beyond, CameraProperty, Clip, Curve, Easing, Interpolation, LayerProperty, LightProperty,
-    MaterialProperty, NodeProperty, Target, Track, Values,
+    MaterialProperty, NodeProperty, Target, TextureProperty, Track, Values,
 };
 pub(crate) use bounds::corners;
 pub use classical::ClassicalMaps;
@@ -57,7 +57,7 @@ pub use output::{
 };
 pub use picture::{MAX_PICTURE_BYTES, Picture, SrgbCurve, Texels, linear_from_srgb};
 pub use shape::{CanonicalShape, Geometry, Shape};
-pub use texture::{Minify, Pattern, Space, Texture, Wrap};
+pub use texture::{Minify, Pattern, Space, Texture, UvTransform, Wrap};
 pub use transform::{Transform, angles, rotation};
 pub use turntable::{MAX_ELEVATION, Turntable, turntable};
 

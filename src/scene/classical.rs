@@ -4,7 +4,7 @@
 
 use super::{
     MAX_PICTURE_BYTES, Material, MetallicRoughness, Pattern, Picture, Scene, SrgbCurve,
-    SurfacePoint, Texels, Texture,
+    SurfacePoint, Target, Texels, TextureProperty,
 };
 use crate::threads;
 use glam::{DVec4, Vec3, Vec4Swizzles};
@@ -90,14 +90,29 @@ impl Scene {
         ClassicalMaps::default().bake(self);
     }
 
+    /// Whether the texels of two pictures at the same place belong to the same points of a surface at all times.
+    fn are_aligned(&self, a: usize, b: usize) -> bool {
+        let motion = |index: usize| {
+            let moves = |property| {
+                let target = Target::Texture(index, property);
+                let mut tracks = self.tracks.iter();
+                tracks
+                    .find(|track| track.targets.contains(&target))
+                    .map(|track| &track.curve)
+            };
+            TextureProperty::ALL.map(moves)
+        };
+        self.textures[a].is_aligned(&self.textures[b]) && motion(a) == motion(b)
+    }
+
     /// Whether [`Self::bake_classical_maps`] would change it.
     pub fn lacks_classical_maps(&self) -> bool {
         self.materials.iter().any(|it| self.sources(it).is_some())
     }
 
-    /// What the pictures of a material are computed from, and the texture that places them; `None` if it needs none or
+    /// What the pictures of a material are computed from, and the index of the texture that places them; `None` if it needs none or
     /// has them.
-    fn sources(&self, material: &Material) -> Option<(MetallicRoughness, Sheets, &Texture)> {
+    fn sources(&self, material: &Material) -> Option<(MetallicRoughness, Sheets, usize)> {
         if !material.has_classical_maps() || !material.is_undressed() {
             return None;
         }
@@ -108,17 +123,16 @@ impl Scene {
             layers.metallic,
             layers.roughness,
             layers.transmission,
-        ]
-        .map(|index| index.map(|index| &self.textures[index]));
+        ];
         let lead = *textures.iter().flatten().next()?;
         let mut sheets = Sheets::default();
         for (slot, texture) in textures.into_iter().enumerate() {
             let Some(texture) = texture else { continue };
-            let Pattern::Picture { picture, .. } = texture.pattern else {
+            let Pattern::Picture { picture, .. } = self.textures[texture].pattern else {
                 return None;
             };
             let picture = &self.pictures[picture];
-            match texture.is_aligned(lead) {
+            match self.are_aligned(texture, lead) {
                 true => sheets[slot] = Some(picture.clone()),
                 // Without a picture for it, a map counts with its mean.
                 false => with_mean(&mut model, slot, picture),
@@ -136,7 +150,7 @@ impl ClassicalMaps {
         for (index, material) in scene.materials.iter().enumerate() {
             if let Some((model, sheets, lead)) = scene.sources(material) {
                 let key = key(&model, &sheets);
-                wanted.push((index, key.clone(), lead.clone()));
+                wanted.push((index, key.clone(), lead));
                 jobs.entry(key).or_insert((model, sheets));
             }
         }
@@ -152,43 +166,31 @@ impl ClassicalMaps {
             (key, (sheets, baked))
         });
         self.known.extend(made);
-        let mut indices = HashMap::new();
+        let mut added = Added::default();
         for (index, key, lead) in wanted {
             if let Some((_, baked)) = self.known.get(&key) {
-                scene.dress(index, baked, &lead, &mut indices);
+                scene.dress(index, baked, lead, &mut added);
             }
         }
     }
 }
 
 impl Scene {
-    /// Gives the material at `index` the colours of `baked`, placed as `lead` is. `indices` has the textures of pictures
-    /// that were added.
-    fn dress(
-        &mut self,
-        index: usize,
-        baked: &Baked,
-        lead: &Texture,
-        indices: &mut HashMap<*const Picture, Vec<usize>>,
-    ) {
+    /// Gives the material at `index` the colours of `baked`, placed as the texture `lead` is. `added` has the places of
+    /// what was added before.
+    fn dress(&mut self, index: usize, baked: &Baked, lead: usize, added: &mut Added) {
         let mut texture = |shade: &Shade| {
             let picture = shade.1.as_ref()?;
-            let known = indices.entry(Arc::as_ptr(picture)).or_default();
-            let mut own = lead.clone();
-            if let Pattern::Picture { picture: index, .. } = &mut own.pattern {
-                *index = match known.first().map(|first| &self.textures[*first].pattern) {
-                    Some(Pattern::Picture { picture, .. }) => *picture,
-                    _ => {
-                        self.pictures.push(picture.clone());
-                        self.pictures.len() - 1
-                    }
-                };
-            }
-            let same = known.iter().find(|index| self.textures[**index] == own);
-            Some(same.copied().unwrap_or_else(|| {
-                self.textures.push(own);
-                known.push(self.textures.len() - 1);
-                self.textures.len() - 1
+            let address = Arc::as_ptr(picture);
+            let known = added.textures.get(&(address, lead)).copied();
+            Some(known.unwrap_or_else(|| {
+                let place = *added.pictures.entry(address).or_insert_with(|| {
+                    self.pictures.push(picture.clone());
+                    self.pictures.len() - 1
+                });
+                let made = self.copied(lead, place);
+                added.textures.insert((address, lead), made);
+                made
             }))
         };
         let diffuse = texture(&baked.diffuse);
@@ -215,6 +217,33 @@ impl Scene {
             material.paint(material.tint);
         }
     }
+}
+
+impl Scene {
+    /// Adds a texture of another picture, placed and moved as the texture `lead` is, and returns its index.
+    fn copied(&mut self, lead: usize, other: usize) -> usize {
+        let mut texture = self.textures[lead].clone();
+        if let Pattern::Picture { picture, .. } = &mut texture.pattern {
+            *picture = other;
+        }
+        self.textures.push(texture);
+        let index = self.textures.len() - 1;
+        for track in &mut self.tracks {
+            for property in TextureProperty::ALL {
+                if track.targets.contains(&Target::Texture(lead, property)) {
+                    track.targets.push(Target::Texture(index, property));
+                }
+            }
+        }
+        index
+    }
+}
+
+/// Where pictures that were added are in the scene, and textures of them by that which places them.
+#[derive(Default)]
+struct Added {
+    pictures: HashMap<*const Picture, usize>,
+    textures: HashMap<(*const Picture, usize), usize>,
 }
 
 /// The largest side that pictures of all these sheets may have beside others of `own` bytes.

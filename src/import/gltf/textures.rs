@@ -6,7 +6,7 @@ use super::maps::FoundMap;
 use crate::import::error::ImportError;
 use crate::import::picture::Role;
 use crate::scene::{Coverage, LayerTextures, Material, MetallicRoughness, Pattern, Space, Texture};
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::Vec3;
 use std::sync::Arc;
 
 impl Reader<'_> {
@@ -166,6 +166,9 @@ impl Reader<'_> {
         sets: &mut Vec<u32>,
         here: &str,
     ) -> Result<Option<usize>, ImportError> {
+        if let Some(Some(known)) = self.moved_maps.get(&std::ptr::from_ref(info)) {
+            return Ok(Some(*known));
+        }
         let Some(map) = self.map(info, here)? else {
             return Ok(None);
         };
@@ -176,35 +179,44 @@ impl Reader<'_> {
         let Some(space) = self.space(sets, &map, here) else {
             return Ok(None);
         };
-        Ok(Some(self.texture(picture, &map, space)))
+        let texture = lying(picture, &map, space);
+        match self.moved_maps.get_mut(&std::ptr::from_ref(info)) {
+            None => Ok(Some(self.shared(texture))),
+            Some(moved) => {
+                self.scene.textures.push(texture);
+                *moved = Some(self.scene.textures.len() - 1);
+                Ok(*moved)
+            }
+        }
     }
 
-    /// Adds a texture with `picture`, placed as `map` says.
-    fn texture(&mut self, picture: usize, map: &FoundMap, space: Space) -> usize {
-        let flip = DAffine3 {
-            matrix3: DMat3::from_diagonal(DVec3::new(1.0, -1.0, 1.0)),
-            translation: DVec3::Y,
-        };
-        let texture = Texture {
-            pattern: Pattern::Picture {
-                picture,
-                nearest: map.nearest,
-                minify: map.minify,
-                wrap: map.wrap,
-            },
-            space,
-            pattern_from_space: flip * map.picture_from_uv * flip,
-        };
+    /// Adds a texture that does not move, unless there is the same one already, and returns its index.
+    fn shared(&mut self, texture: Texture) -> usize {
         let textures = &mut self.scene.textures;
+        let moved = &self.moved_maps;
         // Materials of one file often share a texture; only the last few are compared.
         let recent = textures.len().saturating_sub(64);
-        if let Some(known) = textures[recent..]
-            .iter()
-            .position(|known| *known == texture)
-        {
-            return recent + known;
+        let is_it = |index: &usize| {
+            textures[*index] == texture && !moved.values().any(|own| *own == Some(*index))
+        };
+        if let Some(known) = (recent..textures.len()).find(is_it) {
+            return known;
         }
         textures.push(texture);
         textures.len() - 1
+    }
+}
+
+/// A texture with `picture`, placed as `map` says.
+fn lying(picture: usize, map: &FoundMap, space: Space) -> Texture {
+    Texture {
+        pattern: Pattern::Picture {
+            picture,
+            nearest: map.nearest,
+            minify: map.minify,
+            wrap: map.wrap,
+        },
+        space,
+        pattern_from_space: map.transform.pattern_from_uv(),
     }
 }
