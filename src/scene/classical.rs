@@ -3,7 +3,7 @@
 //! Only the classical integrator shows them: scenes that are path-traced do without.
 
 use super::{
-    MAX_PICTURE_BYTES, Material, MetallicRoughness, Pattern, Picture, Scene, SrgbCurve,
+    MAX_PICTURE_BYTES, Material, MetallicRoughness, Origin, Pattern, Picture, Scene, SrgbCurve,
     SurfacePoint, Target, Texels, TextureProperty,
 };
 use crate::threads;
@@ -388,6 +388,7 @@ fn bake(model: &MetallicRoughness, mut sheets: Sheets, most: u32) -> Baked {
             width,
             height,
             texels,
+            origin: Origin::Texels,
         };
         (Vec3::ONE, Some(Arc::new(picture)))
     });

@@ -826,6 +826,7 @@ fn mapped() -> Scene {
             width,
             height,
             texels,
+            origin: glimray::scene::Origin::Texels,
         }));
         scene.textures.push(texture(picture));
     }
