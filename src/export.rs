@@ -110,7 +110,7 @@ pub fn native(
     writer.cameras();
     writer.lights();
     writer.textures()?;
-    writer.materials();
+    writer.materials()?;
     writer.meshes();
     writer.nodes();
     writer.instances();

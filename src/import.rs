@@ -73,7 +73,7 @@ pub use step::Step;
 #[cfg(feature = "archive")]
 pub use zipped::SCENE_MEMBER;
 
-use crate::scene::{Picture, Scene};
+use crate::scene::{LightTransport, Picture, Scene};
 use error::fault;
 use paths::Files;
 use source::Source;
@@ -216,9 +216,7 @@ impl Format {
             // It is already limited.
             Self::Zip => return zipped::read_scene(path, bytes, options),
         }?;
-        range::limit(&mut scene);
-        scene.complete_tangents();
-        scene.pin_render_origin();
+        finish(&mut scene, options);
         Ok(scene)
     }
 }
@@ -352,9 +350,18 @@ pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportE
         Some("nff") => nff::read(&source),
         _ => native::read(&source, options, &Files::none()),
     }?;
-    range::limit(&mut scene);
-    scene.pin_render_origin();
+    finish(&mut scene, options);
     Ok(scene)
+}
+
+/// What all scenes need at last.
+fn finish(scene: &mut Scene, options: &Options) {
+    range::limit(scene);
+    scene.complete_tangents();
+    if options.integrator == Some(LightTransport::Whitted) {
+        scene.bake_classical_maps();
+    }
+    scene.pin_render_origin();
 }
 
 /// Reads the image file at `path` as linear colours.

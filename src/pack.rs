@@ -288,7 +288,7 @@ fn pack(
         deforming: deform::meshes(scene, origin, &plan, &trees, !tangents.is_empty()),
         tangents,
         materials,
-        textures: material::textures(scene, origin, &pictures)?,
+        textures: material::textures(&scene.textures, origin, &pictures)?,
         texels,
         pictures,
         features,

@@ -11,6 +11,7 @@
 
 mod animation;
 mod bounds;
+mod classical;
 mod curve;
 mod deformation;
 mod frame;
@@ -37,9 +38,10 @@ mod turntable;
 
 pub use animation::{
     Beyond, CameraProperty, Clip, Curve, Easing, Interpolation, LayerProperty, LightProperty,
-    MaterialProperty, NodeProperty, Target, Track, Values,
+    MaterialProperty, NodeProperty, Target, TextureProperty, Track, Values,
 };
 pub(crate) use bounds::corners;
+pub use classical::ClassicalMaps;
 pub use curve::Value;
 pub use deformation::{Deformation, Influences, Joint, MorphTarget, Pose, PosedMesh, Skin};
 pub use frame::{Frame, NodeState};
@@ -53,9 +55,9 @@ pub use object::ObjectRef;
 pub use output::{
     Antialias, Backdrop, Filter, LightTransport, OutputDefaults, Shutter, ToneCurve, Transfer,
 };
-pub use picture::{Picture, SrgbCurve, Texels, linear_from_srgb};
+pub use picture::{MAX_PICTURE_BYTES, Origin, Picture, SrgbCurve, Texels, linear_from_srgb};
 pub use shape::{CanonicalShape, Geometry, Shape};
-pub use texture::{Minify, Pattern, Space, Texture, Wrap};
+pub use texture::{Minify, Pattern, Space, Texture, UvTransform, Wrap};
 pub use transform::{Transform, angles, rotation};
 pub use turntable::{MAX_ELEVATION, Turntable, turntable};
 

@@ -83,8 +83,8 @@ impl Writer<'_> {
                 table.put("material", string(&names.materials[index]));
                 of_material(property)
             }
-            // Deforming meshes are written at rest, and materials with their classical colours.
-            Target::Weight(..) | Target::Layer(..) => return,
+            // Deforming meshes and textures are written at rest, and materials with their classical colours.
+            Target::Weight(..) | Target::Layer(..) | Target::Texture(..) => return,
         };
         table.put("property", string(property));
         let is_switch = matches!(property, "visible" | "on");

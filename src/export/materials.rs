@@ -2,7 +2,7 @@
 
 use super::exact::{same_bits, shortest};
 use super::text::{Table, color, key, number32, string};
-use super::{Writer, physical};
+use super::{ExportError, Writer, physical};
 use crate::scene::{Coverage, Fresnel, Material, MaterialProperty, Mixing, Target, Textures};
 use glam::Vec3;
 
@@ -11,7 +11,7 @@ const SHININESS: f32 = 32.0;
 const IOR: f32 = 1.5;
 
 impl Writer<'_> {
-    pub fn materials(&mut self) {
+    pub fn materials(&mut self) -> Result<(), ExportError> {
         let scene = self.scene;
         if !scene.materials.is_empty() {
             self.text.section("Materials");
@@ -42,7 +42,9 @@ impl Writer<'_> {
             table.put_if(material.thin && !plain.thin, "thin", "true".to_owned());
             table.put_if(material.shadow_catcher, "shadow_catcher", "true");
             let own = &material.textures;
-            if let Some(map) = self.data_map(own.normal, material.normal_scale) {
+            if let Some(map) = self.height_map(own.normal, material.normal_scale)? {
+                table.put("height_map", map);
+            } else if let Some(map) = self.data_map(own.normal, material.normal_scale) {
                 table.put("normal_map", map);
             }
             if let Some(map) = self.data_map(own.occlusion, material.occlusion_strength) {
@@ -53,6 +55,7 @@ impl Writer<'_> {
             self.text.head(&format!("[materials.{name}]"));
             self.text.lines(&table);
         }
+        Ok(())
     }
 
     /// How much of the surface is there; empty if all of it is.

@@ -4,8 +4,8 @@ use super::pictures::Role;
 use super::text::{Table, color, list, number, number32};
 use super::{ExportError, Writer, exact};
 use crate::scene::{
-    Antialias, Backdrop, Background, Filter, LightTransport, OutputDefaults, Shadows, ToneCurve,
-    Transfer,
+    Antialias, Backdrop, Background, Filter, LightTransport, Origin, OutputDefaults, Shadows,
+    ToneCurve, Transfer, sky,
 };
 use glam::Vec3;
 
@@ -54,7 +54,15 @@ impl Writer<'_> {
                 self.picture(picture, self.role(picture))?;
             }
         }
-        table.put("picture", self.picture(picture, Role::Color)?);
+        match sky(&self.scene.pictures[picture].origin) {
+            Some(sky) => {
+                if sky.is_empty() && strength == 1.0 && rotation.to_bits() == 0 {
+                    return Ok("\"sky\"".to_owned());
+                }
+                table.put("sky", sky.inline());
+            }
+            None => table.put("picture", self.picture(picture, Role::Color)?),
+        }
         table.put_if(strength != 1.0, "strength", number32(strength));
         if rotation.to_bits() != 0 {
             let degrees = exact::degrees(rotation).filter(|degrees| degrees.abs() < 360.0);
@@ -178,4 +186,20 @@ impl Writer<'_> {
             self.text.lines(&table);
         }
     }
+}
+
+/// The place of the sun in a sky; `None` if the picture is another one, or degrees cannot say it exactly.
+fn sky(origin: &Origin) -> Option<Table> {
+    let Origin::Sky { elevation, azimuth } = *origin else {
+        return None;
+    };
+    let mut table = Table::default();
+    for (key, radians, default) in [
+        ("elevation_deg", elevation, sky::SUN_ELEVATION_DEG),
+        ("azimuth_deg", azimuth, sky::SUN_AZIMUTH_DEG),
+    ] {
+        let degrees = exact::degrees(radians)?;
+        table.put_if(degrees != default, key, number(degrees));
+    }
+    Some(table)
 }

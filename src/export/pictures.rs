@@ -2,7 +2,7 @@
 
 use super::text::string;
 use super::{ExportError, Writer};
-use crate::scene::{Picture, Texels, linear_from_srgb};
+use crate::scene::{Origin, Pattern, Picture, Texels, linear_from_srgb};
 use glam::Vec4;
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 use std::io::Cursor;
@@ -13,7 +13,12 @@ impl Writer<'_> {
         if let Some(name) = self.pictures.get(&(index, role)) {
             return Ok(string(name));
         }
-        let picture = &self.scene.pictures[index];
+        let own = &self.scene.pictures[index];
+        let (picture, role) = match &own.origin {
+            // Readers compute the normals again.
+            Origin::Heights { heights, .. } if self.is_relief(index) => (&**heights, Role::Data),
+            _ => (&**own, role),
+        };
         let (ending, bytes) = encode(picture, role).map_err(|error| ExportError::Picture {
             width: picture.width,
             height: picture.height,
@@ -24,6 +29,27 @@ impl Writer<'_> {
         let quoted = string(&name);
         self.pictures.insert((index, role), name);
         Ok(quoted)
+    }
+}
+
+impl Writer<'_> {
+    /// Whether a picture is shown as the normal map of heights, and nowhere otherwise.
+    pub fn is_relief(&self, picture: usize) -> bool {
+        let scene = self.scene;
+        let shows = |texture: usize| matches!(scene.textures[texture].pattern, Pattern::Picture { picture: own, .. } if own == picture);
+        let mut others = scene.materials.iter().flat_map(|material| {
+            let textures = &material.textures;
+            let layers = material
+                .layer_textures
+                .as_deref()
+                .copied()
+                .unwrap_or_default();
+            (textures.looked_up().into_iter())
+                .chain([textures.occlusion])
+                .chain(layers.all())
+        });
+        matches!(scene.pictures[picture].origin, Origin::Heights { .. })
+            && !others.any(|texture| texture.is_some_and(shows))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::pictures::Role;
 use super::text::{self, Table, color, key, string};
 use super::{ExportError, Writer, exact};
-use crate::scene::{Minify, Pattern, Space, Texels, Texture, Transform, Wrap};
+use crate::scene::{Minify, Origin, Pattern, Space, Texels, Texture, Transform, Wrap};
 use glam::{DAffine3, DVec3, Vec3};
 
 impl Writer<'_> {
@@ -30,6 +30,8 @@ impl Writer<'_> {
                 Pattern::Noise { a, b, octaves } => {
                     table.put("noise", pair(a, b, Some(octaves)));
                 }
+                // Materials have them.
+                Pattern::Picture { picture, .. } if self.is_relief(picture) => continue,
                 Pattern::Picture {
                     picture,
                     nearest,
@@ -55,6 +57,45 @@ impl Writer<'_> {
             self.text.lines(&table);
         }
         Ok(())
+    }
+
+    /// The height map that a normal map was made from, if there is one.
+    pub fn height_map(
+        &mut self,
+        index: Option<usize>,
+        scale: f32,
+    ) -> Result<Option<String>, ExportError> {
+        let Some(texture) = index.map(|index| &self.scene.textures[index]) else {
+            return Ok(None);
+        };
+        let Pattern::Picture {
+            picture,
+            nearest,
+            minify,
+            wrap,
+        } = texture.pattern
+        else {
+            return Ok(None);
+        };
+        let Origin::Heights { are_depths, .. } = self.scene.pictures[picture].origin else {
+            return Ok(None);
+        };
+        if !self.is_relief(picture) {
+            return Ok(None);
+        }
+        let file = self.picture(picture, Role::Color)?;
+        let mut table = Table::default();
+        table.put("picture", sampled(file, Role::Color, nearest, minify, wrap));
+        // Depths of 0 are as flat as heights of 0.
+        let strength = if are_depths { -scale } else { scale };
+        table.put_if(strength != 1.0, "strength", text::number32(strength));
+        table.put_if(
+            texture.space == Space::SecondUv,
+            "space",
+            string("second-uv"),
+        );
+        place(&mut table, texture);
+        Ok(Some(table.inline()))
     }
 
     /// A normal or occlusion map, if there is one.

@@ -8,7 +8,6 @@
 mod accessor;
 mod aim;
 mod animation;
-mod bake;
 mod blame;
 mod buffers;
 mod compressed;
@@ -38,7 +37,7 @@ use accessor::Accessors;
 use blame::{Blame, Ledger};
 use buffers::Buffers;
 use deform::Deformable;
-use document::Document;
+use document::{Document, TextureInfo};
 pub use extensions::{GLTF_EXTENSIONS, Support};
 use glam::DAffine3;
 use materials::{MaterialKey, Surface};
@@ -91,6 +90,8 @@ struct Reader<'a> {
     cameras: Vec<usize>,
     lights: Vec<usize>,
     surfaces: HashMap<MaterialKey, Surface>,
+    /// Maps whose transform a clip that is played moves, and their textures in the scene: each has one of its own.
+    moved_maps: HashMap<*const TextureInfo, Option<usize>>,
     /// Materials of the scene by their vertex colour.
     materials: HashMap<(MaterialKey, Option<(u32, u32)>), u32>,
     store: Store,
@@ -165,6 +166,7 @@ pub(super) fn read(
         cameras: Vec::new(),
         lights: Vec::new(),
         surfaces: HashMap::new(),
+        moved_maps: HashMap::new(),
         materials: HashMap::new(),
         store: Store::new(options),
     };
@@ -183,6 +185,7 @@ pub(super) fn read(
     for clip in clips {
         reader.tracks(clip)?;
     }
+    reader.hold_maps();
     Ok(reader.finish(options))
 }
 

@@ -31,7 +31,8 @@ pub struct Options {
     /// own size.
     pub size: Option<(u32, u32)>,
     /// The integrator that the scene will be rendered with, for which a model without lights is lit; `None` for the
-    /// scene's own.
+    /// scene's own. Only with [`LightTransport::Whitted`] the classical colours of materials with several maps are
+    /// computed: [`crate::scene::Scene::bake_classical_maps`].
     pub integrator: Option<LightTransport>,
     /// What is added to a model that lacks it.
     pub staging: Staging,

@@ -14,12 +14,13 @@ pub(super) use store::{Pictures, Place, Read};
 use super::error::{Fault, ImportError, one_line};
 use super::paths::{Files, Refusal};
 pub(super) use crate::scene::linear_from_srgb;
-use crate::scene::{Picture, Texels};
+use crate::scene::{Origin, Picture, Texels};
 use glam::Vec4;
 use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits};
 use std::borrow::Cow;
 use std::io::Cursor;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Size limit of an image file in bytes.
 pub(super) const MAX_BYTES: u64 = 512 << 20;
@@ -139,14 +140,29 @@ pub(super) fn reader(
 fn decode(bytes: &[u8], name: &str, roles: &[Role]) -> Result<Vec<Picture>, Refused> {
     let image = open(bytes, name)?;
     let (width, height) = (image.width(), image.height());
-    let picture = |image, role| Picture {
+    let plain = |texels| Picture {
         width,
         height,
-        texels: match role {
-            Role::Height => height::normals(texels(image, role), [width, height], 1.0),
-            Role::Depth => height::normals(texels(image, role), [width, height], -1.0),
-            Role::Color | Role::Data | Role::Alpha => texels(image, role),
-        },
+        texels,
+        origin: Origin::Texels,
+    };
+    let picture = |image, role| {
+        let texels = texels(image, role);
+        let amount = match role {
+            Role::Height => 1.0,
+            Role::Depth => -1.0,
+            Role::Color | Role::Data | Role::Alpha => return plain(texels),
+        };
+        match height::normals(&texels, [width, height], amount) {
+            None => plain(texels),
+            Some(normals) => Picture {
+                origin: Origin::Heights {
+                    heights: Arc::new(plain(texels)),
+                    are_depths: role == Role::Depth,
+                },
+                ..plain(normals)
+            },
+        }
     };
     let Some((last, others)) = roles.split_last() else {
         return Ok(Vec::new());
@@ -193,6 +209,7 @@ pub(super) fn environment(bytes: &[u8], name: &str) -> Result<(Picture, usize), 
         width,
         height,
         texels: texels(image, Role::Color),
+        origin: Origin::Texels,
     };
     Ok((picture, repaired))
 }

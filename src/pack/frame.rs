@@ -9,12 +9,11 @@ use super::{
 };
 use crate::{
     layout::{
-        ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, BACKGROUND_COLOR, BACKGROUND_GRADIENT,
-        BACKGROUND_PICTURE, CAMERA_ROWS, INSTANCE_ROWS, KEY_ROWS, LIGHT_DIRECTIONAL, LIGHT_DISC,
-        LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_ROWS, LIGHT_SPHERE, LIGHT_SPOT, MOVING, NODE_ROWS,
-        PackedCamera, PackedEmitter, PackedFrame, PackedLight, PackedMaterial, SHAPE,
+        BACKGROUND_COLOR, BACKGROUND_GRADIENT, BACKGROUND_PICTURE, CAMERA_ROWS, INSTANCE_ROWS,
+        KEY_ROWS, LIGHT_RECTANGLE, LIGHT_ROWS, MOVING, NODE_ROWS, PackedCamera, PackedEmitter,
+        PackedFrame, PackedLight, PackedMaterial, PackedTexture, SHAPE,
     },
-    scene::{Attenuation, Background, Camera, Frame, Light, LightKind},
+    scene::{Background, Camera, Frame},
 };
 use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
@@ -39,6 +38,8 @@ pub struct PackedView {
     /// Replaces the materials of the scene if any changes over time; otherwise empty. The values are those when
     /// the shutter opens, except that visible lights show their mean emission over the shutter interval.
     pub materials: Arc<[PackedMaterial]>,
+    /// Replaces the textures of the scene if any moves; otherwise empty. They lie as when the shutter opens.
+    pub textures: Arc<[PackedTexture]>,
     /// Emissive triangles.
     pub emitters: Vec<PackedEmitter>,
     /// Whether the camera is orthographic.
@@ -85,7 +86,7 @@ impl PackedScene {
             let packed = frame
                 .lights
                 .iter()
-                .map(|light| packed_light(light, self.origin));
+                .map(|light| light::packed(light, self.origin));
             let key = packed.collect::<Result<Vec<_>, _>>()?;
             lights.push(key);
         }
@@ -183,6 +184,7 @@ impl PackedScene {
             tlas,
             deformed,
             materials,
+            textures: material::textures(&first.textures, self.origin, &self.pictures)?,
         })
     }
 
@@ -238,7 +240,11 @@ impl PackedScene {
 impl PackedView {
     /// All bytes of the view that a picture depends on.
     pub fn parts(&self) -> Vec<&[u8]> {
-        let mut parts = vec![bytes_of(&self.frame), cast_slice(&self.materials)];
+        let mut parts = vec![
+            bytes_of(&self.frame),
+            cast_slice(&self.materials),
+            cast_slice(&self.textures),
+        ];
         parts.extend(self.node_parts());
         let trees = self.deformed.trees.iter();
         parts.extend(trees.flat_map(|tree| tree.parts()));
@@ -369,77 +375,4 @@ fn camera(camera: &Camera, origin: DVec3) -> Result<PackedCamera, PackError> {
         blade_count: camera.lens.map_or(0, |lens| lens.blade_count),
         blade_rotation: camera.lens.map_or(0.0, |lens| lens.blade_rotation as f32),
     })
-}
-
-fn packed_light(light: &Light, origin: DVec3) -> Result<PackedLight, PackError> {
-    let mut packed = PackedLight {
-        direction: DVec3::NEG_Y.as_vec3().into(),
-        color: light.color.into(),
-        attenuation: match light.attenuation {
-            Attenuation::InverseSquare => ATTENUATION_INVERSE_SQUARE,
-            Attenuation::None => ATTENUATION_NONE,
-        },
-        sample_count: 1,
-        visible: u32::from(light.visible && light.kind.radiance().is_some()),
-        ..Default::default()
-    };
-    let direct = |direction: DVec3| direction.as_vec3().into();
-    let position = match light.kind {
-        LightKind::Point { position } => {
-            packed.kind = LIGHT_POINT;
-            position
-        }
-        LightKind::Directional { direction } => {
-            packed.kind = LIGHT_DIRECTIONAL;
-            packed.attenuation = ATTENUATION_NONE;
-            packed.direction = direct(direction);
-            origin
-        }
-        LightKind::Spot {
-            position,
-            direction,
-            inner,
-            outer,
-        } => {
-            packed.kind = LIGHT_SPOT;
-            packed.direction = direct(direction);
-            packed.cos_inner = inner.cos() as f32;
-            packed.cos_outer = outer.cos() as f32;
-            position
-        }
-        LightKind::Rectangle {
-            center,
-            edge_u,
-            edge_v,
-        } => {
-            in_range(edge_u.length().max(edge_v.length()))?;
-            packed.kind = LIGHT_RECTANGLE;
-            packed.direction = direct(edge_u.cross(edge_v).normalize_or(DVec3::NEG_Y));
-            (packed.edge_u, packed.edge_v) = (direct(edge_u), direct(edge_v));
-            center
-        }
-        LightKind::Disc {
-            center,
-            normal,
-            radius,
-        } => {
-            in_range(radius)?;
-            packed.kind = LIGHT_DISC;
-            packed.direction = direct(normal);
-            let (u, v) = normal.any_orthonormal_pair();
-            (packed.edge_u, packed.edge_v) = (direct(u * radius), direct(v * radius));
-            center
-        }
-        LightKind::Sphere { center, radius } => {
-            in_range(radius)?;
-            packed.kind = LIGHT_SPHERE;
-            packed.radius = radius as f32;
-            center
-        }
-    };
-    packed.position = render_point(position, origin)?.into();
-    if light.kind.radiance().is_some() {
-        packed.sample_count = light.samples;
-    }
-    Ok(packed)
 }

@@ -225,17 +225,17 @@ fn has_layers(scene: &Scene, holds: impl Fn(&Material, &MetallicRoughness) -> bo
 
 /// Packs all textures. Their indices must differ from `NO_TEXTURE`.
 pub fn textures(
-    scene: &Scene,
+    textures: &[Texture],
     origin: DVec3,
     pictures: &[[u32; 3]],
 ) -> Result<Arc<[PackedTexture]>, PackError> {
-    let (count, limit) = (scene.textures.len(), NO_TEXTURE as usize);
+    let (count, limit) = (textures.len(), NO_TEXTURE as usize);
     if count > limit {
         let what = "textures";
         return Err(PackError::TooMany { what, count, limit });
     }
     let pack = |one| texture(one, origin, pictures);
-    Ok(scene.textures.iter().map(pack).collect())
+    Ok(textures.iter().map(pack).collect())
 }
 
 fn texture(texture: &Texture, origin: DVec3, pictures: &[[u32; 3]]) -> PackedTexture {

@@ -81,7 +81,13 @@ pub fn arrays<'a>(scene: &'a PackedScene, view: &'a PackedView) -> [Array<'a>; A
         },
         surfaces,
     );
-    materials.push(cast_slice(&scene.textures), surfaces);
+    materials.push(
+        match view.textures.is_empty() {
+            true => cast_slice(&scene.textures),
+            false => cast_slice(&view.textures),
+        },
+        surfaces,
+    );
     let texels = Array::of("texels", Kind::Texels, &scene.texels, surfaces);
     [nodes, triangles, vertices, materials, texels]
 }

@@ -34,6 +34,8 @@ pub enum Target {
     /// Of the [`super::MetallicRoughness`] of a material. Its classical colours follow, except those of textures that
     /// were computed for the values at rest.
     Layer(usize, LayerProperty),
+    /// Of the [`super::UvTransform`] of a texture; what has no track has its default.
+    Texture(usize, TextureProperty),
     /// The weight of a morph target, a scalar: the index of a [`super::Deformation`], and that of one of
     /// its targets.
     Weight(usize, usize),
@@ -124,6 +126,22 @@ pub enum LayerProperty {
     Transmission,
     /// A scalar: factor on [`super::Material::emission`], after any other track of it.
     EmissionStrength,
+}
+
+/// An animatable property of a [`super::UvTransform`]. Constant while the shutter is open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TextureProperty {
+    /// A vector whose z is ignored.
+    Offset,
+    /// A scalar, in radians.
+    Rotation,
+    /// A vector whose z is ignored.
+    Scale,
+}
+
+impl TextureProperty {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Offset, Self::Rotation, Self::Scale];
 }
 
 /// Values over time.

@@ -3,9 +3,11 @@
 mod camera;
 mod light;
 mod material;
+mod texture;
 
 use super::{
-    Background, Beyond, Camera, Curve, Light, Material, NodeProperty, Scene, Target, Value, Values,
+    Background, Beyond, Camera, Curve, Light, Material, NodeProperty, Scene, Target, Texture,
+    Value, Values,
 };
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 
@@ -26,6 +28,8 @@ pub struct Frame {
     /// One for each of the scene's materials if a track animates any; otherwise empty, and the scene's
     /// materials apply.
     pub materials: Vec<Material>,
+    /// One for each of the scene's textures if a track animates any; otherwise empty, and the scene's textures apply.
+    pub textures: Vec<Texture>,
     /// For each of the scene's deformations the weights of its morph targets.
     pub weights: Vec<Vec<f64>>,
 }
@@ -58,6 +62,7 @@ impl Scene {
             background: self.background.clone(),
             ambient: self.ambient,
             materials: self.materials_at(opened),
+            textures: self.textures_at(opened),
             weights: self.weights_at(time),
             nodes,
         }

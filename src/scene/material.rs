@@ -145,7 +145,7 @@ macro_rules! layer_textures {
 
         impl LayerTextures {
             /// All of them.
-            pub fn all(&self) -> impl Iterator<Item = Option<usize>> {
+            pub fn all(&self) -> impl Iterator<Item = Option<usize>> + use<> {
                 [$(self.$name,)*].into_iter()
             }
 

@@ -124,7 +124,8 @@ impl<'a> Motion<'a> {
                     Target::Node(_, NodeProperty::Visible)
                     | Target::Light(_, LightProperty::On)
                     | Target::Material(..)
-                    | Target::Layer(..) => false,
+                    | Target::Layer(..)
+                    | Target::Texture(..) => false,
                     Target::Node(index, _) => {
                         moving[index] = true;
                         true

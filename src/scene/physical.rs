@@ -9,6 +9,10 @@ impl Material {
     /// other parameters are for paths only.
     pub fn physical(model: Arc<MetallicRoughness>, layers: LayerTextures) -> Self {
         let mut material = model.classical(String::new());
+        if layers.metallic.is_some() && !model.unlit {
+            // Parts may be no metal, and let light pass.
+            material.transmit = model.transmission * model.base_color;
+        }
         let shown = |color: Vec3| layers.base_color.filter(|_| color != Vec3::ZERO);
         let textures = &mut material.textures;
         textures.diffuse = shown(material.diffuse);

@@ -1,6 +1,11 @@
 //! Images in memory.
 
 use glam::{Vec3, Vec4};
+use std::sync::Arc;
+
+/// Most bytes that the texels of all pictures take together: 44 pictures of 4096 × 4096 texels of 8 bits per channel.
+/// With smaller copies for minification they fit into the array that WebGPU guarantees.
+pub const MAX_PICTURE_BYTES: usize = 11 << 28;
 
 /// An image in memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +16,30 @@ pub struct Picture {
     pub height: u32,
     /// `width` × `height` of them, row by row from the top left.
     pub texels: Texels,
+    /// What its texels were computed from.
+    pub origin: Origin,
+}
+
+/// What the texels of a [`Picture`] were computed from, which scene files have in their place.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Origin {
+    /// Nothing: they were read.
+    #[default]
+    Texels,
+    /// The normal map of a surface of these heights, in red.
+    Heights {
+        /// From 0 to 1.
+        heights: Arc<Picture>,
+        /// Whether white is below black.
+        are_depths: bool,
+    },
+    /// [`super::sky::picture`], with these arguments.
+    Sky {
+        /// Angle of the sun above the horizon in radians.
+        elevation: f64,
+        /// Angle of the sun from −Z towards +X in radians.
+        azimuth: f64,
+    },
 }
 
 /// The texels of a [`Picture`]: red, green, blue and alpha, each as precise as its file.
@@ -32,6 +61,7 @@ impl Picture {
             width,
             height,
             texels: Texels::Float(texels),
+            origin: Origin::Texels,
         }
     }
 
@@ -82,6 +112,7 @@ impl Picture {
             width,
             height,
             texels,
+            origin: Origin::Texels,
         }
     }
 

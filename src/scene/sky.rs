@@ -5,7 +5,7 @@
 //! wavelength; ozone, gases and water vapour, which take a few percent, are left out. Below the horizon is even grey
 //! ground.
 
-use super::Picture;
+use super::{Origin, Picture};
 use glam::{DMat3, DVec3, dvec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -79,7 +79,10 @@ pub fn picture(elevation: f64, azimuth: f64) -> Picture {
     let ground = GROUND_ALBEDO / PI * irradiance;
     colors[(WIDTH * HEIGHT / 2) as usize..].fill(ground);
     paint_sun(&mut colors, sun, elevation);
-    Picture::opaque(WIDTH, HEIGHT, colors.into_iter().map(DVec3::as_vec3))
+    Picture {
+        origin: Origin::Sky { elevation, azimuth },
+        ..Picture::opaque(WIDTH, HEIGHT, colors.into_iter().map(DVec3::as_vec3))
+    }
 }
 
 /// Adds the disc of the sun to the texels that it covers, so that the picture has all of its light.

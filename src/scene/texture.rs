@@ -1,6 +1,6 @@
 //! Spatially varying colours.
 
-use glam::{DAffine3, Vec3};
+use glam::{DAffine3, DVec2, DVec3, Vec3};
 
 /// A colour for every point of a surface, multiplied with a colour of a [`super::Material`].
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +11,59 @@ pub struct Texture {
     pub space: Space,
     /// Transform from `space` to the pattern's space.
     pub pattern_from_space: DAffine3,
+}
+
+impl Texture {
+    /// Whether both are pictures whose texels at the same place belong to the same points of a surface.
+    pub fn is_aligned(&self, other: &Self) -> bool {
+        let wrap = |it: &Self| match it.pattern {
+            Pattern::Picture { wrap, .. } => Some(wrap),
+            _ => None,
+        };
+        self.space == other.space
+            && self.pattern_from_space == other.pattern_from_space
+            && wrap(self).is_some_and(|own| Some(own) == wrap(other))
+    }
+}
+
+/// Where a picture lies on a surface: coordinates are scaled, then turned, then moved. It is the transform of
+/// `KHR_texture_transform`, whose coordinates have v downwards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UvTransform {
+    /// In widths and heights of the picture.
+    pub offset: DVec2,
+    /// Of the coordinates, counter-clockwise seen on the picture, in radians.
+    pub rotation: f64,
+    /// How many times the picture is repeated along u and v.
+    pub scale: DVec2,
+}
+
+impl Default for UvTransform {
+    fn default() -> Self {
+        Self {
+            offset: DVec2::ZERO,
+            rotation: 0.0,
+            scale: DVec2::ONE,
+        }
+    }
+}
+
+impl UvTransform {
+    /// From (u, v, 0) of a surface to those of the picture, both with v upwards. Numbers beyond ±10⁹ are clamped.
+    pub fn pattern_from_uv(&self) -> DAffine3 {
+        let limit = DVec2::splat(1e9);
+        let (sin, cos) = self.rotation.sin_cos();
+        let scale = self.scale.clamp(-limit, limit);
+        let offset = self.offset.clamp(-limit, limit);
+        let flip = DAffine3 {
+            translation: DVec3::Y,
+            ..DAffine3::from_scale(DVec3::new(1.0, -1.0, 1.0))
+        };
+        let mut placed = DAffine3::from_translation(offset.extend(0.0));
+        placed.matrix3.x_axis = scale.x * DVec3::new(cos, -sin, 0.0);
+        placed.matrix3.y_axis = scale.y * DVec3::new(sin, cos, 0.0);
+        flip * placed * flip
+    }
 }
 
 /// The coordinates that a [`Texture`] is evaluated at.

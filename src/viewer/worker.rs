@@ -1,5 +1,6 @@
 //! The thread that renders what the session wants.
 
+pub mod classical;
 pub mod comparison;
 pub mod progressive_image;
 pub mod render_thread;

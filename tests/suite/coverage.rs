@@ -97,6 +97,7 @@ fn half(texels: [u8; 2]) -> (Arc<Picture>, Texture) {
         width: 2,
         height: 1,
         texels: Texels::Srgb8(texels.map(|alpha| [255, 255, 255, alpha]).into()),
+        origin: glimray::scene::Origin::Texels,
     };
     let texture = Texture {
         pattern: Pattern::Picture {

@@ -100,6 +100,7 @@ fn every_level_has_the_mean_of_its_picture() {
                 width,
                 height,
                 texels,
+                origin: glimray::scene::Origin::Texels,
             });
         }
     }
@@ -133,6 +134,7 @@ fn a_level_halves_the_one_before_and_transparent_texels_lend_no_colour() {
         width: 4,
         height: 2,
         texels: Texels::Srgb8(vec![red, green, clear, clear, green, red, clear, clear]),
+        origin: glimray::scene::Origin::Texels,
     };
     let packed = pack::scene(&showing(vec![picture])).expect("a packed scene");
     let found = levels(&packed, 0, 3);

@@ -26,6 +26,7 @@ fn quad(uv_from_xy: DMat2, placement: DAffine3, material: Material) -> Scene {
         width: 1,
         height: 1,
         texels: Texels::Linear8(vec![CODE]),
+        origin: glimray::scene::Origin::Texels,
     }));
     scene.textures.push(Texture {
         pattern: Pattern::Picture {

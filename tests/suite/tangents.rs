@@ -26,6 +26,7 @@ fn mapped() -> Scene {
         width: 1,
         height: 1,
         texels: Texels::Linear8(vec![CODE]),
+        origin: glimray::scene::Origin::Texels,
     }));
     scene.textures.push(Texture {
         pattern: Pattern::Picture {

@@ -208,6 +208,7 @@ fn texels_of_every_kind_are_found_in_pictures_of_several_layers() {
             width,
             height,
             texels,
+            origin: glimray::scene::Origin::Texels,
         };
         let texture = pattern_texture(pattern, Space::World, place);
         let scene = flat(texture, vec![picture(2), large], DVec3::ZERO);

@@ -151,6 +151,7 @@ fn picture(code: [u8; 4]) -> Arc<Picture> {
         width: 1,
         height: 1,
         texels: Texels::Linear8(vec![code]),
+        origin: glimray::scene::Origin::Texels,
     })
 }
 

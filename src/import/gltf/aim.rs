@@ -2,11 +2,12 @@
 //! (`KHR_animation_pointer`).
 
 use super::Reader;
-use super::document::{ChannelTarget, Kind};
+use super::document::{ChannelTarget, Kind, Material as Source, TextureInfo};
+use super::materials::{PATH_MAPS, SHOWN_MAPS, all_maps};
 use crate::import::error::ImportError;
 use crate::scene::{
     CameraProperty, Coverage, LayerProperty, LightProperty, Material, MaterialProperty,
-    NodeProperty, Target,
+    NodeProperty, Target, TextureProperty,
 };
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -22,6 +23,8 @@ pub(super) enum Aim {
     Light(usize, LightProperty),
     Emission(usize),
     Layer(usize, LayerProperty),
+    /// The transform of a map of a material, by the name of its property.
+    Map(usize, &'static str, TextureProperty),
 }
 
 /// The values of a channel, before they are values of the scene.
@@ -80,7 +83,10 @@ impl Aim {
                 Self::Camera(index, CameraProperty::OrthographicHeight)
             }
             ("materials", "emissiveFactor") => Self::Emission(index),
-            ("materials", property) => Self::Layer(index, layer(property)?),
+            ("materials", property) => match map_property(property) {
+                Some((map, property)) => Self::Map(index, map, property),
+                None => Self::Layer(index, layer(property)?),
+            },
             _ => return None,
         })
     }
@@ -94,6 +100,7 @@ impl Aim {
             Self::Node(_, NodeProperty::Translation | NodeProperty::Scale)
             | Self::Light(_, LightProperty::Color)
             | Self::Emission(_) => Kind::Vec3,
+            Self::Map(_, _, TextureProperty::Offset | TextureProperty::Scale) => Kind::Vec2,
             _ => Kind::Scalar,
         }
     }
@@ -122,6 +129,28 @@ fn layer(property: &str) -> Option<LayerProperty> {
         }
         _ => return None,
     })
+}
+
+/// The map of a material whose transform a pointer names, by the name of its property, and the part of the transform.
+fn map_property(property: &str) -> Option<(&'static str, TextureProperty)> {
+    let (map, part) = property.split_once("/extensions/KHR_texture_transform/")?;
+    let part = match part {
+        "offset" => TextureProperty::Offset,
+        "rotation" => TextureProperty::Rotation,
+        "scale" => TextureProperty::Scale,
+        _ => return None,
+    };
+    let name = map.rsplit('/').next()?;
+    let mut known = SHOWN_MAPS.iter().chain(&PATH_MAPS);
+    known
+        .find(|known| **known == name)
+        .map(|known| (*known, part))
+}
+
+/// The map of a material with a property of this name.
+pub(super) fn map_of<'m>(material: &'m Source, name: &str) -> Option<&'m TextureInfo> {
+    let mut maps = all_maps(material).into_iter();
+    maps.find(|(known, _)| *known == name).map(|(_, info)| info)
 }
 
 /// A target in the scene, and what the values in the file are multiplied with for it.
@@ -200,6 +229,15 @@ impl Reader<'_> {
                 Ok(self.targets_of_material(index, add))
             }
             Aim::Layer(index, property) => self.layer_targets(index, property),
+            Aim::Map(index, map, property) => {
+                let info = map_of(&self.document.materials[index], map);
+                let texture =
+                    info.and_then(|info| *self.moved_maps.get(&std::ptr::from_ref(info))?);
+                Ok(texture
+                    .map(|texture| same(Target::Texture(texture, property)))
+                    .into_iter()
+                    .collect())
+            }
         }
     }
 
@@ -262,6 +300,7 @@ impl Reader<'_> {
                 material.thin = thickness == Some(0.0);
             }
         }
+        let follows = |shown: &Material| shown.follows_layers() && !shown.has_classical_maps();
         let targets = self.targets_of_material(index, |material, shown| {
             let Some(model) = &shown.metallic_roughness else {
                 return Vec::new();
@@ -276,7 +315,7 @@ impl Reader<'_> {
                     vec![classical(MaterialProperty::Emission, tint)]
                 }
                 // These are kept when the scene is converted.
-                LayerProperty::BaseColor if shown.follows_layers() => {
+                LayerProperty::BaseColor if follows(shown) => {
                     let mut white = model.point();
                     white.base_color = shown.tint;
                     let factor = model.lobes(&white, model.roughness).diffuse.as_dvec3();
@@ -291,7 +330,7 @@ impl Reader<'_> {
             }
         });
         let is_baked = |(target, _): &Scaled| match *target {
-            Target::Layer(material, _) => !self.scene.materials[material].follows_layers(),
+            Target::Layer(material, _) => !follows(&self.scene.materials[material]),
             _ => false,
         };
         let is_classical = !self.traces_paths && property != LayerProperty::EmissionStrength;
@@ -338,7 +377,7 @@ impl Reader<'_> {
             Aim::WeightsOfMesh(index) => ("meshes", index, document.meshes.len()),
             Aim::Camera(index, _) => ("cameras", index, document.cameras.len()),
             Aim::Light(index, _) => ("lights", index, lights.map_or(0, |it| it.lights.len())),
-            Aim::Emission(index) | Aim::Layer(index, _) => {
+            Aim::Emission(index) | Aim::Layer(index, _) | Aim::Map(index, ..) => {
                 ("materials", index, document.materials.len())
             }
         };

@@ -1,13 +1,17 @@
 //! Clips (section 3.11 of the specification): tracks of what they move.
 
 use super::Reader;
-use super::aim::{Aim, Values as ValueKind};
+use super::aim::{Aim, Values as ValueKind, map_of};
 use super::document::{AnimationSampler, ChannelTarget, Interpolation as Kinds, Kind};
 use super::hierarchy::{extended, unit};
+use super::maps;
+use super::materials::all_maps;
 use crate::import::budget;
 use crate::import::error::ImportError;
 use crate::import::source::quote_up_to;
-use crate::scene::{Beyond, Curve, Easing, Interpolation, LightProperty, Target, Track, Values};
+use crate::scene::{
+    Beyond, Curve, Easing, Interpolation, LightProperty, Target, TextureProperty, Track, Values,
+};
 use glam::{DQuat, DVec3};
 use std::collections::HashSet;
 
@@ -75,6 +79,11 @@ impl Reader<'_> {
         for channel in clips.flat_map(|clip| &clip.channels) {
             match Aim::of(&channel.target) {
                 Some(Aim::Node(node, _)) => self.animated[node] = true,
+                Some(Aim::Map(material, map, _)) => {
+                    let found = map_of(&document.materials[material], map);
+                    self.moved_maps
+                        .extend(found.map(|info| (std::ptr::from_ref(info), None)));
+                }
                 Some(Aim::WeightsOfNode(node)) => self.morphed[node] = true,
                 Some(Aim::WeightsOfMesh(mesh)) => {
                     for (morphed, node) in self.morphed.iter_mut().zip(nodes) {
@@ -161,6 +170,57 @@ impl Reader<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Gives the transforms of maps that move in part the values of the file for the rest.
+    pub(super) fn hold_maps(&mut self) {
+        let moved = self.moved_maps.iter();
+        let mut moved: Vec<_> = moved
+            .filter_map(|(info, texture)| Some(((*texture)?, *info)))
+            .collect();
+        moved.sort_unstable();
+        for (texture, info) in moved {
+            let maps = self.document.materials.iter().flat_map(all_maps);
+            let mut maps = maps.map(|(_, own)| own);
+            let Some(info) = maps.find(|own| std::ptr::eq(*own, info)) else {
+                continue;
+            };
+            let rest = maps::transform(info);
+            for (property, values) in [
+                (
+                    TextureProperty::Offset,
+                    Values::Vector(vec![rest.offset.extend(0.0)]),
+                ),
+                (
+                    TextureProperty::Rotation,
+                    Values::Scalar(vec![rest.rotation]),
+                ),
+                (
+                    TextureProperty::Scale,
+                    Values::Vector(vec![rest.scale.extend(1.0)]),
+                ),
+            ] {
+                let target = Target::Texture(texture, property);
+                if self
+                    .scene
+                    .tracks
+                    .iter()
+                    .any(|track| track.targets.contains(&target))
+                {
+                    continue;
+                }
+                self.scene.tracks.push(Track {
+                    targets: vec![target],
+                    curve: Curve {
+                        times: vec![0.0],
+                        values,
+                        interpolation: Interpolation::Step,
+                        easing: Easing::None,
+                        beyond: Beyond::Hold,
+                    },
+                });
+            }
+        }
     }
 
     fn skip(&mut self, clip: usize, what: &str) {

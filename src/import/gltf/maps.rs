@@ -3,8 +3,7 @@
 use super::Reader;
 use super::document::TextureInfo;
 use crate::import::error::ImportError;
-use crate::scene::{Minify, Wrap};
-use glam::{DAffine2, DAffine3, DMat2, DMat3, DVec2, DVec3};
+use crate::scene::{Minify, UvTransform, Wrap};
 
 const NEAREST: u32 = 9728;
 const LINEAR: u32 = 9729;
@@ -19,8 +18,7 @@ const MIRROR: u32 = 33648;
 pub(super) struct FoundMap {
     pub image: usize,
     pub uv_set: u32,
-    /// Both with v downwards.
-    pub picture_from_uv: DAffine3,
+    pub transform: UvTransform,
     /// Whether texels that look large are not interpolated.
     pub nearest: bool,
     pub minify: Minify,
@@ -28,35 +26,15 @@ pub(super) struct FoundMap {
     pub wrap: [Wrap; 2],
 }
 
-impl FoundMap {
-    /// Whether a texel of one map belongs to the same point as that of the other.
-    pub fn is_aligned(&self, other: &Self) -> bool {
-        (self.uv_set, self.wrap) == (other.uv_set, other.wrap)
-            && self.picture_from_uv == other.picture_from_uv
-    }
-}
-
 /// The transform that `KHR_texture_transform` describes.
-fn transform(info: &TextureInfo) -> DAffine3 {
-    let Some(it) = &info.extensions.transform else {
-        return DAffine3::IDENTITY;
-    };
-    let number = |x: f64| x.clamp(-1e9, 1e9);
-    let (sin, cos) = it.rotation.sin_cos();
-    // Counter-clockwise on the picture, whose v points down.
-    let rotation = DMat2::from_cols(DVec2::new(cos, -sin), DVec2::new(sin, cos));
-    let scale = DVec2::from(it.scale.unwrap_or([1.0; 2]).map(number));
-    let flat = DAffine2 {
-        matrix2: rotation * DMat2::from_diagonal(scale),
-        translation: DVec2::from(it.offset.map(number)),
-    };
-    DAffine3 {
-        matrix3: DMat3::from_cols(
-            flat.matrix2.x_axis.extend(0.0),
-            flat.matrix2.y_axis.extend(0.0),
-            DVec3::Z,
-        ),
-        translation: flat.translation.extend(0.0),
+pub(super) fn transform(info: &TextureInfo) -> UvTransform {
+    match &info.extensions.transform {
+        None => UvTransform::default(),
+        Some(it) => UvTransform {
+            offset: it.offset.into(),
+            rotation: it.rotation,
+            scale: it.scale.unwrap_or([1.0; 2]).into(),
+        },
     }
 }
 
@@ -85,7 +63,7 @@ impl Reader<'_> {
         let mut found = FoundMap {
             image,
             uv_set: info.tex_coord,
-            picture_from_uv: transform(info),
+            transform: transform(info),
             nearest: false,
             minify: Minify::default(),
             wrap: [Wrap::Repeat; 2],

@@ -6,7 +6,7 @@ use super::document::{Material as Source, Primitive, TextureInfo};
 use super::document_materials::{AlphaMode, Extensions};
 use crate::import::budget;
 use crate::import::error::ImportError;
-use crate::scene::{Coverage, Material, MetallicRoughness};
+use crate::scene::{Coverage, LayerTextures, Material, MetallicRoughness};
 use glam::{Vec3, Vec4};
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -36,15 +36,10 @@ impl Reader<'_> {
         let key = MaterialKey(index);
         if !self.surfaces.contains_key(&key) {
             let surface = match index {
-                None => {
-                    let model = MetallicRoughness::default();
-                    let mut material = model.classical(String::new());
-                    material.metallic_roughness = Some(Arc::new(model));
-                    Surface {
-                        material,
-                        uv_sets: Vec::new(),
-                    }
-                }
+                None => Surface {
+                    material: Material::physical(Arc::default(), LayerTextures::default()),
+                    uv_sets: Vec::new(),
+                },
                 Some(index) => {
                     let materials = &self.document.materials;
                     let source = self.blame.get(materials, index, "materials", here)?;
@@ -145,16 +140,15 @@ impl Reader<'_> {
         let model = model(source);
         let here = format!("materials[{index}]");
         self.note_maps(source, &here)?;
-        let name = source.name.clone().unwrap_or_default();
-        let mut material = model.classical(name);
-        let mut uv_sets = self.textured(source, &model, &mut material, &here)?;
-        if model.anisotropy > 0.0 && uv_sets.is_empty() {
+        let is_anisotropic = model.anisotropy > 0.0;
+        let (mut material, mut uv_sets) = self.textured(source, model, &here)?;
+        material.name = source.name.clone().unwrap_or_default();
+        if is_anisotropic && uv_sets.is_empty() {
             // They give the direction of tangents.
             uv_sets.push(0);
         }
         let size = budget::size::<(Surface, MetallicRoughness)>(1);
         self.ledger.take(size, 0, &here)?;
-        material.metallic_roughness = Some(Arc::new(model));
         Ok(Surface { material, uv_sets })
     }
 
@@ -180,7 +174,7 @@ impl Reader<'_> {
 }
 
 /// The maps that have an effect on path-traced pictures only.
-const PATH_MAPS: [&str; 11] = [
+pub(super) const PATH_MAPS: [&str; 11] = [
     "specularTexture",
     "specularColorTexture",
     "clearcoatTexture",

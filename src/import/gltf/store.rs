@@ -4,24 +4,20 @@ use super::Reader;
 use super::blame::Blame;
 use super::buffers::{self, Buffers, Source};
 use super::document::Document;
-use super::materials::{SHOWN_MAPS, all_maps};
+use super::materials::{PATH_MAPS, SHOWN_MAPS, all_maps};
 use crate::import::Options;
 use crate::import::error::ImportError;
 use crate::import::paths::Refusal;
 use crate::import::picture::{self, Pictures, Place, Refused, Role};
 use crate::import::source::quote;
-use crate::scene::Picture;
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
-use std::sync::Arc;
 
 /// What was made of the images of a model.
 pub(super) struct Store {
     pub pictures: Pictures,
     /// By the number of the image, what is known of it.
     images: HashMap<usize, Image>,
-    /// Pictures by what they were made from.
-    pub known: HashMap<Vec<u32>, super::textures::Appearance>,
 }
 
 /// Where the file of an image is and its name for messages, or why there is none.
@@ -32,7 +28,6 @@ impl Store {
         Self {
             pictures: Pictures::new(options),
             images: HashMap::new(),
-            known: HashMap::new(),
         }
     }
 }
@@ -40,9 +35,21 @@ impl Store {
 /// What the texels of a map stand for, by the name of its property.
 fn role_of(parameter: &str) -> Role {
     match parameter {
-        "baseColorTexture" | "diffuseTexture" | "emissiveTexture" => Role::Color,
+        "baseColorTexture"
+        | "diffuseTexture"
+        | "emissiveTexture"
+        | "specularColorTexture"
+        | "sheenColorTexture"
+        | "diffuseTransmissionColorTexture" => Role::Color,
         _ => Role::Data,
     }
+}
+
+/// Whether the scene has the map of this property.
+fn is_used(parameter: &str) -> bool {
+    // A volume has one thickness, whatever its map.
+    parameter != "thicknessTexture"
+        && (SHOWN_MAPS.contains(&parameter) || PATH_MAPS.contains(&parameter))
 }
 
 impl Reader<'_> {
@@ -62,7 +69,7 @@ impl Reader<'_> {
             for (parameter, info) in all_maps(source) {
                 let texture = document.textures.get(info.index);
                 let image = texture.and_then(|texture| texture.image());
-                if let Some(image) = image.filter(|_| SHOWN_MAPS.contains(&parameter))
+                if let Some(image) = image.filter(|_| is_used(parameter))
                     && let Ok(Ok((place, name))) = self.located(image)
                 {
                     let role = role_of(parameter);
@@ -72,21 +79,10 @@ impl Reader<'_> {
         }
     }
 
-    /// `images[index]`, which exists, without making it part of the scene; `None` with a note if it cannot be read.
+    /// The index in the scene of `images[index]`, which exists; `None` with a note if it cannot be read.
     ///
     /// # Errors
     /// It is in a file that the model may not read.
-    pub(super) fn image(
-        &mut self,
-        index: usize,
-        role: Role,
-    ) -> Result<Option<Arc<Picture>>, ImportError> {
-        self.looked_up(index, |pictures, place, name, read| {
-            pictures.picture(place, name, role, read)
-        })
-    }
-
-    /// As [`Self::image`], the index of the picture in the scene.
     pub(super) fn shown(&mut self, index: usize, role: Role) -> Result<Option<usize>, ImportError> {
         self.looked_up(index, |pictures, place, name, read| {
             pictures.index(place, name, role, read)

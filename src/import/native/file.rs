@@ -2,7 +2,9 @@
 //! authors of scenes.
 
 mod animation;
+mod backgrounds;
 mod cameras;
+mod color_or;
 mod groups;
 mod keys;
 mod lights;
@@ -28,10 +30,11 @@ pub(super) use objects::{
     RectangleTable, SphereTable, TorusTable, TriangleTable,
 };
 
+pub(super) use backgrounds::{BackgroundTable, ColorOrBackground, NamedBackground, SkyTable};
 pub(super) use physical::{FractionOrTexture, PbrTable};
 pub(super) use textures::{
-    BackgroundTable, ColorOrBackground, ColorOrTexture, DataMapTable, NumberTable, PairTable,
-    PatternTables, PictureOrFile, SpaceName, TextureTable,
+    ColorOrTexture, DataMapTable, HeightMapTable, NumberTable, PairTable, PatternTables,
+    PictureOrFile, SpaceName, TextureTable,
 };
 
 use super::values::{
@@ -53,7 +56,7 @@ pub(super) struct SceneFile {
     /// The image: size, samples and tone curve. Command-line flags override it.
     #[serde(default)]
     pub output: OutputTable,
-    /// The background: a colour, `{ bottom, top }` or `{ picture }`; default black.
+    /// The background: a colour, `{ bottom, top }`, `{ picture }`, "sky" or `{ sky }`; default black.
     #[serde(default = "nothing")]
     #[schemars(with = "ColorOrBackground")]
     pub background: Spanned<ColorOrBackground>,

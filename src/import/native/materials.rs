@@ -53,6 +53,14 @@ pub(super) fn material(
     if let Some(map) = table.coverage.as_ref().and_then(|it| it.map.as_ref()) {
         material.textures.alpha = textures.color(map)?.1;
     }
+    if let Some(map) = &table.height_map {
+        if table.normal_map.is_some() {
+            let why = "a surface has a normal map or a height map";
+            return Err(textures.refuse(map.span(), why, "Leave out one of them"));
+        }
+        material.textures.normal = Some(textures.height_map(map)?);
+        material.normal_scale = map.get_ref().height().abs() as f32;
+    }
     if let Some(map) = &table.normal_map {
         material.textures.normal = Some(textures.data_map(map)?);
         material.normal_scale = map.get_ref().strength.0;

@@ -2,15 +2,16 @@
 
 use super::Texts;
 use super::file::{
-    BackgroundTable, ColorOrBackground, ColorOrTexture, DataMapTable, NumberTable, PairTable,
-    PatternTables, PictureOrFile, SceneFile, SpaceName, in_order,
+    BackgroundTable, ColorOrBackground, ColorOrTexture, DataMapTable, HeightMapTable,
+    NamedBackground, NumberTable, PairTable, PatternTables, PictureOrFile, SceneFile, SkyTable,
+    SpaceName, in_order,
 };
 use crate::import::error::ImportError;
 use crate::import::paths::Files;
 use crate::import::picture::{self, Pictures, Place, Refused, Role};
 use crate::import::source::quote;
 use crate::import::{Options, suggest};
-use crate::scene::{Background, Minify, Pattern, Space, Texture, Transform, Wrap};
+use crate::scene::{Background, Minify, Pattern, Space, Texture, Transform, Wrap, sky};
 use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -123,11 +124,8 @@ impl<'a> Textures<'a> {
 
     /// The texture of a map of numbers.
     pub fn data_map(&mut self, map: &Spanned<DataMapTable>) -> Result<usize, ImportError> {
-        if map.get_ref().space == Some(SpaceName::World) {
-            let why = "a map of numbers has its place by u and v";
-            return Err(self.refuse(map.span(), why, "Leave out `space`"));
-        }
         let table = map.get_ref();
+        self.check_flat(table.space, map.span())?;
         let index = self.named_or_own(&table.texture, &table.pattern(), map.span())?;
         match self.has_alpha(index) {
             true => Ok(index),
@@ -135,6 +133,22 @@ impl<'a> Textures<'a> {
                 let why = "a map of numbers is a picture";
                 Err(self.refuse(map.span(), why, "Name a texture with a picture"))
             }
+        }
+    }
+
+    /// The normal map that a height map becomes.
+    pub fn height_map(&mut self, map: &Spanned<HeightMapTable>) -> Result<usize, ImportError> {
+        self.check_flat(map.get_ref().space, map.span())?;
+        self.texture(&map.get_ref().pattern(), map.span())
+    }
+
+    fn check_flat(&self, space: Option<SpaceName>, span: Range<usize>) -> Result<(), ImportError> {
+        match space {
+            Some(SpaceName::World) => {
+                let why = "a map of numbers has its place by u and v";
+                Err(self.refuse(span, why, "Leave out `space`"))
+            }
+            _ => Ok(()),
         }
     }
 
@@ -148,18 +162,28 @@ impl<'a> Textures<'a> {
                 .texts
                 .malformed(background.span(), why.to_owned(), todo))
         };
+        let sky;
         let table: &BackgroundTable = match background.get_ref() {
             ColorOrBackground::Color(color) => return Ok(Background::Color(color.0)),
             ColorOrBackground::Table(table) => table,
+            ColorOrBackground::Name(NamedBackground::Sky) => {
+                sky = BackgroundTable {
+                    sky: Some(Spanned::new(background.span(), SkyTable::default())),
+                    ..BackgroundTable::default()
+                };
+                &sky
+            }
         };
         let only_for_pictures =
             table.strength.is_some() || table.rotation_deg.is_some() || table.rotation.is_some();
-        match (table.bottom, table.top, &table.picture) {
-            (Some(bottom), Some(top), None) if !only_for_pictures => Ok(Background::Gradient {
+        let has_picture = table.picture.is_some() || table.sky.is_some();
+        let has_both = table.picture.is_some() && table.sky.is_some();
+        match (table.bottom, table.top, has_picture) {
+            (Some(bottom), Some(top), false) if !only_for_pictures => Ok(Background::Gradient {
                 bottom: bottom.0,
                 top: top.0,
             }),
-            (None, None, Some(name)) => {
+            (None, None, true) if !has_both => {
                 let strength = table.strength.map_or(1.0, |strength| strength.0);
                 if !(strength * LARGEST_TEXEL).is_finite() {
                     return refuse(
@@ -173,16 +197,39 @@ impl<'a> Textures<'a> {
                 }
                 let degrees = table.rotation_deg.map_or(0.0, |angle| angle.0);
                 let degrees = (degrees % 360.0).to_radians();
+                let picture = match &table.picture {
+                    Some(name) => self.picture(name.get_ref(), name.span(), Role::Color)?,
+                    None => self.sky(table.sky.as_ref())?,
+                };
                 Ok(Background::Picture {
-                    picture: self.picture(name.get_ref(), name.span(), Role::Color)?,
+                    picture,
                     strength,
                     rotation: table.rotation.map_or(degrees, |radians| radians.0),
                 })
             }
             _ => refuse(
-                "a background needs a colour, a gradient or a picture",
-                "Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`",
+                "a background needs a colour, a gradient, a picture or a sky",
+                "Give it `bottom` and `top`, or `picture` or `sky` with `strength` and `rotation_deg`",
             ),
+        }
+    }
+
+    /// The picture of a sky.
+    fn sky(&mut self, table: Option<&Spanned<SkyTable>>) -> Result<usize, ImportError> {
+        let default = SkyTable::default();
+        let sky = table.map_or(&default, Spanned::get_ref);
+        let elevation = sky.elevation_deg.0;
+        match table {
+            Some(table) if !(0.0..=90.0).contains(&elevation) => {
+                let why = "the sun stands at most 90 degrees above the horizon, and not below it";
+                Err(self.refuse(table.span(), why, "Give it an `elevation_deg` from 0 to 90"))
+            }
+            _ => {
+                let azimuth = sky.azimuth_deg.0.to_radians();
+                Ok(self
+                    .pictures
+                    .add(sky::picture(elevation.to_radians(), azimuth)))
+            }
         }
     }
 
@@ -269,7 +316,10 @@ impl<'a> Textures<'a> {
             }
             PictureOrFile::Table(table) => table,
         };
-        let role = if table.linear { Role::Data } else { role };
+        let role = match (table.linear, role) {
+            (true, Role::Color) => Role::Data,
+            _ => role,
+        };
         let file = &table.file;
         Ok(Pattern::Picture {
             picture: self.picture(file.get_ref(), file.span(), role)?,

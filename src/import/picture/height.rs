@@ -4,13 +4,13 @@ use crate::scene::{SrgbCurve, Texels};
 use glam::{Vec3, Vec4};
 
 /// The normal map of a surface of these heights, from central differences; `amount` is the height of white, in texels.
-/// The picture is repeated. Texels with colours are returned as they are.
-pub(super) fn normals(texels: Texels, [width, height]: [u32; 2], amount: f32) -> Texels {
+/// The picture is repeated. `None` if texels have colours.
+pub(super) fn normals(texels: &Texels, [width, height]: [u32; 2], amount: f32) -> Option<Texels> {
     let curve = SrgbCurve::default();
     let count = texels.len();
     let is_gray = |v: Vec4| v.x == v.y && v.y == v.z;
     if !(0..count).all(|index| is_gray(texels.linear(&curve, index))) {
-        return texels;
+        return None;
     }
     let (width, height) = (width as usize, height as usize);
     let at = |column: usize, row: usize| {
@@ -25,5 +25,5 @@ pub(super) fn normals(texels: Texels, [width, height]: [u32; 2], amount: f32) ->
         let n = Vec3::new(-0.5 * amount * along_u, -0.5 * amount * along_v, 1.0).normalize();
         (0.5 * n + 0.5).extend(1.0)
     };
-    Texels::Float((0..count).map(normal).collect())
+    Some(Texels::Float((0..count).map(normal).collect()))
 }

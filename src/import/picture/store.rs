@@ -8,16 +8,12 @@ use super::{Role, decode, dimensions};
 use crate::import::Options;
 use crate::import::notes::Notes;
 use crate::import::picture::Refused;
-use crate::scene::Picture;
+use crate::scene::{MAX_PICTURE_BYTES, Picture};
 use crate::threads;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// Most bytes that the texels of all pictures take together: 44 pictures of 4096 × 4096 texels of 8 bits per channel.
-/// With smaller copies for minification they fit into the array that WebGPU guarantees.
-const MAX_BYTES: usize = 11 << 28;
 
 /// Bytes of texels that are decoded at a time, and those of decoded pictures that are kept for a later use.
 const BATCH_BYTES: u64 = 256 << 20;
@@ -188,16 +184,6 @@ impl Pictures {
         self.pictures.len() - 1
     }
 
-    /// `picture` with no side longer than `most` texels.
-    pub fn at_most(&mut self, picture: Arc<Picture>, most: u32) -> Arc<Picture> {
-        let mut picture = picture;
-        while picture.width.max(picture.height) > most {
-            picture = picture.halved().into();
-            self.halved_count += 1;
-        }
-        picture
-    }
-
     /// All pictures of the scene. What was done to them is added to `notes`.
     pub fn finish(self, notes: &mut Notes) -> Vec<Arc<Picture>> {
         let pictures = |count: usize| match count {
@@ -290,7 +276,7 @@ impl Pictures {
     /// Halves the largest pictures until all fit into memory.
     fn fit(&mut self) {
         let bytes = |picture: &Arc<Picture>| picture.texels.byte_len();
-        while self.bytes > MAX_BYTES {
+        while self.bytes > MAX_PICTURE_BYTES {
             let largest = self
                 .pictures
                 .iter_mut()

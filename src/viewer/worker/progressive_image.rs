@@ -17,7 +17,8 @@ use crate::app::layers::PictureLayer;
 use crate::gpu::Gpu;
 use crate::pack::{self, PackedScene, PackedView};
 use crate::render::{Antialias, RenderSettings, Renderer, Screen};
-use crate::scene::Frame;
+use crate::scene::{Frame, Scene};
+use crate::viewer::worker::classical::ShownScenes;
 use crate::viewer::worker::request::{PreparedScene, RenderRequest};
 use crate::viewer::worker::stage::{ReportStage, Stage};
 use noise::Noise;
@@ -43,6 +44,9 @@ pub struct ProgressiveImage {
     is_coarse: bool,
     /// By which the coarse picture's width and height are divided.
     divisor: u32,
+    scenes: ShownScenes,
+    /// The scene of `packed`.
+    scene: Option<Arc<Scene>>,
     packed: Option<Arc<PackedScene>>,
     frames: Vec<Frame>,
     view: Option<PackedView>,
@@ -86,6 +90,8 @@ impl ProgressiveImage {
             stays_coarse: false,
             is_coarse: false,
             divisor: 1,
+            scenes: ShownScenes::default(),
+            scene: None,
             packed: None,
             frames: Vec::new(),
             view: None,
@@ -125,6 +131,7 @@ impl ProgressiveImage {
         if outcome.is_err() {
             // Keep the last image, but do not treat it as this request's result.
             self.order = before;
+            self.scene = None;
             self.packed = None;
         }
         outcome
@@ -137,7 +144,8 @@ impl ProgressiveImage {
         packed: Option<&Arc<PackedScene>>,
     ) -> Result<(), ImageError> {
         let before = self.order.as_ref();
-        let is_other_scene = before.is_none_or(|b| !Arc::ptr_eq(&b.scene, &order.scene));
+        let scene = self.scenes.of(order);
+        let is_other_scene = (self.scene.as_ref()).is_none_or(|it| !Arc::ptr_eq(it, &scene));
         let shows_same = before.is_some_and(|b| b.shows_same(order));
         let has_settings =
             before.is_some_and(|b| b.settings == order.settings && b.policy == order.policy);
@@ -177,12 +185,14 @@ impl ProgressiveImage {
         }
         if is_other_scene || self.packed.is_none() {
             self.is_opening |= self.packed.is_none() || packed.is_some();
-            self.pack(order, packed)?;
-        } else if is_other_interval {
-            self.frames = order
-                .scene
-                .motion_samples(order.shutter_interval.0, order.shutter_interval.1);
+            let is_packed = packed.is_some() && Arc::ptr_eq(&scene, &order.scene);
+            self.pack(&scene, packed, is_packed)?;
         }
+        if is_other_scene || is_other_interval || self.scene.is_none() {
+            let (open, close) = order.shutter_interval;
+            self.frames = scene.motion_samples(open, close);
+        }
+        self.scene = Some(scene);
         if shows_same && differs_in_size && !coarse && self.keeps_screen() {
             return self.begin(None);
         }
@@ -230,26 +240,24 @@ impl ProgressiveImage {
         }
     }
 
+    /// `is_packed`: whether `packed` is this scene, not the one that it was made from.
     fn pack(
         &mut self,
-        order: &RenderRequest,
+        scene: &Scene,
         packed: Option<&Arc<PackedScene>>,
+        is_packed: bool,
     ) -> Result<(), ImageError> {
-        let packed = match (packed, &self.packed) {
-            (Some(packed), _) => packed.clone(),
-            (None, Some(before)) => Arc::new(pack::scene_from(before, &order.scene)?),
-            (None, None) => {
-                let triangles = order.scene.triangle_count();
+        let packed = match packed.or(self.packed.as_ref()) {
+            Some(packed) if is_packed => packed.clone(),
+            Some(before) => Arc::new(pack::scene_from(before, scene)?),
+            None => {
+                let triangles = scene.triangle_count();
                 (self.report)(Stage::BuildingBvh { triangles });
-                Arc::new(pack::scene(&order.scene)?)
+                Arc::new(pack::scene(scene)?)
             }
         };
         self.trees_built += packed.work.total();
         self.packed = Some(packed);
-        // The scene's own frames, with the request's camera and background: see `view`.
-        self.frames = order
-            .scene
-            .motion_samples(order.shutter_interval.0, order.shutter_interval.1);
         Ok(())
     }
 

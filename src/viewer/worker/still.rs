@@ -4,6 +4,7 @@ use crate::gpu::Gpu;
 use crate::image::Image;
 use crate::pack;
 use crate::render::{Renderer, Tone};
+use crate::viewer::worker::classical::ShownScenes;
 use crate::viewer::worker::progressive_image::{ImageError, packing, policy};
 use crate::viewer::worker::request::RenderRequest;
 use std::sync::Arc;
@@ -19,10 +20,10 @@ pub fn render(
     tone: &Tone,
     is_cancelled: &AtomicBool,
 ) -> Result<Option<Image>, ImageError> {
-    let packed = Arc::new(pack::scene(&request.scene)?);
-    let frames = request
-        .scene
-        .motion_samples(request.shutter_interval.0, request.shutter_interval.1);
+    let scene = ShownScenes::default().of(request);
+    let packed = Arc::new(pack::scene(&scene)?);
+    let (open, close) = request.shutter_interval;
+    let frames = scene.motion_samples(open, close);
     let view = packing::view(&packed, None, &frames, request)?;
     let policy = policy(&gpu, request.policy);
     let mut renderer = Renderer::new(gpu, packed, &view, request.settings.clone(), policy)?;

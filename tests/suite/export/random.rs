@@ -299,6 +299,7 @@ fn picture(random: &mut Random) -> Picture {
         width,
         height,
         texels,
+        origin: glimray::scene::Origin::Texels,
     }
 }
 

@@ -154,6 +154,7 @@ fn a_picture_is_a_png_if_8_bits_suffice_and_otherwise_an_exr() {
             width: 2,
             height: 1,
             texels,
+            origin: glimray::scene::Origin::Texels,
         }));
         scene.background = glimray::scene::Background::Picture {
             picture: 0,
@@ -206,4 +207,33 @@ fn existing_files_are_kept() {
         name(&|name, _| !name.contains("-3.")),
         "s-sail_______x-3.ply"
     );
+}
+
+#[test]
+fn a_sky_is_written_as_its_sun() {
+    for (elevation, azimuth, line) in [
+        (45.0_f64, -135.0_f64, "background = \"sky\""),
+        (
+            12.5,
+            30.0,
+            "background = { sky = { elevation_deg = 12.5, azimuth_deg = 30 } }",
+        ),
+    ] {
+        let mut scene = scene();
+        let picture = glimray::scene::sky::picture(elevation.to_radians(), azimuth.to_radians());
+        scene.pictures.push(Arc::new(picture));
+        scene.background = glimray::scene::Background::Picture {
+            picture: 0,
+            strength: 1.0,
+            rotation: 0.0,
+        };
+        let export = export::native(&scene, "s", &|_, _| false).expect("an export");
+        assert!(
+            export.text.lines().any(|found| found == line),
+            "{}",
+            export.text
+        );
+        assert!(export.files.is_empty());
+        super::loss(&scene).unwrap_or_else(|lost| panic!("{lost}"));
+    }
 }

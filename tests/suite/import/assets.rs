@@ -150,6 +150,7 @@ fn assert_guarantees_of_animation(scene: &Scene) {
                 Target::Material(index, _) | Target::Layer(index, _) =>
                     index < scene.materials.len(),
                 Target::Weight(index, _) => index < scene.deformations.len(),
+                Target::Texture(index, _) => index < scene.textures.len(),
             });
         }
     }

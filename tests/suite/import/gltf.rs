@@ -7,6 +7,7 @@ mod hostile;
 mod materials;
 pub mod model;
 mod motion;
+mod moving_maps;
 mod nodes;
 mod tangents;
 

@@ -435,7 +435,7 @@ bad scene (a.toml:1:21): 1e39 is out of range: at most 3.4e38 is allowed. See `g
 bad scene (a.toml:1:21): invalid type: string "blue", expected a number. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): `blue` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): `#12345` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:14): invalid type: floating point `0.5`, expected a colour ([r, g, b] or "#rrggbb"), a gradient or a picture. See `glimray schema` for what is allowed.
+bad scene (a.toml:1:14): invalid type: floating point `0.5`, expected a colour ([r, g, b] or "#rrggbb"), a gradient, a picture or "sky". See `glimray schema` for what is allowed.
 bad scene (a.toml:1:1): unknown key `backgruond`, did you mean `background`? Allowed here: `output`, `background`, `ambient`, `shadows`, `staged`, `camera`, `cameras`, `textures`, `materials`, `meshes`, `nodes`, `groups`, `objects`, `lights`, `animation`.
 bad scene (a.toml:1:1): unknown key `zebra`. Allowed here: `output`, `background`, `ambient`, `shadows`, `staged`, `camera`, `cameras`, `textures`, `materials`, `meshes`, `nodes`, `groups`, `objects`, `lights`, `animation`.
 bad scene (a.toml:1:15): 0 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
@@ -465,7 +465,7 @@ bad scene (a.toml:2:23): a scale cannot be 0. See `glimray schema` for what is a
 bad scene (a.toml:2:23): a scale cannot be 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:23): invalid type: boolean `true`, expected a number or [x, y, z]. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:12): invalid type: integer `3`, expected the name of a material, or a table. See `glimray schema` for what is allowed.
-bad scene (a.toml:2:14): unknown key `fong`. Allowed here: `phong`, `pbr`, `reflect`, `refract`, `optics`, `normal_map`, `occlusion_map`, `thin`, `shadow_catcher`, `coverage`, `emission`, `two_sided`.
+bad scene (a.toml:2:14): unknown key `fong`. Allowed here: `phong`, `pbr`, `reflect`, `refract`, `optics`, `normal_map`, `height_map`, `occlusion_map`, `thin`, `shadow_catcher`, `coverage`, `emission`, `two_sided`.
 bad scene (a.toml:2:45): -1 is not 0 or more. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:33): unknown key `colour`, did you mean `color`? Allowed here: `position`, `color`, `intensity`, `attenuation`.
 bad scene (a.toml:2:47): unknown value `linear`. Allowed here: `none`, `inverse-square`.

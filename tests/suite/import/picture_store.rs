@@ -110,6 +110,7 @@ fn halves_of_data_are_means_of_their_codes() {
             [4, 30, 254, 7],
             [99; 4],
         ]),
+        origin: glimray::scene::Origin::Texels,
     };
     // 1.75, 20, 254.5 and 7; the last column of an odd width is left out.
     let half = picture.halved();

@@ -99,6 +99,78 @@ fn a_background_may_be_a_gradient() {
 }
 
 #[test]
+fn a_background_may_be_the_sky() {
+    let sky = |text: &str| {
+        let scene = scene("a.toml", &format!("background = {text}"));
+        let Background::Picture {
+            picture,
+            strength,
+            rotation,
+        } = scene.background
+        else {
+            panic!("{text} is no picture");
+        };
+        (scene.pictures[picture].clone(), strength, rotation)
+    };
+    // The flag `--environment sky` has the same defaults.
+    let default = glimray::scene::sky::picture(45_f64.to_radians(), -135_f64.to_radians());
+    for text in ["'sky'", "{ sky = {} }", "{ sky = { elevation_deg = 45 } }"] {
+        assert!(*sky(text).0 == default, "{text}");
+    }
+    let (found, strength, rotation) =
+        sky("{ sky = { elevation_deg = 5, azimuth_deg = 30 }, strength = 2, rotation_deg = 180 }");
+    let evening = glimray::scene::sky::picture(5_f64.to_radians(), 30_f64.to_radians());
+    assert!(*found == evening);
+    assert_eq!((strength, rotation), (2.0, std::f64::consts::PI));
+}
+
+/// Rows from the top: the surface rises to the right by 10 levels a texel, and upwards by 40.
+fn rising() -> Vec<u8> {
+    let image =
+        image::GrayImage::from_fn(5, 4, |x, y| image::Luma([(10 * x + 40 * (3 - y)) as u8]));
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let written = image.write_to(&mut bytes, image::ImageFormat::Png);
+    written.expect("a picture");
+    bytes.into_inner()
+}
+
+#[test]
+fn height_maps_become_normal_maps_by_their_slopes() {
+    for (map, sign, scale) in [
+        ("{ picture = 'a.png' }", 1.0, 1.0),
+        (
+            "{ picture = { file = 'a.png', nearest = true }, strength = 2.5, scale = 2 }",
+            1.0,
+            2.5,
+        ),
+        ("{ picture = 'a.png', strength = -3 }", -1.0, 3.0),
+    ] {
+        let text = format!("[materials.a]\nheight_map = {map}");
+        let folder = folder(&[("a.toml", text.as_bytes()), ("a.png", &rising())]);
+        let scene = import::load(&folder.path().join("a.toml")).expect("a scene");
+        let material = &scene.materials[0];
+        assert_eq!(material.normal_scale, scale);
+        let texture = &scene.textures[material.textures.normal.expect("a map")];
+        assert_eq!(texture.space, Space::Uv);
+        let texel = scene.pictures[0].linear().nth(5 + 2).expect("a texel");
+        let normal = 2.0 * texel.as_dvec4().truncate() - 1.0;
+        let slopes = DVec3::new(-10.0 / 255.0 * sign, -40.0 / 255.0 * sign, 1.0);
+        assert!(
+            (normal - slopes.normalize()).length() < 1e-3,
+            "{map}: {normal}"
+        );
+        // The file beside an export is the one that was read.
+        let export = glimray::export::native(&scene, "s", &|_, _| false).expect("an export");
+        assert!(
+            export.text.contains("height_map = { picture = "),
+            "{}",
+            export.text
+        );
+        crate::export::loss(&scene).unwrap_or_else(|lost| panic!("{lost}"));
+    }
+}
+
+#[test]
 fn every_invalid_texture_has_a_message() {
     let diffuse = |value: &str| format!("[materials.a]\nphong.diffuse = {value}");
     let texts = [
@@ -125,6 +197,13 @@ fn every_invalid_texture_has_a_message() {
         diffuse("{ texture = 'tiles', noise = {} }\n[textures.tiles]\nchecker = {}"),
         diffuse("{ texture = 'tiles', scale = 3 }\n[textures.tiles]\nchecker = {}"),
         diffuse("{ checker = { a = [1e30, 0, 0] }, color = [1e30, 0, 0] }"),
+        "background = 'skyy'".to_owned(),
+        "background = { sky = { elevation_deg = 91 } }".to_owned(),
+        "background = { sky = {}, picture = 'gone.png' }".to_owned(),
+        "[materials.a]\nheight_map = { texture = 'tiles' }".to_owned(),
+        "[materials.a]\nheight_map = { picture = 'a.png', space = 'world' }".to_owned(),
+        "[materials.a]\nheight_map = { picture = 'a.png' }\nnormal_map = { picture = 'a.png' }"
+            .to_owned(),
         "[textures.a]".to_owned(),
         "[textures.a]\ntexture = 'b'".to_owned(),
         "textures = 3".to_owned(),
@@ -162,14 +241,20 @@ bad scene (a.toml:2:29): unknown texture `tiles`. Add it under [textures], or us
 bad scene (a.toml:2:29): a named texture has its own pattern and transform. Put them under [textures], or leave out `texture`.
 bad scene (a.toml:2:29): a named texture has its own pattern and transform. Put them under [textures], or leave out `texture`.
 bad scene (a.toml:2:17): `color` times the texture is out of range: at most 3.4e38 is allowed. Lower one of them.
+bad scene (a.toml:1:14): `skyy` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
+bad scene (a.toml:1:22): the sun stands at most 90 degrees above the horizon, and not below it. Give it an `elevation_deg` from 0 to 90.
+bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture` or `sky` with `strength` and `rotation_deg`.
+bad scene (a.toml:2:16): unknown key `texture`. Allowed here: `picture`, `strength`, `space`, `scale`, `rotate_deg`, `translate`, `pattern_from_space`.
+bad scene (a.toml:2:14): a map of numbers has its place by u and v. Leave out `space`.
+bad scene (a.toml:2:14): a surface has a normal map or a height map. Leave out one of them.
 bad scene (a.toml:1:1): a texture needs exactly one pattern. Give it one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
 bad scene (a.toml:2:1): unknown key `texture`. Allowed here: `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`, `pattern_from_space`.
 bad scene (a.toml:1:12): invalid type: integer `3`, expected a map. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:14): a background needs a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
-bad scene (a.toml:1:14): a background needs a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
-bad scene (a.toml:1:14): a background needs a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
-bad scene (a.toml:1:14): a background needs a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
-bad scene (a.toml:1:16): unknown key `up`. Allowed here: `bottom`, `top`, `picture`, `strength`, `rotation_deg`, `rotation`.
+bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture` or `sky` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture` or `sky` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture` or `sky` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture` or `sky` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:16): unknown key `up`. Allowed here: `bottom`, `top`, `picture`, `sky`, `strength`, `rotation_deg`, `rotation`.
 picture refused (a.toml:1:26): `gone.hdr` does not exist. Check the name and the folder.
 bad scene (a.toml:1:49): -1 is not 0 or more. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): `strength` is out of range: at most 5e33 is allowed. Lower it.

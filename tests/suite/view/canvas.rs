@@ -7,12 +7,15 @@ use crate::reference::compare::{open_gpu, render, sized};
 use crate::reference::scenes;
 use crate::support::PATIENCE;
 use eframe::egui;
-use glam::Vec3;
+use glam::{DAffine3, Vec3};
 use glimray::gpu::Gpu;
 use glimray::image::Image;
 use glimray::import;
-use glimray::render::{Antialias, ExecutionPolicy, RenderSettings, Tone, Uploads};
-use glimray::scene::{Background, Camera, Scene, ToneCurve};
+use glimray::render::{Antialias, ExecutionPolicy, Integrator, RenderSettings, Tone, Uploads};
+use glimray::scene::{
+    Background, Camera, LayerTextures, Material, MetallicRoughness, Minify, Pattern, Picture,
+    Scene, Space, Texels, Texture, ToneCurve, Wrap,
+};
 use glimray::viewer::worker::progressive_image::PictureSlot;
 use glimray::viewer::worker::progressive_image::{Pace, Shown};
 use glimray::viewer::worker::render_thread::{Fault, RenderRequests, RenderThread};
@@ -788,4 +791,94 @@ fn a_camera_that_was_moved_gives_the_png_of_the_command_line() {
             ]
         });
     }
+}
+
+/// Spheres whose metalness and roughness differ from texel to texel, as a path-traced model has them.
+fn mapped() -> Scene {
+    let mut scene = scenes::spheres();
+    let texels = |seed: u8| {
+        let texel = |i: u8| {
+            [
+                seed.wrapping_mul(i),
+                i.wrapping_mul(61),
+                255 - i.wrapping_mul(83),
+                255,
+            ]
+        };
+        (0..16).map(texel).collect()
+    };
+    let texture = |picture| Texture {
+        pattern: Pattern::Picture {
+            picture,
+            nearest: false,
+            minify: Minify::Linear,
+            wrap: [Wrap::Repeat; 2],
+        },
+        space: Space::World,
+        pattern_from_space: DAffine3::IDENTITY,
+    };
+    for (picture, texels) in [Texels::Srgb8(texels(37)), Texels::Linear8(texels(91))]
+        .into_iter()
+        .enumerate()
+    {
+        let (width, height) = (4, 4);
+        scene.pictures.push(Arc::new(Picture {
+            width,
+            height,
+            texels,
+            origin: glimray::scene::Origin::Texels,
+        }));
+        scene.textures.push(texture(picture));
+    }
+    let layers = LayerTextures {
+        base_color: Some(0),
+        metallic: Some(1),
+        roughness: Some(1),
+        ..LayerTextures::default()
+    };
+    for material in &mut scene.materials {
+        *material = Material::physical(Arc::new(MetallicRoughness::default()), layers);
+    }
+    scene
+}
+
+#[test]
+fn classical_maps_are_there_once_the_integrator_is_chosen_and_after_edits() {
+    let whitted = RenderSettings {
+        integrator: Integrator::Whitted,
+        ..sized(61, 43)
+    };
+    let scene = mapped();
+    let path = RenderSettings {
+        integrator: Integrator::Path,
+        ..whitted.clone()
+    };
+    let mut easel = Easel::new(&scene, path.clone());
+    easel.settle();
+    let traced = easel.image();
+    easel.want(|order| order.settings = whitted.clone());
+    easel.settle();
+    let baked = |scene: &Scene| {
+        let mut scene = scene.clone();
+        scene.bake_classical_maps();
+        render(&scene, &whitted).0
+    };
+    assert_eq!(easel.image(), baked(&scene));
+    assert_ne!(easel.image(), render(&scene, &whitted).0, "no map shows");
+    // One material follows its new colour, and the maps of the others are the same.
+    let mut edited = scene.clone();
+    let model = edited.materials[0].metallic_roughness.as_mut();
+    Arc::make_mut(model.expect("a model")).base_color = Vec3::new(0.25, 0.5, 1.0);
+    let layers = *edited.materials[0].layer_textures.as_deref().expect("maps");
+    let model = edited.materials[0].metallic_roughness.clone();
+    edited.materials[0] = Material::physical(model.expect("a model"), layers);
+    easel.want(|order| order.scene = Arc::new(edited.clone()));
+    easel.settle();
+    assert_eq!(easel.image(), baked(&edited));
+    easel.want(|order| {
+        order.scene = Arc::new(scene.clone());
+        order.settings = path;
+    });
+    easel.settle();
+    assert_eq!(easel.image(), traced);
 }

@@ -1,7 +1,7 @@
 //! Materials in a native scene.
 
 use super::physical::PbrTable;
-use super::textures::{ColorOrTexture, DataMapTable, plain};
+use super::textures::{ColorOrTexture, DataMapTable, HeightMapTable, plain};
 use crate::import::native::values::{
     Absorption, Fraction, FresnelName, MixingName, NonNegative, Positive, Priority, RefractiveIndex,
 };
@@ -33,6 +33,9 @@ pub(in crate::import::native) struct MaterialTable {
     /// Bumps of the surface that only light shows; default none.
     #[schemars(with = "Option<DataMapTable>")]
     pub normal_map: Option<Spanned<DataMapTable>>,
+    /// The same by the height of the surface, which has slopes; default none.
+    #[schemars(with = "Option<HeightMapTable>")]
+    pub height_map: Option<Spanned<HeightMapTable>>,
     /// Where ambient light does not reach; default none.
     #[schemars(with = "Option<DataMapTable>")]
     pub occlusion_map: Option<Spanned<DataMapTable>>,
@@ -60,6 +63,7 @@ impl Default for MaterialTable {
             refract: None,
             optics: None,
             normal_map: None,
+            height_map: None,
             occlusion_map: None,
             thin: false,
             shadow_catcher: false,

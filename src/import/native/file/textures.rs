@@ -1,7 +1,8 @@
-//! Textures and backgrounds in a native scene.
+//! Textures in a native scene.
 
+use super::color_or::color_or;
 use crate::import::native::values::{
-    Angle, Color, Fraction, Matrix, NonNegative, Number, Octaves, Scale, Vector,
+    Color, Fraction, Matrix, NonNegative, Number, Octaves, Scale, Vector,
 };
 use crate::import::picture::Role;
 use crate::scene::{Minify, Wrap};
@@ -137,6 +138,56 @@ pub(in crate::import::native) struct DataMapTable {
     pub translate: Option<Vector>,
     /// Instead of these three, the inverse, as in a texture.
     pub pattern_from_space: Option<Matrix>,
+}
+
+/// A height map.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct HeightMapTable {
+    /// The image: white is high, black is low. One with colours is taken for a normal map.
+    #[schemars(with = "PictureOrFile")]
+    pub picture: Spanned<PictureOrFile>,
+    /// The height of white above black, in texels; below 0 if white is low. Default 1.
+    #[schemars(with = "Option<f64>")]
+    pub strength: Option<Number>,
+    /// The set of u and v: uv (the default) or second-uv.
+    pub space: Option<SpaceName>,
+    /// The scale of the image: a factor for both axes, or one for each; not 0.
+    pub scale: Option<Scale>,
+    /// Rotation of the image in degrees about the x, then the y, then the z axis.
+    pub rotate_deg: Option<Vector>,
+    /// Translation of the image.
+    pub translate: Option<Vector>,
+    /// Instead of these three, the inverse, as in a texture.
+    pub pattern_from_space: Option<Matrix>,
+}
+
+impl HeightMapTable {
+    /// The height of white, in texels.
+    pub fn height(&self) -> f64 {
+        self.strength
+            .map_or(1.0, |strength| strength.0.clamp(-1e6, 1e6))
+    }
+
+    /// The image and its transform.
+    pub fn pattern(&self) -> PatternTables<'_> {
+        PatternTables {
+            checker: None,
+            stripes: None,
+            gradient: None,
+            noise: None,
+            picture: Some(&self.picture),
+            space: self.space,
+            scale: self.scale,
+            rotate_deg: self.rotate_deg,
+            translate: self.translate,
+            pattern_from_space: self.pattern_from_space,
+            role: match self.height() < 0.0 {
+                true => Role::Depth,
+                false => Role::Height,
+            },
+        }
+    }
 }
 
 fn one() -> NonNegative {
@@ -345,76 +396,10 @@ pub(in crate::import::native) enum SpaceName {
     SecondUv,
 }
 
-/// The background: either `bottom` and `top`, or `picture`.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub(in crate::import::native) struct BackgroundTable {
-    /// The colour straight down; it changes linearly with height towards `top`.
-    pub bottom: Option<Color>,
-    /// The colour straight up.
-    pub top: Option<Color>,
-    /// The path of an equirectangular image (PNG, JPEG, WebP, KTX2, HDR or EXR) in the scene's folder or below, for
-    /// image-based backgrounds. Its centre lies in the direction -z, +x to the right of it, its upper
-    /// edge straight up.
-    #[schemars(with = "Option<String>")]
-    pub picture: Option<Spanned<String>>,
-    /// Factor on the image; default 1.
-    pub strength: Option<NonNegative>,
-    /// Rotation of the image in degrees about the y axis, counter-clockwise from above; default 0.
-    pub rotation_deg: Option<Angle>,
-    /// The same in radians, instead of `rotation_deg`.
-    #[schemars(with = "Option<f64>")]
-    pub rotation: Option<Number>,
-}
-
-/// A colour, or a table instead of it.
-macro_rules! color_or {
-    ($(#[$doc:meta])* $name:ident($table:ty), $expected:literal) => {
-        $(#[$doc])*
-        #[derive(Clone, Debug, JsonSchema)]
-        #[schemars(untagged)]
-        pub(in crate::import::native) enum $name {
-            Color(Color),
-            Table(Box<$table>),
-        }
-
-        impl<'de> Deserialize<'de> for $name {
-            // By hand: serde's untagged enums lose the position of an error.
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                struct ColorOrTable;
-                impl<'de> Visitor<'de> for ColorOrTable {
-                    type Value = $name;
-                    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                        f.write_str($expected)
-                    }
-                    fn visit_str<E: de::Error>(self, text: &str) -> Result<$name, E> {
-                        Color::deserialize(de::value::StrDeserializer::new(text)).map($name::Color)
-                    }
-                    fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<$name, A::Error> {
-                        let seq = de::value::SeqAccessDeserializer::new(seq);
-                        Color::deserialize(seq).map($name::Color)
-                    }
-                    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<$name, A::Error> {
-                        let map = de::value::MapAccessDeserializer::new(map);
-                        <$table>::deserialize(map).map(|table| $name::Table(Box::new(table)))
-                    }
-                }
-                deserializer.deserialize_any(ColorOrTable)
-            }
-        }
-    };
-}
-
 color_or!(
     /// A colour, or a texture.
     ColorOrTexture(ColorTable),
     "a colour ([r, g, b] or \"#rrggbb\") or a texture"
-);
-
-color_or!(
-    /// A colour, a gradient from bottom to top, or an image.
-    ColorOrBackground(BackgroundTable),
-    "a colour ([r, g, b] or \"#rrggbb\"), a gradient or a picture"
 );
 
 /// A default colour.

@@ -503,6 +503,52 @@ fn a_third_set_is_noted_and_maps_that_cannot_be_combined_count_with_their_mean()
     );
 }
 
+/// The file as it is read for path tracing.
+fn path_traced(model: &Model) -> Scene {
+    let folder = folder(&[("a.glb", &model.glb())]);
+    let options = Options {
+        staging: import::Staging::NONE,
+        ..Options::default()
+    };
+    import::load_with(&folder.path().join("a.glb"), &options).expect("a model")
+}
+
+#[test]
+fn paths_have_the_pictures_of_the_file_only() {
+    let mut model = model(json!({
+        "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 },
+                                  "metallicRoughnessTexture": { "index": 1 } },
+    }));
+    picture(&mut model, 1, &[[255, 128, 0, 255]]);
+    picture(&mut model, 2, &[[0, 255, 0, 255], [0, 0, 255, 255]]);
+    let traced = path_traced(&model);
+    assert_eq!((traced.pictures.len(), traced.textures.len()), (2, 2));
+    let layers = traced.materials[0].layer_textures.as_deref();
+    assert_eq!(layers.and_then(|it| it.base_color), Some(0));
+    assert!(traced.lacks_classical_maps());
+    // Three colours differ from texel to texel; what passes is zero.
+    let classical = model.scene();
+    assert_eq!(classical.pictures.len(), 5);
+    assert!(!classical.lacks_classical_maps());
+    let mut baked = traced.clone();
+    baked.bake_classical_maps();
+    assert_eq!(baked.pictures, classical.pictures);
+    assert_eq!(baked.materials[0], classical.materials[0]);
+}
+
+/// The default factor is a metal, which lets no light pass; the map says that it is none.
+#[test]
+fn glass_by_a_map_is_glass_for_paths() {
+    let mut model = model(json!({
+        "pbrMetallicRoughness": { "metallicRoughnessTexture": { "index": 0 } },
+        "extensions": { "KHR_materials_transmission": { "transmissionFactor": 1 } },
+    }));
+    picture(&mut model, 1, &[[0, 255, 0, 255]]);
+    let material = &path_traced(&model).materials[0];
+    assert_eq!(material.transmit, Vec3::ONE);
+    assert!(material.thin);
+}
+
 #[test]
 fn transmission_without_a_volume_is_a_thin_wall() {
     for (thickness, is_thin) in [(0.0, true), (1.0, false)] {
