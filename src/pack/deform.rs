@@ -231,6 +231,12 @@ impl Deformed {
         trees.find(|tree| tree.tree == blas).map(|tree| &**tree)
     }
 
+    /// The tree whose triangles replace those of the scene from an index on.
+    pub fn starting_at(&self, triangle: u32) -> Option<&DeformedTree> {
+        let mut trees = self.trees.iter();
+        (trees.find(|tree| tree.instanced.first == triangle)).map(|tree| &**tree)
+    }
+
     /// The nodes of all trees.
     pub fn nodes(&self) -> impl Iterator<Item = &[PackedNode]> {
         self.trees.iter().map(|tree| &tree.blas.nodes[..])
@@ -238,9 +244,8 @@ impl Deformed {
 
     /// The triangles that replace those of the scene from an index on.
     pub fn triangles(&self, first: usize) -> Option<&[PackedTriangle]> {
-        let mut trees = self.trees.iter().map(|tree| &tree.blas);
-        let tree = trees.find(|blas| blas.offsets.triangle as usize == first)?;
-        Some(&tree.triangles)
+        let tree = self.starting_at(first as u32)?;
+        Some(&tree.blas.triangles)
     }
 
     /// The vertices that replace those of the scene from an index on.
@@ -301,6 +306,18 @@ impl DeformedTree {
             cast_slice(vertices),
             cast_slice(tangents),
         ]
+    }
+
+    /// Its triangles with their index and their material.
+    pub fn triangles(&self) -> impl Iterator<Item = (u32, &PackedTriangle, u32)> {
+        let Offsets {
+            triangle, vertex, ..
+        } = self.blas.offsets;
+        let triangles = (triangle..).zip(&*self.blas.triangles);
+        triangles.map(move |(index, triangle)| {
+            let first = &self.blas.vertices[(triangle.i0 - vertex) as usize];
+            (index, triangle, first.material)
+        })
     }
 
     fn new(

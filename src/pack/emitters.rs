@@ -1,9 +1,9 @@
 //! Emissive triangles and shapes, which paths sample as lights: each with a chance in proportion to its power.
 
-use super::PackedScene;
+use super::{PackedScene, deform::Deformed};
 use crate::layout::{
-    NO_INSTANCE, PackedEmitter, PackedInstance, PackedMaterial, PackedShape, SHAPE, SHAPE_DISC,
-    SHAPE_RECTANGLE, SHAPE_SPHERE,
+    NO_INSTANCE, PackedEmitter, PackedInstance, PackedMaterial, PackedShape, PackedTriangle, SHAPE,
+    SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_SPHERE,
 };
 use crate::scene::{Pattern, Scene, Texture};
 use glam::{Mat3, Vec3};
@@ -89,6 +89,17 @@ fn emissive_shape(primitive: u32, shape: &PackedShape) -> Option<Emissive> {
     })
 }
 
+fn emissive_triangle(primitive: u32, triangle: &PackedTriangle, material: u32) -> Emissive {
+    let [v0, v1, v2] = [triangle.v0, triangle.v1, triangle.v2].map(Vec3::from);
+    Emissive {
+        primitive,
+        material,
+        edges: [v1 - v0, v2 - v0],
+        share: 0.5,
+        stretches: true,
+    }
+}
+
 impl Emitters {
     /// Leaves the last `share` of all chances, 0 to 1, to other lights.
     pub fn leave(&mut self, share: f64) {
@@ -114,14 +125,7 @@ impl PackedScene {
         for (index, triangle) in self.triangles.iter().enumerate() {
             let material = materials[triangle.i0 as usize];
             if emits.get(material as usize) == Some(&true) {
-                let [v0, v1, v2] = [triangle.v0, triangle.v1, triangle.v2].map(Vec3::from);
-                found.push(Emissive {
-                    primitive: index as u32,
-                    material,
-                    edges: [v1 - v0, v2 - v0],
-                    share: 0.5,
-                    stretches: true,
-                });
+                found.push(emissive_triangle(index as u32, triangle, material));
             }
         }
         for (index, shape) in self.shapes.iter().enumerate() {
@@ -136,6 +140,7 @@ impl PackedScene {
     pub(super) fn emitters(
         &self,
         instances: &[PackedInstance],
+        deformed: &Deformed,
         materials: &[PackedMaterial],
         lights: f64,
     ) -> Emitters {
@@ -165,7 +170,16 @@ impl PackedScene {
             let rows = [instance.linear_x, instance.linear_y, instance.linear_z];
             let linear = Mat3::from_cols_array_2d(&rows).transpose();
             let list = within(instance.first, instance.first + instance.count);
-            add(index as u32, linear, list);
+            match deformed.starting_at(instance.first) {
+                // Their order may differ from that at rest.
+                Some(tree) if !list.is_empty() => {
+                    let posed = tree.triangles().map(|(index, triangle, material)| {
+                        emissive_triangle(index, triangle, material)
+                    });
+                    add(index as u32, linear, &posed.collect::<Vec<_>>());
+                }
+                _ => add(index as u32, linear, list),
+            }
         }
         let total: f64 = weighted.iter().map(|(.., weight)| weight).sum();
         if total <= 0.0 {

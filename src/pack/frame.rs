@@ -110,8 +110,8 @@ impl PackedScene {
             true => &self.materials,
             false => &materials,
         };
-        let powers = light::powers(&first.lights, self.radius);
-        let mut emitters = self.emitters(&tlas.instances, lit, powers.iter().sum());
+        let powers = light::powers(frames, self.radius);
+        let mut emitters = self.emitters(&tlas.instances, &deformed, lit, powers.iter().sum());
         let has_lights = lights.iter().any(|light| light.color != [0.0; 3]);
         let has_others = has_lights || !emitters.rows.is_empty();
         let environment = self.environment_of(&first.background);

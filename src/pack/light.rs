@@ -42,21 +42,25 @@ pub fn material(light: &Light) -> Material {
 /// between the frames, the same as for the illumination. The trail of a lamp that moves and changes at the same
 /// time therefore has uniform brightness.
 pub fn mean_material(frames: &[Frame], light: usize) -> Material {
-    let intervals = (frames.len() - 1) as f64;
-    let last = frames.len() - 1;
-    let mut sum = DVec3::ZERO;
-    for (i, frame) in frames.iter().enumerate() {
-        let weight = match i {
-            _ if last == 0 => 1.0,
-            _ if i == 0 || i == last => 0.5 / intervals,
-            _ => intervals.recip(),
-        };
-        sum += weight * material(&frame.lights[light]).emission.as_dvec3();
-    }
+    let emission = |frame: &Frame| material(&frame.lights[light]).emission.as_dvec3();
+    let weighted = frames.iter().zip(shutter_weights(frames.len()));
+    let sum: DVec3 = weighted
+        .map(|(frame, weight)| weight * emission(frame))
+        .sum();
     Material {
         emission: sum.as_vec3(),
         ..material(&frames[0].lights[light])
     }
+}
+
+/// The weights of evenly spaced frames for the mean of what is linear between them; they add up to 1.
+fn shutter_weights(count: usize) -> impl Iterator<Item = f64> {
+    let last = count - 1;
+    (0..count).map(move |i| match i {
+        _ if last == 0 => 1.0,
+        _ if i == 0 || i == last => 0.5 / last as f64,
+        _ => 1.0 / last as f64,
+    })
 }
 
 /// The surface of a light in world space.
@@ -141,10 +145,16 @@ pub fn radius(scene: &Scene) -> f64 {
     bounds.map_or(1.0, |(min, max)| (max - min).length() / 2.0)
 }
 
-/// The power of each light, up to a factor that all have in common. `radius` is that of the scene: lights that do not
-/// fade shine on a disc of this size.
-pub fn powers(lights: &[Light], radius: f64) -> Vec<f64> {
-    lights.iter().map(|light| power(light, radius)).collect()
+/// The mean power of each light over the shutter interval, up to a factor that all have in common. `radius` is that of
+/// the scene: lights that do not fade shine on a disc of this size.
+pub fn powers(frames: &[Frame], radius: f64) -> Vec<f64> {
+    let mut powers = vec![0.0; frames[0].lights.len()];
+    for (frame, weight) in frames.iter().zip(shutter_weights(frames.len())) {
+        for (sum, light) in powers.iter_mut().zip(&frame.lights) {
+            *sum += weight * power(light, radius);
+        }
+    }
+    powers
 }
 
 /// Sets the chances with which paths sample the lights of each key, in proportion to `powers`. They add up to `share`.

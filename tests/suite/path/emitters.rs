@@ -1,13 +1,19 @@
 //! Emissive shapes as lights of paths.
 
-use super::{lights, lit_floor, matte, mean, near, paths};
+use super::{lights, lit_floor, looking, matte, mean, near, paths};
+use crate::motion_blur::{exposed, track};
+use crate::reference::compare::render;
 use crate::reference::scenes::Build;
+use crate::support::random::Random;
 use crate::support::verdict::Verdict;
-use glam::{DAffine3, DMat3, DVec3, Vec3, dvec3};
+use glam::{DAffine3, DMat3, DVec3, Vec3, dvec3, vec3};
+use glimray::pack;
 use glimray::scene::{
-    Antialias, Attenuation, CanonicalShape, Geometry, Light, LightKind, Material, Node, Scene,
-    Shape,
+    Antialias, Attenuation, Background, CanonicalShape, Deformation, Geometry, Light, LightKind,
+    LightProperty, Material, Mesh, MorphTarget, Node, Scene, Shape, Target, Values,
 };
+use std::f32::consts::PI;
+use std::sync::Arc;
 
 /// The surface of an area light.
 fn surface(kind: &LightKind) -> Geometry {
@@ -137,4 +143,208 @@ fn small_emissive_shapes_are_found_by_few_samples() {
         near(&mut verdict, name, few, many, 0.02 * many);
     }
     verdict.close();
+}
+
+/// A triangle for each center, of which every fourth glows, and the corners of all of them.
+fn dust(scene: &mut Scene, centers: &[Vec3]) -> Mesh {
+    let glowing = scene.add_material(Material {
+        emission: Vec3::splat(20.0),
+        ..matte(0.0)
+    });
+    let plain = scene.add_material(matte(0.3));
+    let mut mesh = Mesh::default();
+    let mut random = Random::new(3);
+    for (index, center) in centers.iter().enumerate() {
+        let first = mesh.positions.len() as u32;
+        let corners = [(); 3].map(|()| *center + 0.06 * random.in_cube().as_vec3());
+        mesh.positions.extend(corners);
+        let material = if index % 4 == 0 { glowing } else { plain };
+        mesh.materials.extend([material as u32; 3]);
+        mesh.triangles.push([first, first + 1, first + 2]);
+    }
+    mesh.normals = vec![Vec3::Y; mesh.positions.len()];
+    mesh
+}
+
+/// Triangles that a morph target scatters, so that their tree is built anew, shine as if they had always been there.
+#[test]
+fn glowing_triangles_keep_their_light_when_their_tree_is_rebuilt() {
+    let mut random = Random::new(5);
+    let moved: Vec<Vec3> = (0..400)
+        .map(|_| (0.5 * random.in_cube()).as_vec3() + vec3(0.3, 0.9, -0.2))
+        .collect();
+    let rest: Vec<Vec3> = (0..400_u16)
+        .map(|k| 0.05 * vec3((k % 20).into(), 40.0, (k / 20).into()))
+        .collect();
+    let mut still = lit_floor(matte(0.5), Light::default());
+    still.lights.clear();
+    let mut deforming = still.clone();
+    let mesh = dust(&mut still, &moved);
+    still.add_mesh(mesh, DAffine3::IDENTITY);
+    let mesh = dust(&mut deforming, &rest);
+    let count = mesh.positions.len() as u32;
+    let ways = (0..count as usize).map(|k| moved[k / 3] - rest[k / 3]);
+    deforming.deformations.push(Deformation {
+        mesh: deforming.meshes.len(),
+        weights: vec![1.0],
+        targets: Arc::new([MorphTarget {
+            vertices: (0..count).collect(),
+            positions: ways.collect(),
+            normals: Vec::new(),
+            tangents: Vec::new(),
+        }]),
+        skin: None,
+        flat: Arc::default(),
+    });
+    deforming.add_mesh(mesh, DAffine3::IDENTITY);
+    let packed = pack::scene(&deforming).expect("a scene that can be packed");
+    let view = packed.frame(&deforming.frame(0.0)).expect("a frame");
+    assert_eq!(view.rebuilt_count(), 1);
+    let expected = mean(&still, &paths(256, (24, 16), 0));
+    let found = mean(&deforming, &paths(256, (24, 16), 0));
+    assert!(
+        (found / expected - 1.0).abs() < 0.01,
+        "{found}, expected {expected}"
+    );
+}
+
+/// A lamp that is black when the shutter opens and then becomes brighter gives half of its last light.
+#[test]
+fn lamps_that_are_lit_while_the_shutter_is_open_are_sampled() {
+    let mut verdict = Verdict::on("a floor under lamps that are switched on");
+    for (name, kind) in lights() {
+        for beside in [false, true] {
+            let lamp = Light {
+                kind,
+                color: Vec3::ONE,
+                attenuation: Attenuation::InverseSquare,
+                ..Light::default()
+            };
+            let mut scene = lit_floor(matte(0.5), lamp.clone());
+            if beside {
+                let kind = LightKind::Point {
+                    position: dvec3(-0.5, 1.5, 0.0),
+                };
+                scene.lights.push(Light { kind, ..lamp });
+            }
+            let settings = paths(256, (24, 16), 0);
+            let lit = mean(&scene, &settings);
+            let others = match beside {
+                true => {
+                    let mut alone = scene.clone();
+                    alone.lights.remove(0);
+                    mean(&alone, &settings)
+                }
+                false => 0.0,
+            };
+            let ramp = Values::Vector(vec![DVec3::ZERO, DVec3::ONE]);
+            let target = Target::Light(0, LightProperty::Color);
+            scene.tracks.push(track(target, ramp));
+            let image = exposed(&scene, &settings);
+            let sum: f64 = image.pixels.iter().map(|pixel| f64::from(pixel[1])).sum();
+            let expected = others + (lit - others) / 2.0;
+            let what = format!("{name}, another lamp {beside}");
+            let found = sum / image.pixels.len() as f64;
+            near(&mut verdict, what, found, expected, 0.01 * expected);
+        }
+    }
+    verdict.close();
+}
+
+/// A ball of triangles around the origin: `rows` bands of twice as many quads.
+fn globe(radius: f32, rows: u32, material: u32) -> Mesh {
+    let columns = 2 * rows;
+    let mut mesh = Mesh::default();
+    for y in 0..=rows {
+        for x in 0..=columns {
+            let [down, around] = [(y, rows), (x, rows)].map(|(k, all)| PI * k as f32 / all as f32);
+            let out = vec3(
+                down.sin() * around.cos(),
+                down.cos(),
+                down.sin() * around.sin(),
+            );
+            mesh.positions.push(radius * out);
+            mesh.normals.push(out);
+            mesh.materials.push(material);
+        }
+    }
+    for y in 0..rows {
+        for x in 0..columns {
+            let first = y * (columns + 1) + x;
+            let below = first + columns + 1;
+            mesh.triangles.push([first, first + 1, below]);
+            mesh.triangles.push([first + 1, below + 1, below]);
+        }
+    }
+    mesh
+}
+
+/// A closed room with matte walls, seen from inside.
+fn room() -> Scene {
+    let mut scene = Scene {
+        cameras: vec![looking(dvec3(0.0, 1.0, 1.9), dvec3(0.0, 0.9, 0.0), 0.9)],
+        materials: vec![matte(0.6)],
+        background: Background::Color(Vec3::ZERO),
+        ..Scene::default()
+    };
+    for (point, normal) in [
+        (DVec3::ZERO, DVec3::Y),
+        (2.0 * DVec3::Y, -DVec3::Y),
+        (-DVec3::X, DVec3::X),
+        (DVec3::X, -DVec3::X),
+        (-DVec3::Z, DVec3::Z),
+        (2.0 * DVec3::Z, -DVec3::Z),
+    ] {
+        scene.add_plane(point, normal, 0);
+    }
+    scene
+}
+
+/// A room that a glowing mesh lights has at most a quarter of the noise of one that an ellipsoid of the same size and
+/// radiance lights, which paths find by themselves only.
+#[test]
+fn light_samples_of_a_glowing_mesh_take_most_of_the_noise_away() {
+    let radius = 0.15;
+    let placed = DAffine3::from_translation(dvec3(0.3, 1.5, -0.2));
+    let glowing = Material {
+        emission: Vec3::splat(30.0),
+        two_sided: false,
+        ..matte(0.0)
+    };
+    let mut sampled = room();
+    let material = sampled.add_material(glowing.clone());
+    sampled.add_mesh(globe(radius, 24, material as u32), placed);
+    let mut found = room();
+    let material = found.add_material(glowing);
+    found.shapes.push(Shape {
+        geometry: Geometry::Placed {
+            canonical: CanonicalShape::Ellipsoid,
+            world_from_canonical: placed * DAffine3::from_scale(DVec3::splat(radius.into())),
+        },
+        material,
+        node: None,
+    });
+    let pictures = [&sampled, &found].map(|scene| {
+        let image = |samples| render(scene, &paths(samples, (40, 30), 6)).0;
+        let (few, many) = (image(64), image(4096));
+        let luminance = |pixel: &[f32; 4]| f64::from(pixel[0] + pixel[1] + pixel[2]) / 3.0;
+        let pairs = few.pixels.iter().zip(&many.pixels);
+        let errors = pairs.map(|(few, many)| {
+            let [few, many] = [few, many].map(luminance);
+            ((few - many) / many.max(1e-3)).powi(2)
+        });
+        let sum: f64 = many.pixels.iter().map(luminance).sum();
+        [errors.sum::<f64>() / few.pixels.len() as f64, sum]
+    });
+    let [[sampled, light], [found, same_light]] = pictures;
+    // A globe of flat triangles is a little smaller than the ball.
+    assert!(
+        (light / same_light - 1.0).abs() < 0.03,
+        "{light}, {same_light}"
+    );
+    assert!(
+        sampled <= found / 4.0,
+        "relative MSE {sampled}, and {found} without light samples"
+    );
+    println!("relative MSE {sampled:.5}, and {found:.5} without light samples");
 }
