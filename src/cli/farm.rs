@@ -18,6 +18,7 @@ mod simulate;
 mod slurm;
 mod status;
 mod submit;
+mod target;
 mod work;
 
 pub use manifest::schema;
@@ -48,6 +49,23 @@ pub fn run(command: &FarmCommand, matches: &ArgMatches, started: Instant) -> Res
 #[derive(Clone, Debug)]
 struct Folder(PathBuf);
 
+/// A new folder that is removed with everything in it unless it is kept.
+struct Unfinished(Option<PathBuf>);
+
+impl Unfinished {
+    fn keep(mut self) {
+        self.0 = None;
+    }
+}
+
+impl Drop for Unfinished {
+    fn drop(&mut self) {
+        if let Some(folder) = &self.0 {
+            let _ = fs::remove_dir_all(folder);
+        }
+    }
+}
+
 /// What a finished part leaves beside its result.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Done {
@@ -57,6 +75,9 @@ struct Done {
     host: String,
     /// The adapter.
     adapter: String,
+    /// The 128-bit XXH3 hashes of its frames in hexadecimal; none for a film, which has its own.
+    #[serde(default)]
+    frames: Vec<String>,
 }
 
 /// What a part that failed leaves.
@@ -75,12 +96,14 @@ impl Folder {
     /// The subfolders.
     const ALL: [&str; 6] = ["parts", "done", "failed", "leases", "reports", "frames"];
 
-    fn create(&self) -> Result<(), AppError> {
+    /// Makes the folder, which is removed again unless the result is kept.
+    fn create(&self) -> Result<Unfinished, AppError> {
+        let unfinished = Unfinished(Some(self.0.clone()));
         for name in Self::ALL {
             let path = self.0.join(name);
             fs::create_dir_all(&path).map_err(|source| OutputError::Io { path, source })?;
         }
-        Ok(())
+        Ok(unfinished)
     }
 
     fn path(&self) -> &Path {
@@ -182,6 +205,10 @@ fn numbered(manifest: &Manifest) -> impl Iterator<Item = (u32, &Part)> {
 /// The command that follows a step, as it is typed.
 fn command(step: &str, folder: &Folder) -> String {
     let folder = folder.path().display().to_string();
+    let folder = match folder.starts_with('-') {
+        true => format!("./{folder}"),
+        false => folder,
+    };
     let quoted = shlex::try_quote(&folder).map_or(folder.clone(), Into::into);
     format!("glimray farm {step} {quoted}")
 }

@@ -104,6 +104,12 @@ fn whole(parts: &[PathBuf], outlines: &[FilmOutline]) -> Result<FilmOutline, App
         whole = whole.merge(outline).map_err(|error| {
             let is_other = |earlier: &FilmOutline| earlier.merge(outline).is_err();
             let other = outlines[..index].iter().position(is_other).unwrap_or(0);
+            // A damaged header looks like that of another picture.
+            for path in [&parts[other], &parts[index]] {
+                if let Err(error) = open(path).and_then(Film::read) {
+                    return refused(path, error);
+                }
+            }
             AppError::Films {
                 paths: [parts[other].clone(), parts[index].clone()],
                 error,
@@ -195,7 +201,8 @@ fn commands(header: &FilmHeader, missing: &[Missing]) -> String {
     let (width, height) = header.size;
     let command = |(index, Missing { region, samples }): (usize, &Missing)| {
         let mut line = format!(
-            "glimray render SCENE --size {width}x{height} --samples {}",
+            "glimray render SCENE --integrator {} --size {width}x{height} --samples {}",
+            header.integrator.entry().name,
             header.samples
         );
         if *samples != (0..header.samples) {

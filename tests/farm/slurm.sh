@@ -28,7 +28,7 @@ stop() {
         fi
     done
     if [ "$status" -ne 0 ]; then
-        tail -n 20 "$folder"/*.log "$folder"/work/*.farm/logs/* 2>/dev/null || true
+        tail -n 20 "$folder"/*.log "$work"/*.farm/logs/* 2>/dev/null || true
     fi
     rm -rf "$folder"
     exit "$status"
@@ -36,7 +36,9 @@ stop() {
 trap stop EXIT INT TERM
 
 chmod 755 "$folder"
-mkdir "$folder/state" "$folder/spool-1" "$folder/spool-2" "$folder/work"
+# A name that shells and Slurm could misread.
+work="$folder/work 100%d #1"
+mkdir "$folder/state" "$folder/spool-1" "$folder/spool-2" "$work"
 
 # Authentication with a key of its own.
 dd if=/dev/urandom of="$folder/munge.key" bs=128 count=1 status=none
@@ -89,7 +91,7 @@ sinfo
     exit 1
 }
 
-cd "$folder/work"
+cd "$work"
 still="$scenes/cornell_box.toml --integrator path --size 96x96 --samples 512"
 film="$scenes/orbits.toml --size 96x54 --samples 4 --frames 0..23"
 # Paths without spaces, split on purpose.

@@ -165,7 +165,7 @@ pub struct FarmMergeArgs {
     /// Write what is there even if parts of a still picture are missing
     #[arg(long)]
     pub partial: bool,
-    /// Refuse parts of different adapters in a still picture
+    /// Refuse parts of different adapters
     #[arg(long, conflicts_with = "mix_adapters")]
     pub same_adapter: bool,
     /// Merge parts of different adapters in the pictures of an animation

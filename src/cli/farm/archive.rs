@@ -77,8 +77,13 @@ fn described(name: &str, bytes: &[u8]) -> PackedFile {
     PackedFile {
         file: name.into(),
         bytes: bytes.len() as u64,
-        xxh3: Fingerprint(xxh3_128(bytes)).to_string(),
+        xxh3: hash(bytes),
     }
+}
+
+/// The 128-bit XXH3 hash in hexadecimal.
+pub fn hash(bytes: &[u8]) -> String {
+    Fingerprint(xxh3_128(bytes)).to_string()
 }
 
 /// Checks that a packed file is there and whole, and returns its path.

@@ -141,8 +141,8 @@ impl Leases {
         let _ = (&mut file).take(1024).read_to_string(&mut text);
         let mut words = text.split_whitespace();
         let mut word = || words.next().unwrap_or_default();
-        let (host, process, seconds) = (word(), word(), word());
-        if is_dead(host, process) {
+        let (host, process, seconds, space) = (word(), word(), word(), word());
+        if space == process_space() && is_dead(host, process) {
             return Ok(None);
         }
         // The clock of the file system, which all machines see alike.
@@ -153,8 +153,14 @@ impl Leases {
                 file.write_all(b"now")?;
                 file.as_file().metadata()?.modified()
             })?;
-        let age = now.duration_since(renewed).unwrap_or_default();
-        Ok((age <= lasting(seconds)).then(|| format!("{host}, process {process}")))
+        // A time in the future, from a clock that was wrong, must not hold the part for ever either.
+        let age = now.duration_since(renewed);
+        let age = age.unwrap_or_else(|future| future.duration());
+        let holder = match host {
+            "" => "another process".into(),
+            host => format!("{host}, process {process}"),
+        };
+        Ok((age <= lasting(seconds)).then_some(holder))
     }
 
     fn path(&self, part: &str, number: u32) -> PathBuf {
@@ -170,7 +176,8 @@ impl Lease {
         duration: Duration,
     ) -> io::Result<Self> {
         let seconds = duration.as_secs_f64();
-        let text = format!("{} {} {seconds}\n", host(), std::process::id());
+        let (process, space) = (std::process::id(), process_space());
+        let text = format!("{} {process} {seconds} {space}\n", host());
         file.write_all(text.as_bytes())?;
         drop(file);
         let (stop, stopped) = channel();
@@ -227,6 +234,12 @@ fn is_dead(host: &str, process: &str) -> bool {
         && is_number
         && processes.join("self").exists()
         && !processes.join(process).exists()
+}
+
+/// The name of what numbers this process, where several containers of a machine number their own; empty if unknown.
+fn process_space() -> String {
+    let link = fs::read_link("/proc/self/ns/pid").unwrap_or_default();
+    link.to_string_lossy().replace(char::is_whitespace, "_")
 }
 
 /// The name of this machine, without spaces.

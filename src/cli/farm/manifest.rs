@@ -3,13 +3,16 @@
 use crate::app::error::AppError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// The name in a farm's folder.
 pub const NAME: &str = "manifest.json";
 
 /// The version of the format.
 const VERSION: u32 = 1;
+
+/// More parts or frames than any farm has.
+const MOST: usize = 1 << 24;
 
 /// A picture or an animation in parts.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -29,6 +32,12 @@ pub struct Manifest {
     pub environment: Option<PackedFile>,
     /// Flags of `render` and `animate`, such as `--samples=64`.
     pub flags: Vec<String>,
+    /// Fingerprint of the packed scene, which films of its parts have.
+    pub scene_fingerprint: String,
+    /// Fingerprint of the camera, the lights and the instances; null for an animation.
+    pub view_fingerprint: Option<String>,
+    /// Fingerprint of the settings of the whole picture.
+    pub settings_fingerprint: String,
     /// Width and height of the whole picture in pixels.
     pub size: [u32; 2],
     /// Samples of each pixel.
@@ -105,6 +114,29 @@ impl Frames {
             .step_by(self.step as usize)
             .take(self.count as usize)
     }
+
+    /// Whether the numbers are sane, and the parts have each of them and no others.
+    fn are_covered(&self, parts: &[Part]) -> bool {
+        let span = (self.count.checked_sub(1)).and_then(|count| count.checked_mul(self.step));
+        let is_sane = self.step > 0
+            && (self.count as usize) < MOST
+            && span.and_then(|span| span.checked_add(self.first)).is_some()
+            && self.fps.is_finite();
+        if !is_sane {
+            return false;
+        }
+        let mut ranges: Vec<_> = parts.iter().filter_map(|part| part.frames).collect();
+        ranges.sort_unstable();
+        ranges.dedup();
+        let mut numbers = self.numbers();
+        let each = |[first, last]: [u32; 2]| {
+            first <= last && {
+                let mut own = (first..=last).step_by(self.step as usize);
+                own.all(|number| numbers.next() == Some(number))
+            }
+        };
+        ranges.into_iter().all(each) && numbers.next().is_none()
+    }
 }
 
 impl Manifest {
@@ -143,15 +175,42 @@ impl Manifest {
                 "Use the same version on all machines, or plan it again",
             ));
         }
-        let is_whole = manifest.parts.iter().all(|part| {
-            part.frames.is_some() == manifest.frames.is_some()
-                && part.frames.is_none_or(|[first, last]| first <= last)
-                && part.samples.is_none_or(|[start, end]| start < end)
-        });
-        match manifest.parts.is_empty() || !is_whole {
-            true => Err(refused("its parts are malformed".into(), "Plan it again")),
-            false => Ok(manifest),
+        match manifest.fault() {
+            Some(what) => Err(refused(
+                format!("its {what} are malformed"),
+                "It was changed; plan it again",
+            )),
+            None => Ok(manifest),
         }
+    }
+
+    /// What is malformed in a manifest that was changed by hand.
+    fn fault(&self) -> Option<&'static str> {
+        let [width, height] = self.size;
+        let is_plain = |packed: &PackedFile| {
+            let mut parts = Path::new(&packed.file).components();
+            matches!(parts.next(), Some(Component::Normal(_))) && parts.next().is_none()
+        };
+        let is_valid = |part: &Part| {
+            part.frames.is_some() == self.frames.is_some()
+                && (part.samples).is_none_or(|[start, end]| start < end && end <= self.samples)
+                && part.crop.is_none_or(|[x0, y0, x1, y1]| {
+                    x0 < x1 && x1 <= width && y0 < y1 && y1 <= height
+                })
+        };
+        if !(self.parts.iter().all(is_valid) && !self.parts.is_empty() && self.parts.len() < MOST) {
+            return Some("parts");
+        }
+        if (self.frames.as_ref()).is_some_and(|frames| !frames.are_covered(&self.parts)) {
+            return Some("frames");
+        }
+        if !(1..=100).contains(&self.quality) || self.samples == 0 || width == 0 || height == 0 {
+            return Some("numbers");
+        }
+        if !is_plain(&self.scene) || !self.environment.iter().all(is_plain) {
+            return Some("files");
+        }
+        None
     }
 
     /// The number of a part as text, with zeros so that names sort.

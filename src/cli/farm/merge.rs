@@ -1,7 +1,7 @@
 //! `glimray farm merge DIR`: puts the parts together, to the bytes of one run.
 
 use super::manifest::{Frames, Manifest};
-use super::run::{frame_ending, invalid, unfinished};
+use super::run::{foreign, frame_ending, invalid, unfinished};
 use super::{Folder, flags, numbered};
 use crate::app::console;
 use crate::app::console::Console;
@@ -13,7 +13,7 @@ use crate::cli::merge;
 use crate::output;
 use crate::output::video::{VideoFormat, VideoOptions};
 use clap::Parser;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -34,8 +34,14 @@ pub fn run(arguments: &FarmMergeArgs) -> Result<(), AppError> {
         )));
     }
     let missing = unfinished(&folder, &manifest);
-    let is_partial = arguments.partial && manifest.frames.is_none();
-    if !missing.is_empty() && !is_partial {
+    if arguments.partial && manifest.frames.is_some() {
+        return Err(AppError::Usage(format!(
+            "cannot merge (--partial): {} is an animation. Omit the flag, and run the parts that are missing.",
+            manifest.output.display()
+        )));
+    }
+    let has_some = missing.len() < manifest.parts.len();
+    if !missing.is_empty() && !(arguments.partial && has_some) {
         return Err(incomplete(&folder, &missing)?);
     }
     let merge = Merge {
@@ -81,10 +87,12 @@ struct Merge<'a> {
 impl Merge<'_> {
     /// Merges the films of a picture.
     fn picture(&self, missing: &[u32], output: &Path) -> Result<(), AppError> {
-        let films = numbered(&self.manifest)
-            .map(|(number, _)| number)
-            .filter(|number| !missing.contains(number))
-            .map(|number| self.folder.film(number));
+        let mut films = Vec::new();
+        for (number, _) in numbered(&self.manifest) {
+            if missing.binary_search(&number).is_err() {
+                films.push(self.film(number)?);
+            }
+        }
         let mut extra = Vec::new();
         if self.arguments.partial {
             extra.push("--partial");
@@ -92,7 +100,7 @@ impl Merge<'_> {
         if self.arguments.same_adapter {
             extra.push("--same-adapter");
         }
-        self.films(films.collect(), &extra, output)
+        self.films(films, &extra, output)
     }
 
     /// Merges the frames that are in parts, and writes the frames or the video.
@@ -102,23 +110,24 @@ impl Merge<'_> {
         output: &Path,
         interrupt: &Interrupt,
     ) -> Result<(), AppError> {
+        self.check_adapters()?;
         let ending = frame_ending(&self.manifest.output);
         let mut files: BTreeMap<u32, PathBuf> = BTreeMap::new();
         let mut films: BTreeMap<u32, Vec<PathBuf>> = BTreeMap::new();
         for (number, part) in numbered(&self.manifest) {
             let [first, last] = part.frames.unwrap_or_default();
             if part.is_film() {
-                films
-                    .entry(first)
-                    .or_default()
-                    .push(self.folder.film(number));
+                let film = self.film(number)?;
+                films.entry(first).or_default().push(film);
                 continue;
             }
-            if let Some(why) = invalid(&self.folder, &self.manifest, number) {
-                return Err(AppError::Refused(format!(
-                    "cannot merge ({}): part {number} is damaged, {why}. Run it again.",
-                    self.folder.path().display()
-                )));
+            let done = self.folder.done(number);
+            let why = match &done {
+                Some(done) => invalid(&self.folder, &self.manifest, number, done),
+                None => Some("it was done a moment ago".into()),
+            };
+            if let Some(why) = why {
+                return Err(self.damaged(number, &why));
             }
             let of_part = frames
                 .numbers()
@@ -143,6 +152,44 @@ impl Merge<'_> {
             }
             None => self.frames(&files, output, interrupt),
         }
+    }
+
+    /// The film of a part.
+    fn film(&self, number: u32) -> Result<PathBuf, AppError> {
+        match foreign(&self.folder, &self.manifest, number) {
+            None => Ok(self.folder.film(number)),
+            Some(why) => Err(self.damaged(number, &why)),
+        }
+    }
+
+    fn damaged(&self, number: u32, why: &str) -> AppError {
+        AppError::Refused(format!(
+            "cannot merge ({}): part {number} cannot be used, {why}. Run it again: {} {number}.",
+            self.folder.path().display(),
+            super::command("run", &self.folder)
+        ))
+    }
+
+    /// Refuses parts of several adapters, or warns about them: one frame may then differ from the next.
+    fn check_adapters(&self) -> Result<(), AppError> {
+        let parts = numbered(&self.manifest);
+        let done = parts.filter_map(|(number, _)| self.folder.done(number));
+        let adapters: BTreeSet<_> = done.map(|done| done.adapter).collect();
+        if adapters.len() < 2 {
+            return Ok(());
+        }
+        let adapters = Vec::from_iter(adapters).join(", ");
+        if self.arguments.same_adapter {
+            return Err(AppError::Refused(format!(
+                "cannot merge ({}): its parts are of different adapters, {adapters}. Render them on one kind of adapter, or \
+                 omit --same-adapter.",
+                self.folder.path().display()
+            )));
+        }
+        console::warning(format_args!(
+            "the frames are of different adapters ({adapters}), which may round differently; --same-adapter refuses them."
+        ));
+        Ok(())
     }
 
     fn video(
@@ -187,7 +234,9 @@ impl Merge<'_> {
         words.extend(flags::finishing(&self.manifest.flags).map(OsString::from));
         words.extend(extra.iter().map(OsString::from));
         words.push(format!("--quality={}", self.manifest.quality).into());
-        words.extend(["-o".into(), output.into(), "--".into()]);
+        let mut target = OsString::from("--output=");
+        target.push(output);
+        words.extend([target, "--".into()]);
         words.extend(films.into_iter().map(OsString::from));
         let parsed = Cli::try_parse_from(words)
             .map_err(|error| AppError::Internal(format!("merge: {error}")))?;

@@ -3,21 +3,21 @@
 use super::manifest::{self, Frames, Manifest, Measured};
 use super::measure::{Costs, measure};
 use super::merge_costs::MergeCosts;
+use super::target::Target;
 use super::work::Work;
 use super::{Folder, archive, command, flags, simulate, write};
 use crate::app::clock::Clock;
 use crate::app::console;
 use crate::app::error::AppError;
 use crate::app::overrides::picture_size;
-use crate::cli::animate::{Pattern, Timeline};
+use crate::cli::animate::Timeline;
 use crate::cli::args::FarmPlanArgs;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job::Job;
 use crate::cli::memory;
 use crate::gpu::Gpu;
 use crate::import::{self, EnvironmentSource};
-use crate::output::video::VideoFormat;
-use crate::output::{Format, OutputError};
+use crate::output::OutputError;
 use crate::pack;
 use crate::render::Fingerprint;
 use clap::ArgMatches;
@@ -36,7 +36,7 @@ pub fn run(
         path: arguments.path.clone(),
         source,
     })?;
-    let is_animation = check_output(&arguments.path)?;
+    let target = Target::parse(&arguments.path)?;
     let folder = Folder(
         arguments
             .dir
@@ -60,7 +60,7 @@ pub fn run(
         .overrides(&arguments.reading)
         .apply(&mut scene)?;
     let clock = Clock::new(&scene.output, &arguments.motion.overrides());
-    let timeline = match is_animation {
+    let timeline = match target.is_animation() {
         true => Some(Timeline::new(&scene, &arguments.range, clock)?),
         false => None,
     };
@@ -79,6 +79,7 @@ pub fn run(
         layers: &arguments.layers,
     };
     job.warn_of_skipped();
+    target.check(&job, arguments, timeline.as_ref())?;
     let settings = job.settings();
     let path = arguments.scene.display().to_string();
     memory::check_scene(&job.scene, &path, picture_size(&settings)?)?;
@@ -108,7 +109,7 @@ pub fn run(
         (None, None) => 1,
     };
     let parts = work.cut(count);
-    folder.create()?;
+    let unfinished = folder.create()?;
     // It is read from a path of its own, and copied beside the archive.
     let panorama = match &arguments.reading.environment {
         Some(EnvironmentSource::File(file)) => Some(file),
@@ -123,6 +124,7 @@ pub fn run(
     if environment.is_some() {
         given.retain(|flag| !flag.starts_with("--environment="));
     }
+    let of_film = work.costs.film.header();
     let manifest = Manifest {
         version: Manifest::VERSION,
         glimray: env!("CARGO_PKG_VERSION").into(),
@@ -131,6 +133,9 @@ pub fn run(
         scene: packed,
         environment,
         flags: given,
+        scene_fingerprint: of_film.scene.to_string(),
+        view_fingerprint: (!target.is_animation()).then(|| of_film.view.to_string()),
+        settings_fingerprint: of_film.settings.to_string(),
         size: settings.size.into(),
         samples: settings.samples,
         frames: work.timeline.as_ref().map(|timeline| Frames {
@@ -149,29 +154,9 @@ pub fn run(
     };
     // The manifest comes last: a folder without one is no farm.
     write(&folder.path().join(manifest::NAME), &manifest)?;
+    unfinished.keep();
     report(&job, &manifest, count, &folder);
     Ok(())
-}
-
-/// Whether the output is an animation.
-///
-/// # Errors
-/// Its name says neither a picture nor an animation.
-fn check_output(path: &Path) -> Result<bool, AppError> {
-    let ending = path.extension().unwrap_or_default();
-    if VideoFormat::from_path(path).is_some() || Pattern::parse(path).is_ok() {
-        return Ok(true);
-    }
-    match Format::from_path(path).is_some() || ending.eq_ignore_ascii_case("film") {
-        true => Ok(false),
-        false => Err(AppError::Usage(format!(
-            "cannot plan ({}): the name is none of a picture ({}, .film), of a video ({}) or of frames. Choose another \
-             name.",
-            path.display(),
-            Format::ENDINGS,
-            VideoFormat::ENDINGS
-        ))),
-    }
 }
 
 fn beside(output: &Path) -> PathBuf {

@@ -11,7 +11,7 @@ use crate::cli::args::{Cli, Command, FarmRunArgs};
 use crate::cli::interrupt::Interrupt;
 use crate::cli::{animate, render};
 use crate::output::{self, Format};
-use crate::render::Film;
+use crate::render::{Film, FilmHeader, FilmOutline};
 use clap::Parser;
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -201,7 +201,11 @@ impl Farm {
 
     /// Renders a part unless it is done or another process renders it.
     fn part(&self, number: u32) -> Result<Outcome, AppError> {
-        if self.is_done(number)? {
+        let is_done = |number| {
+            let done = self.folder.done(number);
+            done.is_some_and(|done| invalid(&self.folder, &self.manifest, number, &done).is_none())
+        };
+        if is_done(number) {
             return Ok(Outcome::Done);
         }
         let text = Manifest::number(number);
@@ -211,9 +215,10 @@ impl Farm {
             Claim::Taken(lease) => lease,
         };
         // Another process may have finished it before the lease was free.
-        if self.is_done(number)? {
+        if is_done(number) {
             return Ok(Outcome::Done);
         }
+        self.set_aside(number)?;
         let count = self.manifest.parts.len();
         self.console
             .status(format_args!("part {number} of {count}"));
@@ -241,13 +246,13 @@ impl Farm {
         }
     }
 
-    /// Whether the part has its mark and its result, and the result is valid. An invalid one is set aside.
-    fn is_done(&self, number: u32) -> Result<bool, AppError> {
-        if self.folder.done(number).is_none() {
-            return Ok(false);
-        }
-        let Some(why) = invalid(&self.folder, &self.manifest, number) else {
-            return Ok(true);
+    /// Sets the result of a part aside that was done and is invalid now.
+    fn set_aside(&self, number: u32) -> Result<(), AppError> {
+        let Some(done) = self.folder.done(number) else {
+            return Ok(());
+        };
+        let Some(why) = invalid(&self.folder, &self.manifest, number, &done) else {
+            return Ok(());
         };
         console::warning(format_args!("part {number} is rendered again: {why}."));
         let part = &self.manifest.parts[number as usize];
@@ -263,8 +268,7 @@ impl Farm {
                 ))
             })?;
         }
-        remove(&self.folder.done_path(number))?;
-        Ok(false)
+        remove(&self.folder.done_path(number))
     }
 
     /// Renders a part to its place.
@@ -273,8 +277,18 @@ impl Farm {
         let report = self.folder.report(number);
         let words = self.words(number, part, &report)?;
         let started = Instant::now();
-        let parsed = Cli::try_parse_from(words)
-            .map_err(|error| AppError::Internal(format!("part {number}: {error}")))?;
+        let parsed = Cli::try_parse_from(words).map_err(|error| {
+            let text = error.to_string();
+            let why = match error.use_stderr() {
+                true => text.lines().next().unwrap_or_default(),
+                false => "one of them renders nothing",
+            };
+            AppError::Refused(format!(
+                "cannot use the farm ({}): the flags of its manifest are malformed, {}. It was changed; plan it again.",
+                self.folder.path().display(),
+                why.trim_start_matches("error: ")
+            ))
+        })?;
         match parsed.command {
             Command::Render(arguments) => render::run(&arguments, started)?,
             Command::Animate(arguments) => animate::run(&arguments, started)?,
@@ -282,10 +296,16 @@ impl Farm {
         }
         let report: serde_json::Value = read(&report).unwrap_or_default();
         let adapter = report["adapter"]["name"].as_str().unwrap_or_default();
+        let frames = frame_files(&self.folder, &self.manifest, number);
+        let frames = frames.iter().map(|path| {
+            let bytes = fs::read(path).map_err(|error| failed_io(path, error))?;
+            Ok::<_, AppError>(archive::hash(&bytes))
+        });
         Ok(Done {
             seconds: started.elapsed().as_secs_f64(),
             host: host(),
             adapter: adapter.into(),
+            frames: frames.collect::<Result<_, _>>()?,
         })
     }
 
@@ -293,6 +313,12 @@ impl Farm {
     fn words(&self, number: u32, part: &Part, report: &Path) -> Result<Vec<OsString>, AppError> {
         let mut words: Vec<OsString> = vec!["glimray".into()];
         let flag = |name: &str, value: &dyn std::fmt::Display| format!("--{name}={value}").into();
+        // In one word, because a path may begin with a dash.
+        let file = |name: &str, path: &Path| {
+            let mut word = OsString::from(format!("--{name}="));
+            word.push(path);
+            word
+        };
         let all = &self.manifest.flags;
         if part.is_film() {
             words.push("render".into());
@@ -307,9 +333,9 @@ impl Farm {
             if let Some([x0, y0, x1, y1]) = part.crop {
                 words.push(flag("crop", &format_args!("{x0},{y0},{x1},{y1}")));
             }
-            words.extend(["--checkpoint".into(), self.folder.checkpoint(number).into()]);
+            words.push(file("checkpoint", &self.folder.checkpoint(number)));
             words.push(flag("every", &CHECKPOINT_SECONDS));
-            words.extend(["-o".into(), self.folder.film(number).into()]);
+            words.push(file("output", &self.folder.film(number)));
         } else {
             let frames = self.folder.frames(number);
             fs::create_dir_all(&frames).map_err(|error| failed_io(&frames, error))?;
@@ -322,12 +348,12 @@ impl Farm {
             }
             words.push(flag("quality", &self.manifest.quality));
             let name = format!("frame_%05d.{}", frame_ending(&self.manifest.output));
-            words.extend(["-o".into(), frames.join(name).into()]);
+            words.push(file("output", &frames.join(name)));
         }
-        if let Some(file) = &self.environment {
-            words.extend(["--environment".into(), file.into()]);
+        if let Some(environment) = &self.environment {
+            words.push(file("environment", environment));
         }
-        words.extend(["--report".into(), report.into()]);
+        words.push(file("report", report));
         words.extend(["--progress=none".into(), "--quiet".into(), "--".into()]);
         words.push((&self.scene).into());
         Ok(words)
@@ -351,46 +377,109 @@ pub fn frame_ending(output: &Path) -> String {
     }
 }
 
-/// Why the result of a part cannot be used; `None` if it can.
-pub fn invalid(folder: &Folder, manifest: &Manifest, number: u32) -> Option<String> {
-    let part = &manifest.parts[number as usize];
-    if part.is_film() {
-        let path = folder.film(number);
-        let film = File::open(&path)
-            .map_err(Into::into)
-            .and_then(|file| Film::read(BufReader::new(file)));
-        let film = match film {
-            Ok(film) => film,
-            Err(error) => {
-                return Some(format!(
-                    "{} ({})",
-                    error.to_string().trim_end_matches('.'),
-                    path.display()
-                ));
-            }
-        };
-        let [width, height] = manifest.size;
-        let [x0, y0, x1, y1] = part.crop.unwrap_or([0, 0, width, height]);
-        let [start, end] = part.samples.unwrap_or([0, manifest.samples]);
-        let region = [x0, y0, x1 - x0, y1 - y0];
-        let wanted = start..end;
-        let is_whole = film.parts().eq([(region, std::slice::from_ref(&wanted))]);
-        return (!is_whole).then(|| format!("{} is of other samples", path.display()));
+/// Why the result of a part that is done cannot be used; `None` if it can.
+pub fn invalid(folder: &Folder, manifest: &Manifest, number: u32, done: &Done) -> Option<String> {
+    match manifest.parts[number as usize].is_film() {
+        true => invalid_film(folder, manifest, number),
+        false => invalid_frames(folder, manifest, number, done),
     }
-    let [first, last] = part.frames.unwrap_or_default();
-    let frames = manifest.frames.as_ref()?;
-    let ending = frame_ending(&manifest.output);
-    let missing = (frames.numbers())
-        .filter(|frame| (first..=last).contains(frame))
-        .map(|frame| folder.frame(number, frame, &ending))
-        .find(|path| !path.is_file());
-    missing.map(|path| format!("{} is missing", path.display()))
 }
 
-/// The parts that are not done.
+fn invalid_film(folder: &Folder, manifest: &Manifest, number: u32) -> Option<String> {
+    let part = &manifest.parts[number as usize];
+    let path = folder.film(number);
+    let film = File::open(&path)
+        .map_err(Into::into)
+        .and_then(|file| Film::read(BufReader::new(file)));
+    let film = match film {
+        Ok(film) => film,
+        Err(error) => {
+            return Some(format!(
+                "{} ({})",
+                error.to_string().trim_end_matches('.'),
+                path.display()
+            ));
+        }
+    };
+    if !is_of(manifest, film.header()) {
+        return Some(format!("{} is of another picture", path.display()));
+    }
+    let [width, height] = manifest.size;
+    let [x0, y0, x1, y1] = part.crop.unwrap_or([0, 0, width, height]);
+    let [start, end] = part.samples.unwrap_or([0, manifest.samples]);
+    let region = [x0, y0, x1 - x0, y1 - y0];
+    let wanted = start..end;
+    let is_whole = film.parts().eq([(region, std::slice::from_ref(&wanted))]);
+    (!is_whole).then(|| format!("{} is of other samples", path.display()))
+}
+
+/// Why the film of a part cannot be merged, from its header alone: its sums are read later.
+pub fn foreign(folder: &Folder, manifest: &Manifest, number: u32) -> Option<String> {
+    let path = folder.film(number);
+    let outline = File::open(&path)
+        .map_err(Into::into)
+        .and_then(|file| FilmOutline::read(BufReader::new(file)));
+    match outline {
+        Ok(outline) if is_of(manifest, outline.header()) => None,
+        Ok(_) => Some(format!("{} is of another picture", path.display())),
+        Err(error) => Some(format!(
+            "{} ({})",
+            error.to_string().trim_end_matches('.'),
+            path.display()
+        )),
+    }
+}
+
+/// Whether a film is of the picture, or of a frame of the animation.
+fn is_of(manifest: &Manifest, header: &FilmHeader) -> bool {
+    let is_view = |wanted: &String| header.view.to_string() == *wanted;
+    header.scene.to_string() == manifest.scene_fingerprint
+        && header.settings.to_string() == manifest.settings_fingerprint
+        && manifest.view_fingerprint.as_ref().is_none_or(is_view)
+}
+
+fn invalid_frames(
+    folder: &Folder,
+    manifest: &Manifest,
+    number: u32,
+    done: &Done,
+) -> Option<String> {
+    let files = frame_files(folder, manifest, number);
+    let wrong = files.iter().enumerate().find_map(|(index, path)| {
+        let hash = fs::read(path).ok().map(|bytes| archive::hash(&bytes));
+        match (hash, done.frames.get(index)) {
+            (None, _) => Some((path, "is missing")),
+            (Some(hash), Some(wanted)) if hash == *wanted => None,
+            _ => Some((path, "is not what was rendered")),
+        }
+    });
+    wrong.map(|(path, why)| format!("{} {why}", path.display()))
+}
+
+/// The frames of a part, in order; none for a film.
+fn frame_files(folder: &Folder, manifest: &Manifest, number: u32) -> Vec<PathBuf> {
+    let part = &manifest.parts[number as usize];
+    let Some(frames) = manifest.frames.as_ref().filter(|_| !part.is_film()) else {
+        return Vec::new();
+    };
+    let [first, last] = part.frames.unwrap_or_default();
+    let ending = frame_ending(&manifest.output);
+    (frames.numbers())
+        .filter(|frame| (first..=last).contains(frame))
+        .map(|frame| folder.frame(number, frame, &ending))
+        .collect()
+}
+
+/// The parts that are not done, or whose result is gone.
 pub fn unfinished(folder: &Folder, manifest: &Manifest) -> Vec<u32> {
+    let is_there = |number: u32, part: &Part| match part.is_film() {
+        true => folder.film(number).is_file(),
+        false => frame_files(folder, manifest, number)
+            .iter()
+            .all(|file| file.is_file()),
+    };
     numbered(manifest)
+        .filter(|(number, part)| folder.done(*number).is_none() || !is_there(*number, part))
         .map(|(number, _)| number)
-        .filter(|number| folder.done(*number).is_none())
         .collect()
 }

@@ -34,11 +34,19 @@ pub fn scripts(
         ("time", &arguments.time),
         ("gres", &arguments.gres),
     ];
+    let is_plain = |text: &str| !text.is_empty() && !text.contains(['\n', '\r']);
     for (name, value) in named {
-        common.extend(value.as_ref().map(|value| format!("{name}={value}")));
+        match value.as_ref() {
+            Some(value) if is_plain(value) => common.push(format!("{name}={value}")),
+            None => {}
+            Some(value) => {
+                return Err(AppError::Usage(format!(
+                    "cannot pass on the option (--{name} {value:?}): it is empty or has several lines. Write it in one line."
+                )));
+            }
+        }
     }
     for option in &arguments.options {
-        let is_plain = |text: &str| !text.is_empty() && !text.contains(['\n', '\r']);
         match option.trim_start_matches('-').split_once('=') {
             Some((key, value)) if is_plain(key) && is_plain(value) => {
                 common.push(format!("{key}={value}"));
@@ -57,7 +65,7 @@ pub fn scripts(
             .collect::<String>()
     };
     let logs = folder.path().join("logs");
-    let log = |name: &str| format!("output={}", logs.join(name).display());
+    let log = |name: &str| format!("output={}/{name}", in_directive(&logs));
     let parts = format!(
         "#!/bin/sh\n{}\n\
          # A task that is killed leaves its checkpoint, and the next attempt goes on from it. `srun` passes on the \
@@ -92,9 +100,24 @@ pub fn scripts(
     Ok(Scripts { parts, merge })
 }
 
+/// A path as `#SBATCH` lines take it: a backslash before what ends or quotes a word, and two signs for each percent sign,
+/// which begins the pattern of a number. The path is text without line breaks.
+fn in_directive(path: &Path) -> String {
+    let mut text = String::new();
+    for letter in path.to_string_lossy().chars() {
+        match letter {
+            '%' => text.push('%'),
+            '\\' | '"' | '\'' | '#' | ' ' | '\t' => text.push('\\'),
+            _ => {}
+        }
+        text.push(letter);
+    }
+    text
+}
+
 fn quoted(path: &Path) -> Result<String, AppError> {
-    let text = path.to_str().map(shlex::try_quote);
-    match text {
+    let text = path.to_str().filter(|text| !text.contains(['\n', '\r']));
+    match text.map(shlex::try_quote) {
         Some(Ok(text)) => Ok(text.into()),
         _ => Err(AppError::Usage(format!(
             "cannot write a script ({}): the path is not plain text. Move the folder.",

@@ -2,6 +2,7 @@
 
 use super::lease::{self, Leases};
 use super::manifest::Manifest;
+use super::run::unfinished;
 use super::{Folder, failed_io, numbered};
 use crate::app::console;
 use crate::app::error::AppError;
@@ -96,10 +97,12 @@ impl Status {
         };
         let start = manifest.measured.start_seconds;
         let (mut planned, mut taken, mut left, mut all) = (0.0, 0.0, 0.0, 0.0);
+        let unfinished = unfinished(folder, manifest);
         for (number, part) in numbered(manifest) {
             let cost = start + part.seconds;
             all += cost;
-            if let Some(done) = folder.done(number) {
+            let is_done = unfinished.binary_search(&number).is_err();
+            if let Some(done) = folder.done(number).filter(|_| is_done) {
                 status.done += 1;
                 planned += cost;
                 taken += done.seconds;

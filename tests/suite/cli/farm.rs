@@ -1,10 +1,12 @@
 //! `farm`: parts of a picture or film, rendered by processes that may be killed at any time, merge to the bytes of one run.
 
-use crate::support::program::{SCENE, Workspace};
+use crate::support::program::{Run, SCENE, Workspace};
 use crate::support::random::Random;
-use serde_json::Value;
+use crate::support::verdict::Verdict;
+use serde_json::{Value, json};
 use std::fs;
 use std::io::Write;
+use std::os::unix::ffi::OsStrExt;
 use std::process::Command;
 use std::thread::sleep;
 use std::time::Duration;
@@ -183,6 +185,192 @@ fn what_is_damaged_foreign_or_missing_is_named() {
 }
 
 #[test]
+fn results_of_another_farm_are_noticed() {
+    let workspace = Workspace::moving();
+    for seed in [0, 5] {
+        let flags = format!("a.toml --size 24x18 --samples 128 --seed {seed}");
+        workspace
+            .run(&format!(
+                "farm plan {flags} --parts 2 --dir p{seed} -o p{seed}.png"
+            ))
+            .expect(0);
+        workspace
+            .run(&format!(
+                "farm plan {flags} --frames 0..3 --parts 2 --dir f{seed} -o f{seed}_%d.png"
+            ))
+            .expect(0);
+        for farm in ["p", "f"] {
+            workspace
+                .run(&format!("farm run {farm}{seed} --all --quiet"))
+                .expect(0);
+        }
+    }
+    let film = "p0/parts/00001.film";
+    let own = workspace.read(film);
+    workspace.write(film, workspace.read("p5/parts/00001.film"));
+    workspace
+        .run("farm merge p0")
+        .expect(3)
+        .says("part 1 cannot be used, p0/parts/00001.film is of another picture.");
+    workspace
+        .run("farm run p0 --all")
+        .expect(0)
+        .says("part 1 is rendered again: p0/parts/00001.film is of another picture.");
+    assert!(workspace.read(film) == own);
+
+    // Frames: of another farm, of another number, cut short, and gone.
+    let frame = "f0/parts/00000/frame_00000.png";
+    let own = workspace.read(frame);
+    for (bytes, why) in [
+        (
+            workspace.read("f5/parts/00000/frame_00000.png"),
+            "is not what was rendered",
+        ),
+        (
+            workspace.read("f0/parts/00000/frame_00001.png"),
+            "is not what was rendered",
+        ),
+        (own[..own.len() / 2].to_vec(), "is not what was rendered"),
+    ] {
+        workspace.write(frame, bytes);
+        workspace.run("farm merge f0").expect(3).says(why);
+        workspace.run("farm run f0 0").expect(0).says(why);
+        assert!(workspace.read(frame) == own);
+    }
+    fs::remove_file(workspace.path(frame)).expect("removed");
+    assert_eq!(status(&workspace, "f0")["done"], 1);
+    let run = workspace.run("farm merge f0").expect(8);
+    assert_eq!(run.text(), "glimray farm run f0 0\n");
+    workspace.run("farm merge f0 --partial").expect(2);
+    fs::remove_file(workspace.path(film)).expect("removed");
+    let run = workspace.run("farm merge p0").expect(8);
+    assert_eq!(run.text(), "glimray farm run p0 1\n");
+    let run = workspace.run("farm merge p0 --partial").expect(0);
+    run.says("the picture is incomplete");
+    fs::remove_file(workspace.path("p0/parts/00000.film")).expect("removed");
+    workspace.run("farm merge p0 --partial").expect(8);
+}
+
+#[test]
+fn what_could_not_be_merged_is_not_planned() {
+    let workspace = Workspace::moving();
+    fs::create_dir(workspace.path("folder.png")).expect("a folder");
+    let mut verdict = Verdict::on("plans");
+    for (flags, code, words) in [
+        (
+            "-o o.jpg --background transparent --integrator path",
+            2,
+            "opacity",
+        ),
+        (
+            "-o o.mp4 --background transparent --integrator path",
+            2,
+            "opacity",
+        ),
+        ("-o o.png --layers albedo", 2, ".exr"),
+        ("-o o.mp4 --layers albedo", 2, ".exr"),
+        ("-o o.gif --fps 1000", 2, "frames per second"),
+        ("-o f_%d.film", 2, "frames cannot be films"),
+        ("-o o.mp4 --frame 3", 2, "--frame and --time"),
+        ("-o o.mp4 --time 0.1", 2, "--frame and --time"),
+        (
+            "-o o.png --report r.json",
+            2,
+            "each part writes its own report",
+        ),
+        ("-o folder.png", 2, "it is a folder"),
+        ("-o gone/o.png --dir farm", 4, "does not exist"),
+        ("-o o.txt", 2, "the name is none of a picture"),
+    ] {
+        let run = workspace.run(&format!("farm plan a.toml --size 16x12 --parts 2 {flags}"));
+        let is_refused = run.code == Some(code) && run.stderr.contains(words);
+        verdict.that(flags, is_refused, || {
+            format!("{:?}: {}", run.code, run.stderr)
+        });
+    }
+    verdict.close();
+    assert_eq!(workspace.made(), ["folder.png"]);
+    let name = std::ffi::OsStr::from_bytes(b"bad\xff.png");
+    let mut command = workspace.command("farm plan a.toml --size 16x12 --parts 2 -o");
+    Run::from(command.arg(name).output().expect("glimray runs"))
+        .expect(2)
+        .says("not valid Unicode");
+    // Names that begin with a dash are names.
+    let line = "farm plan a.toml --size 16x12 --samples 128 --parts 2 -o=-o.png";
+    workspace
+        .run(line)
+        .expect(0)
+        .says("glimray farm run ./-o.png.farm");
+    workspace
+        .run("farm run --all --quiet -- -o.png.farm")
+        .expect(0);
+    workspace.run("farm merge -- -o.png.farm").expect(0);
+    assert!(workspace.path("-o.png").exists());
+}
+
+#[test]
+fn manifests_that_were_changed_are_refused() {
+    let workspace = Workspace::moving();
+    workspace
+        .run("farm plan a.toml --size 16x12 --samples 2 --frames 0..3 --parts 2 --dir film -o f_%d.png")
+        .expect(0);
+    workspace
+        .run("farm plan a.toml --size 16x12 --samples 128 --parts 2 --dir still -o o.png")
+        .expect(0);
+    let mut verdict = Verdict::on("manifests");
+    let mut check = |farm: &str, pointer: &str, value: Value| {
+        let good = workspace.read(&format!("{farm}/manifest.json"));
+        let mut changed: Value = serde_json::from_slice(&good).expect("a manifest");
+        *changed.pointer_mut(pointer).expect(pointer) = value.clone();
+        workspace.write(&format!("{farm}/manifest.json"), changed.to_string());
+        for step in ["run", "merge", "status"] {
+            let flag = if step == "run" { "--all" } else { "" };
+            let run = workspace.run(&format!("farm {step} {farm} {flag}"));
+            let lines = run.stderr.lines().filter(|line| !line.starts_with("part "));
+            let is_line = lines.count() == 1;
+            let is_refused = run.code == Some(3) && is_line;
+            // Flags are parsed when a part is rendered.
+            let is_flag = pointer == "/flags" && step != "run";
+            verdict.that(
+                format!("{step} {pointer} {value}"),
+                is_refused || is_flag,
+                || format!("{:?}: {}", run.code, run.stderr),
+            );
+        }
+        workspace.write(&format!("{farm}/manifest.json"), good);
+    };
+    for (pointer, value) in [
+        ("/frames/step", json!(0)),
+        ("/frames/count", json!(u32::MAX)),
+        ("/frames/count", json!(7)),
+        ("/frames/count", json!(0)),
+        ("/frames/first", json!(u32::MAX)),
+        ("/parts/0/frames", json!([0, 0])),
+        ("/parts/0/frames", json!([77, 78])),
+        ("/parts/0/frames", json!([1, 0])),
+        ("/parts/1/frames", Value::Null),
+        ("/parts", json!([])),
+        ("/scene/file", json!("/dev/zero")),
+        ("/scene/file", json!("../scene.zip")),
+        ("/quality", json!(0)),
+        ("/size", json!([0, 12])),
+        ("/flags", json!(["--help"])),
+        ("/flags", json!(["--bogus=1"])),
+    ] {
+        check("film", pointer, value);
+    }
+    for (pointer, value) in [
+        ("/parts/0/crop", json!([0, 0, 0, 5])),
+        ("/parts/0/crop", json!([0, 0, 4_000_000_000_u32, 5])),
+        ("/parts/0/samples", json!([64, 64])),
+        ("/parts/0/samples", json!([0, 4096])),
+    ] {
+        check("still", pointer, value);
+    }
+    verdict.close();
+}
+
+#[test]
 fn a_part_that_fails_is_counted_with_its_error() {
     let workspace = Workspace::new();
     workspace
@@ -232,6 +420,18 @@ fn the_scripts_for_slurm_have_the_tasks_and_the_options() {
              --gres gpu:1 --time 10:00 --option account=film",
         )
         .expect(0);
+    let odd = "a 100%#'\"\\ b";
+    fs::rename(workspace.path("all.png.farm"), workspace.path(odd)).expect("renamed");
+    let mut command = workspace.command("farm submit --engine slurm --dry-run");
+    let output = command.arg(odd).output().expect("glimray runs");
+    let script = String::from_utf8(output.stdout).expect("text");
+    let escaped = r#"/a\ 100%%\#\'\"\\\ b/logs/part-%a.log"#;
+    let is_log = |line: &str| line.starts_with("#SBATCH --output=") && line.ends_with(escaped);
+    assert!(script.lines().any(is_log), "{script}");
+    fs::rename(workspace.path(odd), workspace.path("all.png.farm")).expect("renamed");
+    let mut command = workspace.command("farm submit all.png.farm --engine slurm --dry-run");
+    let output = command.args(["--time", "1\n#"]).output();
+    Run::from(output.expect("glimray runs")).expect(2);
     for line in [
         "#SBATCH --array=0-1",
         "#SBATCH --partition=gpu",

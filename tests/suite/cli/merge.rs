@@ -29,7 +29,7 @@ fn films_of_parts_merge_to_the_picture_of_one_run() {
     assert!(run.stderr.contains(missing), "{}", run.stderr);
     assert!(!workspace.path("less.png").exists());
     // The missing parts are printed as commands that render them.
-    let command = "glimray render SCENE --size 40x30 --samples 150 --sample-offset 64 --sample-count 86 \
+    let command = "glimray render SCENE --integrator whitted --size 40x30 --samples 150 --sample-offset 64 --sample-count 86 \
                    --crop 0,0,40,11 -o missing-1.film\n";
     assert_eq!(run.text(), command);
     let flags = command
