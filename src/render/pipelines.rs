@@ -101,10 +101,52 @@ pub fn tracing_variant(gpu: &Gpu, fetch: Fetch, view: &PackedView) -> Variant {
     }
 }
 
-/// The rays of a picture if every camera ray hits an opaque surface.
+/// The rays of all pictures if every camera ray hits an opaque surface.
 fn least_rays(task: Task) -> u64 {
     let [.., width, height] = task.settings.region();
     let pixels = u64::from(width) * u64::from(height);
     let of_pixel = effort::shadow_rays(task.view, task.settings).saturating_add(1);
-    (pixels * u64::from(task.settings.samples)).saturating_mul(of_pixel)
+    let of_picture = (pixels * u64::from(task.settings.samples)).saturating_mul(of_pixel);
+    of_picture.saturating_mul(u64::from(task.policy.picture_count))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MIN_PACKET_RAYS, least_rays};
+    use crate::{
+        pack,
+        render::{ExecutionPolicy, RenderSettings, task::Task},
+        scene::{Camera, Scene},
+    };
+    use std::sync::Arc;
+
+    #[test]
+    fn small_pictures_are_worth_packets_if_there_are_many() {
+        let scene = Scene {
+            cameras: vec![Camera::default()],
+            ..Scene::default()
+        };
+        let packed = Arc::new(pack::scene(&scene).expect("a packed scene"));
+        let view = packed.frame(&scene.frame(0.0)).expect("a packed frame");
+        let settings = RenderSettings {
+            size: (100, 100),
+            samples: 1,
+            ..RenderSettings::default()
+        };
+        let are_worth_it = |picture_count| {
+            let policy = ExecutionPolicy {
+                picture_count,
+                ..ExecutionPolicy::default()
+            };
+            let task = Task {
+                scene: &packed,
+                view: &view,
+                settings: &settings,
+                policy: &policy,
+                film_rows: 1,
+            };
+            least_rays(task) >= MIN_PACKET_RAYS
+        };
+        assert!(!are_worth_it(1) && !are_worth_it(99) && are_worth_it(100));
+    }
 }

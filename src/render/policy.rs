@@ -12,6 +12,9 @@ pub struct ExecutionPolicy {
     pub host_copy: bool,
     /// How shaders read the scene.
     pub fetch: Fetch,
+    /// How many pictures like this one will be rendered, such as the frames of an animation, at least 1: a kernel that
+    /// traces faster but takes longer to compile may be worth it for all of them together.
+    pub picture_count: u32,
     /// Memory limit for scene and picture, in bytes.
     pub memory_limit_bytes: u64,
     /// Whether to count [`super::Stats::rays`].
@@ -24,6 +27,7 @@ impl Default for ExecutionPolicy {
             slicing: Slicing::default(),
             host_copy: true,
             fetch: Fetch::Auto,
+            picture_count: 1,
             memory_limit_bytes: MEMORY_LIMIT_BYTES,
             count_rays: false,
         }
@@ -33,8 +37,8 @@ impl Default for ExecutionPolicy {
 /// How shaders read nodes and triangles, and whether neighbouring rays are traced together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Fetch {
-    /// Images on software adapters; elsewhere buffers if they are large enough. Larger pictures are traced in
-    /// packets where the adapter can do so.
+    /// Images on software adapters; elsewhere buffers if they are large enough. Larger pictures, and smaller ones of
+    /// which there are many, are traced in packets where the adapter can do so.
     #[default]
     Auto,
     /// Storage images: faster on software adapters.

@@ -15,7 +15,7 @@ use crate::gpu::{AdapterReport, Gpu};
 use crate::output::video::{self, Picture8, VideoOptions, Y4mWriter};
 use crate::output::{self, Format, OutputError};
 use crate::pack::{self, PackedScene, PackedView};
-use crate::render::{self, RenderSettings, Renderer, Stats, Tone};
+use crate::render::{self, ExecutionPolicy, RenderSettings, Renderer, Stats, Tone};
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -32,6 +32,8 @@ pub struct FrameRenderer<'a> {
     /// The adapter until the renderer takes it; always `None` if nothing may be rendered.
     gpu: Option<Gpu>,
     renderer: Option<Renderer>,
+    /// The number of frames to be rendered.
+    missing: usize,
     /// Fingerprints of the scene and of the settings.
     fingerprints: (Fingerprint, Fingerprint),
     write_seconds: f64,
@@ -64,6 +66,7 @@ impl<'a> FrameRenderer<'a> {
             scene,
             gpu,
             renderer: None,
+            missing: 0,
             write_seconds: 0.0,
             denoise_seconds: 0.0,
         })
@@ -128,6 +131,7 @@ impl<'a> FrameRenderer<'a> {
         interrupt: &Interrupt,
     ) -> Result<Frames, AppError> {
         let (count, reused) = (plan.count(), plan.done_count());
+        self.missing = count - reused;
         if let Some(adapter) = self.adapter.as_ref().filter(|_| reused < count) {
             let what = match count - reused {
                 1 => "1 frame of ".to_owned(),
@@ -190,7 +194,10 @@ impl<'a> FrameRenderer<'a> {
             }
             (empty, Some(gpu)) => {
                 let settings = self.settings.clone();
-                let policy = self.sequence.job.policy();
+                let policy = ExecutionPolicy {
+                    picture_count: u32::try_from(self.missing.max(1)).unwrap_or(u32::MAX),
+                    ..self.sequence.job.policy()
+                };
                 let scene = self.scene.clone();
                 empty.insert(Renderer::new(gpu, scene, view, settings, policy)?)
             }
