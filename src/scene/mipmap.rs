@@ -1,78 +1,131 @@
 //! Mipmaps: copies of a picture, each of half the width and height of the one before, rounded down (Williams,
-//! Pyramidal Parametrics, 1983). Each texel is the mean of the area it covers, in linear light.
+//! Pyramidal Parametrics, 1983). Each texel is the mean of the area it covers, in linear light. Alpha weights colours, so
+//! that what is transparent lends its surroundings no colour; values that are not colours are averaged as they are.
 
-use crate::{
-    bvh::threads,
-    scene::{Picture, SrgbCurve, Texels},
-};
+use super::{Origin, Picture, SrgbCurve, Texels};
+use crate::threads;
 use glam::Vec4;
 
 /// The weight of a colour whose alpha is 0, relative to an opaque one: such texels count only where all are
 /// transparent.
 const LEAST_WEIGHT: f32 = 1.0 / 4096.0;
 
-/// The number of levels of a picture, itself included.
-pub fn level_count(picture: &Picture) -> u32 {
-    picture.width.max(picture.height).max(1).ilog2() + 1
-}
-
-/// The number of texels of all levels.
-pub fn texel_count(picture: &Picture) -> usize {
-    let sizes = (0..level_count(picture)).map(|level| size(picture, level));
-    sizes.map(|[width, height]| width * height).sum()
-}
-
-/// Width and height of a level in texels.
-fn size(picture: &Picture, level: u32) -> [usize; 2] {
-    [picture.width, picture.height].map(|side| (side >> level).max(1) as usize)
-}
-
-/// The levels of a picture after the first, which is the picture itself. Alpha weights colours, so that what is
-/// transparent lends its surroundings no colour; values that are not colours are averaged as they are.
-pub fn levels(picture: &Picture) -> Vec<Texels> {
-    let is_weighted = !matches!(picture.texels, Texels::Linear8(_));
-    let curve = SrgbCurve::default();
-    let first = |index: usize| {
-        let texel = picture.texels.linear(&curve, index);
-        match is_weighted {
-            true => (texel.truncate() * (texel.w + LEAST_WEIGHT)).extend(texel.w),
-            false => texel,
-        }
-    };
-    let mut levels = Vec::new();
-    let mut before: Vec<Vec4> = Vec::new();
-    for level in 1..level_count(picture) {
-        let sizes = (size(picture, level - 1), size(picture, level));
-        let texels = match level {
-            1 => halved(sizes, &first),
-            _ => halved(sizes, &|index| before[index]),
-        };
-        let plain = |texel: &Vec4| match is_weighted {
-            true => (texel.truncate() / (texel.w + LEAST_WEIGHT)).extend(texel.w),
-            false => *texel,
-        };
-        levels.push(stored(&picture.texels, &curve, texels.iter().map(plain)));
-        before = texels;
+impl Picture {
+    /// The number of levels of its mipmap, itself included.
+    pub fn level_count(&self) -> u32 {
+        self.width.max(self.height).max(1).ilog2() + 1
     }
-    levels
+
+    /// The number of texels of all levels.
+    pub fn mipmap_len(&self) -> usize {
+        let sizes = (0..self.level_count()).map(|level| self.level_size(level));
+        sizes.map(|[width, height]| width * height).sum()
+    }
+
+    /// Width and height of a level in texels.
+    fn level_size(&self, level: u32) -> [usize; 2] {
+        [self.width, self.height].map(|side| (side >> level).max(1) as usize)
+    }
+
+    /// The levels after the first, which is the picture itself.
+    pub fn levels(&self) -> Vec<Texels> {
+        let light = Light::of(self);
+        let mut levels = Vec::new();
+        let mut before: Vec<Vec4> = Vec::new();
+        for level in 1..self.level_count() {
+            let sizes = (self.level_size(level - 1), self.level_size(level));
+            let count = sizes.1[0] * sizes.1[1];
+            before = match level {
+                1 => threads::collect(count, |i| mean(sizes, i, |index| light.of_texel(index))),
+                _ => threads::collect(count, |i| mean(sizes, i, |index| before[index])),
+            };
+            levels.push(light.stored(count, |index| before[index]));
+        }
+        levels
+    }
+
+    /// The next level as a picture; a single texel is returned as it is.
+    pub fn halved(&self) -> Self {
+        let light = Light::of(self);
+        let sizes = (self.level_size(0), self.level_size(1));
+        let [width, height] = sizes.1;
+        let texel = |i: usize| mean(sizes, i, |index| light.of_texel(index));
+        Self {
+            width: width as u32,
+            height: height as u32,
+            texels: light.stored(width * height, texel),
+            origin: Origin::Texels,
+        }
+    }
 }
 
-/// The texels of a level from those of the one before, with their sizes.
-fn halved(
-    ([width, height], [half_width, half_height]): ([usize; 2], [usize; 2]),
-    texel: &(impl Fn(usize) -> Vec4 + Sync),
-) -> Vec<Vec4> {
-    threads::collect(half_width * half_height, |index| {
-        let columns = covered(width, half_width, index % half_width);
-        let rows = covered(height, half_height, index / half_width);
-        let mut sum = Vec4::ZERO;
-        for (row, share) in rows {
-            for (column, part) in columns {
-                sum += share * part * texel(row * width + column);
+/// Texels as linear values that may be averaged: colours are multiplied with their weight, in 0..=1.
+struct Light<'a> {
+    texels: &'a Texels,
+    curve: SrgbCurve,
+    is_weighted: bool,
+}
+
+impl<'a> Light<'a> {
+    fn of(picture: &'a Picture) -> Self {
+        Self {
+            texels: &picture.texels,
+            curve: SrgbCurve::default(),
+            is_weighted: !matches!(picture.texels, Texels::Linear8(_)),
+        }
+    }
+
+    /// Of a colour with this alpha. That of an opaque one is 1, so that no colour overflows.
+    fn weight(&self, alpha: f32) -> f32 {
+        match self.is_weighted {
+            true => (alpha + LEAST_WEIGHT) / (1.0 + LEAST_WEIGHT),
+            false => 1.0,
+        }
+    }
+
+    fn of_texel(&self, index: usize) -> Vec4 {
+        let texel = self.texels.linear(&self.curve, index);
+        (texel.truncate() * self.weight(texel.w)).extend(texel.w)
+    }
+
+    /// Averaged values with the precision of the picture.
+    fn stored(&self, count: usize, value: impl Fn(usize) -> Vec4 + Sync) -> Texels {
+        let plain = |index: usize| {
+            let mean = value(index);
+            (mean.truncate() / self.weight(mean.w)).extend(mean.w)
+        };
+        let code = |value: f32| (value * 255.0).round() as u8;
+        match self.texels {
+            Texels::Srgb8(_) => Texels::Srgb8(threads::collect(count, |index| {
+                let texel = plain(index);
+                let [r, g, b] = texel.truncate().to_array().map(|c| self.curve.code(c));
+                [r, g, b, code(texel.w)]
+            })),
+            Texels::Linear8(_) => Texels::Linear8(threads::collect(count, |index| {
+                plain(index).to_array().map(code)
+            })),
+            Texels::Float(_) => {
+                Texels::Float(threads::collect(count, |index| plain(index).min(Vec4::MAX)))
             }
         }
-        sum
-    })
+    }
+}
+
+/// The mean of what texel `index` of a level covers of the one before, with their sizes.
+fn mean(
+    ([width, height], [half_width, half_height]): ([usize; 2], [usize; 2]),
+    index: usize,
+    texel: impl Fn(usize) -> Vec4,
+) -> Vec4 {
+    let columns = covered(width, half_width, index % half_width);
+    let rows = covered(height, half_height, index / half_width);
+    let mut sum = Vec4::ZERO;
+    for (row, share) in rows {
+        for (column, part) in columns {
+            sum += share * part * texel(row * width + column);
+        }
+    }
+    sum
 }
 
 /// The texels that texel `index` of `half` covers of `count`, and the share of each: two, or three where `count` is
@@ -91,21 +144,4 @@ fn covered(count: usize, half: usize, index: usize) -> [(usize, f32); 3] {
         (first + 1, place / whole),
         (first + 2, (index + 1) as f32 / whole),
     ]
-}
-
-/// Linear values with the precision of `like`.
-fn stored(like: &Texels, curve: &SrgbCurve, values: impl Iterator<Item = Vec4>) -> Texels {
-    let code = |value: f32| (value * 255.0).round() as u8;
-    match like {
-        Texels::Srgb8(_) => Texels::Srgb8(
-            values
-                .map(|v| {
-                    let [r, g, b] = v.truncate().to_array().map(|c| curve.code(c));
-                    [r, g, b, code(v.w)]
-                })
-                .collect(),
-        ),
-        Texels::Linear8(_) => Texels::Linear8(values.map(|v| v.to_array().map(code)).collect()),
-        Texels::Float(_) => Texels::Float(values.collect()),
-    }
 }
