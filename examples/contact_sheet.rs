@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if pictures.is_empty() {
         return Err("there is no scene or model in these folders".into());
     }
-    output::save(&out, &sheet(&pictures))?;
+    output::save(&out, &Image::sheet(&pictures, COLUMNS))?;
     Ok(())
 }
 
@@ -80,24 +80,4 @@ fn picture(file: &Path) -> Result<(Image, Vec<String>), Box<dyn Error>> {
         renderer.step()?;
     }
     Ok((renderer.develop(&Tone::from(&scene.output))?, scene.skipped))
-}
-
-/// The pictures in rows; what is left of the last row is black.
-fn sheet(pictures: &[Image]) -> Image {
-    let columns = COLUMNS.min(pictures.len());
-    let rows = pictures.len().div_ceil(columns);
-    let (width, height) = (SIZE.0 as usize, SIZE.1 as usize);
-    let mut pixels = vec![[0.0, 0.0, 0.0, 1.0]; columns * width * rows * height];
-    for (i, picture) in pictures.iter().enumerate() {
-        let (row, column) = (i / columns, i % columns);
-        for (y, line) in picture.pixels.chunks_exact(width).enumerate() {
-            let first = ((row * height + y) * columns + column) * width;
-            pixels[first..first + width].copy_from_slice(line);
-        }
-    }
-    Image {
-        width: (columns * width) as u32,
-        height: (rows * height) as u32,
-        pixels,
-    }
 }

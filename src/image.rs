@@ -37,6 +37,37 @@ impl Image {
         self.pixels.get(index).copied()
     }
 
+    /// Copies `pixels`, in rows of `width`, to the place whose upper left corner is `[x, y]`.
+    ///
+    /// # Panics
+    /// If they reach beyond the image.
+    pub fn put(&mut self, pixels: &[[f32; 4]], width: u32, [x, y]: [u32; 2]) {
+        for (row, line) in pixels.chunks_exact((width as usize).max(1)).enumerate() {
+            let start = (y as usize + row) * self.width as usize + x as usize;
+            self.pixels[start..start + line.len()].copy_from_slice(line);
+        }
+    }
+
+    /// Pictures of one size in rows of `columns`, or fewer if there are not so many; what is left of the last row is
+    /// black.
+    ///
+    /// # Panics
+    /// If one is larger than the first, or `columns` is 0.
+    pub fn sheet(pictures: &[Self], columns: usize) -> Self {
+        let Some(first) = pictures.first() else {
+            return Self::default();
+        };
+        let columns = columns.min(pictures.len());
+        let rows = pictures.len().div_ceil(columns);
+        let mut sheet = Self::new(columns as u32 * first.width, rows as u32 * first.height);
+        for (index, picture) in pictures.iter().enumerate() {
+            let (column, row) = ((index % columns) as u32, (index / columns) as u32);
+            let place = [column * first.width, row * first.height];
+            sheet.put(&picture.pixels, picture.width, place);
+        }
+        sheet
+    }
+
     /// The pixels with colours multiplied by the opacity, as OpenEXR stores them.
     pub fn premultiplied(&self) -> impl Iterator<Item = [f32; 4]> {
         let pixels = self.pixels.iter();

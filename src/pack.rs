@@ -15,7 +15,6 @@ mod light;
 mod material;
 mod media;
 mod mesh;
-mod mipmap;
 mod nodes;
 mod object;
 mod picture;

@@ -22,6 +22,7 @@ mod material;
 mod mesh;
 mod metallic_roughness;
 mod mikktspace;
+mod mipmap;
 mod motion;
 mod node;
 mod object;

@@ -1,6 +1,6 @@
 //! Packs pictures: their texels are words of one array on the GPU.
 
-use super::{PackError, mipmap};
+use super::PackError;
 use crate::{
     layout::{PICTURE_HALF, PICTURE_SRGB},
     scene::{Pattern, Picture, Scene, Texels},
@@ -36,7 +36,7 @@ pub fn pictures(
         } = texture.pattern
             && minify.has_levels()
         {
-            level_counts[picture] = mipmap::level_count(&scene.pictures[picture]);
+            level_counts[picture] = scene.pictures[picture].level_count();
         }
     }
     let count = (scene.pictures.iter().zip(&level_counts))
@@ -79,7 +79,7 @@ pub fn pictures(
 fn word_count(picture: &Picture, level_count: u32) -> usize {
     let texel_count = match level_count {
         1 => picture.texels.len(),
-        _ => mipmap::texel_count(picture),
+        _ => picture.mipmap_len(),
     };
     let each = match picture.texels {
         Texels::Srgb8(_) | Texels::Linear8(_) => 1,
@@ -93,7 +93,7 @@ fn words(picture: &Picture, level_count: u32) -> Arc<[u32]> {
     if level_count == 1 {
         return texel_words(&picture.texels).collect();
     }
-    let levels = mipmap::levels(picture);
+    let levels = picture.levels();
     let mut starts = Vec::with_capacity(levels.len());
     let mut words = vec![0; levels.len()];
     words.reserve_exact(word_count(picture, level_count) - words.len());

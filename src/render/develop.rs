@@ -361,7 +361,7 @@ impl Developer {
         };
         let [x, y, ..] = settings.region();
         gpu.submit_and_read(encoder, &[source], context.staging, |bytes| {
-            copy_tile(image, cast_slice(bytes), tile, [x, y]);
+            image.put(cast_slice(bytes), tile.width, [tile.x - x, tile.y - y]);
         })
     }
 }
@@ -422,14 +422,6 @@ pub fn develop_sums(
         developer.develop(context, &tile, &settings, tone, &mut image)?;
     }
     Ok(image)
-}
-
-/// Copies the pixels of a film tile to their position in a picture whose upper left corner is `[x, y]`.
-fn copy_tile(image: &mut Image, pixels: &[[f32; 4]], tile: &FilmTile, [x, y]: [u32; 2]) {
-    for (row, line) in pixels.chunks_exact(tile.width as usize).enumerate() {
-        let start = ((tile.y - y) as usize + row) * image.width as usize + (tile.x - x) as usize;
-        image.pixels[start..start + line.len()].copy_from_slice(line);
-    }
 }
 
 /// A picture of sample counts, as grey levels over a range or as fractions of `max`.

@@ -65,57 +65,6 @@ impl Picture {
         }
     }
 
-    /// The picture at half its size, rounded down but at least 1 × 1; each texel is the mean of four, of their linear
-    /// values. The last row or column of an odd size is left out.
-    pub fn halved(&self) -> Self {
-        let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
-        let four = |i: u32| {
-            let (x, y) = (2 * (i % width), 2 * (i / width));
-            [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)].map(|(x, y)| {
-                let (x, y) = (x.min(self.width - 1), y.min(self.height - 1));
-                y as usize * self.width as usize + x as usize
-            })
-        };
-        let all = || (0..width * height).map(four);
-        let mean = |texels: &[[u8; 4]], at: [usize; 4], channel: usize| {
-            let sum: u32 = at.iter().map(|&i| u32::from(texels[i][channel])).sum();
-            ((sum + 2) / 4) as u8
-        };
-        let texels = match &self.texels {
-            Texels::Srgb8(texels) => {
-                let curve = SrgbCurve::default();
-                let linear =
-                    |i: usize, channel: usize| curve.values[usize::from(texels[i][channel])];
-                let color = |at: [usize; 4], channel| {
-                    curve.code(at.iter().map(|&i| linear(i, channel)).sum::<f32>() / 4.0)
-                };
-                let texel = |at| {
-                    [
-                        color(at, 0),
-                        color(at, 1),
-                        color(at, 2),
-                        mean(texels, at, 3),
-                    ]
-                };
-                Texels::Srgb8(all().map(texel).collect())
-            }
-            Texels::Linear8(texels) => {
-                let texel = |at| [0, 1, 2, 3].map(|channel| mean(texels, at, channel));
-                Texels::Linear8(all().map(texel).collect())
-            }
-            Texels::Float(texels) => {
-                let texel = |at: [usize; 4]| at.iter().map(|&i| texels[i] / 4.0).sum();
-                Texels::Float(all().map(texel).collect())
-            }
-        };
-        Self {
-            width,
-            height,
-            texels,
-            origin: Origin::Texels,
-        }
-    }
-
     /// The picture halved until neither side is longer than `most` texels, which is at least 1.
     pub fn limited(self, most: u32) -> Self {
         let mut picture = self;

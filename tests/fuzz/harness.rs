@@ -6,6 +6,7 @@
 //! export and exporting that gives the same text.
 
 mod invariants;
+pub mod poses;
 
 use glimray::export;
 use glimray::import::{self, Memory, Options};
@@ -30,6 +31,7 @@ pub const TARGETS: &[Target] = &[
     ("gltf", gltf),
     ("glb", glb),
     ("zip", zip),
+    ("poses", poses),
     ("picture", picture),
     ("film", film),
 ];
@@ -106,6 +108,47 @@ pub fn glb(bytes: &[u8]) {
 /// An archive of a model.
 pub fn zip(bytes: &[u8]) {
     scene("a.zip", bytes);
+}
+
+/// Deforming meshes: two moments, and the buffer of a model with a skin, morph targets and a clip.
+pub fn poses(bytes: &[u8]) {
+    let Some((moments, buffer)) = bytes.split_first_chunk::<16>() else {
+        return;
+    };
+    let moment = |at: usize| {
+        let bytes = moments[at..].first_chunk().copied().unwrap_or_default();
+        let seconds = f64::from_le_bytes(bytes);
+        if seconds.is_finite() {
+            seconds.clamp(-1e9, 1e9)
+        } else {
+            0.0
+        }
+    };
+    let (open, length) = (moment(0), moment(8).abs().min(10.0));
+    let scene = match poses::model(buffer) {
+        Ok(scene) => scene,
+        Err(error) => return is_one_line(&error.to_string()),
+    };
+    let broken = invariants::broken(&scene);
+    let broken = broken.or_else(|| poses::broken(&scene, open));
+    if let Some(why) = broken.or_else(|| poses::broken(&scene, open + length)) {
+        panic!("the scene has an invalid part: {why}");
+    }
+    let packed = match pack::scene(&scene) {
+        Ok(packed) => packed,
+        Err(error) => return is_one_line(&error.to_string()),
+    };
+    // Trees are built, refitted and blurred.
+    let mut before = None;
+    for frames in [
+        vec![scene.frame(open)],
+        scene.motion_samples(open, open + length),
+    ] {
+        match packed.view_from(before.as_ref(), &frames) {
+            Ok(view) => before = Some(view),
+            Err(error) => is_one_line(&error.to_string()),
+        }
+    }
 }
 
 /// An image.

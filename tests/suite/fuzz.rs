@@ -70,6 +70,21 @@ fn what_the_fuzzer_found_is_read_or_refused_in_one_line() {
     }
 }
 
+/// What is refused at once would tell nothing of poses.
+#[test]
+fn the_poses_that_the_fuzzer_starts_from_are_of_deforming_meshes() {
+    let seeds = fs::read_dir(root().join("tests/fuzz/seeds/poses")).expect("a folder");
+    for seed in seeds {
+        let path = seed.expect("an entry").path();
+        let bytes = fs::read(&path).expect("a file");
+        let scene = targets::poses::model(&bytes[16..]).expect("a model");
+        assert_eq!(scene.skipped, [""; 0], "{}", path.display());
+        assert_eq!(scene.deformations.len(), 1, "{}", path.display());
+        assert_eq!(scene.tracks.len(), 10, "{}", path.display());
+        assert!(scene.frame(0.7) != scene.frame(0.0), "{}", path.display());
+    }
+}
+
 #[test]
 fn every_target_is_built() {
     let folder = root().join("fuzz");

@@ -274,19 +274,5 @@ pub fn sheet() -> Image {
             render(&scene, &RenderSettings::from(&output), &Tone::from(&output))
         })
         .collect();
-    let rows = pictures.len().div_ceil(COLUMNS);
-    let (width, height) = (SIZE.0 as usize, SIZE.1 as usize);
-    let mut pixels = vec![[0.0, 0.0, 0.0, 1.0]; COLUMNS * width * rows * height];
-    for (i, picture) in pictures.iter().enumerate() {
-        for (y, line) in picture.pixels.chunks_exact(width).enumerate() {
-            let row = i / COLUMNS * height + y;
-            let first = (row * COLUMNS + i % COLUMNS) * width;
-            pixels[first..first + width].copy_from_slice(line);
-        }
-    }
-    Image {
-        width: (COLUMNS * width) as u32,
-        height: (rows * height) as u32,
-        pixels,
-    }
+    Image::sheet(&pictures, COLUMNS)
 }

@@ -687,3 +687,20 @@ mod unix {
         );
     }
 }
+
+#[test]
+fn a_sheet_has_its_pictures_in_rows_and_black_where_there_is_none() {
+    let picture = |value: f32| Image {
+        width: 2,
+        height: 1,
+        pixels: vec![[value, 0.0, 0.0, 1.0], [value, 1.0, 0.0, 1.0]],
+    };
+    let pictures = [0.1, 0.2, 0.3].map(picture);
+    let sheet = Image::sheet(&pictures, 2);
+    assert_eq!((sheet.width, sheet.height), (4, 2));
+    let red: Vec<f32> = sheet.pixels.iter().map(|pixel| pixel[0]).collect();
+    assert_eq!(red, [0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.0, 0.0]);
+    assert_eq!(sheet.pixels[7], [0.0, 0.0, 0.0, 1.0]);
+    // A single one is no wider than it is.
+    assert_eq!(Image::sheet(&pictures[..1], 4), pictures[0]);
+}

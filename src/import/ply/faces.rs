@@ -25,7 +25,14 @@ pub(super) fn polygons(
     content.mesh.triangles.reserve_exact(element.count);
     let mut cutter = Cutter::new();
     let mut corners: Vec<u32> = Vec::new();
+    let count = content.mesh.positions.len().min(i32::MAX as usize);
     for _ in 0..element.count {
+        if let [property] = &element.properties[..]
+            && let Some(triangle) = reader.triple(property, count)
+        {
+            content.mesh.triangles.push(triangle);
+            continue;
+        }
         corners.clear();
         for (i, property) in element.properties.iter().enumerate() {
             let count = reader.length(property)?;

@@ -159,6 +159,27 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The next list of a property if it has the length 3 in one byte and then three numbers below `most` in four bytes
+    /// each, as most faces are written. Otherwise nothing is read.
+    pub fn triple(&mut self, property: &Property, most: usize) -> Option<[u32; 3]> {
+        let is_usual = self.encoding != Encoding::Text
+            && matches!(property.count, Some(Kind::U8 | Kind::I8))
+            && matches!(property.kind, Kind::U32 | Kind::I32);
+        let [3, numbers @ ..] = self.bytes.get(self.at..)?.first_chunk::<13>()? else {
+            return None;
+        };
+        let numbers = numbers.as_chunks::<4>().0.first_chunk::<3>()?;
+        let triple = numbers.map(|bytes| match self.encoding {
+            Encoding::Big => u32::from_be_bytes(bytes),
+            _ => u32::from_le_bytes(bytes),
+        });
+        let fits = is_usual && triple.iter().all(|&number| (number as usize) < most);
+        fits.then(|| {
+            self.at += 13;
+            triple
+        })
+    }
+
     /// The next number, in the range of its type.
     pub fn number(&mut self, kind: Kind) -> Result<f64, ImportError> {
         if self.encoding == Encoding::Text {
@@ -187,21 +208,22 @@ impl<'a> Reader<'a> {
 
 /// The number at the beginning of `bytes`, which are long enough.
 fn decoded(kind: Kind, bytes: &[u8], encoding: Encoding) -> f64 {
-    let mut bits = [0; 8];
-    let size = kind.size();
-    bits[..size].copy_from_slice(&bytes[..size]);
-    let mut bits = u64::from_le_bytes(bits);
-    if encoding == Encoding::Big {
-        bits = bits.swap_bytes() >> (64 - 8 * size);
+    // Of a known length, so that it is one load.
+    fn first<const N: usize>(bytes: &[u8], encoding: Encoding) -> [u8; N] {
+        let mut first = bytes.first_chunk().copied().unwrap_or([0; N]);
+        if encoding == Encoding::Big {
+            first.reverse();
+        }
+        first
     }
     match kind {
-        Kind::I8 => f64::from(bits as i8),
-        Kind::U8 => f64::from(bits as u8),
-        Kind::I16 => f64::from(bits as i16),
-        Kind::U16 => f64::from(bits as u16),
-        Kind::I32 => f64::from(bits as i32),
-        Kind::U32 => f64::from(bits as u32),
-        Kind::Float => f64::from(f32::from_bits(bits as u32)),
-        Kind::Double => f64::from_bits(bits),
+        Kind::I8 => f64::from(i8::from_le_bytes(first(bytes, encoding))),
+        Kind::U8 => f64::from(u8::from_le_bytes(first(bytes, encoding))),
+        Kind::I16 => f64::from(i16::from_le_bytes(first(bytes, encoding))),
+        Kind::U16 => f64::from(u16::from_le_bytes(first(bytes, encoding))),
+        Kind::I32 => f64::from(i32::from_le_bytes(first(bytes, encoding))),
+        Kind::U32 => f64::from(u32::from_le_bytes(first(bytes, encoding))),
+        Kind::Float => f64::from(f32::from_le_bytes(first(bytes, encoding))),
+        Kind::Double => f64::from_le_bytes(first(bytes, encoding)),
     }
 }

@@ -140,11 +140,11 @@ fn whole(snapshot: Snapshot) -> Image {
         height: size.1,
         pixels: vec![[0.0; 4]; size.0 as usize * size.1 as usize],
     };
-    let (full, width) = (size.0 as usize, width as usize);
-    let lines = image.pixels.chunks_exact(width.max(1));
-    for (y, line) in lines.take(height as usize).enumerate() {
-        let start = (top as usize + y) * full + left as usize;
-        whole.pixels[start..start + width].copy_from_slice(line);
-    }
+    let count = width as usize * height as usize;
+    whole.put(
+        &image.pixels[..count.min(image.pixels.len())],
+        width,
+        [left, top],
+    );
     whole
 }

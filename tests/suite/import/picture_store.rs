@@ -97,27 +97,53 @@ fn pictures_beyond_the_texture_limit_are_halved_in_linear_light_and_reported() {
     }
 }
 
+fn picture(width: u32, height: u32, texels: Texels) -> Picture {
+    Picture {
+        width,
+        height,
+        texels,
+        origin: glimray::scene::Origin::Texels,
+    }
+}
+
 #[test]
 fn halves_of_data_are_means_of_their_codes() {
-    let picture = Picture {
-        width: 3,
-        height: 2,
-        texels: Texels::Linear8(vec![
-            [0, 10, 255, 7],
-            [1, 10, 255, 7],
-            [99; 4],
-            [2, 30, 254, 7],
-            [4, 30, 254, 7],
-            [99; 4],
-        ]),
-        origin: glimray::scene::Origin::Texels,
-    };
-    // 1.75, 20, 254.5 and 7; the last column of an odd width is left out.
-    let half = picture.halved();
+    let texels = Texels::Linear8(vec![
+        [0, 10, 255, 7],
+        [1, 10, 255, 7],
+        [98; 4],
+        [2, 30, 254, 7],
+        [4, 30, 254, 7],
+        [98; 4],
+    ]);
+    // All of an odd width counts: 203/6, 276/6, 1214/6 and 224/6.
+    let half = picture(3, 2, texels).halved();
     assert_eq!((half.width, half.height), (1, 1));
-    assert_eq!(half.texels, Texels::Linear8(vec![[2, 20, 255, 7]]));
+    assert_eq!(half.texels, Texels::Linear8(vec![[34, 46, 202, 37]]));
     let bright = Picture::opaque(2, 1, [glam::Vec3::MAX; 2]).halved();
     assert_eq!(bright.linear().next(), Some(glam::Vec3::MAX.extend(1.0)));
+}
+
+/// Five texels become two of two and a half, so that a half picture shows the same place as the whole one.
+#[test]
+fn halves_of_odd_pictures_keep_their_place() {
+    let texels = (0..5).map(|i| [50 * i, 0, 0, 255]).collect();
+    let half = picture(5, 1, Texels::Linear8(texels)).halved();
+    // (0 + 50 + 100/2)/2.5 and (100/2 + 150 + 200)/2.5.
+    let expected = vec![[40, 0, 0, 255], [160, 0, 0, 255]];
+    assert_eq!(half.texels, Texels::Linear8(expected));
+}
+
+/// A colour that nobody sees does not show at the edge of a cut-out.
+#[test]
+fn halves_of_colors_are_weighted_with_alpha() {
+    let texels = vec![[255, 0, 0, 255], [0, 255, 0, 0]];
+    let half = picture(2, 1, Texels::Srgb8(texels)).halved();
+    let Texels::Srgb8(texels) = &half.texels else {
+        panic!("not in sRGB");
+    };
+    let [r, g, b, a] = texels[0];
+    assert!(r == 255 && g <= 1 && b == 0 && a == 128, "{:?}", texels[0]);
 }
 
 /// A glTF model with `count` images, each the base colour of a material of its own.

@@ -101,7 +101,7 @@ fn a_background_may_be_a_gradient() {
 #[test]
 fn a_background_may_be_the_sky() {
     let sky = |text: &str| {
-        let scene = scene("a.toml", &format!("background = {text}"));
+        let scene = scene("a.toml", format!("background = {text}"));
         let Background::Picture {
             picture,
             strength,
