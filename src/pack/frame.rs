@@ -4,17 +4,18 @@ use super::{
     PackError, PackedScene,
     deform::Deformed,
     geometry::{in_range, render_point},
-    light, material, media,
+    light,
+    light_tree::LightTree,
+    material, media,
     tlas::Tlas,
 };
 use crate::{
     layout::{
-        ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, BACKGROUND_COLOR, BACKGROUND_GRADIENT,
-        BACKGROUND_PICTURE, CAMERA_ROWS, INSTANCE_ROWS, KEY_ROWS, LIGHT_DIRECTIONAL, LIGHT_DISC,
-        LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_ROWS, LIGHT_SPHERE, LIGHT_SPOT, MOVING, NODE_ROWS,
-        PackedCamera, PackedEmitter, PackedFrame, PackedLight, PackedMaterial, SHAPE,
+        BACKGROUND_COLOR, BACKGROUND_GRADIENT, BACKGROUND_PICTURE, CAMERA_ROWS, INSTANCE_ROWS,
+        KEY_ROWS, LIGHT_RECTANGLE, LIGHT_ROWS, MOVING, NODE_ROWS, PackedCamera, PackedEmitter,
+        PackedFrame, PackedLight, PackedMaterial, SHAPE,
     },
-    scene::{Attenuation, Background, Camera, Frame, Light, LightKind},
+    scene::{Background, Camera, Frame},
 };
 use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
@@ -41,6 +42,8 @@ pub struct PackedView {
     pub materials: Arc<[PackedMaterial]>,
     /// Emissive triangles.
     pub emitters: Vec<PackedEmitter>,
+    /// The tree over many lamps, shared as long as they are the same.
+    pub(super) light_tree: Arc<LightTree>,
     /// Whether the camera is orthographic.
     pub orthographic: bool,
     /// Whether there is a light that is not black.
@@ -85,7 +88,7 @@ impl PackedScene {
             let packed = frame
                 .lights
                 .iter()
-                .map(|light| packed_light(light, self.origin));
+                .map(|light| light::packed(light, self.origin));
             let key = packed.collect::<Result<Vec<_>, _>>()?;
             lights.push(key);
         }
@@ -121,7 +124,14 @@ impl PackedScene {
         };
         emitters.leave(environment_share);
         let lights_share = (1.0 - environment_share) * (1.0 - emitters.share);
-        light::set_chances(&mut lights, &powers, lights_share);
+        let light_tree = match previous {
+            Some(previous) if previous.light_tree.is_of(&lights) => previous.light_tree.clone(),
+            _ => Arc::new(LightTree::new(&lights, &powers)),
+        };
+        match light_tree.nodes.is_empty() {
+            true => light::set_chances(&mut lights, &powers, lights_share),
+            false => light_tree.set_trails(&mut lights, &powers, lights_share),
+        }
         let moving = if tlas.moves { MOVING } else { 0 };
         let instance_row = NODE_ROWS * (tlas.first_node + tlas.nodes.len() as u32);
         let key_row = instance_row + INSTANCE_ROWS * tlas.instances.len() as u32;
@@ -132,6 +142,7 @@ impl PackedScene {
         } else {
             0
         };
+        let emitter_row = camera_row + CAMERA_ROWS * camera_key_rows;
         Ok(PackedView {
             frame: PackedFrame {
                 camera: cameras[0],
@@ -157,13 +168,16 @@ impl PackedScene {
                 camera_key_count: cameras.len() as u32,
                 light_key_count,
                 deformation_key_count: deformed.key_count,
-                emitter_row: camera_row + CAMERA_ROWS * camera_key_rows,
+                emitter_row,
                 emitter_count: emitters.rows.len() as u32,
                 emitter_power: emitters.power as f32,
                 environment_first: environment.map_or(0, |(first, _)| first),
                 environment_width: environment.map_or(0, |(_, width)| width),
                 environment_share: environment_share as f32,
                 albedo_first: self.albedo_first(),
+                cluster_row: emitter_row + emitters.rows.len() as u32,
+                light_root: light_tree.root(),
+                lights_share: lights_share as f32,
                 ..self.background(&first.background)
             },
             background: match first.background {
@@ -174,6 +188,7 @@ impl PackedScene {
             orthographic: first.camera.orthographic_height.is_some(),
             has_lights,
             emitters: emitters.rows,
+            light_tree,
             has_area_lights: lights.iter().any(|light| light.kind >= LIGHT_RECTANGLE),
             lights,
             cameras: match cameras.len() {
@@ -251,7 +266,7 @@ impl PackedView {
     }
 
     /// The data after the scene's nodes on the GPU.
-    pub fn node_parts(&self) -> [&[u8]; 6] {
+    pub fn node_parts(&self) -> [&[u8]; 7] {
         [
             cast_slice(&self.tlas.nodes),
             cast_slice(&self.tlas.instances),
@@ -259,6 +274,7 @@ impl PackedView {
             cast_slice(&self.lights),
             cast_slice(&self.cameras),
             cast_slice(&self.emitters),
+            cast_slice(&self.light_tree.nodes),
         ]
     }
 
@@ -311,6 +327,11 @@ impl PackedView {
     pub(super) fn instanced_index(&self, instance: u32) -> Option<usize> {
         let instance = self.tlas.instances.get(instance as usize)?;
         Some(instance.id as usize - 1)
+    }
+
+    /// Whether paths choose lamps from a tree.
+    pub fn has_light_tree(&self) -> bool {
+        !self.light_tree.nodes.is_empty()
     }
 
     /// Whether some emitter is a shape.
@@ -369,77 +390,4 @@ fn camera(camera: &Camera, origin: DVec3) -> Result<PackedCamera, PackError> {
         blade_count: camera.lens.map_or(0, |lens| lens.blade_count),
         blade_rotation: camera.lens.map_or(0.0, |lens| lens.blade_rotation as f32),
     })
-}
-
-fn packed_light(light: &Light, origin: DVec3) -> Result<PackedLight, PackError> {
-    let mut packed = PackedLight {
-        direction: DVec3::NEG_Y.as_vec3().into(),
-        color: light.color.into(),
-        attenuation: match light.attenuation {
-            Attenuation::InverseSquare => ATTENUATION_INVERSE_SQUARE,
-            Attenuation::None => ATTENUATION_NONE,
-        },
-        sample_count: 1,
-        visible: u32::from(light.visible && light.kind.radiance().is_some()),
-        ..Default::default()
-    };
-    let direct = |direction: DVec3| direction.as_vec3().into();
-    let position = match light.kind {
-        LightKind::Point { position } => {
-            packed.kind = LIGHT_POINT;
-            position
-        }
-        LightKind::Directional { direction } => {
-            packed.kind = LIGHT_DIRECTIONAL;
-            packed.attenuation = ATTENUATION_NONE;
-            packed.direction = direct(direction);
-            origin
-        }
-        LightKind::Spot {
-            position,
-            direction,
-            inner,
-            outer,
-        } => {
-            packed.kind = LIGHT_SPOT;
-            packed.direction = direct(direction);
-            packed.cos_inner = inner.cos() as f32;
-            packed.cos_outer = outer.cos() as f32;
-            position
-        }
-        LightKind::Rectangle {
-            center,
-            edge_u,
-            edge_v,
-        } => {
-            in_range(edge_u.length().max(edge_v.length()))?;
-            packed.kind = LIGHT_RECTANGLE;
-            packed.direction = direct(edge_u.cross(edge_v).normalize_or(DVec3::NEG_Y));
-            (packed.edge_u, packed.edge_v) = (direct(edge_u), direct(edge_v));
-            center
-        }
-        LightKind::Disc {
-            center,
-            normal,
-            radius,
-        } => {
-            in_range(radius)?;
-            packed.kind = LIGHT_DISC;
-            packed.direction = direct(normal);
-            let (u, v) = normal.any_orthonormal_pair();
-            (packed.edge_u, packed.edge_v) = (direct(u * radius), direct(v * radius));
-            center
-        }
-        LightKind::Sphere { center, radius } => {
-            in_range(radius)?;
-            packed.kind = LIGHT_SPHERE;
-            packed.radius = radius as f32;
-            center
-        }
-    };
-    packed.position = render_point(position, origin)?.into();
-    if light.kind.radiance().is_some() {
-        packed.sample_count = light.samples;
-    }
-    Ok(packed)
 }

@@ -1,7 +1,14 @@
 //! The surfaces of visible lights.
 
+use super::{
+    PackError,
+    geometry::{in_range, render_point},
+};
 use crate::{
-    layout::PackedLight,
+    layout::{
+        ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, LIGHT_DIRECTIONAL, LIGHT_DISC, LIGHT_POINT,
+        LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, PackedLight,
+    },
     scene::{Attenuation, CanonicalShape, Frame, Geometry, Light, LightKind, Material, Scene},
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3};
@@ -162,7 +169,7 @@ pub fn set_chances(lights: &mut [PackedLight], powers: &[f64], share: f64) {
                 false => 0.0,
             };
             light.chance = chance as f32;
-            light.cumulative = sum as f32;
+            light.place = (sum as f32).to_bits();
             sum += chance;
         }
     }
@@ -184,4 +191,78 @@ fn power(light: &Light, radius: f64) -> f64 {
     };
     // Per steradian a light that fades sends its strength, which a light that does not sends per area.
     luminance * spread * solid_angle / PI
+}
+
+/// A light in render space, without its chance.
+pub fn packed(light: &Light, origin: DVec3) -> Result<PackedLight, PackError> {
+    let mut packed = PackedLight {
+        direction: DVec3::NEG_Y.as_vec3().into(),
+        color: light.color.into(),
+        attenuation: match light.attenuation {
+            Attenuation::InverseSquare => ATTENUATION_INVERSE_SQUARE,
+            Attenuation::None => ATTENUATION_NONE,
+        },
+        sample_count: 1,
+        visible: u32::from(light.visible && light.kind.radiance().is_some()),
+        ..Default::default()
+    };
+    let direct = |direction: DVec3| direction.as_vec3().into();
+    let position = match light.kind {
+        LightKind::Point { position } => {
+            packed.kind = LIGHT_POINT;
+            position
+        }
+        LightKind::Directional { direction } => {
+            packed.kind = LIGHT_DIRECTIONAL;
+            packed.attenuation = ATTENUATION_NONE;
+            packed.direction = direct(direction);
+            origin
+        }
+        LightKind::Spot {
+            position,
+            direction,
+            inner,
+            outer,
+        } => {
+            packed.kind = LIGHT_SPOT;
+            packed.direction = direct(direction);
+            packed.cos_inner = inner.cos() as f32;
+            packed.cos_outer = outer.cos() as f32;
+            position
+        }
+        LightKind::Rectangle {
+            center,
+            edge_u,
+            edge_v,
+        } => {
+            in_range(edge_u.length().max(edge_v.length()))?;
+            packed.kind = LIGHT_RECTANGLE;
+            packed.direction = direct(edge_u.cross(edge_v).normalize_or(DVec3::NEG_Y));
+            (packed.edge_u, packed.edge_v) = (direct(edge_u), direct(edge_v));
+            center
+        }
+        LightKind::Disc {
+            center,
+            normal,
+            radius,
+        } => {
+            in_range(radius)?;
+            packed.kind = LIGHT_DISC;
+            packed.direction = direct(normal);
+            let (u, v) = normal.any_orthonormal_pair();
+            (packed.edge_u, packed.edge_v) = (direct(u * radius), direct(v * radius));
+            center
+        }
+        LightKind::Sphere { center, radius } => {
+            in_range(radius)?;
+            packed.kind = LIGHT_SPHERE;
+            packed.radius = radius as f32;
+            center
+        }
+    };
+    packed.position = render_point(position, origin)?.into();
+    if light.kind.radiance().is_some() {
+        packed.sample_count = light.samples;
+    }
+    Ok(packed)
 }
