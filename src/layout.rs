@@ -309,10 +309,28 @@ packed! {
         sample_count: u32,
         /// Chance with which a path samples this light.
         chance: f32,
-        /// The sum of the chances of the lights before it.
-        cumulative: f32,
+        /// The bits of the sum of the chances of the lights before it, as a float. With a light tree the chance is that
+        /// of all lights, and this the way from the root: bit k is set if it is under the second child at depth k.
+        place: u32,
         /// Whether rays can hit it, 0 or 1.
         visible: u32,
+    }
+    /// Lights of a light tree: a box around them, and a cone around the directions in which they point.
+    PackedCluster {
+        /// The centre of the box in render space.
+        center: [f32; 3],
+        /// The sum of the intensities, in luminance.
+        power: f32,
+        /// Half of the edges of the box.
+        extent: [f32; 3],
+        /// [`LIGHT_LEAF`] with the index of a light, or the index of the first of two clusters, with [`LIGHT_BY_POWER`]
+        /// if these are chosen by power alone.
+        child: u32,
+        /// The unit axis of the cone.
+        axis: [f32; 3],
+        /// Signed 16-bit fractions: the cosine of the cone's half angle, and above it that of the angle from a light's
+        /// direction beyond which it sends nothing.
+        cones: u32,
     }
     /// An emissive triangle or shape that paths sample as a light.
     PackedEmitter {
@@ -410,6 +428,14 @@ packed! {
         environment_share: f32,
         /// Index of the first word of the tables of albedos among those of the texels.
         albedo_first: u32,
+        /// Row of the first [`PackedCluster`].
+        cluster_row: u32,
+        /// The [`PackedCluster::child`] of the root of the light tree.
+        light_root: u32,
+        /// With a light tree, the chance with which a light sample is one of the lights.
+        lights_share: f32,
+        /// Always 0.
+        _pad0: u32,
     }
     /// The parameters of one dispatch: which workgroups of which film tile, which samples. `counters` is its
     /// result.

@@ -12,6 +12,7 @@ mod geometry;
 mod instance;
 mod layers;
 mod light;
+mod light_tree;
 mod material;
 mod media;
 mod mesh;

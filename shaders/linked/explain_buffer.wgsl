@@ -571,7 +571,7 @@ struct types__PackedLight {
 	radius: f32,
 	sample_count: u32,
 	chance: f32,
-	cumulative: f32,
+	place: u32,
 	visible: u32
 }
 
@@ -618,7 +618,11 @@ struct types__PackedFrame {
 	environment_first: u32,
 	environment_width: u32,
 	environment_share: f32,
-	albedo_first: u32
+	albedo_first: u32,
+	cluster_row: u32,
+	light_root: u32,
+	lights_share: f32,
+	_pad0: u32
 }
 
 struct types__PackedDispatch {
@@ -1041,7 +1045,9 @@ struct dispatch__Batch {
 	emitter_power: f32,
 	environment_first: u32,
 	environment_width: u32,
-	environment_share: f32
+	environment_share: f32,
+	light_root: u32,
+	lights_share: f32
 }
 
 fn dispatch__load_batch() -> dispatch__Batch {
@@ -1050,7 +1056,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 		albedo__albedo_first = bindings__frame.albedo_first;
 	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
@@ -1218,7 +1224,7 @@ fn fetch__load_light(index: u32) -> types__PackedLight {
 	let r3 = fetch__node_row(row + 3u);
 	let r4 = fetch__node_row(row + 4u);
 	let r5 = fetch__node_row(row + 5u);
-	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), r5.x, bitcast<f32>(r5.y), bitcast<f32>(r5.z), r5.w);
+	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), r5.x, bitcast<f32>(r5.y), r5.z, r5.w);
 }
 
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
@@ -1682,7 +1688,7 @@ fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fracti
 }
 
 fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
-	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.cumulative, a.visible);
+	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.place, a.visible);
 }
 
 const camera__T_FAR: f32 = 3e38;

@@ -59,7 +59,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 		met = dispersion__dispersed(met, path.channel);
 	}
 	let layers = layers__layers_at(surface, optics);
-	let weight = emitters__emission_weight(batch, surface, hit, path.origin, ray.direction, path.pdf);
+	let weight = emitters__emission_weight(batch, surface, hit, emitters__Sender(path.origin, path.normal, path.pdf), ray.direction);
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
 	let emission = coat * emitters__emitted(surface, optics, layers.glow);
 	path = path__gained(path, weight * emission, path.bounces);
@@ -72,7 +72,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 }
 
 fn lamp_light(batch: dispatch__Batch, path: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> vec3f {
-	let light = emitters__sample_light(batch, surface.p, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
+	let light = emitters__sample_light(batch, surface.p, bsdf__receiving_normal(bsdf), path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
 	let found = bsdf__bsdf_eval(bsdf, light.incident.direction);
 	let weight = select(1.0, mis__power_heuristic(light.pdf, found.pdf), light.pdf > 0.0);
 	let unshadowed = weight * found.value * light.incident.radiance;
@@ -105,6 +105,7 @@ fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface
 	path.media = select(path.media, met.media, vec4<bool>(crosses));
 	path.ray = leaving__leaving_ray(surface, next.direction, camera__T_FAR);
 	path.origin = select(surface.p, path.origin, is_straight);
+	path.normal = select(bsdf__receiving_normal(bsdf), path.normal, is_straight);
 	path.pdf = select(next.pdf, path.pdf, is_straight);
 	if (crosses && next.pdf == 0.0) {
 		path.passes += 1u;
@@ -193,7 +194,9 @@ struct dispatch__Batch {
 	emitter_power: f32,
 	environment_first: u32,
 	environment_width: u32,
-	environment_share: f32
+	environment_share: f32,
+	light_root: u32,
+	lights_share: f32
 }
 
 fn dispatch__load_batch() -> dispatch__Batch {
@@ -202,7 +205,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 		albedo__albedo_first = bindings__frame.albedo_first;
 	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
@@ -331,6 +334,14 @@ const types__INSTANCE_ROWS: u32 = 10u;
 const types__KEY_ROWS: u32 = 4u;
 
 const types__LIGHT_ROWS: u32 = 6u;
+
+const types__CLUSTER_ROWS: u32 = 3u;
+
+const types__LIGHT_LEAF: u32 = 2147483648u;
+
+const types__LIGHT_BY_POWER: u32 = 1073741824u;
+
+const types__LIGHT_INDEX_MASK: u32 = 1073741823u;
 
 const types__CAMERA_ROWS: u32 = 4u;
 
@@ -617,8 +628,17 @@ struct types__PackedLight {
 	radius: f32,
 	sample_count: u32,
 	chance: f32,
-	cumulative: f32,
+	place: u32,
 	visible: u32
+}
+
+struct types__PackedCluster {
+	center: vec3f,
+	power: f32,
+	extent: vec3f,
+	child: u32,
+	axis: vec3f,
+	cones: u32
 }
 
 struct types__PackedEmitter {
@@ -671,7 +691,11 @@ struct types__PackedFrame {
 	environment_first: u32,
 	environment_width: u32,
 	environment_share: f32,
-	albedo_first: u32
+	albedo_first: u32,
+	cluster_row: u32,
+	light_root: u32,
+	lights_share: f32,
+	_pad0: u32
 }
 
 struct types__PackedDispatch {
@@ -877,7 +901,7 @@ fn fetch__load_light(index: u32) -> types__PackedLight {
 	let r3 = fetch__node_row(row + 3u);
 	let r4 = fetch__node_row(row + 4u);
 	let r5 = fetch__node_row(row + 5u);
-	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), r5.x, bitcast<f32>(r5.y), bitcast<f32>(r5.z), r5.w);
+	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), r5.x, bitcast<f32>(r5.y), r5.z, r5.w);
 }
 
 fn fetch__load_light_end(index: u32) -> f32 {
@@ -888,6 +912,18 @@ fn fetch__load_light_end(index: u32) -> f32 {
 fn fetch__load_emitter(index: u32) -> types__PackedEmitter {
 	let r0 = fetch__node_row(bindings__frame.emitter_row + index);
 	return types__PackedEmitter(r0.x, r0.y, bitcast<f32>(r0.z), bitcast<f32>(r0.w));
+}
+
+fn fetch__load_cluster(index: u32) -> types__PackedCluster {
+	let row = bindings__frame.cluster_row + types__CLUSTER_ROWS * index;
+	let r0 = fetch__node_row(row);
+	let r1 = fetch__node_row(row + 1u);
+	let r2 = fetch__node_row(row + 2u);
+	return types__PackedCluster(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
+}
+
+fn fetch__load_light_child(index: u32) -> u32 {
+	return fetch__node_row(bindings__frame.cluster_row + types__CLUSTER_ROWS * index + 1u).w;
 }
 
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
@@ -1002,6 +1038,8 @@ override bindings__COUNT_RAYS: bool = false;
 override bindings__COUNT_STEPS: bool = false;
 
 override bindings__HAS_LIGHTS: bool = true;
+
+override bindings__HAS_LIGHT_TREE: bool = false;
 
 override bindings__HAS_EMITTERS: bool = false;
 
@@ -1365,6 +1403,7 @@ struct path__Path {
 	passes: u32,
 	kind: u32,
 	origin: vec3f,
+	normal: vec3f,
 	pdf: f32,
 	cone: types__Cone,
 	key: u32,
@@ -1385,7 +1424,7 @@ fn path__path_along(batch: dispatch__Batch, ray: types__Ray, key: u32, sample: u
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, 0.0, cone, key, sample, path__ALL_CHANNELS);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, vec3f(0.0), 0.0, cone, key, sample, path__ALL_CHANNELS);
 }
 
 fn path__is_going(path: path__Path) -> bool {
@@ -1906,7 +1945,7 @@ fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fracti
 }
 
 fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
-	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.cumulative, a.visible);
+	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.place, a.visible);
 }
 
 const camera__T_FAR: f32 = 3e38;
@@ -3958,7 +3997,7 @@ fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, 
 		chance = select(1.0, 0.5, has_lamps);
 	}
 	if (has_lamps) {
-		arriving = emitters__sample_light(batch, p, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON)).incident;
+		arriving = emitters__sample_light(batch, p, n, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON)).incident;
 		arriving.radiance *= max(dot(n, arriving.direction), 0.0) / (warp__PI * max(1.0 - chance, 0.5));
 	}
 	if (path__random_1d(path, dimensions__SCATTER_CHOICE) < chance) {
@@ -3973,27 +4012,33 @@ struct emitters__LightSample {
 	pdf: f32
 }
 
-fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
+struct emitters__Sender {
+	p: vec3f,
+	n: vec3f,
+	pdf: f32
+}
+
+fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
 	if (bindings__HAS_ENVIRONMENT && (!(bindings__HAS_LIGHTS || bindings__HAS_EMITTERS) || choice >= 1.0 - batch.environment_share)) {
 		let found = environment__sample_environment(batch, u);
 		let pdf = batch.environment_share * found.pdf;
 		let radiance = background__background(batch, found.direction) / max(pdf, 1e-30);
 		return emitters__LightSample(types__Incident(found.direction, camera__T_FAR, radiance), pdf);
 	}
-	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || choice >= fetch__load_light_end(batch.light_count - 1u))) {
+	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || choice >= light_choice__end_of_lights(batch))) {
 		return emitters__sample_emitter(batch, p, choice, u);
 	}
-	let index = emitters__chosen(choice, batch.light_count, false);
-	let light = shutter__shutter_light(index, batch.light_count);
+	let lamp = light_choice__lamp_for(batch, p, n, choice);
+	let light = shutter__shutter_light(lamp.index, batch.light_count);
 	var arriving = light__incident(light, p);
 	var pdf = 0.0;
 	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
 		arriving = emitters__lamp_incident(light, p, u);
 		if (emitters__can_be_hit(light)) {
-			pdf = light.chance * spherical_rectangle__solid_density(light, p, arriving.direction, arriving.distance);
+			pdf = lamp.chance * spherical_rectangle__solid_density(light, p, arriving.direction, arriving.distance);
 		}
 	}
-	arriving.radiance *= warp__PI / max(light.chance, 1e-30);
+	arriving.radiance *= select(0.0, warp__PI / max(lamp.chance, 1e-30), lamp.chance > 0.0);
 	return emitters__LightSample(arriving, pdf);
 }
 
@@ -4008,32 +4053,8 @@ fn emitters__lamp_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> typ
 	return types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), strength * light.color);
 }
 
-fn emitters__chosen(choice: f32, count: u32, among_emitters: bool) -> u32 {
-	var low = 0u;
-	var high = count - 1u;
-	loop {
-		let middle = (low + high) / 2u;
-		var end = 0.0;
-		if (among_emitters) {
-			end = fetch__load_emitter(middle).end;
-		}
-		else {
-			end = fetch__load_light_end(middle);
-		}
-		let is_below = choice < end;
-		low = select(min(middle + 1u, high), low, is_below);
-		high = select(high, middle, is_below);
-		continuing {
-		
-			break if low >= high;
-		}
-	}
-	loops__cut_off |= low < high;
-	return low;
-}
-
 fn emitters__sample_emitter(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
-	let index = emitters__chosen(choice, batch.emitter_count, true);
+	let index = light_choice__chosen(choice, batch.emitter_count, true);
 	let emitter = fetch__load_emitter(index);
 	if (bindings__HAS_EMISSIVE_SHAPES && (emitter.primitive & types__SHAPE) != 0u) {
 		return emitters__sample_shape(batch, p, emitter, u);
@@ -4109,7 +4130,9 @@ fn emitters__sample_shape(batch: dispatch__Batch, p: vec3f, emitter: types__Pack
 	return emitters__LightSample(types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max(emitter.chance * found.pdf, 1e-30)), glow.luminance / batch.emitter_power * emissive_shape__area_of(light) * found.pdf);
 }
 
-fn emitters__emission_weight(batch: dispatch__Batch, surface: types__Surface, hit: types__Hit, origin: vec3f, direction: vec3f, pdf: f32) -> f32 {
+fn emitters__emission_weight(batch: dispatch__Batch, surface: types__Surface, hit: types__Hit, sender: emitters__Sender, direction: vec3f) -> f32 {
+	let origin = sender.p;
+	let pdf = sender.pdf;
 	let distance = distance(origin, surface.p);
 	if (!(bindings__HAS_AREA_LIGHTS || bindings__HAS_EMITTERS) || pdf <= 0.0) {
 		return 1.0;
@@ -4117,7 +4140,10 @@ fn emitters__emission_weight(batch: dispatch__Batch, surface: types__Surface, hi
 	let glow = material__load_glow(surface.material);
 	if (bindings__HAS_AREA_LIGHTS && glow.light != types__NONE) {
 		let light = shutter__shutter_light(glow.light, batch.light_count);
-		let density = light.chance * spherical_rectangle__solid_density(light, origin, direction, distance);
+		var density = light.chance * spherical_rectangle__solid_density(light, origin, direction, distance);
+		if (bindings__HAS_LIGHT_TREE && density > 0.0) {
+			density *= light_tree__lamp_chance(batch, light.place, origin, sender.n);
+		}
 		return select(0.0, mis__power_heuristic(pdf, density), emitters__can_be_hit(light));
 	}
 	if (!bindings__HAS_EMITTERS) {
@@ -4178,6 +4204,46 @@ fn quad_warp__half_of(chance: f32, u: f32) -> quad_warp__Half {
 	let start = select(0.0, chance, is_second);
 	let size = select(chance, 1.0 - chance, is_second);
 	return quad_warp__Half(select(0u, 1u, is_second), clamp((u - start) / max(size, 1e-9), 0.0, 0.99999994));
+}
+
+fn light_choice__end_of_lights(batch: dispatch__Batch) -> f32 {
+	if (bindings__HAS_LIGHT_TREE) {
+		return batch.lights_share;
+	}
+	return fetch__load_light_end(batch.light_count - 1u);
+}
+
+fn light_choice__lamp_for(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32) -> light_tree__ChosenLamp {
+	if (bindings__HAS_LIGHT_TREE) {
+		let lamp = light_tree__choose_lamp(batch, p, n, choice / batch.lights_share);
+		return light_tree__ChosenLamp(lamp.index, batch.lights_share * lamp.chance);
+	}
+	let index = light_choice__chosen(choice, batch.light_count, false);
+	return light_tree__ChosenLamp(index, fetch__load_light(index).chance);
+}
+
+fn light_choice__chosen(choice: f32, count: u32, among_emitters: bool) -> u32 {
+	var low = 0u;
+	var high = count - 1u;
+	loop {
+		let middle = (low + high) / 2u;
+		var end = 0.0;
+		if (among_emitters) {
+			end = fetch__load_emitter(middle).end;
+		}
+		else {
+			end = fetch__load_light_end(middle);
+		}
+		let is_below = choice < end;
+		low = select(min(middle + 1u, high), low, is_below);
+		high = select(high, middle, is_below);
+		continuing {
+		
+			break if low >= high;
+		}
+	}
+	loops__cut_off |= low < high;
+	return low;
 }
 
 fn emissive_shape__is_sampled(shape: types__PackedShape, instance: u32) -> bool {
@@ -4785,6 +4851,98 @@ fn albedo__multiple_scattering(f0: vec3f, albedo: vec2f) -> vec3f {
 	return 1.0 + f0 * ((1.0 - single) / single);
 }
 
+struct light_tree__ChosenLamp {
+	index: u32,
+	chance: f32
+}
+
+fn light_tree__child_chances(reference: u32, p: vec3f, n: vec3f) -> vec2f {
+	let first = fetch__load_cluster(reference & types__LIGHT_INDEX_MASK);
+	let second = fetch__load_cluster((reference & types__LIGHT_INDEX_MASK) + 1u);
+	var weights = vec2f(first.power, second.power);
+	if ((reference & types__LIGHT_BY_POWER) == 0u) {
+		weights = vec2f(light_cluster__cluster_importance(first, p, n), light_cluster__cluster_importance(second, p, n));
+	}
+	let total = weights.x + weights.y;
+	return select(vec2f(0.0), weights / max(total, 1e-37), total > 0.0);
+}
+
+fn light_tree__child_of(reference: u32, is_second: bool) -> u32 {
+	return fetch__load_light_child((reference & types__LIGHT_INDEX_MASK) + select(0u, 1u, is_second));
+}
+
+fn light_tree__choose_lamp(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32) -> light_tree__ChosenLamp {
+	var reference = batch.light_root;
+	var chance = 1.0;
+	var u = choice;
+	loop {
+		let chances = light_tree__child_chances(reference, p, n);
+		let is_second = u >= chances.x;
+		let own = select(chances.x, chances.y, is_second);
+		u = clamp((u - select(0.0, chances.x, is_second)) / max(own, 1e-30), 0.0, 0.99999994);
+		chance *= own;
+		reference = light_tree__child_of(reference, is_second);
+		continuing {
+		
+			break if (reference & types__LIGHT_LEAF) != 0u || chance <= 0.0;
+		}
+	}
+	let is_leaf = (reference & types__LIGHT_LEAF) != 0u;
+	loops__cut_off |= !is_leaf && chance > 0.0;
+	return light_tree__ChosenLamp(select(0u, reference & types__LIGHT_INDEX_MASK, is_leaf), select(0.0, chance, is_leaf));
+}
+
+fn light_tree__lamp_chance(batch: dispatch__Batch, trail: u32, p: vec3f, n: vec3f) -> f32 {
+	var reference = batch.light_root;
+	var left = trail;
+	var chance = 1.0;
+	loop {
+		let chances = light_tree__child_chances(reference, p, n);
+		let is_second = (left & 1u) != 0u;
+		chance *= select(chances.x, chances.y, is_second);
+		left >>= 1u;
+		reference = light_tree__child_of(reference, is_second);
+		continuing {
+		
+			break if (reference & types__LIGHT_LEAF) != 0u || chance <= 0.0;
+		}
+	}
+	loops__cut_off |= (reference & types__LIGHT_LEAF) == 0u && chance > 0.0;
+	return chance;
+}
+
+const light_cluster__SLACK: f32 = 0.001;
+
+fn light_cluster__cos_of_rest(a: vec2f, b: vec2f) -> f32 {
+	return select(a.y * b.y + a.x * b.x, 1.0, a.y > b.y);
+}
+
+fn light_cluster__sine_of(cosine: f32) -> f32 {
+	return sqrt(max(1.0 - cosine * cosine, 0.0));
+}
+
+fn light_cluster__cluster_importance(cluster: types__PackedCluster, p: vec3f, n: vec3f) -> f32 {
+	let offset = p - cluster.center;
+	let d2 = dot(offset, offset);
+	let r2 = dot(cluster.extent, cluster.extent);
+	let nearest2 = max(max(d2, r2), 1e-30);
+	let w = offset / sqrt(max(d2, 1e-30));
+	let is_inside = d2 <= r2;
+	let sin2_b = r2 / nearest2;
+	let b = select(vec2f(sqrt(sin2_b), sqrt(max(1.0 - sin2_b, 0.0))), vec2f(0.0, -1.0), is_inside);
+	let cones = unpack2x16snorm(cluster.cones);
+	let cos_w = clamp(dot(cluster.axis, w), -1.0, 1.0);
+	let cos_x = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_w), cos_w), vec2f(light_cluster__sine_of(cones.x), cones.x));
+	let cos_p = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_x), cos_x), b);
+	var importance = select(max(cos_p, light_cluster__SLACK), 0.0, cos_p + light_cluster__SLACK <= cones.y);
+	if (any(n != vec3f(0.0))) {
+		let cos_n = clamp(-dot(n, w), -1.0, 1.0);
+		let cos_i = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_n), cos_n), b);
+		importance *= select(max(cos_i, light_cluster__SLACK), 0.0, cos_i + light_cluster__SLACK <= 0.0);
+	}
+	return min(importance * cluster.power / nearest2, 1e30);
+}
+
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
 	let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
 	return x * x * (3.0 - 2.0 * x);
@@ -5227,6 +5385,11 @@ struct bsdf__BsdfSample {
 
 fn bsdf__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
 	return (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && bsdf.chances.z > 0.0 && bsdf.boundary_alpha.x >= layers__SMOOTH;
+}
+
+fn bsdf__receiving_normal(bsdf: lobes__Bsdf) -> vec3f {
+	let passes = (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) || (bindings__HAS_COATINGS && any(bsdf.through > vec3f(0.0)));
+	return select(bsdf.normal, vec3f(0.0), passes);
 }
 
 fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {

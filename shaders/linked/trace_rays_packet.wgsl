@@ -347,7 +347,11 @@ struct types__PackedFrame {
 	environment_first: u32,
 	environment_width: u32,
 	environment_share: f32,
-	albedo_first: u32
+	albedo_first: u32,
+	cluster_row: u32,
+	light_root: u32,
+	lights_share: f32,
+	_pad0: u32
 }
 
 struct types__PackedDispatch {

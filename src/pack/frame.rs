@@ -4,7 +4,9 @@ use super::{
     PackError, PackedScene,
     deform::Deformed,
     geometry::{in_range, render_point},
-    light, material, media,
+    light,
+    light_tree::LightTree,
+    material, media,
     tlas::Tlas,
 };
 use crate::{
@@ -42,6 +44,8 @@ pub struct PackedView {
     pub textures: Arc<[PackedTexture]>,
     /// Emissive triangles.
     pub emitters: Vec<PackedEmitter>,
+    /// The tree over many lamps, shared as long as they are the same.
+    pub(super) light_tree: Arc<LightTree>,
     /// Whether the camera is orthographic.
     pub orthographic: bool,
     /// Whether there is a light that is not black.
@@ -122,7 +126,14 @@ impl PackedScene {
         };
         emitters.leave(environment_share);
         let lights_share = (1.0 - environment_share) * (1.0 - emitters.share);
-        light::set_chances(&mut lights, &powers, lights_share);
+        let light_tree = match previous {
+            Some(previous) if previous.light_tree.is_of(&lights) => previous.light_tree.clone(),
+            _ => Arc::new(LightTree::new(&lights, &powers)),
+        };
+        match light_tree.nodes.is_empty() {
+            true => light::set_chances(&mut lights, &powers, lights_share),
+            false => light_tree.set_trails(&mut lights, &powers, lights_share),
+        }
         let moving = if tlas.moves { MOVING } else { 0 };
         let instance_row = NODE_ROWS * (tlas.first_node + tlas.nodes.len() as u32);
         let key_row = instance_row + INSTANCE_ROWS * tlas.instances.len() as u32;
@@ -133,6 +144,7 @@ impl PackedScene {
         } else {
             0
         };
+        let emitter_row = camera_row + CAMERA_ROWS * camera_key_rows;
         Ok(PackedView {
             frame: PackedFrame {
                 camera: cameras[0],
@@ -158,13 +170,16 @@ impl PackedScene {
                 camera_key_count: cameras.len() as u32,
                 light_key_count,
                 deformation_key_count: deformed.key_count,
-                emitter_row: camera_row + CAMERA_ROWS * camera_key_rows,
+                emitter_row,
                 emitter_count: emitters.rows.len() as u32,
                 emitter_power: emitters.power as f32,
                 environment_first: environment.map_or(0, |(first, _)| first),
                 environment_width: environment.map_or(0, |(_, width)| width),
                 environment_share: environment_share as f32,
                 albedo_first: self.albedo_first(),
+                cluster_row: emitter_row + emitters.rows.len() as u32,
+                light_root: light_tree.root(),
+                lights_share: lights_share as f32,
                 ..self.background(&first.background)
             },
             background: match first.background {
@@ -175,6 +190,7 @@ impl PackedScene {
             orthographic: first.camera.orthographic_height.is_some(),
             has_lights,
             emitters: emitters.rows,
+            light_tree,
             has_area_lights: lights.iter().any(|light| light.kind >= LIGHT_RECTANGLE),
             lights,
             cameras: match cameras.len() {
@@ -257,7 +273,7 @@ impl PackedView {
     }
 
     /// The data after the scene's nodes on the GPU.
-    pub fn node_parts(&self) -> [&[u8]; 6] {
+    pub fn node_parts(&self) -> [&[u8]; 7] {
         [
             cast_slice(&self.tlas.nodes),
             cast_slice(&self.tlas.instances),
@@ -265,6 +281,7 @@ impl PackedView {
             cast_slice(&self.lights),
             cast_slice(&self.cameras),
             cast_slice(&self.emitters),
+            cast_slice(&self.light_tree.nodes),
         ]
     }
 
@@ -317,6 +334,11 @@ impl PackedView {
     pub(super) fn instanced_index(&self, instance: u32) -> Option<usize> {
         let instance = self.tlas.instances.get(instance as usize)?;
         Some(instance.id as usize - 1)
+    }
+
+    /// Whether paths choose lamps from a tree.
+    pub fn has_light_tree(&self) -> bool {
+        !self.light_tree.nodes.is_empty()
     }
 
     /// Whether some emitter is a shape.

@@ -169,7 +169,7 @@ pub fn set_chances(lights: &mut [PackedLight], powers: &[f64], share: f64) {
                 false => 0.0,
             };
             light.chance = chance as f32;
-            light.cumulative = sum as f32;
+            light.place = (sum as f32).to_bits();
             sum += chance;
         }
     }
@@ -193,7 +193,7 @@ fn power(light: &Light, radius: f64) -> f64 {
     luminance * spread * solid_angle / PI
 }
 
-/// Packs a light of the frame.
+/// A light in render space, without its chance.
 pub fn packed(light: &Light, origin: DVec3) -> Result<PackedLight, PackError> {
     let mut packed = PackedLight {
         direction: DVec3::NEG_Y.as_vec3().into(),

@@ -140,7 +140,7 @@ impl<'a> Array<'a> {
 
     /// Adds the data of a view to the nodes, with some spare room.
     fn add_view(&mut self, scene: &PackedScene, view: &'a PackedView) {
-        let [nodes, instances, keys, lights, cameras, emitters] = view.node_parts();
+        let [nodes, instances, keys, lights, cameras, emitters, clusters] = view.node_parts();
         let scene_bytes = self.bytes;
         let first = u64::from(scene.first_view_node()) * size_of::<PackedNode>() as u64;
         self.bytes = first;
@@ -150,7 +150,7 @@ impl<'a> Array<'a> {
         for part in [nodes, instances, keys] {
             self.push(part, |uploads| &mut uploads.tlas);
         }
-        for part in [lights, cameras, emitters] {
+        for part in [lights, cameras, emitters, clusters] {
             self.push(part, |uploads| &mut uploads.frames);
         }
         self.bytes = match self.bytes - first {

@@ -116,6 +116,7 @@ pub fn of(task: Task) -> Overrides {
             "BSDF_SPEC",
             flag(is_path && settings.bsdf == BsdfModel::Spec),
         ),
+        ("HAS_LIGHT_TREE", flag(is_path && view.has_light_tree())),
         ("HAS_EMITTERS", flag(is_path && !view.emitters.is_empty())),
         (
             "HAS_EMISSIVE_SHAPES",

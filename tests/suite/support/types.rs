@@ -178,7 +178,7 @@ shader_struct!(PackedLight = "package::types::PackedLight" {
     radius: f32,
     sample_count: u32,
     chance: f32,
-    cumulative: f32,
+    place: u32,
     visible: u32,
 });
 shader_struct!(PackedShape = "package::types::PackedShape" {
