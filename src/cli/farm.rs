@@ -13,6 +13,7 @@ mod measure;
 mod merge;
 mod merge_costs;
 mod plan;
+mod results;
 mod run;
 mod simulate;
 mod slurm;

@@ -1,7 +1,7 @@
 //! `glimray farm merge DIR`: puts the parts together, to the bytes of one run.
 
 use super::manifest::{Frames, Manifest};
-use super::run::{foreign, frame_ending, invalid, unfinished};
+use super::results::{foreign, frame_ending, invalid, unfinished};
 use super::{Folder, flags, numbered};
 use crate::app::console;
 use crate::app::console::Console;
@@ -40,8 +40,8 @@ pub fn run(arguments: &FarmMergeArgs) -> Result<(), AppError> {
             manifest.output.display()
         )));
     }
-    let has_some = missing.len() < manifest.parts.len();
-    if !missing.is_empty() && !(arguments.partial && has_some) {
+    let is_partial = arguments.partial && missing.len() < manifest.parts.len();
+    if !missing.is_empty() && !is_partial {
         return Err(incomplete(&folder, &missing)?);
     }
     let merge = Merge {

@@ -2,7 +2,7 @@
 //! a video. The time of the disk comes on top.
 
 use super::manifest::Part;
-use super::run::frame_ending;
+use super::results::frame_ending;
 use super::work::Work;
 use crate::app::error::AppError;
 use crate::gpu::Gpu;

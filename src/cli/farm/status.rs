@@ -2,7 +2,7 @@
 
 use super::lease::{self, Leases};
 use super::manifest::Manifest;
-use super::run::unfinished;
+use super::results::unfinished;
 use super::{Folder, failed_io, numbered};
 use crate::app::console;
 use crate::app::error::AppError;
