@@ -204,7 +204,7 @@ fn write_pieces(
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), OutputError> {
     atomic::write_with(path, clobber, follow_links, |file| {
-        let mut file = BufWriter::new(file);
+        let mut file = BufWriter::with_capacity(1 << 20, file);
         let filled = fill(&mut file).and_then(|()| file.flush());
         filled.map_err(|source| OutputError::Io {
             path: path.into(),

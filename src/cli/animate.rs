@@ -135,15 +135,10 @@ impl<'a> Sequence<'a> {
         let settings = self.job.settings();
         let files = self.target.frames.as_ref();
         let takes_layers = files.is_some_and(|files| files.format == Format::Exr);
-        self.job.layers.check(
-            self.job.picture.develop.denoise,
-            settings.integrator,
-            &self.target.path,
-            takes_layers,
-        )?;
         let takes_opacity =
             self.target.video.is_none() && files.is_some_and(|files| files.format.has_opacity());
-        Job::check_backdrop(&settings, &self.target.path, takes_opacity)?;
+        let path = &self.target.path;
+        (self.job).check_format(&settings, path, takes_layers, takes_opacity)?;
         let size = picture_size(&settings)?;
         let video = self.video_options()?;
         draft.set_image(self.job.image(&self.target.path, &settings, size));

@@ -11,7 +11,7 @@ use crate::cli::report::Draft;
 use crate::output::{self, OutputError};
 use crate::render::{CheckpointError, Renderer};
 use std::fs::{self, File};
-use std::io::{BufReader, BufWriter, ErrorKind};
+use std::io::{BufReader, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -152,9 +152,7 @@ impl<'a> CheckpointFile<'a> {
         let done = renderer.progress();
         let _saving = interrupt.saving();
         let checkpoint = renderer.checkpoint()?;
-        output::write_own_with(self.path, |file| {
-            checkpoint.write(BufWriter::with_capacity(1 << 20, file))
-        })?;
+        output::write_own_with(self.path, |file| checkpoint.write(file))?;
         self.saved = Some((done, submissions));
         Ok(())
     }

@@ -88,8 +88,21 @@ impl Job<'_> {
         Ok(finished.placed(settings.region(), settings.size))
     }
 
+    /// Refuses layers and opacity that the integrator cannot render, or that the file does not keep.
+    pub fn check_format(
+        &self,
+        settings: &RenderSettings,
+        path: &Path,
+        takes_layers: bool,
+        takes_opacity: bool,
+    ) -> Result<(), AppError> {
+        let denoise = self.picture.develop.denoise;
+        (self.layers).check(denoise, settings.integrator, path, takes_layers)?;
+        Self::check_backdrop(settings, path, takes_opacity)
+    }
+
     /// Refuses a transparent background that the integrator cannot render, or that the file does not keep.
-    pub fn check_backdrop(
+    fn check_backdrop(
         settings: &RenderSettings,
         path: &Path,
         takes_opacity: bool,

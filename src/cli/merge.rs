@@ -6,12 +6,13 @@
 use crate::app::console;
 use crate::app::error::AppError;
 use crate::app::inputs::Inputs;
+use crate::app::overrides::picture_size;
 use crate::cli::args::MergeArgs;
 use crate::cli::destination::Destination;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job;
 use crate::gpu::Gpu;
-use crate::render::{Film, FilmError, FilmHeader, FilmOutline, Missing};
+use crate::render::{Film, FilmError, FilmHeader, FilmOutline, Missing, RenderSettings};
 use crate::scene::OutputDefaults;
 use std::fs::File;
 use std::io::BufReader;
@@ -77,14 +78,14 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
 }
 
 /// The pixels that must be complete: x, y, width, height.
-fn region(crop: Option<[u32; 4]>, (width, height): (u32, u32)) -> Result<[u32; 4], AppError> {
-    match crop {
-        None => Ok([0, 0, width, height]),
-        Some([x0, y0, x1, y1]) if x1 <= width && y1 <= height => Ok([x0, y0, x1 - x0, y1 - y0]),
-        Some([.., x1, y1]) => Err(AppError::Usage(format!(
-            "cannot merge (--crop): it ends at {x1},{y1}, outside of {width}×{height} pixels. Choose a smaller one."
-        ))),
-    }
+fn region(crop: Option<[u32; 4]>, size: (u32, u32)) -> Result<[u32; 4], AppError> {
+    let settings = RenderSettings {
+        size,
+        crop,
+        ..RenderSettings::default()
+    };
+    picture_size(&settings)?;
+    Ok(settings.region())
 }
 
 /// The outline of each part.

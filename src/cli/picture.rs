@@ -35,13 +35,12 @@ pub fn run(
         sample_range: range(part, destination, &settings)?,
         ..settings
     };
-    job.layers.check(
-        job.picture.develop.denoise,
-        settings.integrator,
+    job.check_format(
+        &settings,
         destination.path(),
         destination.takes_layers(),
+        destination.takes_opacity(),
     )?;
-    Job::check_backdrop(&settings, destination.path(), destination.takes_opacity())?;
     let size = picture_size(&settings)?;
     draft.set_image(job.image(destination.path(), &settings, size));
     draft

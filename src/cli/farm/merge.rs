@@ -1,7 +1,7 @@
 //! `glimray farm merge DIR`: puts the parts together, to the bytes of one run.
 
 use super::manifest::{Frames, Manifest};
-use super::results::{foreign, frame_ending, invalid, unfinished};
+use super::results::{State, foreign, frame_ending, frame_files, state, unfinished};
 use super::{Folder, flags, numbered};
 use crate::app::console;
 use crate::app::console::Console;
@@ -115,24 +115,16 @@ impl Merge<'_> {
         let mut files: BTreeMap<u32, PathBuf> = BTreeMap::new();
         let mut films: BTreeMap<u32, Vec<PathBuf>> = BTreeMap::new();
         for (number, part) in numbered(&self.manifest) {
-            let [first, last] = part.frames.unwrap_or_default();
             if part.is_film() {
-                let film = self.film(number)?;
-                films.entry(first).or_default().push(film);
+                let [frame, _] = part.frames.unwrap_or_default();
+                films.entry(frame).or_default().push(self.film(number)?);
                 continue;
             }
-            let done = self.folder.done(number);
-            let why = match &done {
-                Some(done) => invalid(&self.folder, &self.manifest, number, done),
-                None => Some("it was done a moment ago".into()),
-            };
-            if let Some(why) = why {
-                return Err(self.damaged(number, &why));
+            match state(&self.folder, &self.manifest, number) {
+                State::Done => files.extend(frame_files(&self.folder, &self.manifest, number)),
+                State::Invalid(why) => return Err(self.damaged(number, &why)),
+                State::Absent => return Err(self.damaged(number, "it is no longer done")),
             }
-            let of_part = frames
-                .numbers()
-                .filter(|frame| (first..=last).contains(frame));
-            files.extend(of_part.map(|frame| (frame, self.folder.frame(number, frame, &ending))));
         }
         for (frame, parts) in films {
             interrupt.check()?;

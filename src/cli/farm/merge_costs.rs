@@ -153,14 +153,7 @@ impl MergeCosts {
         merging.seconds += pictures.len() as f64 * pixels as f64 * self.finish;
         merging.memory_bytes = pixels * DEVELOPED_BYTES;
         if !pictures.is_empty() {
-            let whole = Part {
-                frames: None,
-                samples: None,
-                crop: None,
-                seconds: 0.0,
-            };
-            let sums = work.film(&whole)?.map_or(0, |film| film.bytes());
-            merging.memory_bytes += sums + merging.largest_bytes;
+            merging.memory_bytes += work.whole_film()?.bytes() + merging.largest_bytes;
         }
         if let Some(timeline) = &work.timeline {
             merging.seconds += timeline.count as f64 * pixels as f64 * self.encode;

@@ -3,7 +3,7 @@
 use super::manifest::{Manifest, Part};
 use super::{Done, Folder, archive, numbered};
 use crate::output::Format;
-use crate::render::{Film, FilmHeader, FilmOutline};
+use crate::render::{Film, FilmError, FilmHeader, FilmOutline};
 use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -20,33 +20,37 @@ pub fn frame_ending(output: &Path) -> String {
     }
 }
 
-/// Why the result of a part that is done cannot be used; `None` if it can.
-pub fn invalid(folder: &Folder, manifest: &Manifest, number: u32, done: &Done) -> Option<String> {
-    match manifest.parts[number as usize].is_film() {
+/// What became of a part.
+pub enum State {
+    /// It has no mark.
+    Absent,
+    Done,
+    /// It has its mark, but its result cannot be used, for this reason.
+    Invalid(String),
+}
+
+/// What became of a part, with its whole result looked at.
+pub fn state(folder: &Folder, manifest: &Manifest, number: u32) -> State {
+    let Some(done) = folder.done(number) else {
+        return State::Absent;
+    };
+    let why = match manifest.parts[number as usize].is_film() {
         true => invalid_film(folder, manifest, number),
-        false => invalid_frames(folder, manifest, number, done),
-    }
+        false => invalid_frames(folder, manifest, number, &done),
+    };
+    why.map_or(State::Done, State::Invalid)
 }
 
 fn invalid_film(folder: &Folder, manifest: &Manifest, number: u32) -> Option<String> {
-    let part = &manifest.parts[number as usize];
     let path = folder.film(number);
-    let film = File::open(&path)
-        .map_err(Into::into)
-        .and_then(|file| Film::read(BufReader::new(file)));
-    let film = match film {
+    let film = match read_film(&path, Film::read) {
         Ok(film) => film,
-        Err(error) => {
-            return Some(format!(
-                "{} ({})",
-                error.to_string().trim_end_matches('.'),
-                path.display()
-            ));
-        }
+        Err(why) => return Some(why),
     };
-    if !is_of(manifest, film.header()) {
-        return Some(format!("{} is of another picture", path.display()));
+    if let Some(why) = other_picture(manifest, film.header(), &path) {
+        return Some(why);
     }
+    let part = &manifest.parts[number as usize];
     let [width, height] = manifest.size;
     let [x0, y0, x1, y1] = part.crop.unwrap_or([0, 0, width, height]);
     let [start, end] = part.samples.unwrap_or([0, manifest.samples]);
@@ -59,26 +63,32 @@ fn invalid_film(folder: &Folder, manifest: &Manifest, number: u32) -> Option<Str
 /// Why the film of a part cannot be merged, from its header alone: its sums are read later.
 pub fn foreign(folder: &Folder, manifest: &Manifest, number: u32) -> Option<String> {
     let path = folder.film(number);
-    let outline = File::open(&path)
-        .map_err(Into::into)
-        .and_then(|file| FilmOutline::read(BufReader::new(file)));
-    match outline {
-        Ok(outline) if is_of(manifest, outline.header()) => None,
-        Ok(_) => Some(format!("{} is of another picture", path.display())),
-        Err(error) => Some(format!(
-            "{} ({})",
-            error.to_string().trim_end_matches('.'),
-            path.display()
-        )),
+    match read_film(&path, FilmOutline::read) {
+        Ok(outline) => other_picture(manifest, outline.header(), &path),
+        Err(why) => Some(why),
     }
 }
 
-/// Whether a film is of the picture, or of a frame of the animation.
-fn is_of(manifest: &Manifest, header: &FilmHeader) -> bool {
+/// Reads a film, or a part of it; the error is the end of a sentence.
+fn read_film<T>(
+    path: &Path,
+    read: impl FnOnce(BufReader<File>) -> Result<T, FilmError>,
+) -> Result<T, String> {
+    let file = File::open(path).map_err(FilmError::from);
+    let film = file.and_then(|file| read(BufReader::new(file)));
+    film.map_err(|error| {
+        let error = error.to_string();
+        format!("{} ({})", error.trim_end_matches('.'), path.display())
+    })
+}
+
+/// Why a film is neither of the picture nor of a frame of the animation; `None` if it is.
+fn other_picture(manifest: &Manifest, header: &FilmHeader, path: &Path) -> Option<String> {
     let is_view = |wanted: &String| header.view.to_string() == *wanted;
-    header.scene.to_string() == manifest.scene_fingerprint
+    let is_own = header.scene.to_string() == manifest.scene_fingerprint
         && header.settings.to_string() == manifest.settings_fingerprint
-        && manifest.view_fingerprint.as_ref().is_none_or(is_view)
+        && manifest.view_fingerprint.as_ref().is_none_or(is_view);
+    (!is_own).then(|| format!("{} is of another picture", path.display()))
 }
 
 fn invalid_frames(
@@ -88,7 +98,7 @@ fn invalid_frames(
     done: &Done,
 ) -> Option<String> {
     let files = frame_files(folder, manifest, number);
-    let wrong = files.iter().enumerate().find_map(|(index, path)| {
+    let wrong = files.iter().enumerate().find_map(|(index, (_, path))| {
         let hash = fs::read(path).ok().map(|bytes| archive::hash(&bytes));
         match (hash, done.frames.get(index)) {
             (None, _) => Some((path, "is missing")),
@@ -99,17 +109,18 @@ fn invalid_frames(
     wrong.map(|(path, why)| format!("{} {why}", path.display()))
 }
 
-/// The frames of a part, in order; none for a film.
-pub fn frame_files(folder: &Folder, manifest: &Manifest, number: u32) -> Vec<PathBuf> {
+/// The frames of a part in order, with their numbers; none for a film.
+pub fn frame_files(folder: &Folder, manifest: &Manifest, number: u32) -> Vec<(u32, PathBuf)> {
     let part = &manifest.parts[number as usize];
-    let Some(frames) = manifest.frames.as_ref().filter(|_| !part.is_film()) else {
+    let (Some(frames), Some([first, last]), false) =
+        (&manifest.frames, part.frames, part.is_film())
+    else {
         return Vec::new();
     };
-    let [first, last] = part.frames.unwrap_or_default();
     let ending = frame_ending(&manifest.output);
-    (frames.numbers())
-        .filter(|frame| (first..=last).contains(frame))
-        .map(|frame| folder.frame(number, frame, &ending))
+    (first..=last)
+        .step_by(frames.step as usize)
+        .map(|frame| (frame, folder.frame(number, frame, &ending)))
         .collect()
 }
 
@@ -119,7 +130,7 @@ pub fn unfinished(folder: &Folder, manifest: &Manifest) -> Vec<u32> {
         true => folder.film(number).is_file(),
         false => frame_files(folder, manifest, number)
             .iter()
-            .all(|file| file.is_file()),
+            .all(|(_, file)| file.is_file()),
     };
     numbered(manifest)
         .filter(|(number, part)| folder.done(*number).is_none() || !is_there(*number, part))

@@ -3,7 +3,7 @@
 
 use super::lease::{Claim, Leases, host};
 use super::manifest::{Manifest, Part};
-use super::results::{frame_ending, frame_files, invalid};
+use super::results::{self, State, frame_ending, frame_files};
 use super::{Done, Failed, Folder, archive, failed_io, flags, read, remove, write};
 use crate::app::console;
 use crate::app::console::Console;
@@ -200,11 +200,8 @@ impl Farm {
 
     /// Renders a part unless it is done or another process renders it.
     fn part(&self, number: u32) -> Result<Outcome, AppError> {
-        let is_done = |number| {
-            let done = self.folder.done(number);
-            done.is_some_and(|done| invalid(&self.folder, &self.manifest, number, &done).is_none())
-        };
-        if is_done(number) {
+        let state = || results::state(&self.folder, &self.manifest, number);
+        if let State::Done = state() {
             return Ok(Outcome::Done);
         }
         let text = Manifest::number(number);
@@ -214,10 +211,11 @@ impl Farm {
             Claim::Taken(lease) => lease,
         };
         // Another process may have finished it before the lease was free.
-        if is_done(number) {
-            return Ok(Outcome::Done);
+        match state() {
+            State::Done => return Ok(Outcome::Done),
+            State::Invalid(why) => self.set_aside(number, &why)?,
+            State::Absent => {}
         }
-        self.set_aside(number)?;
         let count = self.manifest.parts.len();
         self.console
             .status(format_args!("part {number} of {count}"));
@@ -245,14 +243,8 @@ impl Farm {
         }
     }
 
-    /// Sets the result of a part aside that was done and is invalid now.
-    fn set_aside(&self, number: u32) -> Result<(), AppError> {
-        let Some(done) = self.folder.done(number) else {
-            return Ok(());
-        };
-        let Some(why) = invalid(&self.folder, &self.manifest, number, &done) else {
-            return Ok(());
-        };
+    /// Sets the result of a part aside, which cannot be used.
+    fn set_aside(&self, number: u32, why: &str) -> Result<(), AppError> {
         console::warning(format_args!("part {number} is rendered again: {why}."));
         let part = &self.manifest.parts[number as usize];
         let result = match part.is_film() {
@@ -296,7 +288,7 @@ impl Farm {
         let report: serde_json::Value = read(&report).unwrap_or_default();
         let adapter = report["adapter"]["name"].as_str().unwrap_or_default();
         let frames = frame_files(&self.folder, &self.manifest, number);
-        let frames = frames.iter().map(|path| {
+        let frames = frames.iter().map(|(_, path)| {
             let bytes = fs::read(path).map_err(|error| failed_io(path, error))?;
             Ok::<_, AppError>(archive::hash(&bytes))
         });

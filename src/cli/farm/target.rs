@@ -91,10 +91,7 @@ impl Target {
                 (*format == Format::Exr, format.has_opacity())
             }
         };
-        let denoise = job.picture.develop.denoise;
-        let integrator = settings.integrator;
-        (job.layers).check(denoise, integrator, path, takes_layers)?;
-        Job::check_backdrop(&settings, path, takes_opacity)?;
+        job.check_format(&settings, path, takes_layers, takes_opacity)?;
         let (width, height) = picture_size(&settings)?;
         let options = SaveOptions {
             quality: arguments.quality,

@@ -54,10 +54,21 @@ impl Work<'_> {
         let (width, height) = self.settings.size;
         let [x0, y0, x1, y1] = part.crop.unwrap_or([0, 0, width, height]);
         let [start, end] = part.samples.unwrap_or([0, self.settings.samples]);
-        let outline = (self.costs.film).part([x0, y0, x1 - x0, y1 - y0], start..end);
-        Ok(Some(outline.map_err(|error| {
-            AppError::Internal(format!("a part: {error}"))
-        })?))
+        self.outline([x0, y0, x1 - x0, y1 - y0], start..end)
+            .map(Some)
+    }
+
+    /// The outline of the film that the merge makes of a picture.
+    ///
+    /// # Errors
+    /// Its samples are not whole blocks: a fault.
+    pub fn whole_film(&self) -> Result<FilmOutline, AppError> {
+        self.outline(self.settings.region(), 0..self.settings.samples)
+    }
+
+    fn outline(&self, region: [u32; 4], samples: Range<u32>) -> Result<FilmOutline, AppError> {
+        let outline = self.costs.film.part(region, samples);
+        outline.map_err(|error| AppError::Internal(format!("a part: {error}")))
     }
 
     /// The parts of one picture, which takes `seconds`.
