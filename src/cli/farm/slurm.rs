@@ -65,7 +65,7 @@ pub fn scripts(
             .collect::<String>()
     };
     let logs = folder.path().join("logs");
-    let log = |name: &str| format!("output={}/{name}", in_directive(&logs));
+    let log = |name: &str| format!("output={}", in_directive(&logs, name));
     let parts = format!(
         "#!/bin/sh\n{}\n\
          # A task that is killed leaves its checkpoint, and the next attempt goes on from it. `srun` passes on the \
@@ -100,19 +100,19 @@ pub fn scripts(
     Ok(Scripts { parts, merge })
 }
 
-/// A path as `#SBATCH` lines take it: a backslash before what ends or quotes a word, and two signs for each percent sign,
-/// which begins the pattern of a number. The path is text without line breaks.
-fn in_directive(path: &Path) -> String {
-    let mut text = String::new();
-    for letter in path.to_string_lossy().chars() {
+/// A pattern of files in a folder as `#SBATCH` lines take it: in quotes, with two signs for each percent sign of the folder,
+/// which would begin a pattern. Its path is text without line breaks.
+fn in_directive(folder: &Path, pattern: &str) -> String {
+    let mut text = String::from("\"");
+    for letter in folder.to_string_lossy().chars() {
         match letter {
             '%' => text.push('%'),
-            '\\' | '"' | '\'' | '#' | ' ' | '\t' => text.push('\\'),
+            '\\' | '"' => text.push('\\'),
             _ => {}
         }
         text.push(letter);
     }
-    text
+    format!("{text}/{pattern}\"")
 }
 
 fn quoted(path: &Path) -> Result<String, AppError> {

@@ -429,8 +429,8 @@ fn the_scripts_for_slurm_have_the_tasks_and_the_options() {
     let mut command = workspace.command("farm submit --engine slurm --dry-run");
     let output = command.arg(odd).output().expect("glimray runs");
     let script = String::from_utf8(output.stdout).expect("text");
-    let escaped = r#"/a\ 100%%\#\'\"\\\ b/logs/part-%a.log"#;
-    let is_log = |line: &str| line.starts_with("#SBATCH --output=") && line.ends_with(escaped);
+    let escaped = r#"/a 100%%#'\"\\ b/logs/part-%a.log""#;
+    let is_log = |line: &str| line.starts_with("#SBATCH --output=\"") && line.ends_with(escaped);
     assert!(script.lines().any(is_log), "{script}");
     fs::rename(workspace.path(odd), workspace.path("all.png.farm")).expect("renamed");
     let mut command = workspace.command("farm submit all.png.farm --engine slurm --dry-run");
