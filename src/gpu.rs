@@ -14,7 +14,7 @@ mod shader;
 mod specialize;
 mod timer;
 
-pub use adapter::{AdapterChoice, AdapterReport, Backend, adapters};
+pub use adapter::{AdapterChoice, AdapterReport, Backend, adapter_identity, adapters};
 pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
 pub use error::GpuError;
 pub use guard::{is_guarded, surviving_loss};

@@ -35,11 +35,11 @@ mod slice;
 mod stats;
 mod sums;
 mod task;
+mod tone;
 mod work;
 
 pub use crate::scene::{Antialias, Filter};
 pub use checkpoint::{Checkpoint, CheckpointError};
-pub use develop::Tone;
 pub use effort::LongPath;
 pub use error::RenderError;
 pub use explain::{
@@ -58,6 +58,7 @@ pub use settings::{BsdfModel, MIN_THROUGHPUT, RayOffset, RenderSettings, Triangl
 pub use show::Screen;
 pub use stats::{Rays, Stats, Uploads};
 pub use sums::SAMPLE_BLOCK;
+pub use tone::Tone;
 pub use work::Status;
 
 use crate::{

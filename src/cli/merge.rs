@@ -31,6 +31,12 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
     check_adapters(whole.header(), destination.path(), arguments.same_adapter)?;
     let missing = whole.missing_of(region(arguments.crop, whole.header().size)?);
     if !missing.is_empty() {
+        // A damaged header can look like that of other samples.
+        for path in &arguments.parts {
+            interrupt.check()?;
+            let read = open(path).and_then(Film::read);
+            read.map_err(|error| refused(path, error))?;
+        }
         let why = incomplete(destination.path(), &missing);
         if !arguments.partial {
             if !destination.is_stdout() {

@@ -74,6 +74,22 @@ pub struct AdapterReport {
     pub storage_buffers_per_stage: u32,
 }
 
+impl AdapterReport {
+    /// What decides how it rounds: see [`adapter_identity`].
+    pub fn identity(&self) -> String {
+        adapter_identity(&self.name, &self.backend, &self.driver)
+    }
+}
+
+/// An adapter with its backend and its driver as `NAME (BACKEND, DRIVER)`. Two adapters with the same identity give the same
+/// bytes.
+pub fn adapter_identity(name: &str, backend: &str, driver: &str) -> String {
+    match driver {
+        "" => format!("{name} ({backend})"),
+        driver => format!("{name} ({backend}, {driver})"),
+    }
+}
+
 /// An adapter to open a device on.
 pub(super) struct Found {
     pub instance: wgpu::Instance,

@@ -22,7 +22,7 @@ use super::{
     sums::{SAMPLE_BLOCK, Sums},
 };
 use coverage::{Coverage, SampleSet};
-use std::{collections::BTreeSet, fmt::Debug, ops::Range};
+use std::{collections::BTreeSet, ops::Range};
 
 /// The picture that a film is a part of. Films can be merged only if their headers differ at most in the
 /// adapters.
@@ -46,7 +46,7 @@ pub struct FilmHeader {
     pub layers: &'static [&'static Layer],
     /// The default tone for developing the picture.
     pub tone: Tone,
-    /// Names of the adapters that took part; different adapters may round differently.
+    /// The adapters that took part, as [`crate::gpu::AdapterReport::identity`]; different ones may round differently.
     pub adapters: BTreeSet<String>,
 }
 
@@ -108,13 +108,17 @@ impl FilmHeader {
 
     /// Rejects the header of another picture.
     fn check_same(&self, other: &Self) -> Result<(), FilmError> {
-        fn same<T: PartialEq + Debug>(what: &'static str, a: &T, b: &T) -> Result<(), FilmError> {
+        fn same<T: PartialEq>(
+            what: &'static str,
+            (a, b): (&T, &T),
+            text: impl Fn(&T) -> String,
+        ) -> Result<(), FilmError> {
             match a == b {
                 true => Ok(()),
                 false => Err(FilmError::Differs {
                     what,
-                    first: format!("{a:?}"),
-                    second: format!("{b:?}"),
+                    first: text(a),
+                    second: text(b),
                 }),
             }
         }
@@ -130,16 +134,33 @@ impl FilmHeader {
             tone,
             adapters: _,
         } = self;
-        let names = |layers: &[&Layer]| layers.iter().map(|layer| layer.name).collect::<Vec<_>>();
-        same("version of glimray", program, &other.program)?;
-        same("size", size, &other.size)?;
-        same("integrator", integrator, &other.integrator)?;
-        same("number of samples", samples, &other.samples)?;
-        same("layers", &names(layers), &names(other.layers))?;
-        same("scene", scene, &other.scene)?;
-        same("view", view, &other.view)?;
-        same("settings", settings, &other.settings)?;
-        same("tone", tone, &other.tone)
+        let size_text = |(width, height): &(u32, u32)| format!("{width}×{height}");
+        let name = |integrator: &Integrator| integrator.entry().name.to_owned();
+        let names = |layers: &&[&Layer]| {
+            let names: Vec<_> = layers.iter().map(|layer| layer.name).collect();
+            names.join(",")
+        };
+        same(
+            "version of glimray",
+            (program, &other.program),
+            String::clone,
+        )?;
+        same("size", (size, &other.size), size_text)?;
+        same("integrator", (integrator, &other.integrator), name)?;
+        same(
+            "number of samples",
+            (samples, &other.samples),
+            u32::to_string,
+        )?;
+        same("layers", (layers, &other.layers), names)?;
+        same("scene", (scene, &other.scene), Fingerprint::to_string)?;
+        same("view", (view, &other.view), Fingerprint::to_string)?;
+        same(
+            "settings",
+            (settings, &other.settings),
+            Fingerprint::to_string,
+        )?;
+        same("tone", (tone, &other.tone), Tone::to_string)
     }
 }
 

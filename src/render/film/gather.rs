@@ -53,7 +53,7 @@ impl Renderer {
             samples: settings.samples,
             layers: layers::of_pictures(settings),
             tone: Tone::LINEAR,
-            adapters: [self.adapter().name.clone()].into(),
+            adapters: [self.adapter().identity()].into(),
         }
     }
 }

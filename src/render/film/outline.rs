@@ -23,6 +23,11 @@ impl FilmOutline {
         &self.header
     }
 
+    /// Its rectangles (x, y, width, height) and their ranges of samples, from top to bottom and left to right.
+    pub fn parts(&self) -> impl Iterator<Item = ([u32; 4], &[Range<u32>])> {
+        (self.coverage.patches()).map(|(region, samples)| (region, samples.ranges()))
+    }
+
     /// The outline of both films together.
     ///
     /// # Errors

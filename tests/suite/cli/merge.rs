@@ -1,6 +1,8 @@
 //! `merge`: parts of a picture.
 
 use crate::support::program::Workspace;
+use crate::support::verdict::Verdict;
+use glimray::render::Film;
 use std::fs;
 
 #[test]
@@ -98,4 +100,47 @@ fn damaged_films_and_invalid_parts_are_refused() {
         assert!(run.stderr.contains(why), "{}", run.stderr);
     }
     assert_eq!(workspace.made(), ["a.film", "damaged.film", "short.film"]);
+}
+
+#[test]
+fn damage_to_the_head_of_a_film_is_not_taken_for_missing_samples() {
+    let workspace = Workspace::new();
+    workspace
+        .run("render a.scene --size 40x30 --samples 128 --sample-count 64 --quiet -o a.film")
+        .expect(0);
+    workspace.run("merge a.film -o a.png").expect(8);
+    let film = workspace.read("a.film");
+    let sums = 40 * 30 * 4 * size_of::<f32>();
+    let head = film.len() - size_of::<u128>() - sums;
+    let coverage_bytes = 32;
+    let mut verdict = Verdict::on("damaged films");
+    // The coverage is at its end: rows, columns and samples, each from and to, with two counts between.
+    for at in head - coverage_bytes..head {
+        let mut damaged = film.clone();
+        damaged[at] ^= 0x40;
+        workspace.write("b.film", damaged);
+        let run = workspace.run("merge b.film -o b.png");
+        verdict.that(at, run.code == Some(3), || {
+            format!("{:?}: {}", run.code, run.stderr)
+        });
+    }
+    verdict.close();
+}
+
+#[test]
+fn a_film_names_its_adapter_with_backend_and_driver() {
+    let workspace = Workspace::new();
+    let run = workspace
+        .run("render a.scene --size 8x6 --samples 1 --quiet --report - -o a.film")
+        .expect(0);
+    let report = run.json();
+    let film = Film::read(&workspace.read("a.film")[..]).expect("a film");
+    let adapters: Vec<_> = film.header().adapters.iter().collect();
+    let [adapter] = adapters[..] else {
+        panic!("{adapters:?}");
+    };
+    for key in ["name", "backend", "driver"] {
+        let part = report["adapter"][key].as_str().expect(key);
+        assert!(adapter.contains(part), "{adapter} lacks {part}");
+    }
 }
