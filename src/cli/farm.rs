@@ -7,6 +7,7 @@
 mod archive;
 mod cut;
 mod flags;
+mod frames;
 mod lease;
 mod manifest;
 mod measure;
@@ -86,6 +87,11 @@ struct Done {
 struct Failed {
     /// How often it was tried.
     attempts: u32,
+    /// The last run that tried it, and how often.
+    #[serde(default)]
+    run: String,
+    #[serde(default)]
+    tried: u32,
     /// The last error and its exit code.
     error: String,
     code: u8,

@@ -94,6 +94,8 @@ impl Resolver for Folder {
             return Err(FileError::Outside);
         }
         self.record(&real);
+        // The name that the scene knows it by, behind a symbolic link.
+        self.record(&wanted);
         match real.is_file() {
             true => Ok(real),
             false => Err(FileError::NotPlain),

@@ -93,7 +93,7 @@ sinfo
 
 cd "$work"
 still="$scenes/cornell_box.toml --integrator path --size 96x96 --samples 512"
-film="$scenes/orbits.toml --size 96x54 --samples 4 --frames 0..23"
+film="$scenes/orbits.toml --size 96x54 --samples 128 --frames 0..23"
 # Paths without spaces, split on purpose.
 # shellcheck disable=SC2086
 "$glimray" render $still --quiet -o one.exr
@@ -102,12 +102,12 @@ film="$scenes/orbits.toml --size 96x54 --samples 4 --frames 0..23"
 # shellcheck disable=SC2086
 "$glimray" farm plan $still --parts 8 --quiet -o still.exr
 # shellcheck disable=SC2086
-"$glimray" farm plan $film --parts 6 --quiet -o film.mp4
+"$glimray" farm plan $film --parts 48 --quiet -o film.mp4
 
-submitted=$("$glimray" farm submit still.exr.farm --engine slurm)
+submitted=$("$glimray" farm submit still.exr.farm --engine slurm --time 10 --attempts 2)
 say "$submitted"
 array=$(echo "$submitted" | sed -n 's/^submitted job \([0-9]*\) .*/\1/p')
-submitted=$("$glimray" farm submit film.mp4.farm --engine slurm)
+submitted=$("$glimray" farm submit film.mp4.farm --engine slurm --option comment=film)
 say "$submitted"
 
 # One task is killed while it runs.
@@ -118,6 +118,11 @@ for _ in $(seq 100); do
 done
 [ -n "$task" ] || {
     say "no task of the still ran"
+    exit 1
+}
+limit=$(squeue --noheader --job "$task" --format=%l)
+[ "$limit" = 10:00 ] || {
+    say "the time limit is $limit, not 10 minutes"
     exit 1
 }
 sleep 0.3

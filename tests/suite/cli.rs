@@ -10,6 +10,8 @@ mod explain;
 mod farm;
 #[cfg(all(unix, feature = "archive"))]
 mod farm_faults;
+#[cfg(all(unix, feature = "archive"))]
+mod farm_runs;
 mod help;
 mod inspect;
 mod merge;

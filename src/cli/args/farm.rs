@@ -102,9 +102,12 @@ pub struct FarmRunArgs {
     /// Number of processes that share the parts
     #[arg(long, value_name = "N", default_value = "1", requires = "all", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub jobs: u32,
-    /// How often a part is tried
+    /// How often a part is tried, whatever the number of processes
     #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub attempts: u32,
+    /// The run that this process belongs to: `--jobs` gives all its processes the same
+    #[arg(long, value_name = "NAME", hide = true)]
+    pub run: Option<String>,
     /// Time after which another process may take over a part whose process does not answer, 1 to 86400
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = values::lease)]
     pub lease: f64,
@@ -117,7 +120,7 @@ pub struct FarmRunArgs {
 pub struct FarmStatusArgs {
     /// Folder of the farm
     pub dir: PathBuf,
-    /// Show a progress bar until all parts are done or have failed
+    /// Show a progress bar until all parts are done or have failed, also while they wait for machines
     #[arg(long)]
     pub follow: bool,
     /// Print JSON instead of text

@@ -8,7 +8,7 @@ use crate::output;
 use crate::render::Fingerprint;
 use std::fs;
 use std::io::{self, Cursor, Write};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use xxhash_rust::xxh3::xxh3_128;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
@@ -21,14 +21,10 @@ pub const NAME: &str = "scene.zip";
 /// # Errors
 /// A file cannot be read, or the archive cannot be written.
 pub fn pack(scene: &Path, files: &[PathBuf], folder: &Folder) -> Result<PackedFile, AppError> {
-    let absolute = |path: &Path| {
-        let whole = std::path::absolute(path).map_err(|error| unreadable(path, &error))?;
-        Ok::<_, AppError>(plain(&whole))
-    };
-    let scene = absolute(scene)?;
+    let scene = in_real_folder(scene)?;
     let mut paths = vec![scene.clone()];
     for file in files.iter().filter(|file| file.is_file()) {
-        let path = absolute(file)?;
+        let path = in_real_folder(file)?;
         if !paths.contains(&path) {
             paths.push(path);
         }
@@ -105,19 +101,14 @@ pub fn checked(packed: &PackedFile, folder: &Folder) -> Result<PathBuf, AppError
     }
 }
 
-/// The path without `.` and `..`.
-fn plain(path: &Path) -> PathBuf {
-    let mut plain = PathBuf::new();
-    for part in path.components() {
-        match part {
-            Component::CurDir => {}
-            Component::ParentDir => {
-                plain.pop();
-            }
-            part => plain.push(part),
-        }
-    }
-    plain
+/// The path without symbolic links, except that the file keeps its name: scenes are read from their real folder.
+fn in_real_folder(path: &Path) -> Result<PathBuf, AppError> {
+    let folder = match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    };
+    let real = fs::canonicalize(folder).map_err(|error| unreadable(path, &error))?;
+    Ok(real.join(path.file_name().unwrap_or_default()))
 }
 
 /// The folder that has all files in it.

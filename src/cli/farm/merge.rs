@@ -1,20 +1,17 @@
 //! `glimray farm merge DIR`: puts the parts together, to the bytes of one run.
 
 use super::manifest::{Frames, Manifest};
-use super::results::{State, foreign, frame_ending, frame_files, state, unfinished};
-use super::{Folder, flags, numbered};
+use super::results::{Depth, State, foreign, frame_files, state, unfinished};
+use super::{Folder, frames, numbered};
 use crate::app::console;
 use crate::app::console::Console;
 use crate::app::error::AppError;
 use crate::cli::animate::{Pattern, encode, rate};
-use crate::cli::args::{Cli, Command, FarmMergeArgs};
+use crate::cli::args::FarmMergeArgs;
 use crate::cli::interrupt::Interrupt;
-use crate::cli::merge;
 use crate::output;
 use crate::output::video::{VideoFormat, VideoOptions};
-use clap::Parser;
 use std::collections::{BTreeMap, BTreeSet};
-use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -100,7 +97,7 @@ impl Merge<'_> {
         if self.arguments.same_adapter {
             extra.push("--same-adapter");
         }
-        self.films(films, &extra, output)
+        frames::merge_films(&self.manifest, films, &extra, output)
     }
 
     /// Merges the frames that are in parts, and writes the frames or the video.
@@ -111,29 +108,22 @@ impl Merge<'_> {
         interrupt: &Interrupt,
     ) -> Result<(), AppError> {
         self.check_adapters()?;
-        let ending = frame_ending(&self.manifest.output);
         let mut files: BTreeMap<u32, PathBuf> = BTreeMap::new();
-        let mut films: BTreeMap<u32, Vec<PathBuf>> = BTreeMap::new();
         for (number, part) in numbered(&self.manifest) {
             if part.is_film() {
-                let [frame, _] = part.frames.unwrap_or_default();
-                films.entry(frame).or_default().push(self.film(number)?);
+                self.film(number)?;
                 continue;
             }
-            match state(&self.folder, &self.manifest, number) {
+            match state(&self.folder, &self.manifest, number, Depth::Whole) {
                 State::Done => files.extend(frame_files(&self.folder, &self.manifest, number)),
                 State::Invalid(why) => return Err(self.damaged(number, &why)),
                 State::Absent => return Err(self.damaged(number, "it is no longer done")),
             }
         }
-        for (frame, parts) in films {
+        for (frame, parts) in frames::cut(&self.manifest) {
             interrupt.check()?;
-            let path = self.folder.merged_frame(frame, &ending);
-            let extra: &[&str] = match self.arguments.mix_adapters {
-                true => &[],
-                false => &["--same-adapter"],
-            };
-            self.films(parts, extra, &path)?;
+            let mixes = self.arguments.mix_adapters;
+            let path = frames::merge(&self.folder, &self.manifest, (frame, &parts), mixes)?;
             files.insert(frame, path);
         }
         let files: Vec<_> = files.into_iter().collect();
@@ -218,23 +208,5 @@ impl Merge<'_> {
             output::write(pattern.path(*frame), &bytes, true)?;
         }
         Ok(())
-    }
-
-    /// Merges films to a picture, as `glimray merge` does.
-    fn films(&self, films: Vec<PathBuf>, extra: &[&str], output: &Path) -> Result<(), AppError> {
-        let mut words: Vec<OsString> = vec!["glimray".into(), "merge".into()];
-        words.extend(flags::finishing(&self.manifest.flags).map(OsString::from));
-        words.extend(extra.iter().map(OsString::from));
-        words.push(format!("--quality={}", self.manifest.quality).into());
-        let mut target = OsString::from("--output=");
-        target.push(output);
-        words.extend([target, "--".into()]);
-        words.extend(films.into_iter().map(OsString::from));
-        let parsed = Cli::try_parse_from(words)
-            .map_err(|error| AppError::Internal(format!("merge: {error}")))?;
-        match parsed.command {
-            Command::Merge(arguments) => merge::run(&arguments),
-            _ => Err(AppError::Internal("merge: no command".into())),
-        }
     }
 }

@@ -1,5 +1,5 @@
 //! What merging costs on this machine: reading films and adding their sums, developing and writing pictures, and encoding
-//! a video. The time of the disk comes on top.
+//! a video. The time of the disk comes on top. Frames are merged by the machines that render their films.
 
 use super::manifest::Part;
 use super::results::frame_ending;
@@ -44,7 +44,9 @@ pub struct Merging {
     pub read_bytes: u64,
     /// Sums of the picture, one film, and the developed picture.
     pub memory_bytes: u64,
-    /// Seconds without those of the disk.
+    /// Seconds that each part adds for the merge of its frame, which is done by the machines that render.
+    pub part_seconds: f64,
+    /// Seconds of the process that merges all, without those of the disk.
     pub seconds: f64,
 }
 
@@ -131,8 +133,10 @@ impl MergeCosts {
             largest_bytes: 0,
             read_bytes: 0,
             memory_bytes: 0,
+            part_seconds: 0.0,
             seconds: 0.0,
         };
+        let mut films_seconds = 0.0;
         let [.., width, height] = work.settings.region();
         let pixels = u64::from(width) * u64::from(height);
         let mut pictures = BTreeSet::new();
@@ -147,16 +151,20 @@ impl MergeCosts {
                 .samples
                 .map_or(film.header().samples, |[start, end]| end - start);
             let is_block = film.header().is_adaptive() || samples <= SAMPLE_BLOCK;
-            merging.seconds += bytes as f64 * if is_block { self.block } else { self.totals };
+            films_seconds += bytes as f64 * if is_block { self.block } else { self.totals };
             pictures.insert(part.frames);
         }
-        merging.seconds += pictures.len() as f64 * pixels as f64 * self.finish;
+        films_seconds += pictures.len() as f64 * pixels as f64 * self.finish;
         merging.memory_bytes = pixels * DEVELOPED_BYTES;
         if !pictures.is_empty() {
             merging.memory_bytes += work.whole_film()?.bytes() + merging.largest_bytes;
         }
-        if let Some(timeline) = &work.timeline {
-            merging.seconds += timeline.count as f64 * pixels as f64 * self.encode;
+        match &work.timeline {
+            None => merging.seconds = films_seconds,
+            Some(timeline) => {
+                merging.part_seconds = films_seconds / parts.len() as f64;
+                merging.seconds = timeline.count as f64 * pixels as f64 * self.encode;
+            }
         }
         Ok(merging)
     }

@@ -29,21 +29,34 @@ pub enum State {
     Invalid(String),
 }
 
-/// What became of a part, with its whole result looked at.
-pub fn state(folder: &Folder, manifest: &Manifest, number: u32) -> State {
+/// How much of a result is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    /// The headers and lengths of films, and whether frames are there: for a look at many parts.
+    Outline,
+    /// All bytes.
+    Whole,
+}
+
+/// What became of a part.
+pub fn state(folder: &Folder, manifest: &Manifest, number: u32, depth: Depth) -> State {
     let Some(done) = folder.done(number) else {
         return State::Absent;
     };
     let why = match manifest.parts[number as usize].is_film() {
-        true => invalid_film(folder, manifest, number),
-        false => invalid_frames(folder, manifest, number, &done),
+        true => invalid_film(folder, manifest, number, depth),
+        false => invalid_frames(folder, manifest, number, &done, depth),
     };
     why.map_or(State::Done, State::Invalid)
 }
 
-fn invalid_film(folder: &Folder, manifest: &Manifest, number: u32) -> Option<String> {
+fn invalid_film(folder: &Folder, manifest: &Manifest, number: u32, depth: Depth) -> Option<String> {
     let path = folder.film(number);
-    let film = match read_film(&path, Film::read) {
+    let film = match depth {
+        Depth::Outline => read_film(&path, FilmOutline::read).and_then(|film| is_long(&path, film)),
+        Depth::Whole => read_film(&path, |input| Ok(Film::read(input)?.outline())),
+    };
+    let film = match film {
         Ok(film) => film,
         Err(why) => return Some(why),
     };
@@ -58,6 +71,15 @@ fn invalid_film(folder: &Folder, manifest: &Manifest, number: u32) -> Option<Str
     let wanted = start..end;
     let is_whole = film.parts().eq([(region, std::slice::from_ref(&wanted))]);
     (!is_whole).then(|| format!("{} is of other samples", path.display()))
+}
+
+/// The outline of a film if the file is long enough for its sums.
+fn is_long(path: &Path, film: FilmOutline) -> Result<FilmOutline, String> {
+    let length = fs::metadata(path).map_or(0, |file| file.len());
+    match length > film.bytes() {
+        true => Ok(film),
+        false => Err(format!("the film is cut short ({})", path.display())),
+    }
 }
 
 /// Why the film of a part cannot be merged, from its header alone: its sums are read later.
@@ -96,9 +118,13 @@ fn invalid_frames(
     manifest: &Manifest,
     number: u32,
     done: &Done,
+    depth: Depth,
 ) -> Option<String> {
     let files = frame_files(folder, manifest, number);
     let wrong = files.iter().enumerate().find_map(|(index, (_, path))| {
+        if depth == Depth::Outline {
+            return (!path.is_file()).then_some((path, "is missing"));
+        }
         let hash = fs::read(path).ok().map(|bytes| archive::hash(&bytes));
         match (hash, done.frames.get(index)) {
             (None, _) => Some((path, "is missing")),

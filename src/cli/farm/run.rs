@@ -3,16 +3,18 @@
 
 use super::lease::{Claim, Leases, host};
 use super::manifest::{Manifest, Part};
-use super::results::{self, State, frame_ending, frame_files};
-use super::{Done, Failed, Folder, archive, failed_io, flags, read, remove, write};
+use super::results::{self, Depth, State, frame_ending, frame_files};
+use super::{Done, Failed, Folder, archive, failed_io, flags, frames, read, remove, write};
 use crate::app::console;
 use crate::app::console::Console;
 use crate::app::error::AppError;
 use crate::cli::args::{Cli, Command, FarmRunArgs};
 use crate::cli::interrupt::Interrupt;
 use crate::cli::{animate, render};
+use crate::gpu::adapter_identity;
 use crate::output;
 use clap::Parser;
+use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -33,7 +35,15 @@ pub fn run(arguments: &FarmRunArgs) -> Result<(), AppError> {
     if arguments.jobs > 1 {
         return share(arguments, &interrupt);
     }
+    let own_run = || format!("{}-{}", host(), std::process::id());
     let farm = Farm {
+        cut_frames: frames::cut(&manifest),
+        run: arguments.run.clone().unwrap_or_else(own_run),
+        attempts: arguments.attempts,
+        depth: match arguments.part {
+            Some(_) => Depth::Whole,
+            None => Depth::Outline,
+        },
         leases: Leases::new(folder.leases(), Duration::from_secs_f64(arguments.lease)),
         scene: archive::checked(&manifest.scene, &folder)?,
         environment: (manifest.environment.as_ref())
@@ -44,7 +54,7 @@ pub fn run(arguments: &FarmRunArgs) -> Result<(), AppError> {
         folder,
         manifest,
     };
-    farm.run(parts, arguments.attempts, !arguments.all)
+    farm.run(parts, !arguments.all)
 }
 
 /// The numbers of the parts to render.
@@ -67,11 +77,13 @@ fn share(arguments: &FarmRunArgs, interrupt: &Interrupt) -> Result<(), AppError>
     let failed = |error| AppError::Internal(format!("cannot start a process: {error}"));
     let program = std::env::current_exe().map_err(failed)?;
     let _deferred = interrupt.defer();
+    let run = format!("{}-{}", host(), std::process::id());
     let mut children: Vec<Child> = Vec::new();
     for _ in 0..arguments.jobs {
         let mut command = std::process::Command::new(&program);
         command.args(["farm", "run", "--all"]);
         command.args(["--attempts", &arguments.attempts.to_string()]);
+        command.args(["--run", &run]);
         command.args(["--lease", &arguments.lease.to_string()]);
         command.args(arguments.quiet.then_some("--quiet"));
         command.arg("--").arg(&arguments.dir);
@@ -136,6 +148,14 @@ struct Farm {
     /// The archive.
     scene: PathBuf,
     environment: Option<PathBuf>,
+    /// The parts of each frame that is cut into films.
+    cut_frames: BTreeMap<u32, Vec<u32>>,
+    /// The name of this run, which the processes of `--jobs` share.
+    run: String,
+    /// How often a part is tried in it.
+    attempts: u32,
+    /// How much of the results that are there is looked at.
+    depth: Depth,
     console: Console,
     interrupt: Interrupt,
 }
@@ -145,62 +165,59 @@ enum Outcome {
     Done,
     /// This process renders it, as `HOST, process PID`.
     Elsewhere(String),
+    /// The last attempt failed.
     Failed(AppError),
+    /// It failed and is to be tried again.
+    Again(AppError),
 }
 
 impl Farm {
-    /// Renders parts until all are done or have failed. With `waits`, parts that other processes render are waited for.
-    fn run(&self, mut parts: Vec<u32>, attempts: u32, waits: bool) -> Result<(), AppError> {
-        let mut failures: Vec<(u32, AppError)> = Vec::new();
-        let (mut tried, mut has_waited) = (0, false);
+    /// Renders parts until all are done or have failed. Those that other processes render are waited for; `says_waits`
+    /// prints that.
+    fn run(&self, mut parts: Vec<u32>, says_waits: bool) -> Result<(), AppError> {
+        let mut failure: Option<AppError> = None;
+        let mut has_waited = false;
         loop {
-            let mut elsewhere = Vec::new();
+            let (mut again, mut elsewhere) = (Vec::new(), Vec::new());
             for part in std::mem::take(&mut parts) {
                 self.interrupt.check()?;
                 match self.part(part)? {
                     Outcome::Done => {}
                     Outcome::Elsewhere(holder) => elsewhere.push((part, holder)),
-                    Outcome::Failed(error) if is_of_process(&error) => return Err(error),
-                    Outcome::Failed(error) => failures.push((part, error)),
+                    Outcome::Again(error) => {
+                        console::warning(format_args!(
+                            "part {part} failed and is tried again: {error}"
+                        ));
+                        again.push(part);
+                    }
+                    Outcome::Failed(error) => {
+                        failure.get_or_insert(error);
+                    }
                 }
             }
-            if !failures.is_empty() {
-                tried += 1;
-            }
-            if tried < attempts && !failures.is_empty() {
-                for (part, error) in failures.drain(..) {
-                    console::warning(format_args!(
-                        "part {part} failed and is tried again: {error}"
+            if again.is_empty() {
+                if let Some(error) = failure {
+                    return Err(error);
+                }
+                let Some((part, holder)) = elsewhere.first() else {
+                    return Ok(());
+                };
+                if !has_waited && says_waits {
+                    has_waited = true;
+                    self.console.status(format_args!(
+                        "waiting for part {part}, which {holder}, renders"
                     ));
-                    parts.push(part);
                 }
-                parts.extend(elsewhere.into_iter().map(|(part, _)| part));
-                continue;
+                std::thread::sleep(PAUSE);
             }
-            if let Some((part, error)) = failures.drain(..).next() {
-                return Err(AppError::Part {
-                    why: format!("part {part} failed: {error}"),
-                    code: error.exit_code(),
-                });
-            }
-            if elsewhere.is_empty() {
-                return Ok(());
-            }
-            if !has_waited && waits {
-                has_waited = true;
-                let (part, holder) = &elsewhere[0];
-                self.console.status(format_args!(
-                    "waiting for part {part}, which {holder}, renders"
-                ));
-            }
-            parts = elsewhere.into_iter().map(|(part, _)| part).collect();
-            std::thread::sleep(PAUSE);
+            parts = again;
+            parts.extend(elsewhere.into_iter().map(|(part, _)| part));
         }
     }
 
     /// Renders a part unless it is done or another process renders it.
     fn part(&self, number: u32) -> Result<Outcome, AppError> {
-        let state = || results::state(&self.folder, &self.manifest, number);
+        let state = || results::state(&self.folder, &self.manifest, number, self.depth);
         if let State::Done = state() {
             return Ok(Outcome::Done);
         }
@@ -216,6 +233,15 @@ impl Farm {
             State::Invalid(why) => self.set_aside(number, &why)?,
             State::Absent => {}
         }
+        let earlier = self.folder.failed(number);
+        let tried = match &earlier {
+            Some(failed) if failed.run == self.run => failed.tried,
+            _ => 0,
+        };
+        // Another process of this run has tried it.
+        if let Some(failed) = earlier.as_ref().filter(|_| tried >= self.attempts) {
+            return Ok(Outcome::Failed(failure(number, &failed.error, failed.code)));
+        }
         let count = self.manifest.parts.len();
         self.console
             .status(format_args!("part {number} of {count}"));
@@ -223,23 +249,51 @@ impl Farm {
             Ok(done) => {
                 remove(&self.folder.failed_path(number))?;
                 write(&self.folder.done_path(number), &done)?;
+                self.merge_frame(number)?;
                 Ok(Outcome::Done)
             }
-            Err(error) if is_of_process(&error) => Ok(Outcome::Failed(error)),
+            Err(error) if is_of_process(&error) => Err(error),
             Err(error) => {
-                let earlier = self
-                    .folder
-                    .failed(number)
-                    .map_or(0, |failed| failed.attempts);
                 let failed = Failed {
-                    attempts: earlier + 1,
+                    attempts: earlier.map_or(0, |failed| failed.attempts) + 1,
+                    run: self.run.clone(),
+                    tried: tried + 1,
                     error: error.to_string(),
                     code: error.exit_code(),
                     host: host(),
                 };
                 write(&self.folder.failed_path(number), &failed)?;
-                Ok(Outcome::Failed(error))
+                Ok(match failed.tried < self.attempts {
+                    true => Outcome::Again(error),
+                    false => Outcome::Failed(failure(number, &failed.error, failed.code)),
+                })
             }
+        }
+    }
+
+    /// Merges the frame of a part whose films are all done, if no other process does.
+    fn merge_frame(&self, number: u32) -> Result<(), AppError> {
+        let part = &self.manifest.parts[number as usize];
+        let frame = (part.frames).and_then(|[frame, _]| self.cut_frames.get_key_value(&frame));
+        let Some((&frame, parts)) = frame.filter(|_| part.is_film()) else {
+            return Ok(());
+        };
+        if parts.iter().any(|&part| self.folder.done(part).is_none()) {
+            return Ok(());
+        }
+        let claim = self.leases.claim(&format!("frame-{frame}"));
+        let Claim::Taken(_lease) =
+            claim.map_err(|error| failed_io(&self.folder.leases(), error))?
+        else {
+            return Ok(());
+        };
+        match frames::merge(&self.folder, &self.manifest, (frame, parts), false) {
+            Err(error) if is_of_process(&error) => Err(error),
+            Err(error) => {
+                console::warning(format_args!("frame {frame} is left to the merge: {error}"));
+                Ok(())
+            }
+            Ok(_) => Ok(()),
         }
     }
 
@@ -286,7 +340,8 @@ impl Farm {
             _ => return Err(AppError::Internal(format!("part {number}: no command"))),
         }
         let report: serde_json::Value = read(&report).unwrap_or_default();
-        let adapter = report["adapter"]["name"].as_str().unwrap_or_default();
+        let adapter = |key: &str| report["adapter"][key].as_str().unwrap_or_default();
+        let adapter = adapter_identity(adapter("name"), adapter("backend"), adapter("driver"));
         let frames = frame_files(&self.folder, &self.manifest, number);
         let frames = frames.iter().map(|(_, path)| {
             let bytes = fs::read(path).map_err(|error| failed_io(path, error))?;
@@ -295,7 +350,7 @@ impl Farm {
         Ok(Done {
             seconds: started.elapsed().as_secs_f64(),
             host: host(),
-            adapter: adapter.into(),
+            adapter,
             frames: frames.collect::<Result<_, _>>()?,
         })
     }
@@ -348,6 +403,13 @@ impl Farm {
         words.extend(["--progress=none".into(), "--quiet".into(), "--".into()]);
         words.push((&self.scene).into());
         Ok(words)
+    }
+}
+
+fn failure(number: u32, error: &str, code: u8) -> AppError {
+    AppError::Part {
+        why: format!("part {number} failed: {error}"),
+        code,
     }
 }
 

@@ -35,27 +35,26 @@ pub fn table(work: &Work, nodes: &[u32], merging: &MergeCosts) -> Result<String,
     );
     for &nodes in nodes {
         let nodes = nodes as usize;
-        let candidates = PARTS_PER_NODE.iter().map(|each| {
+        let candidate = |each: &usize| {
             let parts = work.cut(each * nodes);
+            let merge = merging.of(work, &parts)?;
             let seconds: Vec<f64> = parts.iter().map(|part| part.seconds).collect();
             let seconds = drawn(&seconds, SPREAD, SEED);
-            (
-                efficiency(&seconds, work.costs.start, nodes),
-                seconds,
-                parts,
-            )
-        });
+            let extra = work.costs.start + merge.part_seconds;
+            Ok::<_, AppError>((efficiency(&seconds, extra, nodes), seconds, merge))
+        };
+        let candidates = PARTS_PER_NODE.iter().map(candidate);
+        let candidates = candidates.collect::<Result<Vec<_>, _>>()?.into_iter();
         let best = candidates.max_by(|(a, ..), (b, ..)| a.total_cmp(b));
-        let Some((share, seconds, parts)) = best else {
+        let Some((share, seconds, merge)) = best else {
             continue;
         };
         let total: f64 = seconds.iter().sum();
-        let merge = merging.of(work, &parts)?;
         let mega = |bytes: u64| bytes as f64 / 1e6;
         table += &format!(
             "| {nodes} | {} | {:.1} | {:.1} | {share:.3} | {:.1} | {:.0} | {:.0} | {:.0} |\n",
-            parts.len(),
-            total / parts.len() as f64,
+            seconds.len(),
+            total / seconds.len() as f64,
             total / (share * nodes as f64),
             mega(merge.largest_bytes),
             mega(merge.read_bytes),
@@ -71,15 +70,15 @@ pub fn table(work: &Work, nodes: &[u32], merging: &MergeCosts) -> Result<String,
 #[derive(Clone, Copy, Debug)]
 struct Spread(f64);
 
-/// Seconds until `nodes` machines have rendered parts of these seconds, each with `start` seconds before it. Whoever is
+/// Seconds until `nodes` machines have rendered parts of these seconds, each with `extra` seconds beside it. Whoever is
 /// free takes the next part.
-fn makespan(parts: &[f64], start: f64, nodes: usize) -> f64 {
+fn makespan(parts: &[f64], extra: f64, nodes: usize) -> f64 {
     // Whole nanoseconds have an order.
     let mut free: BinaryHeap<Reverse<u64>> = (0..nodes).map(|_| Reverse(0)).collect();
     let mut end = 0;
     for seconds in parts {
         let Reverse(at) = free.pop().unwrap_or(Reverse(0));
-        let at = at + ((start + seconds) * 1e9) as u64;
+        let at = at + ((extra + seconds) * 1e9) as u64;
         end = end.max(at);
         free.push(Reverse(at));
     }
@@ -87,9 +86,9 @@ fn makespan(parts: &[f64], start: f64, nodes: usize) -> f64 {
 }
 
 /// The share of the machines' time that goes into rendering, 0 to 1.
-fn efficiency(parts: &[f64], start: f64, nodes: usize) -> f64 {
+fn efficiency(parts: &[f64], extra: f64, nodes: usize) -> f64 {
     let work: f64 = parts.iter().sum();
-    let end = makespan(parts, start, nodes);
+    let end = makespan(parts, extra, nodes);
     match end > 0.0 {
         true => work / (end * nodes as f64),
         false => 1.0,

@@ -349,7 +349,7 @@ fn manifests_that_were_changed_are_refused() {
         ("/frames/count", json!(7)),
         ("/frames/count", json!(0)),
         ("/frames/first", json!(u32::MAX)),
-        ("/parts/0/frames", json!([0, 0])),
+        ("/parts/0/frames", json!([1, 1])),
         ("/parts/0/frames", json!([77, 78])),
         ("/parts/0/frames", json!([1, 0])),
         ("/parts/1/frames", Value::Null),
