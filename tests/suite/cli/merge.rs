@@ -116,13 +116,15 @@ fn damage_to_the_head_of_a_film_is_not_taken_for_missing_samples() {
     let mut verdict = Verdict::on("damaged films");
     // The coverage is at its end: rows, columns and samples, each from and to, with two counts between.
     for at in head - coverage_bytes..head {
-        let mut damaged = film.clone();
-        damaged[at] ^= 0x40;
-        workspace.write("b.film", damaged);
-        let run = workspace.run("merge b.film -o b.png");
-        verdict.that(at, run.code == Some(3), || {
-            format!("{:?}: {}", run.code, run.stderr)
-        });
+        for bit in [0, 3] {
+            let mut damaged = film.clone();
+            damaged[at] ^= 1 << bit;
+            workspace.write("b.film", damaged);
+            let run = workspace.run("merge b.film -o b.png");
+            verdict.that(format!("bit {bit} of {at}"), run.code == Some(3), || {
+                format!("{:?}: {}", run.code, run.stderr)
+            });
+        }
     }
     verdict.close();
 }
