@@ -55,6 +55,7 @@ mod stl;
 mod suggest;
 mod tangent;
 mod tint;
+mod uvs;
 mod weld;
 #[cfg(feature = "archive")]
 mod zipped;
