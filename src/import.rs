@@ -55,6 +55,7 @@ mod stl;
 mod suggest;
 mod tangent;
 mod tint;
+mod uvs;
 mod weld;
 #[cfg(feature = "archive")]
 mod zipped;
@@ -66,7 +67,7 @@ pub use error::{Excerpt, Fault, ImportError, Position};
 pub use folder::Folder;
 pub use formats::{SCENE_FORMATS, SceneFormat};
 pub use gltf::{GLTF_EXTENSIONS, Support};
-pub use options::{Axis, Environment, EnvironmentSource, Ground, Options, Staging};
+pub use options::{Axis, Baking, Environment, EnvironmentSource, Ground, Options, Staging};
 pub use resolver::{FileError, Memory, Resolver};
 #[cfg(not(target_arch = "wasm32"))]
 pub use step::Step;
@@ -358,7 +359,12 @@ pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportE
 fn finish(scene: &mut Scene, options: &Options) {
     range::limit(scene);
     scene.complete_tangents();
-    if options.integrator == Some(LightTransport::Whitted) {
+    let shows_maps = match options.baking {
+        Baking::Never => false,
+        Baking::IfClassical => scene.output.integrator == LightTransport::Whitted,
+        Baking::Always => true,
+    };
+    if shows_maps {
         scene.bake_classical_maps();
     }
     scene.pin_render_origin();

@@ -106,7 +106,9 @@ pub fn collect_shared<T: Copy + Send>(len: usize, make: impl Fn(usize) -> T + Sy
     list
 }
 
-fn fill<T: Send>(list: &mut [T], make: impl Fn(usize) -> T + Sync) {
+/// Sets all elements, made from their indices. Memory that is still zero from the system is first touched here, by all
+/// threads.
+pub fn fill<T: Send>(list: &mut [T], make: impl Fn(usize) -> T + Sync) {
     for_chunks(list, |first, chunk| {
         for (index, slot) in (first..).zip(chunk) {
             *slot = make(index);
@@ -124,12 +126,49 @@ pub fn sort<T: Copy + Ord + Send + Sync>(list: &mut Vec<T>) {
     let mut merged = list.clone();
     while run < list.len() {
         let pairs = list.chunks(2 * run).zip(merged.chunks_mut(2 * run));
-        for_each(pairs, |(pair, out)| {
-            merge(pair.split_at(run.min(pair.len())), out);
-        });
+        let parts = (2 * run * count()).div_ceil(list.len());
+        let jobs =
+            pairs.flat_map(|(pair, out)| divided(pair.split_at(run.min(pair.len())), out, parts));
+        for_each(jobs, |(pair, out)| merge(pair, out));
         std::mem::swap(list, &mut merged);
         run *= 2;
     }
+}
+
+/// Two sorted slices and the place of their elements in order.
+type Merge<'a, T> = ((&'a [T], &'a [T]), &'a mut [T]);
+
+/// Divides a merge into at most `count` parts of about the same length.
+fn divided<'a, T: Ord>(
+    (mut left, mut right): (&'a [T], &'a [T]),
+    mut out: &'a mut [T],
+    count: usize,
+) -> Vec<Merge<'a, T>> {
+    let len = out.len().div_ceil(count.max(1)).max(1);
+    let mut parts = Vec::with_capacity(count);
+    while !out.is_empty() {
+        let len = len.min(out.len());
+        let on_left = least_on_left((left, right), len);
+        let (own_left, rest_left) = left.split_at(on_left);
+        let (own_right, rest_right) = right.split_at(len - on_left);
+        let (own, rest) = std::mem::take(&mut out).split_at_mut(len);
+        parts.push(((own_left, own_right), own));
+        (left, right, out) = (rest_left, rest_right, rest);
+    }
+    parts
+}
+
+/// Of the `count` least elements of two sorted slices, how many are in the left one.
+fn least_on_left<T: Ord>((left, right): (&[T], &[T]), count: usize) -> usize {
+    let (mut low, mut high) = (count.saturating_sub(right.len()), count.min(left.len()));
+    while low < high {
+        let middle = low.midpoint(high);
+        match left[middle] < right[count - middle - 1] {
+            true => low = middle + 1,
+            false => high = middle,
+        }
+    }
+    low
 }
 
 /// Merges two sorted slices.

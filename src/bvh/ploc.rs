@@ -35,13 +35,22 @@ pub fn build(boxes: &[Aabb]) -> (Vec<Node>, u64) {
         threads::for_chunks(near, |first, near| search(&clusters.boxes, first, near));
         work += (count * search::RADIUS) as u64;
         // A pass over a mesh usually merges more than half of the boxes.
-        let mut pairs = count_pairs(near);
-        if pairs < count / 6 {
-            pairs += cut_chains(near);
+        let mut counts = counts(near);
+        if total(&counts) < count / 6 {
+            cut_chains(near);
+            counts = self::counts(near);
         }
+        let pairs = total(&counts);
         next.truncate(count - pairs);
         let first = end - 2 * pairs;
-        merge(&clusters, near, &mut next, &mut nodes[first..end], first);
+        merge(
+            &clusters,
+            near,
+            &counts,
+            &mut next,
+            &mut nodes[first..end],
+            first,
+        );
         end = first;
         std::mem::swap(&mut clusters, &mut next);
     }
@@ -70,22 +79,26 @@ fn along_curve(boxes: &[Aabb]) -> Clusters {
     let extent = (all.max.as_dvec3() - low).max_element();
     // The same for all axes: neighbours in cubic cells have smaller joint boxes than those in flat ones.
     let scale = f64::from((1 << 21) - 1) / extent.max(f64::from(f32::MIN_POSITIVE));
-    let mut order = threads::collect(boxes.len(), |index| {
+    let mut order = zeroed_vec(boxes.len());
+    threads::fill(&mut order, |index| {
         let cell = (center(&boxes[index]) - low) * scale;
         let [x, y, z] = cell.to_array().map(|c| spread_bits(c as u64));
         (x | y << 1 | z << 2, index as u32)
     });
     threads::sort(&mut order);
-    Clusters {
-        boxes: threads::collect(boxes.len(), |place| {
-            let Aabb { min, max } = boxes[order[place].1 as usize];
-            Box4 {
-                min: min.into(),
-                max: max.into(),
-            }
-        }),
-        links: order.iter().map(|(_, index)| LEAF | index).collect(),
-    }
+    let mut clusters = Clusters {
+        boxes: zeroed_vec(boxes.len()),
+        links: zeroed_vec(boxes.len()),
+    };
+    threads::fill(&mut clusters.boxes, |place| {
+        let Aabb { min, max } = boxes[order[place].1 as usize];
+        Box4 {
+            min: min.into(),
+            max: max.into(),
+        }
+    });
+    threads::fill(&mut clusters.links, |place| LEAF | order[place].1);
+    clusters
 }
 
 /// Spreads 21 bits out to every third bit.
@@ -108,16 +121,29 @@ fn is_paired(near: &[i8], place: usize) -> bool {
     preferred(near, preferred(near, place)) == place
 }
 
-/// The number of pairs that prefer each other.
-fn count_pairs(near: &[i8]) -> usize {
-    (0..near.len())
-        .filter(|&place| is_paired(near, place))
-        .count()
-        / 2
+/// For each chunk of places, how many are the first and how many the second of a pair that prefer each other.
+fn counts(near: &[i8]) -> Vec<[usize; 2]> {
+    let len = threads::chunk_len(near.len());
+    let chunks = (0..near.len()).step_by(len);
+    let jobs = chunks.map(|start| start..near.len().min(start + len));
+    threads::map(jobs.collect(), |places| {
+        let (mut firsts, mut seconds) = (0, 0);
+        for place in places {
+            let is_paired = is_paired(near, place);
+            firsts += usize::from(is_paired & (near[place] > 0));
+            seconds += usize::from(is_paired & (near[place] < 0));
+        }
+        [firsts, seconds]
+    })
 }
 
-/// Pairs boxes on long chains of preferences with the one they prefer; returns the number of new pairs.
-fn cut_chains(near: &mut [i8]) -> usize {
+/// The number of pairs.
+fn total(counts: &[[usize; 2]]) -> usize {
+    counts.iter().map(|[firsts, _]| firsts).sum()
+}
+
+/// Pairs boxes on long chains of preferences with the one they prefer.
+fn cut_chains(near: &mut [i8]) {
     let is_deep = |near: &[i8], mut place: usize| {
         (0..CHAIN).all(|_| {
             let next = preferred(near, place);
@@ -127,31 +153,32 @@ fn cut_chains(near: &mut [i8]) -> usize {
         })
     };
     let mut is_free: Vec<bool> = (0..near.len()).map(|place| is_deep(near, place)).collect();
-    let mut pairs = 0;
     for place in 0..near.len() {
         let other = preferred(near, place);
         if is_free[place] && is_free[other] {
             (is_free[place], is_free[other]) = (false, false);
             near[other] = -near[place];
-            pairs += 1;
         }
     }
-    pairs
 }
 
-/// Merges the pairs of `clusters` into `next`. The merged ones become nodes, the first at index `first`.
-fn merge(clusters: &Clusters, near: &[i8], next: &mut Clusters, nodes: &mut [Node], first: usize) {
+/// Merges the pairs of `clusters` into `next`. The merged ones become nodes, the first at index `first`; `counts` are
+/// [`counts`] of `near`.
+fn merge(
+    clusters: &Clusters,
+    near: &[i8],
+    counts: &[[usize; 2]],
+    next: &mut Clusters,
+    nodes: &mut [Node],
+    first: usize,
+) {
     let len = threads::chunk_len(near.len());
     let (mut boxes, mut links, mut nodes, mut first) =
         (&mut next.boxes[..], &mut next.links[..], nodes, first);
     let mut jobs = Vec::new();
-    for start in (0..near.len()).step_by(len) {
-        let places = start..near.len().min(start + len);
+    for (start, &[pairs, seconds]) in (0..near.len()).step_by(len).zip(counts) {
         // A pair belongs to the chunk of its first box.
-        let is_first = |place: &usize| near[*place] > 0 && is_paired(near, *place);
-        let is_second = |place: &usize| near[*place] < 0 && is_paired(near, *place);
-        let pairs = places.clone().filter(is_first).count();
-        let seconds = places.clone().filter(is_second).count();
+        let places = start..near.len().min(start + len);
         let (own_boxes, rest) = boxes.split_at_mut(places.len() - seconds);
         boxes = rest;
         let (own_links, rest) = links.split_at_mut(places.len() - seconds);

@@ -152,19 +152,26 @@ impl Plan {
 pub fn collapse(tree: &Tree, groups: &[u8], group_count: usize, limits: Limits) -> Bvh {
     let nodes = &tree.nodes[..];
     let mut top = Piece::new(nodes.len() / 4, group_count);
+    let mut stack = 0;
     if !nodes.is_empty() {
         let plans = plans(tree, groups, limits);
         let below = top.grow(nodes, &plans, 0, &tree.parts);
+        // Most wide nodes stand for six binary ones.
+        let room = nodes.len() / 6 / below.len().max(1);
         let pieces = threads::map(below, |(source, at)| {
-            let mut piece = Piece::new(0, group_count);
+            let mut piece = Piece::new(room, group_count);
             piece.grow(nodes, &plans, source, &[]);
-            (piece, at)
+            let need = stack_need(&piece.nodes, &[]);
+            (piece, (at, need))
         });
+        let needs: Vec<_> = pieces.iter().map(|(_, need)| *need).collect();
+        stack = stack_need(&top.nodes, &needs);
         drop(plans);
         top.append(pieces);
     }
     Bvh {
-        stack_need: stack_need(&top.nodes),
+        // An entry marks the empty stack.
+        stack_need: stack + 1,
         nodes: top.nodes,
         order: top.order,
         work: 0,
@@ -231,10 +238,10 @@ impl Piece {
     }
 
     /// Appends pieces, the first node of each in the place of a node that there is.
-    fn append(&mut self, pieces: Vec<(Self, usize)>) {
+    fn append(&mut self, pieces: Vec<(Self, (usize, usize))>) {
         let mut len = self.nodes.len();
         let mut jobs = Vec::with_capacity(pieces.len());
-        for (mut piece, at) in pieces {
+        for (mut piece, (at, _)) in pieces {
             let first: Vec<_> = self.order.iter().map(|order| order.len() as u32).collect();
             for (order, own) in self.order.iter_mut().zip(&piece.order) {
                 order.extend_from_slice(own);
@@ -379,15 +386,19 @@ fn boxes_below(tree: &[Node], root: u32, count: u8) -> impl Iterator<Item = u32>
 }
 
 /// Stack entries when every child of every node on the path is hit: a node with n children leaves n − 1
-/// behind. Plus one for the entry that marks the empty stack.
-fn stack_need(nodes: &[WideNode]) -> usize {
+/// behind. `known` are places of nodes without children yet, and the entries that these need.
+fn stack_need(nodes: &[WideNode], known: &[(usize, usize)]) -> usize {
     let mut need = vec![0usize; nodes.len()];
+    for &(at, known) in known {
+        need[at] = known;
+    }
     for (i, node) in nodes.iter().enumerate().rev() {
         let below = node.children.iter().map(|(_, child)| match child {
             Child::Node(index) => need[*index as usize],
             Child::Leaf { .. } => 0,
         });
-        need[i] = below.max().unwrap_or(0) + node.children.len().saturating_sub(1);
+        let own = below.max().unwrap_or(0) + node.children.len().saturating_sub(1);
+        need[i] = need[i].max(own);
     }
-    need[0] + 1
+    need[0]
 }

@@ -6,13 +6,15 @@ use crate::app::scene_file::save;
 use crate::cli::args::ConvertArgs;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::scene_file;
+use crate::import::{Baking, Options};
 use std::path::PathBuf;
 
 pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
     Interrupt::install()?;
-    let options = arguments
-        .reading
-        .import_options(arguments.axis.up, None, None);
+    let options = Options {
+        baking: Baking::Never,
+        ..(arguments.reading).import_options(arguments.axis.up, None, None)
+    };
     let (scene, inputs) = scene_file::load(&arguments.scene, &options, arguments.reading.strict);
     let scene = scene?;
     let stem = arguments.scene.file_stem().unwrap_or("scene".as_ref());

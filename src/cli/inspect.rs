@@ -11,6 +11,7 @@ use crate::cli::args::InspectArgs;
 use crate::cli::job::UNLIT;
 use crate::cli::report::SceneReport;
 use crate::cli::scene_file;
+use crate::import::{Baking, Options};
 use crate::render::{Integrator, Tone};
 use crate::scene::{Attenuation, Background, Camera, Light, LightKind, Material, Scene};
 use glam::{DVec3, Vec3};
@@ -21,9 +22,10 @@ use std::fmt::{self, Write};
 const MAX_LISTED: usize = 20;
 
 pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
-    let options = arguments
-        .reading
-        .import_options(arguments.axis.up, None, None);
+    let options = Options {
+        baking: Baking::Never,
+        ..(arguments.reading).import_options(arguments.axis.up, None, None)
+    };
     let scene = scene_file::load(&arguments.scene, &options, arguments.reading.strict).0?;
     let path = arguments.scene.display().to_string();
     if arguments.json {

@@ -5,6 +5,7 @@ use super::job;
 use crate::app::error::AppError;
 use crate::app::overrides::{Moment, RenderOverrides};
 use crate::app::window::{PictureRequest, RecordingRequest, ViewRequest, Window};
+use crate::import::{Baking, Options};
 use clap::Parser;
 
 pub(super) fn run(arguments: &ViewArgs, window: Option<&Window>) -> Result<(), AppError> {
@@ -40,11 +41,15 @@ fn request_of(arguments: &ViewArgs) -> ViewRequest {
             moment: arguments.moment.moment(),
             timing: arguments.motion.overrides(),
         },
-        import: (arguments.reading).import_options(
-            arguments.camera.model_axis(),
-            arguments.picture.size.size,
-            arguments.picture.integrator,
-        ),
+        import: Options {
+            // The window does it when such an integrator is chosen.
+            baking: Baking::Never,
+            ..(arguments.reading).import_options(
+                arguments.camera.model_axis(),
+                arguments.picture.size.size,
+                arguments.picture.integrator,
+            )
+        },
         recording: RecordingRequest {
             record: recording.record.clone(),
             replay: recording.replay.clone(),

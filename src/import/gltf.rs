@@ -25,6 +25,7 @@ mod meshopt;
 mod skins;
 mod store;
 mod textures;
+mod uv_sets;
 
 use super::budget::Budget;
 use super::error::{ImportError, one_line};
@@ -37,13 +38,13 @@ use accessor::Accessors;
 use blame::{Blame, Ledger};
 use buffers::Buffers;
 use deform::Deformable;
-use document::{Document, TextureInfo};
+use document::{Document, Primitive, TextureInfo};
 pub use extensions::{GLTF_EXTENSIONS, Support};
 use glam::DAffine3;
 use materials::{MaterialKey, Surface};
 use mesh::MeshKey;
 use skins::Bound;
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -90,6 +91,8 @@ struct Reader<'a> {
     cameras: Vec<usize>,
     lights: Vec<usize>,
     surfaces: HashMap<MaterialKey, Surface>,
+    /// For each material in the file its primitives, found when they are needed.
+    primitives_of: OnceCell<HashMap<usize, Vec<&'a Primitive>>>,
     /// Maps whose transform a clip that is played moves, and their textures in the scene: each has one of its own.
     moved_maps: HashMap<*const TextureInfo, Option<usize>>,
     /// Materials of the scene by their vertex colour.
@@ -166,6 +169,7 @@ pub(super) fn read(
         cameras: Vec::new(),
         lights: Vec::new(),
         surfaces: HashMap::new(),
+        primitives_of: OnceCell::new(),
         moved_maps: HashMap::new(),
         materials: HashMap::new(),
         store: Store::new(options),

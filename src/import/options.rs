@@ -31,13 +31,26 @@ pub struct Options {
     /// own size.
     pub size: Option<(u32, u32)>,
     /// The integrator that the scene will be rendered with, for which a model without lights is lit; `None` for the
-    /// scene's own. Only with [`LightTransport::Whitted`] the classical colours of materials with several maps are
-    /// computed: [`crate::scene::Scene::bake_classical_maps`].
+    /// scene's own.
     pub integrator: Option<LightTransport>,
+    /// Whether the classical colours of materials with several maps are computed.
+    pub baking: Baking,
     /// What is added to a model that lacks it.
     pub staging: Staging,
     /// Replaces or changes the background.
     pub environment: Environment,
+}
+
+/// Whether [`crate::scene::Scene::bake_classical_maps`] is called. Only classical shading shows the result.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Baking {
+    /// No.
+    #[default]
+    Never,
+    /// If the scene's own integrator is classical.
+    IfClassical,
+    /// Yes.
+    Always,
 }
 
 /// What replaces or changes the background of a scene.

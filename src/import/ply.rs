@@ -19,7 +19,7 @@ use super::notes::{self, Notes};
 use super::number::in_range;
 use super::tangent::tangent;
 use super::tint::{self, Rgb};
-use super::{Axis, Options};
+use super::{Axis, Options, uvs};
 use crate::scene::{Material, Mesh, Scene, Shape};
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3, Vec4};
 use reader::Reader;
@@ -65,6 +65,8 @@ struct Content {
     fans: usize,
     /// Number of points without a position.
     lost_points: usize,
+    /// Number of texture coordinates that are not numbers.
+    lost_uvs: usize,
     notes: Notes,
 }
 
@@ -287,6 +289,7 @@ fn vertices(
         colors,
         radii,
         lost_points,
+        lost_uvs,
         ..
     } = content;
     mesh.positions
@@ -314,8 +317,7 @@ fn vertices(
         ];
         for (at, uvs) in uvs {
             if let Some(at) = at {
-                // What is not a number becomes 0.
-                let place = |x: f64| x.clamp(-1e9, 1e9).max(-1e9) as f32;
+                let mut place = |x: f64| uvs::in_range(x, lost_uvs) as f32;
                 uvs.push(Vec2::new(place(row[at]), place(row[at + 1])));
             }
         }
@@ -399,29 +401,18 @@ impl Content {
             "points with coordinates that are not finite skipped",
             self.lost_points,
         );
+        uvs::note(self.lost_uvs, notes);
     }
 }
 
 /// Notes what is not read.
 fn note_skipped(reader: &Reader, elements: &[Element], notes: &mut Notes) {
-    const READ: [&str; 12] = [
-        "x",
-        "y",
-        "z",
-        "nx",
-        "ny",
-        "nz",
-        "s",
-        "t",
-        "u",
-        "v",
-        "texture_u",
-        "texture_v",
-    ];
+    const READ: &str = "x y z nx ny nz s t u v texture_u texture_v s2 t2 radius";
     for element in elements.iter().filter(|element| element.count > 0) {
         let is_read = |name: &str| match element.name.as_str() {
             "vertex" => {
-                READ.contains(&name) || name == "radius" || COLORS.as_flattened().contains(&name)
+                let mut known = READ.split(' ').chain(COLORS.into_iter().flatten());
+                known.any(|known| known == name)
             }
             _ => faces::CORNERS.contains(&name),
         };

@@ -84,7 +84,8 @@ impl Divided {
         let mut pieces = pieces(&boxes, &corners);
         let mut divided: Vec<_> = pieces.iter().map(|piece| piece.triangle).collect();
         divided.dedup();
-        let is_whole = |triangle: &u32| divided.binary_search(triangle).is_err();
+        let mut next = divided.iter().peekable();
+        let is_whole = |triangle: &u32| next.next_if_eq(&triangle).is_none();
         let whole: Vec<_> = (0..boxes.len() as u32).filter(is_whole).collect();
         // The boxes before the first that is divided are in their places.
         let first = divided.first().map_or(whole.len(), |it| *it as usize);
@@ -141,12 +142,17 @@ fn pieces(boxes: &[Aabb], corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<P
         })
     };
     let mut least = LARGE * mean;
+    let (mut pieces, mut open) = (Vec::new(), Vec::new());
     loop {
-        let mut pieces = Vec::new();
+        pieces.clear();
+        let is_full = |pieces: &[Piece]| pieces.len() > boxes.len() / TRIANGLES_PER_PIECE;
         for triangle in worth(least) {
-            divide(triangle, corners(triangle), least, &mut pieces);
+            divide(triangle, corners(triangle), least, &mut pieces, &mut open);
+            if is_full(&pieces) {
+                break;
+            }
         }
-        if pieces.len() <= boxes.len() / TRIANGLES_PER_PIECE {
+        if !is_full(&pieces) {
             return pieces;
         }
         least *= 2.0;
@@ -159,9 +165,16 @@ fn pays(piece: &Piece, corners: [Vec3; 3]) -> bool {
     (left + right) * GAIN < piece.aabb(corners).half_area()
 }
 
-/// Adds the pieces of a triangle. Pieces with smaller boxes than `least` are not divided further.
-fn divide(triangle: u32, corners: [Vec3; 3], least: f32, pieces: &mut Vec<Piece>) {
-    let mut open = vec![(Piece::whole(triangle, corners), 0)];
+/// Adds the pieces of a triangle. Pieces with smaller boxes than `least` are not divided further. `open` is working
+/// memory.
+fn divide(
+    triangle: u32,
+    corners: [Vec3; 3],
+    least: f32,
+    pieces: &mut Vec<Piece>,
+    open: &mut Vec<(Piece, u32)>,
+) {
+    open.push((Piece::whole(triangle, corners), 0));
     while let Some((piece, depth)) = open.pop() {
         let is_large = piece.aabb(corners).half_area() > least;
         match depth < MOST_HALVINGS && is_large && pays(&piece, corners) {

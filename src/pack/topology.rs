@@ -12,6 +12,7 @@ use crate::{
         leaf_reference,
     },
 };
+use bytemuck::allocation::zeroed_vec;
 use glam::Vec3;
 use std::{borrow::Cow, sync::Arc};
 
@@ -47,9 +48,8 @@ impl Topology {
         let corners = |triangle: u32| {
             triangles[triangle as usize].map(|corner| positions[corner as usize] * scale)
         };
-        let boxes = threads::collect(triangles.len(), |triangle| {
-            Aabb::of(corners(triangle as u32))
-        });
+        let mut boxes = zeroed_vec(triangles.len());
+        threads::fill(&mut boxes, |triangle| Aabb::of(corners(triangle as u32)));
         let divided = Divided::new(boxes, corners);
         let bvh = build(&divided, &[], STACK_BELOW);
         let offsets = Offsets::default();
@@ -67,13 +67,13 @@ impl Topology {
             }
             references
         };
-        let bounds = bvh.nodes.iter().map(|node| {
-            let boxes = node.children.iter().map(|(aabb, _)| *aabb);
-            boxes.fold(Aabb::EMPTY, Aabb::union)
+        let areas = threads::collect(bvh.nodes.len(), |index| {
+            let boxes = bvh.nodes[index].children.iter().map(|(aabb, _)| *aabb);
+            boxes.fold(Aabb::EMPTY, Aabb::union).half_area()
         });
         Self {
-            cost: cost_of(bounds),
-            children: bvh.nodes.iter().map(references).collect(),
+            cost: cost_of(areas),
+            children: threads::collect(bvh.nodes.len(), |index| references(&bvh.nodes[index])),
             order: divided.order(&bvh.order[usize::from(nodes::TRIANGLES)]),
             pieces: divided.pieces,
             stack_need: bvh.stack_need,
@@ -88,10 +88,10 @@ impl Topology {
     }
 }
 
-/// The number of nodes that a ray visits that hits the root, by the surface area heuristic; `bounds` are those
-/// of the nodes, the root's first.
-fn cost_of(bounds: impl IntoIterator<Item = Aabb>) -> f64 {
-    let mut areas = bounds.into_iter().map(|aabb| f64::from(aabb.half_area()));
+/// The number of nodes that a ray visits that hits the root, by the surface area heuristic; `half_areas` are
+/// those of the nodes, the root's first.
+fn cost_of(half_areas: impl IntoIterator<Item = f32>) -> f64 {
+    let mut areas = half_areas.into_iter().map(f64::from);
     let root = areas.next().unwrap_or(0.0);
     let below: f64 = areas.filter(|area| area.is_finite()).sum();
     match root > 0.0 {
@@ -132,7 +132,7 @@ impl<'a> Fit<'a> {
 
     /// See [`cost_of`].
     pub fn cost(&self) -> f64 {
-        cost_of(self.bounds.iter().copied())
+        cost_of(self.bounds.iter().map(|aabb| aabb.half_area()))
     }
 
     /// The boxes of the children of a node, with references that `node` and `leaf` give for those of the

@@ -180,6 +180,11 @@ impl Integrator {
         Some(entry.integrator)
     }
 
+    /// Whether it shades as [`Self::Whitted`] does, so that it shows [`crate::scene::Scene::bake_classical_maps`].
+    pub fn is_classical(self) -> bool {
+        matches!(self, Self::Whitted | Self::Samples)
+    }
+
     /// The quantity it measures; `None` if it shows colours.
     pub fn quantity(self) -> Option<Quantity> {
         match self.entry().shows {

@@ -1,6 +1,7 @@
 //! The command line as scripts see it: exit codes, messages, files.
 
 mod adapters;
+mod baking;
 #[cfg(unix)]
 mod checkpoint;
 mod compare;

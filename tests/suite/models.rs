@@ -200,6 +200,7 @@ fn load(name: &str, bytes: Vec<u8>) -> Scene {
         size: Some(SIZE),
         // Pictures of all formats are compared.
         integrator: Some(LightTransport::Whitted),
+        baking: import::Baking::Always,
         ..Options::default()
     };
     let scene = import::load_from(&files, name, &options).expect("a scene");

@@ -285,8 +285,7 @@ impl SceneFlags {
             background: !self.bare && !self.no_background,
             ground: match self.ground {
                 None if self.bare || self.no_ground => import::Ground::None,
-                None => import::Ground::Default,
-                Some(ground) => ground,
+                given => given.unwrap_or(import::Ground::Default),
             },
         };
         import::Options {
@@ -299,6 +298,7 @@ impl SceneFlags {
             texture_limit: self.texture_limit,
             size,
             integrator: integrator.map(Into::into),
+            baking: values::baking(integrator),
             staging,
             environment: import::Environment {
                 source: self.environment.clone(),

@@ -4,9 +4,10 @@ use crate::app::overrides::{BackgroundChoice, Exposure};
 use crate::app::value_names::ValueNames;
 use crate::cli::args::{ProgressMode, Range, SequenceFormat};
 use crate::gpu::Backend;
-use crate::import::{Axis, EnvironmentSource, Ground};
+use crate::import::{Axis, Baking, EnvironmentSource, Ground};
 use crate::output::Format;
 use crate::output::video::VideoFormat;
+use crate::render::Integrator;
 use crate::scene::{Shutter, sky};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec3, Vec3};
@@ -14,6 +15,15 @@ use std::fmt::Display;
 use std::num::NonZero;
 use std::str::FromStr;
 use std::time::Duration;
+
+/// What is computed of a scene for this integrator, or for its own.
+pub fn baking(integrator: Option<Integrator>) -> Baking {
+    match integrator {
+        None => Baking::IfClassical,
+        Some(integrator) if integrator.is_classical() => Baking::Always,
+        Some(_) => Baking::Never,
+    }
+}
 
 /// Parses one of a setting's names.
 pub fn one_of<T: Clone + Send + Sync>(

@@ -141,8 +141,10 @@ impl Reader<'_> {
         let here = format!("materials[{index}]");
         self.note_maps(source, &here)?;
         let is_anisotropic = model.anisotropy > 0.0;
-        let (mut material, mut uv_sets) = self.textured(source, model, &here)?;
+        let sets = self.sets_of(source, index, &model)?;
+        let mut material = self.textured(source, model, &sets, &here)?;
         material.name = source.name.clone().unwrap_or_default();
+        let mut uv_sets = sets.into_slots();
         if is_anisotropic && uv_sets.is_empty() {
             // They give the direction of tangents.
             uv_sets.push(0);

@@ -9,6 +9,7 @@ use crate::import::budget;
 use crate::import::error::ImportError;
 use crate::import::notes;
 use crate::import::tangent::tangent;
+use crate::import::uvs;
 use crate::scene::Mesh;
 use glam::{Vec2, Vec3, Vec4};
 
@@ -253,13 +254,13 @@ impl Reader<'_> {
             normals = accessors.vectors::<3>(index, &[Kind::Vec3], 0.0, &place("NORMAL"))?;
             same_count(normals.len(), "NORMAL")?;
         }
-        let mut uvs = [Vec::new(), Vec::new()];
-        for (uvs, set) in uvs.iter_mut().zip(self.uv_sets(material)) {
+        let mut sets = [Vec::new(), Vec::new()];
+        for (values, set) in sets.iter_mut().zip(self.uv_sets(material)) {
             let name = format!("TEXCOORD_{set}");
             match attribute(&name) {
                 Some(index) => {
-                    *uvs = accessors.vectors::<2>(index, &[Kind::Vec2], 0.0, &place(&name))?;
-                    same_count(uvs.len(), &name)?;
+                    *values = accessors.vectors::<2>(index, &[Kind::Vec2], 0.0, &place(&name))?;
+                    same_count(values.len(), &name)?;
                 }
                 None => self.notes.add("meshes without texture coordinates", || {
                     format!("{here} has no {name}: each texture shows a single colour")
@@ -280,15 +281,18 @@ impl Reader<'_> {
             tangents = accessors.vectors::<4>(index, &[Kind::Vec4], 1.0, &place("TANGENT"))?;
             same_count(tangents.len(), "TANGENT")?;
         }
-        // glTF's v points down. Beyond 1e9, f32 has whole numbers only, and all are equivalent.
-        let uv = |[u, v]: [f32; 2]| {
-            let place = |x: f32| if x.is_nan() { 0.0 } else { x.clamp(-1e9, 1e9) };
-            Vec2::new(place(u), 1.0 - place(v))
+        let mut lost = 0;
+        // glTF's v points down.
+        let mut uv = |uv: [f32; 2]| {
+            let [u, v] = uv.map(|x| uvs::in_range(x.into(), &mut lost) as f32);
+            Vec2::new(u, 1.0 - v)
         };
+        let sets = sets.map(|set| set.into_iter().map(&mut uv).collect());
+        uvs::note(lost, &mut self.notes);
         Ok(Vertices {
             positions: positions.into_iter().map(Vec3::from).collect(),
             normals: normals.into_iter().map(Vec3::from).collect(),
-            uvs: uvs.map(|uvs| uvs.into_iter().map(uv).collect()),
+            uvs: sets,
             colors: colors.into_iter().map(Vec4::from).collect(),
             tangents: (tangents.into_iter().map(|t| tangent(t.map(f64::from)))).collect(),
         })

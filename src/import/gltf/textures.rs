@@ -3,6 +3,7 @@
 use super::Reader;
 use super::document::{Material as Source, TextureInfo};
 use super::maps::FoundMap;
+use super::uv_sets::Sets;
 use crate::import::error::ImportError;
 use crate::import::picture::Role;
 use crate::scene::{Coverage, LayerTextures, Material, MetallicRoughness, Pattern, Space, Texture};
@@ -10,14 +11,15 @@ use glam::Vec3;
 use std::sync::Arc;
 
 impl Reader<'_> {
-    /// The material of `model` with the maps of `source`, and the sets of texture coordinates that they use, at most
-    /// two.
+    /// The material of `model` with the maps of `source` that use `sets`, the sets of texture coordinates of
+    /// [`Self::sets_of`].
     pub(super) fn textured(
         &mut self,
         source: &Source,
         model: MetallicRoughness,
+        sets: &Sets,
         here: &str,
-    ) -> Result<(Material, Vec<u32>), ImportError> {
+    ) -> Result<Material, ImportError> {
         let pbr = source.pbr_metallic_roughness.as_deref();
         let extensions = source.extensions.as_deref();
         let older = extensions.and_then(|e| e.specular_glossiness.as_deref());
@@ -34,13 +36,12 @@ impl Reader<'_> {
                 .and_then(|e| e.transmission.as_ref())
                 .and_then(|it| it.transmission_texture.as_deref()),
         ];
-        let mut sets = Vec::new();
         let is_lit = !model.unlit;
         let layers = match is_lit {
-            true => self.layer_textures(source, infos, &mut sets, here)?,
+            true => self.layer_textures(source, infos, sets, here)?,
             false => LayerTextures {
                 base_color: match infos[0] {
-                    Some(info) => self.other(info, false, &mut sets, here)?,
+                    Some(info) => self.other(info, false, sets, here)?,
                     None => None,
                 },
                 ..LayerTextures::default()
@@ -58,26 +59,26 @@ impl Reader<'_> {
         if material.coverage != Coverage::Opaque
             && let Some(info) = infos[0]
         {
-            material.textures.alpha = self.other(info, false, &mut sets, here)?;
+            material.textures.alpha = self.other(info, false, sets, here)?;
         }
         if let Some(info) = source.emissive_texture.as_deref()
             && has_emission
         {
-            material.textures.emission = self.other(info, false, &mut sets, here)?;
+            material.textures.emission = self.other(info, false, sets, here)?;
         }
         if let Some(info) = source.normal_texture.as_deref()
             && is_lit
         {
-            material.textures.normal = self.other(info, true, &mut sets, here)?;
+            material.textures.normal = self.other(info, true, sets, here)?;
             material.normal_scale = info.scale.unwrap_or(1.0).clamp(0.0, 1e3) as f32;
         }
         if let Some(info) = source.occlusion_texture.as_deref()
             && is_lit
         {
-            material.textures.occlusion = self.other(info, true, &mut sets, here)?;
+            material.textures.occlusion = self.other(info, true, sets, here)?;
             material.occlusion_strength = info.strength.unwrap_or(1.0).clamp(0.0, 1.0) as f32;
         }
-        Ok((material, sets))
+        Ok(material)
     }
 
     /// Notes the maps of which classical colours have the mean, for each texel of theirs may lie elsewhere.
@@ -98,7 +99,7 @@ impl Reader<'_> {
         &mut self,
         source: &Source,
         main: [Option<&TextureInfo>; 3],
-        sets: &mut Vec<u32>,
+        sets: &Sets,
         here: &str,
     ) -> Result<LayerTextures, ImportError> {
         let mut of = |info: Option<&TextureInfo>, has_values| match info {
@@ -139,31 +140,13 @@ impl Reader<'_> {
         })
     }
 
-    /// The place of a map's texture coordinates in the meshes of its material, whose sets so far are `sets`; `None`
-    /// with a note if it is a third one.
-    fn space(&mut self, sets: &mut Vec<u32>, map: &FoundMap, here: &str) -> Option<Space> {
-        if !sets.contains(&map.uv_set) {
-            sets.push(map.uv_set);
-        }
-        match sets.iter().position(|set| *set == map.uv_set) {
-            Some(0) => Some(Space::Uv),
-            Some(1) => Some(Space::SecondUv),
-            _ => {
-                sets.pop();
-                self.notes.add("maps that are not shown", || {
-                    format!("{here}: a map with a third set of texture coordinates is not shown")
-                });
-                None
-            }
-        }
-    }
-
-    /// The texture of a map that is shown as it is, with values or colours; `None` with a note if it cannot be.
+    /// The texture of a map that is shown as it is, with values or colours; `None` if it cannot be, with a note by
+    /// [`Self::sets_of`] if its set is a third one.
     fn other(
         &mut self,
         info: &TextureInfo,
         has_values: bool,
-        sets: &mut Vec<u32>,
+        sets: &Sets,
         here: &str,
     ) -> Result<Option<usize>, ImportError> {
         if let Some(Some(known)) = self.moved_maps.get(&std::ptr::from_ref(info)) {
@@ -176,7 +159,7 @@ impl Reader<'_> {
         let Some(picture) = self.shown(map.image, role)? else {
             return Ok(None);
         };
-        let Some(space) = self.space(sets, &map, here) else {
+        let Some(space) = sets.space(map.uv_set) else {
             return Ok(None);
         };
         let texture = lying(picture, &map, space);

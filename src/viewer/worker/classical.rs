@@ -1,6 +1,5 @@
 //! The scene that a picture shows.
 
-use crate::render::Integrator;
 use crate::scene::{ClassicalMaps, Scene};
 use crate::viewer::worker::request::RenderRequest;
 use std::sync::Arc;
@@ -18,7 +17,7 @@ impl ShownScenes {
     /// The scene of `order` as its integrator shows it; the same one unless it lacks pictures.
     pub fn of(&mut self, order: &RenderRequest) -> Arc<Scene> {
         let scene = &order.scene;
-        if order.settings.integrator != Integrator::Whitted || !scene.lacks_classical_maps() {
+        if !order.settings.integrator.is_classical() || !scene.lacks_classical_maps() {
             return scene.clone();
         }
         if let Some((from, shown)) = &self.last

@@ -10,5 +10,6 @@ mod motion;
 mod moving_maps;
 mod nodes;
 mod tangents;
+mod uv_sets;
 
 use super::{folder, load, message_in, scene};

@@ -241,6 +241,31 @@ fn points_without_faces_are_spheres() {
 }
 
 #[test]
+fn texture_coordinates_that_are_not_numbers_are_zero_and_reported() {
+    let file = text(
+        "float s, float t, float s2, float t2",
+        &[
+            "0 0 0 nan 0.5 0.25 nan",
+            "1 0 0 nan nan inf -inf",
+            "0 1 0 0.5 1 0 0",
+        ],
+        &["3 0 1 2"],
+    );
+    let scene = scene("a.ply", file);
+    let mesh = &scene.meshes[0];
+    let rows = |uvs: &[glam::Vec2]| -> Vec<_> { uvs.iter().map(|uv| uv.to_array()).collect() };
+    assert_eq!(rows(&mesh.uvs), [[0.0, 0.5], [0.0, 0.0], [0.5, 1.0]]);
+    assert_eq!(
+        rows(&mesh.second_uvs),
+        [[0.25, 0.0], [1e9, -1e9], [0.0, 0.0]]
+    );
+    assert_eq!(
+        scene.skipped,
+        ["texture coordinates that are not numbers, set to 0: 4"]
+    );
+}
+
+#[test]
 fn what_is_skipped_is_named() {
     let file = "ply\nformat ascii 1.0\ncomment TextureFile wood grain.png\nelement vertex 4\nproperty float x\n\
         property float y\nproperty float z\nproperty float confidence\nproperty uchar alpha\nelement face 4\n\

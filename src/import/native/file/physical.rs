@@ -12,8 +12,8 @@ use std::fmt;
 use toml::Spanned;
 
 /// A physically based material: the metallic-roughness model of glTF 2.0 with its extensions. Path tracing shows all of
-/// it. The classical integrators show it by a highlight, a mirror and a diffuse colour, unless `phong` or `optics` say
-/// what they show instead; of the textures they show that of `base_color`.
+/// it. The classical integrator shows it by a highlight, a mirror and a diffuse colour, unless `phong` or `optics` say
+/// what it shows instead; of the textures it shows those of `base_color`, `metallic`, `roughness` and `transmission`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(in crate::import::native) struct PbrTable {

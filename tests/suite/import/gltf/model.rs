@@ -147,6 +147,7 @@ impl Model {
         let folder = super::folder(&[("a.glb", &self.glb())]);
         let options = Options {
             integrator: Some(LightTransport::Whitted),
+            baking: import::Baking::Always,
             ..Options::default()
         };
         let scene = import::load_with(&folder.path().join("a.glb"), &options);

@@ -74,6 +74,10 @@ fn read(model: &Model, integrator: Integrator) -> Scene {
     let folder = super::folder(&[("a.glb", &model.glb())]);
     let options = Options {
         integrator: Some(integrator.into()),
+        baking: match integrator.is_classical() {
+            true => import::Baking::Always,
+            false => import::Baking::Never,
+        },
         staging: Staging {
             ground: import::Ground::None,
             ..Staging::default()
