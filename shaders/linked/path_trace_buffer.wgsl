@@ -5368,6 +5368,12 @@ fn seen__see_surface(path: path__Path, bsdf: lobes__Bsdf, glow: vec3f) {
 	}
 }
 
+const bsdf__MOST_REDRAWS: u32 = 64u;
+
+fn bsdf__draws_again() -> bool {
+	return bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC;
+}
+
 struct bsdf__BsdfValue {
 	value: vec3f,
 	pdf: f32
@@ -5407,7 +5413,7 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, bindings__BSDF_SPEC);
 			let split = lobes__split_at(bsdf, cos_h);
 			value += (boundary.x * bsdf.boundary_gain) * split.reflect;
-			pdf += bsdf.chances.z * bsdf__reflection_chance(split) * boundary.y;
+			pdf += bsdf.chances.z * bsdf__reflection_chance(split) * bsdf__boundary_density(bsdf, boundary);
 		}
 	}
 	else if (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) {
@@ -5419,7 +5425,7 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 		}
 		let split = lobes__split_at(bsdf, dot(bsdf.wo, h));
 		value = (boundary.x * bsdf.boundary_gain) * split.transmit;
-		pdf = bsdf.chances.z * (1.0 - bsdf__reflection_chance(split)) * boundary.y;
+		pdf = bsdf.chances.z * (1.0 - bsdf__reflection_chance(split)) * bsdf__boundary_density(bsdf, boundary);
 	}
 	if (bindings__HAS_COATINGS && wi.z < 0.0) {
 		let through = bsdf_diffuse__diffuse_eval(-wi);
@@ -5462,16 +5468,41 @@ fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
 
 fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
 	let is_smooth = bsdf.boundary_alpha.x < layers__SMOOTH;
-	let h = select(bsdf_ggx__ggx_normal(bsdf.wo, max(bsdf.boundary_alpha, vec2f(layers__SMOOTH)), u), vec3f(0.0, 0.0, 1.0), is_smooth);
-	let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
-	let split = lobes__split_at(bsdf, cos_h);
-	let chance = bsdf__reflection_chance(split);
-	let reflects = choice < chance;
-	var wi = bsdf__reflected_at(bsdf.wo, h);
-	if (!reflects) {
-		wi = vec3f(wi.xy, -wi.z);
-		if (bsdf.bends) {
-			wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
+	let width = max(bsdf.boundary_alpha, vec2f(layers__SMOOTH));
+	let seen = 1.0 + bsdf_ggx__ggx_lambda(bsdf.wo, width);
+	var numbers = vec3f(choice, u);
+	var key = rng__hash_combine(bitcast<u32>(choice), rng__hash_combine(bitcast<u32>(u.x), bitcast<u32>(u.y)));
+	var left = select(0u, bsdf__MOST_REDRAWS, bsdf__draws_again() && !is_smooth);
+	var wi: vec3f;
+	var split: lobes__Split;
+	var chance: f32;
+	var reflects: bool;
+	loop {
+		let h = select(bsdf_ggx__ggx_normal(bsdf.wo, width, numbers.yz), vec3f(0.0, 0.0, 1.0), is_smooth);
+		let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
+		split = lobes__split_at(bsdf, cos_h);
+		chance = bsdf__reflection_chance(split);
+		reflects = numbers.x < chance;
+		wi = bsdf__reflected_at(bsdf.wo, h);
+		let bends = !reflects && bsdf.bends;
+		if (!reflects) {
+			wi = vec3f(wi.xy, -wi.z);
+			if (bends) {
+				wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
+			}
+		}
+		if (left > 0u) {
+			let lit = 1.0 + bsdf_ggx__ggx_lambda(wi, width);
+			let part = select(seen / (seen + lit - 1.0), 1.0 / lit, bends);
+			let is_found = (wi.z > 0.0) == reflects && rng__unit_float(key) < part;
+			let fresh = vec3u(rng__hash(key ^ 1757159915u), rng__hash(key ^ 48610963u), rng__hash(key ^ 2524612763u));
+			numbers = vec3f(rng__unit_float(fresh.x), rng__unit_float(fresh.y), rng__unit_float(fresh.z));
+			key = rng__hash_combine(key, fresh.x);
+			left = select(left - 1u, 0u, is_found);
+		}
+		continuing {
+		
+			break if left == 0u;
 		}
 	}
 	if (is_smooth) {
@@ -5481,6 +5512,10 @@ fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__Bsdf
 		return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
 	}
 	return bsdf__rough_sample(bsdf, wi, reflects);
+}
+
+fn bsdf__boundary_density(bsdf: lobes__Bsdf, boundary: vec2f) -> f32 {
+	return select(boundary.y, boundary.x * bsdf.boundary_gain, bsdf__draws_again());
 }
 
 fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f, above: bool) -> bsdf__BsdfSample {
