@@ -247,8 +247,8 @@ packed! {
         glow: f32,
         /// A bit for each slot with a texture, see [`SLOT_BASE`].
         slots: u32,
-        #[doc(hidden)]
-        _pad: u32,
+        /// Factor on the tilt of the clear coat's normal map.
+        coat_normal_scale: f32,
         /// 16-bit indices of the [`PackedTexture`]s of the first eight slots, the first of each pair in the lower
         /// half.
         textures: [u32; 4],

@@ -271,6 +271,8 @@ const types__MATERIAL_ROWS: u32 = 20u;
 
 const types__LAYERS_ROW: u32 = 9u;
 
+const types__SLOT_COAT_NORMAL: u32 = 18u;
+
 const types__TEXTURE_ROWS: u32 = 6u;
 
 const types__NO_TEXTURE: u32 = 65535u;
@@ -389,6 +391,36 @@ struct types__PackedKey {
 	_pad1: u32,
 	shear: vec3f,
 	_pad2: u32
+}
+
+struct types__PackedLayers {
+	base: vec3f,
+	metallic: f32,
+	f0: vec3f,
+	f90: f32,
+	roughness: f32,
+	transmission: f32,
+	coat: f32,
+	coat_roughness: f32,
+	sheen: vec3f,
+	sheen_roughness: f32,
+	anisotropy: f32,
+	anisotropy_rotation: f32,
+	iridescence: f32,
+	iridescence_ior: f32,
+	film_thinnest: f32,
+	film_thickest: f32,
+	dispersion: f32,
+	diffuse_transmission: f32,
+	diffuse_transmission_color: vec3f,
+	ior: f32,
+	light: u32,
+	glow: f32,
+	slots: u32,
+	coat_normal_scale: f32,
+	textures: vec4u,
+	more_textures: vec4u,
+	last_textures: vec4u
 }
 
 struct types__PackedTexture {
@@ -559,7 +591,8 @@ struct types__Surface {
 	instance: u32,
 	footprint: types__Footprint,
 	curvature: f32,
-	tangent: vec4f
+	tangent: vec4f,
+	coat_n: vec3f
 }
 
 struct types__Cone {
@@ -759,6 +792,8 @@ override bindings__HAS_FOOTPRINTS: bool = true;
 override bindings__HAS_COVERAGE: bool = true;
 
 override bindings__HAS_NORMAL_MAPS: bool = true;
+
+override bindings__HAS_COAT_NORMALS: bool = false;
 
 override bindings__HAS_BYTE_TEXELS: bool = true;
 
@@ -2052,6 +2087,10 @@ fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing:
 	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
 	let n = numeric__normalize_or(normals * weights, ng);
 	var shading_normal = n;
+	var coat_normal = vec3f(0.0);
+	if (bindings__HAS_COAT_NORMALS) {
+		coat_normal = n;
+	}
 	var uv = vec2f(b1, b2);
 	if (bindings__HAS_TEXTURES) {
 		uv = vec2f(0.0);
@@ -2074,11 +2113,14 @@ fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing:
 			}
 		}
 		if (bindings__HAS_NORMAL_MAPS) {
-			shading_normal = normal_map__mapped_normal(v0.material, frame, n, corners, rows, weights, footprint);
+			shading_normal = normal_map__mapped_normal(normal_map__normal_map_of(v0.material), frame, n, corners, rows, weights, footprint);
+		}
+		if (bindings__HAS_COAT_NORMALS) {
+			coat_normal = normal_map__mapped_normal(normal_map__coat_map_of(v0.material), frame, n, corners, rows, weights, footprint);
 		}
 	}
 	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips));
+	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
 }
 
 fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
@@ -2143,6 +2185,19 @@ fn material__load_texture(index: u32) -> types__PackedTexture {
 	let r1 = fetch__material_row(row + 1u);
 	let r5 = fetch__material_row(row + 5u);
 	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+}
+
+fn material__load_layers(index: u32) -> types__PackedLayers {
+	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
+	let r3 = fetch__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
+	let r6 = fetch__material_row(row + 6u);
+	let r7 = fetch__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
 }
 
 fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
@@ -2279,18 +2334,31 @@ fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
 	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
 }
 
-fn normal_map__mapped_normal(material: u32, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
-	let index = material__load_texture_indices(material).w & 65535u;
-	if (index == types__NO_TEXTURE) {
+struct normal_map__NormalMap {
+	index: u32,
+	scale: f32
+}
+
+fn normal_map__normal_map_of(material: u32) -> normal_map__NormalMap {
+	return normal_map__NormalMap(material__load_texture_indices(material).w & 65535u, material__load_normal_scale(material));
+}
+
+fn normal_map__coat_map_of(material: u32) -> normal_map__NormalMap {
+	let layers = material__load_layers(material);
+	return normal_map__NormalMap(layers__texture_in(layers, types__SLOT_COAT_NORMAL), layers.coat_normal_scale);
+}
+
+fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+	if (map.index == types__NO_TEXTURE) {
 		return n;
 	}
-	let texture = material__load_texture(index);
+	let texture = material__load_texture(map.index);
 	let q0 = normal_map__in_picture(texture, uvs[0]);
 	let q1 = normal_map__in_picture(texture, uvs[1]);
 	let q2 = normal_map__in_picture(texture, uvs[2]);
 	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
 	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
-	let tilt = material__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
+	let tilt = map.scale * (2.0 * code.xy - vec2f(1.0));
 	let up = max(2.0 * code.z - 1.0, 0.0);
 	if (bindings__HAS_TANGENTS) {
 		if (dot(frame[2], frame[2]) > 0.0) {
@@ -2455,6 +2523,15 @@ fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) 
 	return vec4f(numeric__normalize_or(within - dot(within, n) * n, other), hand);
 }
 
+fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
+	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
+	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
+	let word = (slot >> 1u) & 3u;
+	let low = select(four.x, four.y, word == 1u);
+	let high = select(four.z, four.w, word == 3u);
+	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
+}
+
 fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
 	let b0 = abs(1.0 - b1 - b2);
 	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
@@ -2484,13 +2561,13 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -2499,7 +2576,7 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 }
 
 fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {

@@ -212,6 +212,8 @@ override bindings__HAS_COVERAGE: bool = true;
 
 override bindings__HAS_NORMAL_MAPS: bool = true;
 
+override bindings__HAS_COAT_NORMALS: bool = false;
+
 override bindings__HAS_OCCLUSION: bool = true;
 
 override bindings__HAS_BYTE_TEXELS: bool = true;
@@ -373,6 +375,8 @@ const types__SLOT_EMISSION: u32 = 15u;
 const types__SLOT_METALLIC: u32 = 16u;
 
 const types__SLOT_ROUGHNESS: u32 = 17u;
+
+const types__SLOT_COAT_NORMAL: u32 = 18u;
 
 const types__TEXTURE_ROWS: u32 = 6u;
 
@@ -538,7 +542,7 @@ struct types__PackedLayers {
 	light: u32,
 	glow: f32,
 	slots: u32,
-	_pad: u32,
+	coat_normal_scale: f32,
 	textures: vec4u,
 	more_textures: vec4u,
 	last_textures: vec4u
@@ -788,7 +792,8 @@ struct types__Surface {
 	instance: u32,
 	footprint: types__Footprint,
 	curvature: f32,
-	tangent: vec4f
+	tangent: vec4f,
+	coat_n: vec3f
 }
 
 struct types__Cone {
@@ -3404,7 +3409,7 @@ fn material__load_layers(index: u32) -> types__PackedLayers {
 	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
 	let r6 = fetch__material_row(row + 6u);
 	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, 0u, fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
 }
 
 fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
@@ -3703,6 +3708,10 @@ fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing:
 	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
 	let n = numeric__normalize_or(normals * weights, ng);
 	var shading_normal = n;
+	var coat_normal = vec3f(0.0);
+	if (bindings__HAS_COAT_NORMALS) {
+		coat_normal = n;
+	}
 	var uv = vec2f(b1, b2);
 	if (bindings__HAS_TEXTURES) {
 		uv = vec2f(0.0);
@@ -3725,11 +3734,14 @@ fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing:
 			}
 		}
 		if (bindings__HAS_NORMAL_MAPS) {
-			shading_normal = normal_map__mapped_normal(v0.material, frame, n, corners, rows, weights, footprint);
+			shading_normal = normal_map__mapped_normal(normal_map__normal_map_of(v0.material), frame, n, corners, rows, weights, footprint);
+		}
+		if (bindings__HAS_COAT_NORMALS) {
+			coat_normal = normal_map__mapped_normal(normal_map__coat_map_of(v0.material), frame, n, corners, rows, weights, footprint);
 		}
 	}
 	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips));
+	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
 }
 
 fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
@@ -3816,18 +3828,31 @@ fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
 	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
 }
 
-fn normal_map__mapped_normal(material: u32, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
-	let index = material__load_texture_indices(material).w & 65535u;
-	if (index == types__NO_TEXTURE) {
+struct normal_map__NormalMap {
+	index: u32,
+	scale: f32
+}
+
+fn normal_map__normal_map_of(material: u32) -> normal_map__NormalMap {
+	return normal_map__NormalMap(material__load_texture_indices(material).w & 65535u, material__load_normal_scale(material));
+}
+
+fn normal_map__coat_map_of(material: u32) -> normal_map__NormalMap {
+	let layers = material__load_layers(material);
+	return normal_map__NormalMap(layers__texture_in(layers, types__SLOT_COAT_NORMAL), layers.coat_normal_scale);
+}
+
+fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+	if (map.index == types__NO_TEXTURE) {
 		return n;
 	}
-	let texture = material__load_texture(index);
+	let texture = material__load_texture(map.index);
 	let q0 = normal_map__in_picture(texture, uvs[0]);
 	let q1 = normal_map__in_picture(texture, uvs[1]);
 	let q2 = normal_map__in_picture(texture, uvs[2]);
 	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
 	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
-	let tilt = material__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
+	let tilt = map.scale * (2.0 * code.xy - vec2f(1.0));
 	let up = max(2.0 * code.z - 1.0, 0.0);
 	if (bindings__HAS_TANGENTS) {
 		if (dot(frame[2], frame[2]) > 0.0) {
@@ -4008,6 +4033,147 @@ fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) 
 	return vec4f(numeric__normalize_or(within - dot(within, n) * n, other), hand);
 }
 
+const layers__SMOOTH: f32 = 0.0001;
+
+struct layers__Layers {
+	diffuse: vec3f,
+	f0: vec3f,
+	f90: vec3f,
+	over_f0: vec3f,
+	over_f90: vec3f,
+	alpha: f32,
+	reflect: vec3f,
+	transmit: vec3f,
+	boundary_alpha: f32,
+	fresnel: u32,
+	ior: f32,
+	glow: vec3f,
+	coat: f32,
+	coat_roughness: f32,
+	sheen: vec3f,
+	sheen_roughness: f32,
+	anisotropy: f32,
+	along: vec2f,
+	film: f32,
+	film_ior: f32,
+	film_thickness: f32,
+	diffuse_transmission: f32,
+	diffuse_transmission_color: vec3f
+}
+
+fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
+	var own = material__load_layers(surface.material);
+	own.base = surface.phong.diffuse;
+	var reflect = surface.phong.reflect;
+	var transmit = optics.transmit;
+	var glow = vec3f(1.0);
+	var thickness = 1.0;
+	var along = vec2f(1.0, 0.0);
+	if (bindings__HAS_TEXTURES) {
+		var rest = own.slots;
+		loop {
+			let slot = firstTrailingBit(rest | 2147483648u);
+			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
+			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
+			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
+			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
+			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
+			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
+			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
+			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
+			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
+			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
+			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			if (bindings__HAS_ANISOTROPY) {
+				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
+				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
+			}
+			if (bindings__HAS_COATINGS) {
+				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
+				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
+				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
+				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
+				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
+				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
+				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
+				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
+			}
+			rest &= rest - 1u;
+			continuing {
+			
+				break if rest == 0u;
+			}
+		}
+		loops__cut_off |= rest != 0u;
+	}
+	var layers: layers__Layers;
+	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
+		layers = layers__metallic_roughness(own);
+	}
+	else {
+		layers.diffuse = own.base;
+		layers.f0 = own.f0;
+		layers.f90 = own.f0;
+		layers.over_f0 = own.f0;
+		layers.over_f90 = own.f0;
+		layers.alpha = own.roughness * own.roughness;
+		layers.reflect = reflect;
+		layers.transmit = transmit;
+		layers.fresnel = optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK);
+		layers.ior = own.ior;
+	}
+	layers.glow = glow;
+	if (bindings__HAS_ANISOTROPY) {
+		layers.anisotropy = own.anisotropy;
+		layers.along = dispersion__anisotropy_tangent(own.anisotropy_rotation, along);
+	}
+	if (bindings__HAS_COATINGS) {
+		layers.coat = own.coat;
+		layers.coat_roughness = own.coat_roughness;
+		layers.sheen = own.sheen;
+		layers.sheen_roughness = own.sheen_roughness;
+		layers.film = own.iridescence;
+		layers.film_ior = own.iridescence_ior;
+		layers.film_thickness = mix(own.film_thinnest, own.film_thickest, thickness);
+		layers.diffuse_transmission = own.diffuse_transmission;
+		layers.diffuse_transmission_color = own.diffuse_transmission_color;
+	}
+	return layers;
+}
+
+fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
+	var layers: layers__Layers;
+	layers.alpha = own.roughness * own.roughness;
+	layers.ior = own.ior;
+	let body = 1.0 - own.metallic;
+	layers.diffuse = body * own.base;
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
+		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
+		layers.diffuse *= 1.0 - own.transmission;
+		layers.f0 = own.metallic * own.base;
+		layers.f90 = vec3f(own.metallic);
+		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
+		layers.transmit = (body * own.transmission) * own.base;
+		layers.boundary_alpha = layers.alpha;
+		layers.fresnel = types__MATERIAL_FRESNEL;
+		return layers;
+	}
+	layers.f0 = mix(own.f0, own.base, own.metallic);
+	layers.f90 = vec3f(mix(own.f90, 1.0, own.metallic));
+	layers.over_f0 = own.f0;
+	layers.over_f90 = vec3f(own.f90);
+	return layers;
+}
+
+fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
+	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
+	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
+	let word = (slot >> 1u) & 3u;
+	let low = select(four.x, four.y, word == 1u);
+	let high = select(four.z, four.w, word == 3u);
+	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
+}
+
 fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
 	let b0 = abs(1.0 - b1 - b2);
 	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
@@ -4058,13 +4224,13 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -4073,7 +4239,7 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 }
 
 fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
@@ -4506,147 +4672,6 @@ fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, arou
 		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
 	}
 	return through;
-}
-
-const layers__SMOOTH: f32 = 0.0001;
-
-struct layers__Layers {
-	diffuse: vec3f,
-	f0: vec3f,
-	f90: vec3f,
-	over_f0: vec3f,
-	over_f90: vec3f,
-	alpha: f32,
-	reflect: vec3f,
-	transmit: vec3f,
-	boundary_alpha: f32,
-	fresnel: u32,
-	ior: f32,
-	glow: vec3f,
-	coat: f32,
-	coat_roughness: f32,
-	sheen: vec3f,
-	sheen_roughness: f32,
-	anisotropy: f32,
-	along: vec2f,
-	film: f32,
-	film_ior: f32,
-	film_thickness: f32,
-	diffuse_transmission: f32,
-	diffuse_transmission_color: vec3f
-}
-
-fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
-	var own = material__load_layers(surface.material);
-	own.base = surface.phong.diffuse;
-	var reflect = surface.phong.reflect;
-	var transmit = optics.transmit;
-	var glow = vec3f(1.0);
-	var thickness = 1.0;
-	var along = vec2f(1.0, 0.0);
-	if (bindings__HAS_TEXTURES) {
-		var rest = own.slots;
-		loop {
-			let slot = firstTrailingBit(rest | 2147483648u);
-			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
-			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
-			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
-			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
-			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
-			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
-			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
-			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
-			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
-			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
-			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
-			if (bindings__HAS_ANISOTROPY) {
-				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
-				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
-			}
-			if (bindings__HAS_COATINGS) {
-				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
-				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
-				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
-				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
-				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
-				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
-				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
-				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
-			}
-			rest &= rest - 1u;
-			continuing {
-			
-				break if rest == 0u;
-			}
-		}
-		loops__cut_off |= rest != 0u;
-	}
-	var layers: layers__Layers;
-	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
-		layers = layers__metallic_roughness(own);
-	}
-	else {
-		layers.diffuse = own.base;
-		layers.f0 = own.f0;
-		layers.f90 = own.f0;
-		layers.over_f0 = own.f0;
-		layers.over_f90 = own.f0;
-		layers.alpha = own.roughness * own.roughness;
-		layers.reflect = reflect;
-		layers.transmit = transmit;
-		layers.fresnel = optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK);
-		layers.ior = own.ior;
-	}
-	layers.glow = glow;
-	if (bindings__HAS_ANISOTROPY) {
-		layers.anisotropy = own.anisotropy;
-		layers.along = dispersion__anisotropy_tangent(own.anisotropy_rotation, along);
-	}
-	if (bindings__HAS_COATINGS) {
-		layers.coat = own.coat;
-		layers.coat_roughness = own.coat_roughness;
-		layers.sheen = own.sheen;
-		layers.sheen_roughness = own.sheen_roughness;
-		layers.film = own.iridescence;
-		layers.film_ior = own.iridescence_ior;
-		layers.film_thickness = mix(own.film_thinnest, own.film_thickest, thickness);
-		layers.diffuse_transmission = own.diffuse_transmission;
-		layers.diffuse_transmission_color = own.diffuse_transmission_color;
-	}
-	return layers;
-}
-
-fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
-	var layers: layers__Layers;
-	layers.alpha = own.roughness * own.roughness;
-	layers.ior = own.ior;
-	let body = 1.0 - own.metallic;
-	layers.diffuse = body * own.base;
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
-		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
-		layers.diffuse *= 1.0 - own.transmission;
-		layers.f0 = own.metallic * own.base;
-		layers.f90 = vec3f(own.metallic);
-		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
-		layers.transmit = (body * own.transmission) * own.base;
-		layers.boundary_alpha = layers.alpha;
-		layers.fresnel = types__MATERIAL_FRESNEL;
-		return layers;
-	}
-	layers.f0 = mix(own.f0, own.base, own.metallic);
-	layers.f90 = vec3f(mix(own.f90, 1.0, own.metallic));
-	layers.over_f0 = own.f0;
-	layers.over_f90 = vec3f(own.f90);
-	return layers;
-}
-
-fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
-	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
-	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
-	let word = (slot >> 1u) & 3u;
-	let low = select(four.x, four.y, word == 1u);
-	let high = select(four.z, four.w, word == 3u);
-	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
 }
 
 fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {

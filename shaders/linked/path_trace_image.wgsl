@@ -441,6 +441,8 @@ const types__SLOT_METALLIC: u32 = 16u;
 
 const types__SLOT_ROUGHNESS: u32 = 17u;
 
+const types__SLOT_COAT_NORMAL: u32 = 18u;
+
 const types__TEXTURE_ROWS: u32 = 6u;
 
 const types__NO_TEXTURE: u32 = 65535u;
@@ -595,7 +597,7 @@ struct types__PackedLayers {
 	light: u32,
 	glow: f32,
 	slots: u32,
-	_pad: u32,
+	coat_normal_scale: f32,
 	textures: vec4u,
 	more_textures: vec4u,
 	last_textures: vec4u
@@ -808,7 +810,8 @@ struct types__Surface {
 	instance: u32,
 	footprint: types__Footprint,
 	curvature: f32,
-	tangent: vec4f
+	tangent: vec4f,
+	coat_n: vec3f
 }
 
 struct types__Cone {
@@ -1086,6 +1089,8 @@ override bindings__HAS_FOOTPRINTS: bool = true;
 override bindings__HAS_COVERAGE: bool = true;
 
 override bindings__HAS_NORMAL_MAPS: bool = true;
+
+override bindings__HAS_COAT_NORMALS: bool = false;
 
 override bindings__HAS_BYTE_TEXELS: bool = true;
 
@@ -3379,6 +3384,10 @@ fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing:
 	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
 	let n = numeric__normalize_or(normals * weights, ng);
 	var shading_normal = n;
+	var coat_normal = vec3f(0.0);
+	if (bindings__HAS_COAT_NORMALS) {
+		coat_normal = n;
+	}
 	var uv = vec2f(b1, b2);
 	if (bindings__HAS_TEXTURES) {
 		uv = vec2f(0.0);
@@ -3401,11 +3410,14 @@ fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing:
 			}
 		}
 		if (bindings__HAS_NORMAL_MAPS) {
-			shading_normal = normal_map__mapped_normal(v0.material, frame, n, corners, rows, weights, footprint);
+			shading_normal = normal_map__mapped_normal(normal_map__normal_map_of(v0.material), frame, n, corners, rows, weights, footprint);
+		}
+		if (bindings__HAS_COAT_NORMALS) {
+			coat_normal = normal_map__mapped_normal(normal_map__coat_map_of(v0.material), frame, n, corners, rows, weights, footprint);
 		}
 	}
 	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips));
+	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
 }
 
 fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
@@ -3511,7 +3523,7 @@ fn material__load_layers(index: u32) -> types__PackedLayers {
 	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
 	let r6 = fetch__material_row(row + 6u);
 	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, 0u, fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
 }
 
 struct material__Glow {
@@ -3577,18 +3589,31 @@ fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
 	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
 }
 
-fn normal_map__mapped_normal(material: u32, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
-	let index = material__load_texture_indices(material).w & 65535u;
-	if (index == types__NO_TEXTURE) {
+struct normal_map__NormalMap {
+	index: u32,
+	scale: f32
+}
+
+fn normal_map__normal_map_of(material: u32) -> normal_map__NormalMap {
+	return normal_map__NormalMap(material__load_texture_indices(material).w & 65535u, material__load_normal_scale(material));
+}
+
+fn normal_map__coat_map_of(material: u32) -> normal_map__NormalMap {
+	let layers = material__load_layers(material);
+	return normal_map__NormalMap(layers__texture_in(layers, types__SLOT_COAT_NORMAL), layers.coat_normal_scale);
+}
+
+fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+	if (map.index == types__NO_TEXTURE) {
 		return n;
 	}
-	let texture = material__load_texture(index);
+	let texture = material__load_texture(map.index);
 	let q0 = normal_map__in_picture(texture, uvs[0]);
 	let q1 = normal_map__in_picture(texture, uvs[1]);
 	let q2 = normal_map__in_picture(texture, uvs[2]);
 	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
 	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
-	let tilt = material__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
+	let tilt = map.scale * (2.0 * code.xy - vec2f(1.0));
 	let up = max(2.0 * code.z - 1.0, 0.0);
 	if (bindings__HAS_TANGENTS) {
 		if (dot(frame[2], frame[2]) > 0.0) {
@@ -3750,6 +3775,154 @@ fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) 
 	return vec4f(numeric__normalize_or(within - dot(within, n) * n, other), hand);
 }
 
+const layers__SMOOTH: f32 = 0.0001;
+
+struct layers__Layers {
+	diffuse: vec3f,
+	f0: vec3f,
+	f90: vec3f,
+	over_f0: vec3f,
+	over_f90: vec3f,
+	alpha: f32,
+	reflect: vec3f,
+	transmit: vec3f,
+	boundary_alpha: f32,
+	fresnel: u32,
+	ior: f32,
+	glow: vec3f,
+	coat: f32,
+	coat_roughness: f32,
+	sheen: vec3f,
+	sheen_roughness: f32,
+	anisotropy: f32,
+	along: vec2f,
+	film: f32,
+	film_ior: f32,
+	film_thickness: f32,
+	diffuse_transmission: f32,
+	diffuse_transmission_color: vec3f
+}
+
+fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
+	var own = material__load_layers(surface.material);
+	own.base = surface.phong.diffuse;
+	var reflect = surface.phong.reflect;
+	var transmit = optics.transmit;
+	var glow = vec3f(1.0);
+	var thickness = 1.0;
+	var along = vec2f(1.0, 0.0);
+	if (bindings__HAS_TEXTURES) {
+		var rest = own.slots;
+		loop {
+			let slot = firstTrailingBit(rest | 2147483648u);
+			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
+			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
+			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
+			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
+			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
+			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
+			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
+			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
+			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
+			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
+			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			if (bindings__HAS_ANISOTROPY) {
+				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
+				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
+			}
+			if (bindings__HAS_COATINGS) {
+				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
+				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
+				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
+				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
+				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
+				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
+				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
+				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
+			}
+			rest &= rest - 1u;
+			continuing {
+			
+				break if rest == 0u;
+			}
+		}
+		loops__cut_off |= rest != 0u;
+	}
+	var layers: layers__Layers;
+	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
+		layers = layers__metallic_roughness(own);
+	}
+	else {
+		layers.diffuse = own.base;
+		layers.f0 = own.f0;
+		layers.f90 = own.f0;
+		layers.over_f0 = own.f0;
+		layers.over_f90 = own.f0;
+		layers.alpha = own.roughness * own.roughness;
+		layers.reflect = reflect;
+		layers.transmit = transmit;
+		layers.fresnel = optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK);
+		layers.ior = own.ior;
+	}
+	layers.glow = glow;
+	if (bindings__HAS_ANISOTROPY) {
+		layers.anisotropy = own.anisotropy;
+		layers.along = dispersion__anisotropy_tangent(own.anisotropy_rotation, along);
+	}
+	if (bindings__HAS_COATINGS) {
+		layers.coat = own.coat;
+		layers.coat_roughness = own.coat_roughness;
+		layers.sheen = own.sheen;
+		layers.sheen_roughness = own.sheen_roughness;
+		layers.film = own.iridescence;
+		layers.film_ior = own.iridescence_ior;
+		layers.film_thickness = mix(own.film_thinnest, own.film_thickest, thickness);
+		layers.diffuse_transmission = own.diffuse_transmission;
+		layers.diffuse_transmission_color = own.diffuse_transmission_color;
+	}
+	return layers;
+}
+
+fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
+	var layers: layers__Layers;
+	layers.alpha = own.roughness * own.roughness;
+	layers.ior = own.ior;
+	let body = 1.0 - own.metallic;
+	layers.diffuse = body * own.base;
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
+		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
+		layers.diffuse *= 1.0 - own.transmission;
+		layers.f0 = own.metallic * own.base;
+		layers.f90 = vec3f(own.metallic);
+		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
+		layers.transmit = (body * own.transmission) * own.base;
+		layers.boundary_alpha = layers.alpha;
+		layers.fresnel = types__MATERIAL_FRESNEL;
+		return layers;
+	}
+	layers.f0 = mix(own.f0, own.base, own.metallic);
+	layers.f90 = vec3f(mix(own.f90, 1.0, own.metallic));
+	layers.over_f0 = own.f0;
+	layers.over_f90 = vec3f(own.f90);
+	return layers;
+}
+
+fn layers__textured(own: types__PackedLayers, slot: u32, surface: types__Surface) -> vec4f {
+	if ((own.slots & (1u << slot)) == 0u) {
+		return vec4f(1.0);
+	}
+	return texture__texture_value(material__load_texture(layers__texture_in(own, slot)), surface);
+}
+
+fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
+	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
+	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
+	let word = (slot >> 1u) & 3u;
+	let low = select(four.x, four.y, word == 1u);
+	let high = select(four.z, four.w, word == 3u);
+	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
+}
+
 fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
 	let b0 = abs(1.0 - b1 - b2);
 	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
@@ -3791,13 +3964,13 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -3806,7 +3979,7 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f());
+	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 }
 
 fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
@@ -4553,6 +4726,7 @@ const coating__COAT_F0: f32 = 0.04;
 
 struct coating__Coating {
 	coat: f32,
+	coat_axis: vec3f,
 	coat_alpha: f32,
 	sheen: vec3f,
 	sheen_alpha: f32,
@@ -4562,15 +4736,16 @@ struct coating__Coating {
 	albedos: vec2f
 }
 
-fn coating__coating_at(layers: layers__Layers, cos_o: f32) -> coating__Coating {
+fn coating__coating_at(layers: layers__Layers, wo: vec3f, coat_axis: vec3f) -> coating__Coating {
+	let coat_cos = dot(wo, coat_axis);
 	let coat_alpha = max(layers.coat_roughness * layers.coat_roughness, layers__SMOOTH);
 	let sheen_alpha = max(layers.sheen_roughness * layers.sheen_roughness, 0.001);
-	let of_sheen = albedo__albedo_of(albedo__SHEEN_ALBEDO, cos_o, sheen_alpha);
-	let fresnel = mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cos_o));
-	let coat_albedo = layers.coat * coating__coat_reflectance(cos_o, coat_alpha);
+	let of_sheen = albedo__albedo_of(albedo__SHEEN_ALBEDO, wo.z, sheen_alpha);
+	let fresnel = mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(coat_cos));
+	let coat_albedo = layers.coat * coating__coat_reflectance(coat_cos, coat_alpha);
 	let below_coat = 1.0 - coat_albedo;
 	let sheen = (below_coat * select(of_sheen.y, 1.0, bindings__BSDF_SPEC)) * layers.sheen;
-	return coating__Coating(layers.coat, coat_alpha, sheen, sheen_alpha, below_coat, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), fresnel, vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
+	return coating__Coating(layers.coat, coat_axis, coat_alpha, sheen, sheen_alpha, below_coat, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), fresnel, vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
 }
 
 fn coating__coat_reflectance(cos_o: f32, alpha: f32) -> f32 {
@@ -4598,162 +4773,27 @@ fn coating__through_coat(surface: types__Surface, cosine: f32) -> f32 {
 fn coating__coating_eval(coating: coating__Coating, wo: vec3f, wi: vec3f, chances: vec2f) -> vec4f {
 	let cos_h = dot(wo, normalize(wo + wi));
 	let reflectance = coating.coat * select(mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cos_h)), coating.fresnel, bindings__BSDF_SPEC);
-	let coat = bsdf_ggx__ggx_eval(wo, wi, vec2f(coating.coat_alpha), bindings__BSDF_SPEC);
+	let coat = bsdf_ggx__ggx_eval(coating__to_coat(coating, wo), coating__to_coat(coating, wi), vec2f(coating.coat_alpha), bindings__BSDF_SPEC);
 	let sheen = bsdf_sheen__sheen_eval(wo, wi, coating.sheen_alpha);
 	return vec4f(reflectance * coat.x + sheen.x * coating.sheen, dot(chances, vec2f(coat.y, sheen.y)));
 }
 
 fn coating__coating_sample(coating: coating__Coating, wo: vec3f, u: vec2f, is_coat: bool) -> vec3f {
-	let h = bsdf_ggx__ggx_normal(wo, vec2f(coating.coat_alpha), u);
-	return select(bsdf_sheen__sheen_sample(u), bsdf__reflected_at(wo, h), is_coat);
+	let own = coating__to_coat(coating, wo);
+	var reflected = bsdf__reflected_at(own, bsdf_ggx__ggx_normal(own, vec2f(coating.coat_alpha), u));
+	if (bindings__HAS_COAT_NORMALS) {
+		reflected = warp__turn_to(coating.coat_axis, reflected);
+	}
+	return select(bsdf_sheen__sheen_sample(u), reflected, is_coat);
 }
 
-const layers__SMOOTH: f32 = 0.0001;
-
-struct layers__Layers {
-	diffuse: vec3f,
-	f0: vec3f,
-	f90: vec3f,
-	over_f0: vec3f,
-	over_f90: vec3f,
-	alpha: f32,
-	reflect: vec3f,
-	transmit: vec3f,
-	boundary_alpha: f32,
-	fresnel: u32,
-	ior: f32,
-	glow: vec3f,
-	coat: f32,
-	coat_roughness: f32,
-	sheen: vec3f,
-	sheen_roughness: f32,
-	anisotropy: f32,
-	along: vec2f,
-	film: f32,
-	film_ior: f32,
-	film_thickness: f32,
-	diffuse_transmission: f32,
-	diffuse_transmission_color: vec3f
-}
-
-fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
-	var own = material__load_layers(surface.material);
-	own.base = surface.phong.diffuse;
-	var reflect = surface.phong.reflect;
-	var transmit = optics.transmit;
-	var glow = vec3f(1.0);
-	var thickness = 1.0;
-	var along = vec2f(1.0, 0.0);
-	if (bindings__HAS_TEXTURES) {
-		var rest = own.slots;
-		loop {
-			let slot = firstTrailingBit(rest | 2147483648u);
-			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
-			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
-			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
-			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
-			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
-			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
-			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
-			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
-			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
-			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
-			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
-			if (bindings__HAS_ANISOTROPY) {
-				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
-				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
-			}
-			if (bindings__HAS_COATINGS) {
-				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
-				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
-				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
-				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
-				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
-				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
-				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
-				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
-			}
-			rest &= rest - 1u;
-			continuing {
-			
-				break if rest == 0u;
-			}
-		}
-		loops__cut_off |= rest != 0u;
+fn coating__to_coat(coating: coating__Coating, w: vec3f) -> vec3f {
+	if (!bindings__HAS_COAT_NORMALS) {
+		return w;
 	}
-	var layers: layers__Layers;
-	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
-		layers = layers__metallic_roughness(own);
-	}
-	else {
-		layers.diffuse = own.base;
-		layers.f0 = own.f0;
-		layers.f90 = own.f0;
-		layers.over_f0 = own.f0;
-		layers.over_f90 = own.f0;
-		layers.alpha = own.roughness * own.roughness;
-		layers.reflect = reflect;
-		layers.transmit = transmit;
-		layers.fresnel = optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK);
-		layers.ior = own.ior;
-	}
-	layers.glow = glow;
-	if (bindings__HAS_ANISOTROPY) {
-		layers.anisotropy = own.anisotropy;
-		layers.along = dispersion__anisotropy_tangent(own.anisotropy_rotation, along);
-	}
-	if (bindings__HAS_COATINGS) {
-		layers.coat = own.coat;
-		layers.coat_roughness = own.coat_roughness;
-		layers.sheen = own.sheen;
-		layers.sheen_roughness = own.sheen_roughness;
-		layers.film = own.iridescence;
-		layers.film_ior = own.iridescence_ior;
-		layers.film_thickness = mix(own.film_thinnest, own.film_thickest, thickness);
-		layers.diffuse_transmission = own.diffuse_transmission;
-		layers.diffuse_transmission_color = own.diffuse_transmission_color;
-	}
-	return layers;
-}
-
-fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
-	var layers: layers__Layers;
-	layers.alpha = own.roughness * own.roughness;
-	layers.ior = own.ior;
-	let body = 1.0 - own.metallic;
-	layers.diffuse = body * own.base;
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
-		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
-		layers.diffuse *= 1.0 - own.transmission;
-		layers.f0 = own.metallic * own.base;
-		layers.f90 = vec3f(own.metallic);
-		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
-		layers.transmit = (body * own.transmission) * own.base;
-		layers.boundary_alpha = layers.alpha;
-		layers.fresnel = types__MATERIAL_FRESNEL;
-		return layers;
-	}
-	layers.f0 = mix(own.f0, own.base, own.metallic);
-	layers.f90 = vec3f(mix(own.f90, 1.0, own.metallic));
-	layers.over_f0 = own.f0;
-	layers.over_f90 = vec3f(own.f90);
-	return layers;
-}
-
-fn layers__textured(own: types__PackedLayers, slot: u32, surface: types__Surface) -> vec4f {
-	if ((own.slots & (1u << slot)) == 0u) {
-		return vec4f(1.0);
-	}
-	return texture__texture_value(material__load_texture(layers__texture_in(own, slot)), surface);
-}
-
-fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
-	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
-	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
-	let word = (slot >> 1u) & 3u;
-	let low = select(four.x, four.y, word == 1u);
-	let high = select(four.z, four.w, word == 3u);
-	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
+	let x = warp__turn_to(coating.coat_axis, vec3f(1.0, 0.0, 0.0));
+	let y = warp__turn_to(coating.coat_axis, vec3f(0.0, 1.0, 0.0));
+	return vec3f(dot(w, x), dot(w, y), dot(w, coating.coat_axis));
 }
 
 struct fresnel__Boundary {
@@ -5255,7 +5295,7 @@ fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers
 	let whole = select(bsdf.diffuse, inside * layers.diffuse, bindings__BSDF_SPEC && (optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u);
 	var scale = 1.0 / max(numeric__max_component(bsdf.diffuse + glossy + seen.reflect + seen.transmit), 1.0);
 	if (bindings__HAS_COATINGS) {
-		bsdf.coating = coating__coating_at(layers, bsdf.wo.z);
+		bsdf.coating = coating__coating_at(layers, bsdf.wo, lobes__coat_axis(bsdf, surface));
 		bsdf.coating.albedos *= inside;
 		scale *= mix(1.0, bsdf.coating.left, inside);
 		bsdf.through = scale * layers.diffuse_transmission * whole * layers.diffuse_transmission_color;
@@ -5273,6 +5313,15 @@ fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers
 	bsdf.chances = weights / total;
 	bsdf.coating_chances = bsdf.coating.albedos / total;
 	return bsdf;
+}
+
+fn lobes__coat_axis(bsdf: lobes__Bsdf, surface: types__Surface) -> vec3f {
+	let up = vec3f(0.0, 0.0, 1.0);
+	if (!bindings__HAS_COAT_NORMALS) {
+		return up;
+	}
+	let own = lobes__to_frame(bsdf, select(surface.coat_n, -surface.coat_n, dot(surface.coat_n, bsdf.ng) < 0.0));
+	return select(up, own, dot(own, bsdf.wo) > 0.001);
 }
 
 fn lobes__film_f0_at(layers: layers__Layers, base_f0: vec3f, cos_o: f32) -> vec3f {
@@ -5372,6 +5421,12 @@ fn seen__see_surface(path: path__Path, bsdf: lobes__Bsdf, glow: vec3f) {
 	}
 }
 
+const bsdf__MOST_REDRAWS: u32 = 64u;
+
+fn bsdf__draws_again() -> bool {
+	return bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC;
+}
+
 struct bsdf__BsdfValue {
 	value: vec3f,
 	pdf: f32
@@ -5411,7 +5466,7 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, bindings__BSDF_SPEC);
 			let split = lobes__split_at(bsdf, cos_h);
 			value += (boundary.x * bsdf.boundary_gain) * split.reflect;
-			pdf += bsdf.chances.z * bsdf__reflection_chance(split) * boundary.y;
+			pdf += bsdf.chances.z * bsdf__reflection_chance(split) * bsdf__boundary_density(bsdf, boundary);
 		}
 	}
 	else if (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) {
@@ -5423,7 +5478,7 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 		}
 		let split = lobes__split_at(bsdf, dot(bsdf.wo, h));
 		value = (boundary.x * bsdf.boundary_gain) * split.transmit;
-		pdf = bsdf.chances.z * (1.0 - bsdf__reflection_chance(split)) * boundary.y;
+		pdf = bsdf.chances.z * (1.0 - bsdf__reflection_chance(split)) * bsdf__boundary_density(bsdf, boundary);
 	}
 	if (bindings__HAS_COATINGS && wi.z < 0.0) {
 		let through = bsdf_diffuse__diffuse_eval(-wi);
@@ -5466,16 +5521,41 @@ fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
 
 fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
 	let is_smooth = bsdf.boundary_alpha.x < layers__SMOOTH;
-	let h = select(bsdf_ggx__ggx_normal(bsdf.wo, max(bsdf.boundary_alpha, vec2f(layers__SMOOTH)), u), vec3f(0.0, 0.0, 1.0), is_smooth);
-	let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
-	let split = lobes__split_at(bsdf, cos_h);
-	let chance = bsdf__reflection_chance(split);
-	let reflects = choice < chance;
-	var wi = bsdf__reflected_at(bsdf.wo, h);
-	if (!reflects) {
-		wi = vec3f(wi.xy, -wi.z);
-		if (bsdf.bends) {
-			wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
+	let width = max(bsdf.boundary_alpha, vec2f(layers__SMOOTH));
+	let seen = 1.0 + bsdf_ggx__ggx_lambda(bsdf.wo, width);
+	var numbers = vec3f(choice, u);
+	var key = rng__hash_combine(bitcast<u32>(choice), rng__hash_combine(bitcast<u32>(u.x), bitcast<u32>(u.y)));
+	var left = select(0u, bsdf__MOST_REDRAWS, bsdf__draws_again() && !is_smooth);
+	var wi: vec3f;
+	var split: lobes__Split;
+	var chance: f32;
+	var reflects: bool;
+	loop {
+		let h = select(bsdf_ggx__ggx_normal(bsdf.wo, width, numbers.yz), vec3f(0.0, 0.0, 1.0), is_smooth);
+		let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
+		split = lobes__split_at(bsdf, cos_h);
+		chance = bsdf__reflection_chance(split);
+		reflects = numbers.x < chance;
+		wi = bsdf__reflected_at(bsdf.wo, h);
+		let bends = !reflects && bsdf.bends;
+		if (!reflects) {
+			wi = vec3f(wi.xy, -wi.z);
+			if (bends) {
+				wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
+			}
+		}
+		if (left > 0u) {
+			let lit = 1.0 + bsdf_ggx__ggx_lambda(wi, width);
+			let part = select(seen / (seen + lit - 1.0), 1.0 / lit, bends);
+			let is_found = (wi.z > 0.0) == reflects && rng__unit_float(key) < part;
+			let fresh = vec3u(rng__hash(key ^ 1757159915u), rng__hash(key ^ 48610963u), rng__hash(key ^ 2524612763u));
+			numbers = vec3f(rng__unit_float(fresh.x), rng__unit_float(fresh.y), rng__unit_float(fresh.z));
+			key = rng__hash_combine(key, fresh.x);
+			left = select(left - 1u, 0u, is_found);
+		}
+		continuing {
+		
+			break if left == 0u;
 		}
 	}
 	if (is_smooth) {
@@ -5485,6 +5565,10 @@ fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__Bsdf
 		return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
 	}
 	return bsdf__rough_sample(bsdf, wi, reflects);
+}
+
+fn bsdf__boundary_density(bsdf: lobes__Bsdf, boundary: vec2f) -> f32 {
+	return select(boundary.y, boundary.x * bsdf.boundary_gain, bsdf__draws_again());
 }
 
 fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f, above: bool) -> bsdf__BsdfSample {

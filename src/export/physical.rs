@@ -108,6 +108,10 @@ impl Writer<'_> {
             material.priority.to_string(),
         );
         numbers!(clearcoat 0.0, clearcoat_roughness 0.0);
+        let map = self.data_map(layers.clearcoat_normal, model.clearcoat_normal_scale);
+        if let Some(map) = map {
+            table.put("clearcoat_normal_map", map);
+        }
         colors!(sheen_color Vec3::ZERO);
         numbers!(sheen_roughness 0.0, anisotropy 0.0, iridescence 0.0);
         plain!(iridescence_ior);

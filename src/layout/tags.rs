@@ -149,6 +149,8 @@ pub const SLOT_EMISSION: u32 = 15;
 pub const SLOT_METALLIC: u32 = 16;
 /// Roughness alone, in green.
 pub const SLOT_ROUGHNESS: u32 = 17;
+/// The normal map of the clear coat, without a bit in [`crate::layout::PackedLayers::slots`].
+pub const SLOT_COAT_NORMAL: u32 = 18;
 /// Rows of 16 bytes of a [`super::PackedTexture`].
 pub const TEXTURE_ROWS: u32 = 6;
 /// No texture, in the 16 bits of a texture index in a [`super::PackedMaterial`].

@@ -24,6 +24,8 @@ pub struct Features {
     pub coatings: bool,
     /// Some emissive material has a clear coat.
     pub coated_emission: bool,
+    /// Some clear coat differs in its normal from what lies below it.
+    pub coat_normals: bool,
     /// Some transparent material is rough.
     pub rough_glass: bool,
     /// Some volume disperses light.

@@ -2,10 +2,11 @@
 
 use crate::{
     layout::{
-        NO_TEXTURE, NONE, PackedLayers, SLOT_ANISOTROPY, SLOT_BASE, SLOT_COAT, SLOT_COAT_ROUGHNESS,
-        SLOT_DIFFUSE_TRANSMISSION, SLOT_DIFFUSE_TRANSMISSION_COLOR, SLOT_EMISSION, SLOT_F0,
-        SLOT_F90, SLOT_FILM_THICKNESS, SLOT_IRIDESCENCE, SLOT_METALLIC, SLOT_METALLIC_ROUGHNESS,
-        SLOT_REFLECT, SLOT_ROUGHNESS, SLOT_SHEEN, SLOT_SHEEN_ROUGHNESS, SLOT_TRANSMISSION,
+        NO_TEXTURE, NONE, PackedLayers, SLOT_ANISOTROPY, SLOT_BASE, SLOT_COAT, SLOT_COAT_NORMAL,
+        SLOT_COAT_ROUGHNESS, SLOT_DIFFUSE_TRANSMISSION, SLOT_DIFFUSE_TRANSMISSION_COLOR,
+        SLOT_EMISSION, SLOT_F0, SLOT_F90, SLOT_FILM_THICKNESS, SLOT_IRIDESCENCE, SLOT_METALLIC,
+        SLOT_METALLIC_ROUGHNESS, SLOT_REFLECT, SLOT_ROUGHNESS, SLOT_SHEEN, SLOT_SHEEN_ROUGHNESS,
+        SLOT_TRANSMISSION,
     },
     scene::{Material, MetallicRoughness},
 };
@@ -20,7 +21,8 @@ pub fn packed(material: &Material, light: Option<usize>) -> PackedLayers {
     let slots = slots(material);
     let index = |slot: usize| slots[slot].map_or(NO_TEXTURE, |index| index as u32);
     let pair = |k: usize| index(2 * k) | index(2 * k + 1) << 16;
-    let used = |mask, slot: usize| mask | u32::from(slots[slot].is_some()) << slot;
+    let is_factor = |slot: usize| slots[slot].is_some() && slot != SLOT_COAT_NORMAL as usize;
+    let used = |mask, slot: usize| mask | u32::from(is_factor(slot)) << slot;
     PackedLayers {
         light: light.map_or(NONE, |index| index as u32),
         glow: 1.0,
@@ -51,6 +53,7 @@ fn of_metallic_roughness(material: &Material, model: &MetallicRoughness) -> Pack
         transmission: if model.unlit { 0.0 } else { model.transmission },
         coat: if model.unlit { 0.0 } else { model.clearcoat },
         coat_roughness: model.clearcoat_roughness,
+        coat_normal_scale: model.clearcoat_normal_scale,
         sheen: model.sheen_color.into(),
         sheen_roughness: model.sheen_roughness,
         anisotropy: model.anisotropy,
@@ -111,6 +114,7 @@ fn slots(material: &Material) -> [Option<usize>; 24] {
             set(SLOT_F90, layers.specular);
             set(SLOT_COAT, layers.clearcoat);
             set(SLOT_COAT_ROUGHNESS, layers.clearcoat_roughness);
+            set(SLOT_COAT_NORMAL, layers.clearcoat_normal);
             set(SLOT_SHEEN, layers.sheen_color);
             set(SLOT_SHEEN_ROUGHNESS, layers.sheen_roughness);
             set(SLOT_ANISOTROPY, layers.anisotropy);

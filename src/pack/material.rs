@@ -185,6 +185,11 @@ pub fn features(scene: &Scene) -> Features {
         refraction,
         coatings: has_layers(scene, |_, model| model.is_coated()),
         coated_emission: emission && has_layers(scene, |_, model| model.clearcoat > 0.0),
+        coat_normals: has_layers(scene, |material, model| {
+            let layers = material.layer_textures.as_ref();
+            let own = layers.and_then(|layers| layers.clearcoat_normal);
+            model.clearcoat > 0.0 && own.or(material.textures.normal).is_some()
+        }),
         rough_glass: has_layers(scene, |_, it| it.transmission > 0.0 && it.roughness > 0.0),
         dispersion: has_layers(scene, |material, it| it.dispersion > 0.0 && !material.thin),
         thin_walls: (may_transmit(scene).into_iter().zip(&scene.materials))

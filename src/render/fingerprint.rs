@@ -24,6 +24,7 @@ impl Fingerprint {
             anisotropy: _,
             coatings: _,
             coated_emission: _,
+            coat_normals: _,
             rough_glass: _,
             dispersion: _,
             shadow_catchers: _,

@@ -95,6 +95,7 @@ pub fn of(task: Task) -> Overrides {
         ("HAS_FOOTPRINTS", flag(features.footprints)),
         ("HAS_COVERAGE", flag(features.coverage)),
         ("HAS_NORMAL_MAPS", flag(features.normal_maps)),
+        ("HAS_COAT_NORMALS", flag(is_path && features.coat_normals)),
         ("HAS_OCCLUSION", flag(features.occlusion_maps)),
         ("HAS_BYTE_TEXELS", flag(features.byte_texels)),
         ("HAS_HALF_TEXELS", flag(features.half_texels)),

@@ -126,10 +126,13 @@ impl Material {
         self.paint(self.tint);
     }
 
-    /// Whether its surfaces depend on tangents: they have a normal map or anisotropy.
+    /// Whether its surfaces depend on tangents: they or their coat have a normal map, or they have anisotropy.
     pub fn has_tangents(&self) -> bool {
         let model = self.metallic_roughness.as_ref();
-        self.textures.normal.is_some() || model.is_some_and(|model| model.anisotropy > 0.0)
+        let layers = self.layer_textures.as_ref();
+        self.textures.normal.is_some()
+            || layers.is_some_and(|layers| layers.clearcoat_normal.is_some())
+            || model.is_some_and(|model| model.anisotropy > 0.0)
     }
 }
 
@@ -174,6 +177,8 @@ layer_textures! {
     clearcoat,
     /// Of [`MetallicRoughness::clearcoat_roughness`], in green.
     clearcoat_roughness,
+    /// The normal map of the clear coat, which does not follow that of the surface.
+    clearcoat_normal,
     /// Of [`MetallicRoughness::sheen_color`].
     sheen_color,
     /// Of [`MetallicRoughness::sheen_roughness`], in alpha.

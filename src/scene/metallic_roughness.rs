@@ -57,6 +57,8 @@ pub struct MetallicRoughness {
     pub clearcoat: f32,
     /// Roughness of the clear coat.
     pub clearcoat_roughness: f32,
+    /// Factor on the tilt of the clear coat's normal map, 0 or more.
+    pub clearcoat_normal_scale: f32,
     /// Colour of a layer of fibres.
     pub sheen_color: Vec3,
     /// Roughness of that layer.
@@ -99,6 +101,7 @@ impl Default for MetallicRoughness {
             attenuation_distance: f32::INFINITY,
             clearcoat: 0.0,
             clearcoat_roughness: 0.0,
+            clearcoat_normal_scale: 1.0,
             sheen_color: Vec3::ZERO,
             sheen_roughness: 0.0,
             anisotropy: 0.0,

@@ -139,7 +139,9 @@ fn mapping(material: &Material, textures: &[Texture]) -> Option<Mapping> {
     };
     let anisotropy = model.and_then(|model| (model.anisotropy > 0.0).then_some(plain));
     let normal = material.textures.normal.and_then(of_texture);
-    normal.or(anisotropy)
+    let layers = material.layer_textures.as_ref();
+    let coat = layers.and_then(|layers| layers.clearcoat_normal);
+    normal.or(coat.and_then(of_texture)).or(anisotropy)
 }
 
 /// Gives a mesh the tangents that materials with these mappings need. Returns the vertices of which copies were added.

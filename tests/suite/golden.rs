@@ -2,6 +2,7 @@
 //! compare and how to update them.
 
 use crate::models;
+use crate::path::lobes;
 use crate::reference::compare::{assert_none, check_alike, sized, start_packed};
 use crate::reference::scenes::{self, Build};
 use crate::textures;
@@ -277,6 +278,7 @@ fn goldens() -> Vec<Golden> {
         golden("tone-agx", bright.clone()).toned(0.0, ToneCurve::Agx),
         golden("tone-reinhard", bright.clone()).toned(0.0, ToneCurve::Reinhard),
         golden("exposure", bright).toned(-2.5, ToneCurve::None),
+        golden("lobes", lobes::scene()).set(|s| *s = lobes::settings()),
     ]
 }
 

@@ -4,6 +4,7 @@ mod backdrop;
 mod emitters;
 mod explained;
 mod layers;
+pub mod lobes;
 mod many_lights;
 mod materials;
 mod references;

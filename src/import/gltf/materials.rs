@@ -176,11 +176,12 @@ impl Reader<'_> {
 }
 
 /// The maps that have an effect on path-traced pictures only.
-pub(super) const PATH_MAPS: [&str; 11] = [
+pub(super) const PATH_MAPS: [&str; 12] = [
     "specularTexture",
     "specularColorTexture",
     "clearcoatTexture",
     "clearcoatRoughnessTexture",
+    "clearcoatNormalTexture",
     "sheenColorTexture",
     "sheenRoughnessTexture",
     "anisotropyTexture",
@@ -347,6 +348,11 @@ fn model(source: &Source) -> MetallicRoughness {
     if let Some(it) = &extensions.clearcoat {
         model.clearcoat = unit(it.clearcoat_factor, 0.0);
         model.clearcoat_roughness = unit(it.clearcoat_roughness_factor, 0.0);
+        let scale = it
+            .clearcoat_normal_texture
+            .as_ref()
+            .and_then(|map| map.scale);
+        model.clearcoat_normal_scale = scale.unwrap_or(1.0).clamp(0.0, 1e3) as f32;
     }
     if let Some(it) = &extensions.sheen {
         model.sheen_color = unit_color(it.sheen_color_factor, Vec3::ZERO);

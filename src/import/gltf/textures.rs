@@ -124,6 +124,7 @@ impl Reader<'_> {
             specular_color: of(map!(specular specular_color_texture), false)?,
             clearcoat: of(map!(clearcoat clearcoat_texture), true)?,
             clearcoat_roughness: of(map!(clearcoat clearcoat_roughness_texture), true)?,
+            clearcoat_normal: of(map!(clearcoat clearcoat_normal_texture), true)?,
             sheen_color: of(map!(sheen sheen_color_texture), false)?,
             sheen_roughness: of(map!(sheen sheen_roughness_texture), true)?,
             anisotropy: of(map!(anisotropy anisotropy_texture), true)?,

@@ -49,6 +49,10 @@ pub(super) fn material(
     numbers!(metallic roughness transmission specular);
     (model.specular_color, layers.specular_color) = textures.color(&table.specular_color)?;
     numbers!(clearcoat clearcoat_roughness);
+    if let Some(map) = &table.clearcoat_normal_map {
+        layers.clearcoat_normal = Some(textures.data_map(map)?);
+        model.clearcoat_normal_scale = map.get_ref().strength.0;
+    }
     colors!(sheen_color);
     numbers!(sheen_roughness anisotropy iridescence);
     if let Some(map) = &table.iridescence_thickness_map {

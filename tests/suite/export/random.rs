@@ -170,7 +170,7 @@ fn fraction(random: &mut Random) -> f32 {
 fn physical(random: &mut Random, material: &mut Material, textures: usize) {
     let tint = |random: &mut Random| Vec3::from([0; 3].map(|_| fraction(random)));
     let unlit = random.below(4) == 0;
-    let model = MetallicRoughness {
+    let mut model = MetallicRoughness {
         base_color: tint(random),
         alpha: material.alpha,
         coverage: material.coverage,
@@ -187,6 +187,7 @@ fn physical(random: &mut Random, material: &mut Material, textures: usize) {
         attenuation_distance: pick(random, &[f32::INFINITY, 0.1, 7.0]),
         clearcoat: fraction(random),
         clearcoat_roughness: fraction(random),
+        clearcoat_normal_scale: 1.0,
         sheen_color: tint(random),
         sheen_roughness: fraction(random),
         anisotropy: fraction(random),
@@ -212,6 +213,7 @@ fn physical(random: &mut Random, material: &mut Material, textures: usize) {
             specular_color: slot(),
             clearcoat: slot(),
             clearcoat_roughness: slot(),
+            clearcoat_normal: slot(),
             sheen_color: slot(),
             sheen_roughness: slot(),
             anisotropy: slot(),
@@ -220,6 +222,9 @@ fn physical(random: &mut Random, material: &mut Material, textures: usize) {
             diffuse_transmission: slot(),
             diffuse_transmission_color: slot(),
         };
+        if layers.clearcoat_normal.is_some() {
+            model.clearcoat_normal_scale = 0.75;
+        }
     }
     let tint = if random.below(2) == 0 {
         Vec3::ONE

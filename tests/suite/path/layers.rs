@@ -3,11 +3,13 @@
 
 use super::materials::material;
 use super::{glowing_square, lit_floor, looking, matte, mean, near, paths};
+use crate::reference::scenes::{Build, quad};
 use crate::support::verdict::Verdict;
-use glam::{DAffine3, DVec3, Vec3, dvec3, vec3};
+use glam::{DAffine3, DVec3, Vec2, Vec3, dvec3, vec3};
 use glimray::render::{BsdfModel, RenderSettings};
 use glimray::scene::{
-    Attenuation, Background, Instance, Light, LightKind, Material, Mesh, MetallicRoughness, Scene,
+    Attenuation, Background, Instance, LayerTextures, Light, LightKind, Material, Mesh,
+    MetallicRoughness, Minify, Pattern, Picture, Scene, Space, Texture, Wrap,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -364,6 +366,127 @@ fn brushed_metal_is_wider_along_its_direction() {
                 3e-3 * expected,
             );
         }
+    }
+    verdict.close();
+}
+
+/// A floor of two triangles in the plane y = 0 whose u points along x and v against z.
+fn mapped_floor(own: Material, maps: [Option<Vec3>; 2], light: Light) -> Scene {
+    let mut scene = lit_floor(own, light);
+    scene.shapes.clear();
+    let material = &mut scene.materials[0];
+    let mut layers = LayerTextures::default();
+    for (map, slot) in
+        (maps.into_iter()).zip([&mut material.textures.normal, &mut layers.clearcoat_normal])
+    {
+        *slot = None;
+        let Some(normal) = map else { continue };
+        let code = 0.5 * normal + Vec3::splat(0.5);
+        let picture = scene.pictures.len();
+        scene.pictures.push(Picture::opaque(2, 2, [code; 4]).into());
+        *slot = Some(scene.textures.len());
+        scene.textures.push(Texture {
+            pattern: Pattern::Picture {
+                picture,
+                nearest: false,
+                minify: Minify::default(),
+                wrap: [Wrap::Repeat; 2],
+            },
+            space: Space::Uv,
+            pattern_from_space: DAffine3::IDENTITY,
+        });
+    }
+    material.layer_textures = Some(Box::new(layers));
+    let mut floor = quad(2.0, 0);
+    floor.uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+        .map(Vec2::from)
+        .into();
+    scene.add_mesh(floor, DAffine3::IDENTITY);
+    scene.complete_tangents();
+    scene
+}
+
+/// A coat has the normal of its own map, or that of the mesh, whatever the map of the surface below says: seen over a
+/// black body it reflects what the specification's coat does around that normal.
+#[test]
+fn a_coat_follows_its_own_normal_map_and_not_that_below() {
+    let mut verdict = Verdict::on("coats with normal maps");
+    // v points against z.
+    let world = |n: Vec3| dvec3(n.x.into(), n.z.into(), f64::from(-n.y)).normalize();
+    let tilted = vec3(0.3, 0.2, 0.0);
+    let tilted = tilted.with_z((1.0 - tilted.length_squared()).sqrt());
+    let other = vec3(-0.4, 0.1, 0.0);
+    let other = other.with_z((1.0 - other.length_squared()).sqrt());
+    let (v, l) = (
+        dvec3(0.2, 0.9, 0.3).normalize(),
+        dvec3(0.4, 0.8, -0.5).normalize(),
+    );
+    let light = Light {
+        kind: LightKind::Directional { direction: -l },
+        color: Vec3::ONE,
+        attenuation: Attenuation::None,
+        ..Light::default()
+    };
+    for (name, maps, scale) in [
+        ("no map", [None, None], 1.0),
+        ("a map", [None, Some(tilted)], 1.0),
+        ("a map below", [Some(other), None], 1.0),
+        ("both", [Some(other), Some(tilted)], 1.0),
+        ("half of the tilt", [Some(other), Some(tilted)], 0.5),
+    ] {
+        let own = maps[1].map_or(Vec3::Z, |n| vec3(scale * n.x, scale * n.y, n.z));
+        let n = world(own);
+        let coat = MetallicRoughness {
+            base_color: Vec3::ZERO,
+            metallic: 0.0,
+            specular: 0.0,
+            clearcoat: 0.8,
+            clearcoat_roughness: 0.6,
+            clearcoat_normal_scale: scale,
+            ..MetallicRoughness::default()
+        };
+        let mut scene = mapped_floor(material(coat), maps, light.clone());
+        scene.cameras = vec![looking(5.0 * v, DVec3::ZERO, 1e-4)];
+        let settings = RenderSettings {
+            bsdf: BsdfModel::Spec,
+            ..paths(1, (2, 2), 0)
+        };
+        let found = mean(&scene, &settings);
+        let h = (v + l).normalize();
+        let fresnel = 0.8 * (0.04 + 0.96 * fifth(n.dot(v)));
+        let lobe = specular_brdf(0.6, n.dot(h), n.dot(v), n.dot(l));
+        let expected = PI * n.dot(l) * fresnel * lobe;
+        near(&mut verdict, name, found, expected, 2e-3 * expected);
+        // Samples of its lobe find as much of even light as the integral over the directions above the floor and above
+        // the normal of the surface below.
+        scene.lights.clear();
+        scene.background = Background::Color(Vec3::ONE);
+        let settings = RenderSettings {
+            bsdf: BsdfModel::Spec,
+            ..paths(4096, (4, 4), 0)
+        };
+        let found = mean(&scene, &settings);
+        let below = world(maps[0].unwrap_or(Vec3::Z));
+        let steps = 400;
+        let part = |k: i32| (f64::from(k) + 0.5) / f64::from(steps);
+        let mut sum = 0.0;
+        for (a, b) in (0..steps).flat_map(|a| (0..steps).map(move |b| (part(a), part(b)))) {
+            let (sin, cos) = (2.0 * PI * b).sin_cos();
+            let across = (1.0 - a * a).sqrt();
+            let l = dvec3(across * cos, a, across * sin);
+            let h = (v + l).normalize();
+            if n.dot(l) > 0.0 && below.dot(l) > 0.0 {
+                sum += n.dot(l) * fresnel * specular_brdf(0.6, n.dot(h), n.dot(v), n.dot(l));
+            }
+        }
+        let expected = 2.0 * PI * sum / f64::from(steps * steps);
+        near(
+            &mut verdict,
+            format!("{name}, even light"),
+            found,
+            expected,
+            0.01 * expected,
+        );
     }
     verdict.close();
 }

@@ -1,6 +1,6 @@
 //! The metallic-roughness model in a native scene.
 
-use super::textures::{ColorOrTexture, NumberTable, plain};
+use super::textures::{ColorOrTexture, DataMapTable, NumberTable, plain};
 use crate::import::native::values::{
     Angle, Color, Fraction, NonNegative, OneOrMore, Positive, Priority, Thicknesses,
 };
@@ -56,6 +56,9 @@ pub(in crate::import::native) struct PbrTable {
     /// Its roughness; default 0. A texture has it in green.
     #[schemars(with = "FractionOrTexture")]
     pub clearcoat_roughness: Spanned<FractionOrTexture>,
+    /// Its own normal map, as `normal_map` of the material, which does not tilt the coat.
+    #[schemars(with = "Option<DataMapTable>")]
+    pub clearcoat_normal_map: Option<Spanned<DataMapTable>>,
     /// The colour of a layer of fibres, as on velvet, 0 to 1; default black: none.
     #[schemars(with = "ColorOrTexture")]
     pub sheen_color: Spanned<ColorOrTexture>,
@@ -109,6 +112,7 @@ impl Default for PbrTable {
             priority: Priority(0),
             clearcoat: fraction(0.0),
             clearcoat_roughness: fraction(0.0),
+            clearcoat_normal_map: None,
             sheen_color: plain(Vec3::ZERO),
             sheen_roughness: fraction(0.0),
             iridescence: fraction(0.0),

@@ -396,6 +396,23 @@ fn pictures_that_cannot_be_read_are_skipped_by_name_and_those_outside_refused() 
 }
 
 #[test]
+fn a_clear_coat_has_its_own_normal_map() {
+    let mut model = model(
+        json!({ "extensions": { "KHR_materials_clearcoat": { "clearcoatFactor": 1,
+        "clearcoatNormalTexture": { "index": 0, "scale": 0.5 } } } }),
+    );
+    picture(&mut model, 1, &[[51, 102, 255, 255]]);
+    let scene = super::scene("a.glb", model.glb());
+    assert_eq!(scene.skipped, [] as [&str; 0]);
+    let material = &scene.materials[0];
+    let layers = material.layer_textures.as_ref().expect("textures");
+    // Its bytes are numbers and not colours.
+    assert_near(texels(&scene, layers.clearcoat_normal)[0], [0.2, 0.4, 1.0]);
+    assert_eq!(material.textures.normal, None);
+    assert_eq!(metallic_roughness(material).clearcoat_normal_scale, 0.5);
+}
+
+#[test]
 fn what_is_not_shown_is_named() {
     let mut model = model(json!({ "extensions": { "KHR_materials_clearcoat":
         { "clearcoatTexture": { "index": 0 } } } }));
