@@ -76,7 +76,7 @@ impl Tone {
         }
     }
 
-    /// A fingerprint of all members: see [`RenderSettings::fingerprint`].
+    /// A fingerprint of all members: see [`super::RenderSettings::fingerprint`].
     pub fn fingerprint(&self) -> Fingerprint {
         let mut encoder = Encoder::new("tone", 1);
         for number in self.numbers() {
