@@ -164,7 +164,7 @@ fn what_users_install_is_optimised_as_a_whole() {
             assert!(is_full(profile), "{name}: {profile}");
         }
     }
-    assert_eq!(release["lto"].as_str(), Some("thin"));
+    assert_eq!(release["lto"].as_str(), Some("fat"));
     assert_eq!(release["strip"].as_bool(), Some(true));
 }
 

@@ -142,7 +142,7 @@ impl Reader<'_> {
         self.note_maps(source, &here)?;
         let is_anisotropic = model.anisotropy > 0.0;
         let sets = self.sets_of(source, index, &model)?;
-        let mut material = self.textured(source, model, &sets, &here)?;
+        let mut material = self.textured(source, index, model, &sets)?;
         material.name = source.name.clone().unwrap_or_default();
         let mut uv_sets = sets.into_slots();
         if is_anisotropic && uv_sets.is_empty() {

@@ -1,25 +1,38 @@
 //! From the maps of a material to its textures.
 
 use super::Reader;
+use super::aim::Aim;
 use super::document::{Material as Source, TextureInfo};
 use super::maps::FoundMap;
 use super::uv_sets::Sets;
 use crate::import::error::ImportError;
 use crate::import::picture::Role;
-use crate::scene::{Coverage, LayerTextures, Material, MetallicRoughness, Pattern, Space, Texture};
+use crate::scene::{
+    Coverage, LayerProperty, LayerTextures, Material, MetallicRoughness, Pattern, Space, Texture,
+};
 use glam::Vec3;
 use std::sync::Arc;
 
 impl Reader<'_> {
-    /// The material of `model` with the maps of `source` that use `sets`, the sets of texture coordinates of
-    /// [`Self::sets_of`].
+    /// Whether `materials[index]`, whose parameters are `model`, emits light at some time: a clip may begin with none.
+    pub(super) fn can_emit(&self, index: usize, model: &MetallicRoughness) -> bool {
+        let is_own = |aim| matches!(aim, Aim::Emission(it) | Aim::Layer(it, LayerProperty::EmissionStrength) if it == index);
+        let clips = self.document.animations.iter();
+        let mut channels = clips.flat_map(|clip| &clip.channels);
+        model.emission != Vec3::ZERO
+            || channels.any(|channel| Aim::of(&channel.target).is_some_and(is_own))
+    }
+
+    /// The material of `materials[index]`, which is `source` with the parameters `model`, with its maps. `sets` are its sets
+    /// of texture coordinates: [`Self::sets_of`].
     pub(super) fn textured(
         &mut self,
         source: &Source,
+        index: usize,
         model: MetallicRoughness,
         sets: &Sets,
-        here: &str,
     ) -> Result<Material, ImportError> {
+        let here = &format!("materials[{index}]");
         let pbr = source.pbr_metallic_roughness.as_deref();
         let extensions = source.extensions.as_deref();
         let older = extensions.and_then(|e| e.specular_glossiness.as_deref());
@@ -47,7 +60,7 @@ impl Reader<'_> {
                 ..LayerTextures::default()
             },
         };
-        let has_emission = is_lit && model.emission != Vec3::ZERO;
+        let can_emit = is_lit && self.can_emit(index, &model);
         let mut material = Material::physical(Arc::new(model), layers);
         if !is_lit {
             // It shines with its colour, and has no layers.
@@ -62,7 +75,7 @@ impl Reader<'_> {
             material.textures.alpha = self.other(info, false, sets, here)?;
         }
         if let Some(info) = source.emissive_texture.as_deref()
-            && has_emission
+            && can_emit
         {
             material.textures.emission = self.other(info, false, sets, here)?;
         }

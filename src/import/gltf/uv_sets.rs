@@ -55,9 +55,10 @@ impl<'a> Reader<'a> {
         model: &MetallicRoughness,
     ) -> Result<Sets, ImportError> {
         let here = format!("materials[{index}]");
+        let can_emit = self.can_emit(index, model);
         let mut maps = Vec::new();
         for (name, info) in all_maps(source) {
-            let Some(rank) = rank(name, source, model) else {
+            let Some(rank) = rank(name, source, model, can_emit) else {
                 continue;
             };
             if let Some(map) = self.map(info, &format!("{here}.{name}"))? {
@@ -126,7 +127,7 @@ impl<'a> Reader<'a> {
 }
 
 /// How much the map with this name matters; `None` if the material shows none by this name.
-fn rank(map: &str, source: &Source, model: &MetallicRoughness) -> Option<Rank> {
+fn rank(map: &str, source: &Source, model: &MetallicRoughness, can_emit: bool) -> Option<Rank> {
     let extensions = source.extensions.as_deref();
     let is_older = extensions.is_some_and(|it| it.specular_glossiness.is_some());
     let layer = |is_there| Some(if is_there { Rank::Layer } else { Rank::Idle });
@@ -135,10 +136,12 @@ fn rank(map: &str, source: &Source, model: &MetallicRoughness) -> Option<Rank> {
         "diffuseTexture" => Some(Rank::Main),
         _ if model.unlit => None,
         "metallicRoughnessTexture" => (!is_older).then_some(Rank::Main),
-        "emissiveTexture" => (model.emission != Vec3::ZERO).then_some(Rank::Main),
+        "emissiveTexture" => can_emit.then_some(Rank::Main),
         "normalTexture" | "occlusionTexture" | "transmissionTexture" => Some(Rank::Main),
         "specularTexture" | "specularColorTexture" => layer(model.specular > 0.0),
-        "clearcoatTexture" | "clearcoatRoughnessTexture" => layer(model.clearcoat > 0.0),
+        "clearcoatTexture" | "clearcoatRoughnessTexture" | "clearcoatNormalTexture" => {
+            layer(model.clearcoat > 0.0)
+        }
         "sheenColorTexture" | "sheenRoughnessTexture" => layer(model.sheen_color != Vec3::ZERO),
         "anisotropyTexture" => layer(model.anisotropy > 0.0),
         "iridescenceTexture" | "iridescenceThicknessTexture" => layer(model.iridescence > 0.0),

@@ -595,6 +595,43 @@ fn pointers_animate_the_layers_of_materials() {
 }
 
 #[test]
+fn a_light_that_a_clip_turns_on_keeps_its_map() {
+    for (material, channel) in [
+        (json!({}), "emissiveFactor"),
+        (
+            json!({
+                "emissiveFactor": [1, 1, 1],
+                "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 0 } },
+            }),
+            "extensions/KHR_materials_emissive_strength/emissiveStrength",
+        ),
+    ] {
+        let mut model = Model::triangle(json!({ "material": 0 })).with(json!({
+            "extensionsUsed": ["KHR_animation_pointer", "KHR_materials_emissive_strength"],
+            "materials": [material],
+        }));
+        let uv = model.pairs(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+        model.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uv);
+        let texture = super::materials::picture(&mut model, 1, &[[255, 0, 0, 255]]);
+        model.json["materials"][0]["emissiveTexture"] = json!({ "index": texture });
+        assert_eq!(
+            model.scene().materials[0].textures.emission,
+            None,
+            "{channel}"
+        );
+        let input = model.numbers(&[0.0, 2.0]);
+        let values = match channel {
+            "emissiveFactor" => model.vectors(&[[0.0; 3], [1.0; 3]]),
+            _ => model.numbers(&[0.0, 1.0]),
+        };
+        let pointer = format!("/materials/0/{channel}");
+        pointed(&mut model, &pointer, input, values, "LINEAR");
+        let scene = model.scene();
+        assert!(scene.materials[0].textures.emission.is_some(), "{channel}");
+    }
+}
+
+#[test]
 fn base_colors_move_with_vertex_colors_and_alpha_in_both_models() {
     let mut model = Model::triangle(json!({ "material": 0 })).with(json!({
         "extensionsUsed": ["KHR_animation_pointer"],
