@@ -30,23 +30,19 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
     let whole = whole(&arguments.parts, &outlines)?;
     check_adapters(whole.header(), destination.path(), arguments.same_adapter)?;
     let missing = whole.missing_of(region(arguments.crop, whole.header().size)?);
-    if !missing.is_empty() {
+    if !missing.is_empty() && !arguments.partial {
         // A damaged header can look like that of other samples.
         for path in &arguments.parts {
             interrupt.check()?;
-            let read = open(path).and_then(Film::read);
-            read.map_err(|error| refused(path, error))?;
+            read(path)?;
         }
-        let why = incomplete(destination.path(), &missing);
-        if !arguments.partial {
-            if !destination.is_stdout() {
-                console::print(&commands(whole.header(), &missing))?;
-            }
-            return Err(AppError::Missing(format!(
-                "{why}. Add films of these parts, or write what is there with --partial."
-            )));
+        if !destination.is_stdout() {
+            console::print(&commands(whole.header(), &missing))?;
         }
-        console::warning(format_args!("{why}."));
+        return Err(AppError::Missing(format!(
+            "{}. Add films of these parts, or write what is there with --partial.",
+            incomplete(destination.path(), &missing)
+        )));
     }
     arguments.layers.check(
         arguments.develop.denoise,
@@ -60,6 +56,10 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
     let (width, height) = whole.header().size;
     destination.check(width, height)?;
     let film = sum(&arguments.parts, &outlines, whole, &interrupt)?;
+    if !missing.is_empty() {
+        let why = incomplete(destination.path(), &missing);
+        console::warning(format_args!("{why}."));
+    }
     if destination.is_film() {
         return destination.save_film(&film);
     }
@@ -113,8 +113,8 @@ fn whole(parts: &[PathBuf], outlines: &[FilmOutline]) -> Result<FilmOutline, App
             let other = outlines[..index].iter().position(is_other).unwrap_or(0);
             // A damaged header looks like that of another picture.
             for path in [&parts[other], &parts[index]] {
-                if let Err(error) = open(path).and_then(Film::read) {
-                    return refused(path, error);
+                if let Err(error) = read(path) {
+                    return error;
                 }
             }
             AppError::Films {
@@ -133,10 +133,6 @@ fn sum(
     whole: FilmOutline,
     interrupt: &Interrupt,
 ) -> Result<Film, AppError> {
-    let read = |path: &PathBuf| {
-        let film = open(path).and_then(Film::read);
-        film.map_err(|error| refused(path, error))
-    };
     if let [only] = parts {
         return read(only);
     }
@@ -151,6 +147,12 @@ fn sum(
         film.add(&part);
     }
     Ok(film)
+}
+
+/// A film, with its checksum compared.
+fn read(path: &PathBuf) -> Result<Film, AppError> {
+    let film = open(path).and_then(Film::read);
+    film.map_err(|error| refused(path, error))
 }
 
 fn open(path: &PathBuf) -> Result<BufReader<File>, FilmError> {

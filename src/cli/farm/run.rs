@@ -35,10 +35,9 @@ pub fn run(arguments: &FarmRunArgs) -> Result<(), AppError> {
     if arguments.jobs > 1 {
         return share(arguments, &interrupt);
     }
-    let own_run = || format!("{}-{}", host(), std::process::id());
     let farm = Farm {
         cut_frames: frames::cut(&manifest),
-        run: arguments.run.clone().unwrap_or_else(own_run),
+        run: arguments.run.clone().unwrap_or_else(run_name),
         attempts: arguments.attempts,
         depth: match arguments.part {
             Some(_) => Depth::Whole,
@@ -77,7 +76,7 @@ fn share(arguments: &FarmRunArgs, interrupt: &Interrupt) -> Result<(), AppError>
     let failed = |error| AppError::Internal(format!("cannot start a process: {error}"));
     let program = std::env::current_exe().map_err(failed)?;
     let _deferred = interrupt.defer();
-    let run = format!("{}-{}", host(), std::process::id());
+    let run = run_name();
     let mut children: Vec<Child> = Vec::new();
     for _ in 0..arguments.jobs {
         let mut command = std::process::Command::new(&program);
@@ -125,6 +124,11 @@ fn share(arguments: &FarmRunArgs, interrupt: &Interrupt) -> Result<(), AppError>
                 .unwrap_or(1),
         }),
     }
+}
+
+/// The name of the run that this process begins.
+fn run_name() -> String {
+    format!("{}-{}", host(), std::process::id())
 }
 
 /// Asks a process to end.

@@ -137,6 +137,11 @@ impl Coverage {
         })
     }
 
+    /// The same with the ranges of the samples.
+    pub fn parts(&self) -> impl Iterator<Item = ([u32; 4], &[Range<u32>])> {
+        (self.patches()).map(|(region, samples)| (region, samples.ranges()))
+    }
+
     /// The bounding rectangle: x, y, width, height.
     pub fn bounds(&self) -> [u32; 4] {
         let (Some(first), Some(last)) = (self.bands.first(), self.bands.last()) else {

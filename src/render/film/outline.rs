@@ -25,7 +25,7 @@ impl FilmOutline {
 
     /// Its rectangles (x, y, width, height) and their ranges of samples, from top to bottom and left to right.
     pub fn parts(&self) -> impl Iterator<Item = ([u32; 4], &[Range<u32>])> {
-        (self.coverage.patches()).map(|(region, samples)| (region, samples.ranges()))
+        self.coverage.parts()
     }
 
     /// The outline of both films together.
