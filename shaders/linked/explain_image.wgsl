@@ -166,6 +166,8 @@ override bindings__MIXED_MATERIALS: bool = true;
 
 override bindings__BRUTE_FORCE: bool = false;
 
+override bindings__STACK_REGISTERS: u32 = 0u;
+
 override bindings__FIXED_OFFSET: f32 = 0.0;
 
 override bindings__STRATIFIED: bool = false;
@@ -848,6 +850,8 @@ var<private> record__met: types__Hit;
 
 var<private> record__met_count: u32;
 
+var<private> record__shadow_length: f32;
+
 fn record__load_probe(index: u32) -> types__PackedProbe {
 	let row = types__PROBE_ROWS * index;
 	let r0 = bindings__records[row];
@@ -946,12 +950,13 @@ fn record__open_light(index: u32, weight: f32) {
 fn record__open_shadow(t_max: f32) {
 	record__met = types__Hit(t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	record__met_count = 0u;
+	record__shadow_length = t_max;
 }
 
-fn record__record_met(hit: types__Hit, before: f32) {
+fn record__record_met(hit: types__Hit, rest: f32) {
 	if (hit.primitive != types__NONE) {
 		record__met = hit;
-		record__met.t = before + hit.t;
+		record__met.t = record__shadow_length - rest + hit.t;
 		record__met_count += 1u;
 	}
 }
@@ -2074,19 +2079,27 @@ var<private> loops__primitives_tested: u32 = 0u;
 
 var<private> loops__cut_off: bool = false;
 
-const traverse__EMPTY: u32 = 4294967295u;
-
 const traverse__RETURN: u32 = 4294967294u;
-
-var<private> traverse__stack: array<u32, types__STACK_SIZE>;
 
 const traverse__CONTACT_RANGE: f32 = 0.0001;
 
+struct traverse__Walk {
+	ray: types__Ray,
+	shear: triangle_watertight__Shear,
+	any: bool,
+	at: primitive__TraversalRay,
+	hit: types__Hit,
+	current: u32
+}
+
+const traverse__NO_LIMIT: u32 = 4294967295u;
+
 fn traverse__closest_hit(ray: types__Ray) -> types__Hit {
-	if (bindings__HAS_CONTACT) {
-		primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
-	}
-	return traverse__traverse(ray, false);
+	return traverse__walked(traverse__walk_of(ray, false), traverse__NO_LIMIT).hit;
+}
+
+fn traverse__any_hit(ray: types__Ray) -> types__Hit {
+	return traverse__walked(traverse__walk_of(ray, true), traverse__NO_LIMIT).hit;
 }
 
 fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
@@ -2096,104 +2109,109 @@ fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
 	return hit.t;
 }
 
-fn traverse__any_hit(ray: types__Ray) -> types__Hit {
-	return traverse__traverse(ray, true);
-}
-
-fn traverse__traverse(ray: types__Ray, any: bool) -> types__Hit {
-	var hit = types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+fn traverse__walk_of(ray: types__Ray, any: bool) -> traverse__Walk {
+	if (bindings__HAS_CONTACT) {
+		primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+	}
 	let shear = triangle_watertight__shear_of(ray.direction);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
 	if (bindings__HAS_PLANES) {
-		hit = exhaustive__hit_planes(ray, hit);
+		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
 	if (bindings__BRUTE_FORCE) {
-		return exhaustive__hit_everything(ray, shear, hit);
+		walk.hit = exhaustive__hit_everything(ray, shear, walk.hit);
+		return walk;
 	}
-	if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) || (any && hit.primitive != types__NONE)) {
-		return hit;
+	if ((bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) && ray.t_max >= 0.0 && !(any && walk.hit.primitive != types__NONE)) {
+		stack__start_stack();
+		walk.current = 0u;
+		if (bindings__HAS_INSTANCES) {
+			walk.current = fetch__root;
+		}
 	}
-	return traverse__walk(ray, shear, any, hit);
+	return walk;
 }
 
-fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool, start: types__Hit) -> types__Hit {
-	var hit = start;
-	var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
-	traverse__stack[0] = traverse__EMPTY;
-	var top = 0u;
-	var current = 0u;
-	if (bindings__HAS_INSTANCES) {
-		current = fetch__root;
-	}
-	loop {
-		if (bindings__HAS_INSTANCES) {
-			if (current == traverse__RETURN) {
-				at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
-				current = traverse__stack[top];
-				top -= select(1u, 0u, current == traverse__EMPTY);
-			}
-			if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
-				let index = current & types__LEAF_FIRST_MASK;
-				let instance = fetch__load_instance(index);
-				let local = instance__object_ray(ray, instance__space_of(instance));
-				at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
-				top += 1u;
-				traverse__stack[top] = traverse__RETURN;
-				current = instance.root;
-			}
-		}
-		let is_node = !bindings__HAS_INSTANCES || (current & types__LEAF) == 0u;
-		if (is_node) {
-			loop {
-				let node = traverse__load_current_node(current, at.keys);
-				let keys = node__sort4(node__child_keys(node, at.ray.origin, at.inv, traverse__search_limit(ray, hit)));
-				let is_hit = keys < vec4u(node__MISS);
-				let pushed = select(vec4u(0u), vec4u(1u), is_hit);
-				traverse__stack[top + 1u] = node.children[keys.w & 3u];
-				top += pushed.w;
-				traverse__stack[top + 1u] = node.children[keys.z & 3u];
-				top += pushed.z;
-				traverse__stack[top + 1u] = node.children[keys.y & 3u];
-				top += pushed.y;
-				let popped = traverse__stack[top];
-				current = select(popped, node.children[keys.x & 3u], is_hit.x);
-				top -= select(1u, 0u, is_hit.x | (popped == traverse__EMPTY));
-				if (bindings__COUNT_STEPS) {
-					loops__nodes_visited += 1u;
-				}
-				continuing {
-				
-					break if (current & types__LEAF) != 0u;
-				}
-			}
-		}
-		if (current == traverse__EMPTY) {
-			break;
-		}
-		if (bindings__HAS_INSTANCES && current >= types__INSTANCE) {
-			continue;
-		}
+fn traverse__is_walking(walk: traverse__Walk) -> bool {
+	return walk.current != stack__EMPTY;
+}
+
+fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
+	var walk = before;
+	var round = 0u;
+	if (traverse__is_walking(walk)) {
 		loop {
-			hit = primitive__closer(at, hit, current & (types__SHAPE | types__LEAF_FIRST_MASK));
-			let popped = traverse__stack[top];
-			let is_last = (current & types__LEAF_COUNT_MASK) == 0u;
-			top -= select(0u, 1u, is_last & (popped != traverse__EMPTY));
-			current = select(current - types__LEAF_COUNT_ONE + 1u, popped, is_last);
-			current = select(current, traverse__EMPTY, any & (hit.primitive != types__NONE));
-			if (bindings__COUNT_STEPS) {
-				loops__primitives_tested += 1u;
+			if (bindings__HAS_INSTANCES) {
+				walk = traverse__in_its_space(walk);
 			}
+			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
+			if (is_node) {
+				loop {
+					let node = traverse__load_current_node(walk.current, walk.at.keys);
+					let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
+					let is_hit = keys < vec4u(node__MISS);
+					let top = stack__top_of_stack();
+					let next = vec3u(node.children[keys.y & 3u], node.children[keys.z & 3u], node.children[keys.w & 3u]);
+					stack__move_stack(next, traverse__hit_count(keys) - 1);
+					walk.current = select(top, node.children[keys.x & 3u], keys.x < node__MISS);
+					if (bindings__COUNT_STEPS) {
+						loops__nodes_visited += 1u;
+					}
+					continuing {
+					
+						break if (walk.current & types__LEAF) != 0u;
+					}
+				}
+			}
+			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
+			if (is_leaf) {
+				loop {
+					walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
+					let is_last = (walk.current & types__LEAF_COUNT_MASK) == 0u;
+					walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__top_of_stack(), is_last);
+					stack__move_stack(vec3u(stack__EMPTY), select(0, -1, is_last));
+					walk.current = select(walk.current, stack__EMPTY, walk.any & (walk.hit.primitive != types__NONE));
+					if (bindings__COUNT_STEPS) {
+						loops__primitives_tested += 1u;
+					}
+					continuing {
+					
+						break if ((walk.current & types__LEAF) == 0u) | (walk.current >= types__INSTANCE);
+					}
+				}
+			}
+			round += 1u;
 			continuing {
 			
-				break if ((current & types__LEAF) == 0u) | (current >= types__INSTANCE);
+				break if !traverse__is_walking(walk) | (round >= rounds);
 			}
 		}
-		continuing {
-		
-			break if current == traverse__EMPTY;
-		}
+		loops__cut_off |= traverse__is_walking(walk) & (round < rounds);
 	}
-	loops__cut_off |= current != traverse__EMPTY;
-	return hit;
+	return walk;
+}
+
+fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	if (walk.current == traverse__RETURN) {
+		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
+		walk.current = stack__top_of_stack();
+		stack__pop();
+	}
+	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
+		let index = walk.current & types__LEAF_FIRST_MASK;
+		let instance = fetch__load_instance(index);
+		let local = instance__object_ray(walk.ray, instance__space_of(instance));
+		walk.at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
+		stack__push(traverse__RETURN);
+		walk.current = instance.root;
+	}
+	return walk;
+}
+
+fn traverse__hit_count(keys: vec4u) -> i32 {
+	let hits = select(vec4i(0), vec4i(1), keys < vec4u(node__MISS));
+	return hits.x + hits.y + hits.z + hits.w;
 }
 
 fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> types__Node {
@@ -2201,6 +2219,45 @@ fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> types__
 		return deforming__node_now(reference, keys);
 	}
 	return fetch__load_node(reference);
+}
+
+struct triangle_watertight__Shear {
+	x: vec3f,
+	y: vec3f,
+	z: vec3f
+}
+
+fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
+	let size = abs(direction);
+	let is_x = (size.x >= size.y) & (size.x >= size.z);
+	let is_y = !is_x & (size.y >= size.z);
+	let axis_z = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), is_y), vec3f(1.0, 0.0, 0.0), is_x);
+	let axis_x = axis_z.zxy;
+	let axis_y = axis_z.yzx;
+	let scale = 1.0 / dot(direction, axis_z);
+	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
+}
+
+fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+	let a = v0 - origin;
+	let b = v1 - origin;
+	let c = v2 - origin;
+	let ax = dot(shear.x, a);
+	let ay = dot(shear.y, a);
+	let bx = dot(shear.x, b);
+	let by = dot(shear.y, b);
+	let cx = dot(shear.x, c);
+	let cy = dot(shear.y, c);
+	let left = vec3f(cx * by, ax * cy, bx * ay);
+	let right = vec3f(cy * bx, ay * cx, by * ax);
+	let inside = all(left >= right) | all(left <= right);
+	let edges = left - right;
+	let det = edges.x + edges.y + edges.z;
+	let usable = inside & (abs(det) > 1e-36);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
+	let t = dot(edges, depths) * inv_det;
+	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
 }
 
 var<private> primitive__runner_up: types__Hit;
@@ -2267,109 +2324,6 @@ fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, she
 		return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
 	}
 	return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
-}
-
-struct triangle_watertight__Shear {
-	x: vec3f,
-	y: vec3f,
-	z: vec3f
-}
-
-fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
-	let size = abs(direction);
-	let is_x = (size.x >= size.y) & (size.x >= size.z);
-	let is_y = !is_x & (size.y >= size.z);
-	let axis_z = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), is_y), vec3f(1.0, 0.0, 0.0), is_x);
-	let axis_x = axis_z.zxy;
-	let axis_y = axis_z.yzx;
-	let scale = 1.0 / dot(direction, axis_z);
-	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
-}
-
-fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
-	let a = v0 - origin;
-	let b = v1 - origin;
-	let c = v2 - origin;
-	let ax = dot(shear.x, a);
-	let ay = dot(shear.y, a);
-	let bx = dot(shear.x, b);
-	let by = dot(shear.y, b);
-	let cx = dot(shear.x, c);
-	let cy = dot(shear.y, c);
-	let left = vec3f(cx * by, ax * cy, bx * ay);
-	let right = vec3f(cy * bx, ay * cx, by * ax);
-	let inside = all(left >= right) | all(left <= right);
-	let edges = left - right;
-	let det = edges.x + edges.y + edges.z;
-	let usable = inside & (abs(det) > 1e-36);
-	let inv_det = 1.0 / select(1.0, det, usable);
-	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
-	let t = dot(edges, depths) * inv_det;
-	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
-}
-
-fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
-	var hit = start;
-	var index = fetch__first_plane;
-	loop {
-		let shape = fetch__load_shape(index);
-		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
-		let primitive = types__SHAPE | index;
-		let counts = candidate.hit & (primitive != ray.leaving);
-		let wins = counts & (candidate.t < hit.t);
-		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
-		if (bindings__HAS_CONTACT) {
-			primitive__keep_runner_up(hit, found, counts, wins);
-		}
-		if (wins) {
-			hit = found;
-		}
-		continuing {
-			index += 1u;
-			break if index >= fetch__end_plane;
-		}
-	}
-	loops__cut_off |= index < fetch__end_plane;
-	return hit;
-}
-
-fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
-	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
-	var hit = start;
-	if (bindings__HAS_TRIANGLES) {
-		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
-	}
-	if (bindings__HAS_SHAPES) {
-		hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
-	}
-	if (bindings__HAS_INSTANCES) {
-		var index = 0u;
-		for (; index < bindings__frame.instance_count; index += 1u) {
-			let instance = fetch__load_instance(index);
-			let local = instance__object_ray(ray, instance__space_of(instance));
-			let at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
-			hit = exhaustive__hit_run(at, hit, instance.first, instance.count);
-		}
-		loops__cut_off |= index < bindings__frame.instance_count;
-	}
-	return hit;
-}
-
-fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
-	var hit = start;
-	var index = 0u;
-	for (; index < count; index += 1u) {
-		hit = primitive__closer(at, hit, first + index);
-	}
-	loops__cut_off |= index < count;
-	return hit;
-}
-
-fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
-	let slope = dot(n, ray.direction);
-	let steep = abs(slope) > 1e-12;
-	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
 struct deforming__Keys {
@@ -2451,6 +2405,142 @@ fn deforming__tangent_at(vertex: u32, is_later: bool) -> vec4f {
 	return vec4f(tangent.direction, tangent.handedness);
 }
 
+const stack__EMPTY: u32 = 4294967295u;
+
+var<private> stack__top: u32;
+
+var<private> stack__entries: array<u32, types__STACK_SIZE>;
+
+var<private> stack__s0: vec4u;
+
+var<private> stack__s1: vec4u;
+
+var<private> stack__s2: vec4u;
+
+var<private> stack__s3: vec4u;
+
+var<private> stack__s4: vec4u;
+
+var<private> stack__s5: vec4u;
+
+var<private> stack__s6: vec4u;
+
+var<private> stack__s7: vec4u;
+
+fn stack__start_stack() {
+	if (bindings__STACK_REGISTERS > 0u) {
+		stack__s0 = vec4u(stack__EMPTY);
+		stack__s1 = vec4u(stack__EMPTY);
+		stack__s2 = vec4u(stack__EMPTY);
+		stack__s3 = vec4u(stack__EMPTY);
+		stack__s4 = vec4u(stack__EMPTY);
+		stack__s5 = vec4u(stack__EMPTY);
+		stack__s6 = vec4u(stack__EMPTY);
+		stack__s7 = vec4u(stack__EMPTY);
+		return;
+	}
+	stack__top = 0u;
+	stack__entries[0] = stack__EMPTY;
+}
+
+fn stack__top_of_stack() -> u32 {
+	if (bindings__STACK_REGISTERS > 0u) {
+		return stack__s0.x;
+	}
+	return stack__entries[stack__top];
+}
+
+fn stack__pop() {
+	stack__move_stack(vec3u(stack__EMPTY), -1);
+}
+
+fn stack__push(reference: u32) {
+	stack__move_stack(vec3u(reference, stack__EMPTY, stack__EMPTY), 1);
+}
+
+fn stack__move_stack(references: vec3u, count: i32) {
+	if (bindings__STACK_REGISTERS > 0u) {
+		stack__move_registers(references, count);
+		return;
+	}
+	stack__entries[stack__top + 1u] = references.z;
+	stack__top += select(0u, 1u, count >= 3);
+	stack__entries[stack__top + 1u] = references.y;
+	stack__top += select(0u, 1u, count >= 2);
+	stack__entries[stack__top + 1u] = references.x;
+	stack__top += select(0u, 1u, count >= 1);
+	stack__top -= select(0u, 1u, (count < 0) & (stack__entries[stack__top] != stack__EMPTY));
+}
+
+fn stack__move_registers(references: vec3u, count: i32) {
+	let above = vec4u(stack__EMPTY, references.x, select(references.y, references.x, count == 2), select(select(references.z, references.y, count == 2), references.x, count == 1));
+	let last = stack__last_register();
+	let deepest = select(select(last.y, last.z, count == 2), last.w, count == 1);
+	loops__cut_off |= (count > 0) & (deepest != stack__EMPTY);
+	let m0 = stack__moved(above, stack__s0, stack__s1, count);
+	let m1 = stack__moved(stack__s0, stack__s1, stack__s2, count);
+	let m2 = stack__moved(stack__s1, stack__s2, stack__s3, count);
+	let m3 = stack__moved(stack__s2, stack__s3, stack__s4, count);
+	let m4 = stack__moved(stack__s3, stack__s4, stack__s5, count);
+	let m5 = stack__moved(stack__s4, stack__s5, stack__s6, count);
+	let m6 = stack__moved(stack__s5, stack__s6, stack__s7, count);
+	let m7 = stack__moved(stack__s6, stack__s7, vec4u(stack__EMPTY), count);
+	stack__s0 = m0;
+	if (bindings__STACK_REGISTERS > 1u) {
+		stack__s1 = m1;
+	}
+	if (bindings__STACK_REGISTERS > 2u) {
+		stack__s2 = m2;
+	}
+	if (bindings__STACK_REGISTERS > 3u) {
+		stack__s3 = m3;
+	}
+	if (bindings__STACK_REGISTERS > 4u) {
+		stack__s4 = m4;
+	}
+	if (bindings__STACK_REGISTERS > 5u) {
+		stack__s5 = m5;
+	}
+	if (bindings__STACK_REGISTERS > 6u) {
+		stack__s6 = m6;
+	}
+	if (bindings__STACK_REGISTERS > 7u) {
+		stack__s7 = m7;
+	}
+}
+
+fn stack__last_register() -> vec4u {
+	if (bindings__STACK_REGISTERS == 1u) {
+		return stack__s0;
+	}
+	if (bindings__STACK_REGISTERS == 2u) {
+		return stack__s1;
+	}
+	if (bindings__STACK_REGISTERS == 3u) {
+		return stack__s2;
+	}
+	if (bindings__STACK_REGISTERS == 4u) {
+		return stack__s3;
+	}
+	if (bindings__STACK_REGISTERS == 5u) {
+		return stack__s4;
+	}
+	if (bindings__STACK_REGISTERS == 6u) {
+		return stack__s5;
+	}
+	if (bindings__STACK_REGISTERS == 7u) {
+		return stack__s6;
+	}
+	return stack__s7;
+}
+
+fn stack__moved(above: vec4u, here: vec4u, below: vec4u, count: i32) -> vec4u {
+	var next = select(here, vec4u(here.yzw, below.x), count < 0);
+	next = select(next, vec4u(above.w, here.xyz), count == 1);
+	next = select(next, vec4u(above.zw, here.xy), count == 2);
+	return select(next, vec4u(above.yzw, here.x), count == 3);
+}
+
 const numeric__ROUNDING: f32 = 5.9604645e-8;
 
 fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
@@ -2467,6 +2557,85 @@ fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
 
 fn numeric__max_component(v: vec3f) -> f32 {
 	return max(v.x, max(v.y, v.z));
+}
+
+fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
+	if (bindings__HAS_MOTION) {
+		if (instance.key_count > 1u) {
+			let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
+			let key = instance.first_key + moment.key;
+			return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
+		}
+	}
+	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
+}
+
+fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
+	return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+}
+
+fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
+	return n * space.inverse;
+}
+
+fn instance__placement_error(space: motion__Space, p: vec3f, q: vec3f) -> vec3f {
+	let from_p = instance__abs_times(space.inverse, abs(p) + abs(space.translation));
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(space.translation) + instance__abs_times(space.linear, abs(q) + from_p));
+}
+
+fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
+	return abs(m[0]) * v.x + abs(m[1]) * v.y + abs(m[2]) * v.z;
+}
+
+fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
+	let at = vec4f(q, 1.0);
+	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
+}
+
+const node__MISS: u32 = 4294967292u;
+
+const node__WIDENING: i32 = 8;
+
+fn node__bytes(word: u32) -> vec4f {
+	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
+}
+
+fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
+	return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
+}
+
+fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
+	let lo = mix(a.lo, b.lo, vec3f(fraction));
+	let shift_a = a.lo - lo;
+	let shift_b = b.lo - lo;
+	let s = vec4f(fraction);
+	return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+}
+
+fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
+	let base = (node.lo - origin) * inv;
+	let step = node.scale * inv;
+	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
+	let x1 = bitcast<vec4i>(node.max_x * step.x + base.x);
+	let y0 = bitcast<vec4i>(node.min_y * step.y + base.y);
+	let y1 = bitcast<vec4i>(node.max_y * step.y + base.y);
+	let z0 = bitcast<vec4i>(node.min_z * step.z + base.z);
+	let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
+	let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
+	let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
+	let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
+	let hit = (near <= limit) & (node.children != vec4u(0u));
+	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
+	return select(vec4u(node__MISS), keys, hit);
+}
+
+fn node__sort4(keys: vec4u) -> vec4u {
+	let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
+	let lowest = min(a.x, a.y);
+	let middle_low = max(a.x, a.y);
+	let middle_high = min(a.z, a.w);
+	let highest = max(a.z, a.w);
+	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
 fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
@@ -2969,83 +3138,68 @@ fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
 }
 
-fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
-	if (bindings__HAS_MOTION) {
-		if (instance.key_count > 1u) {
-			let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
-			let key = instance.first_key + moment.key;
-			return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
+fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
+	var hit = start;
+	var index = fetch__first_plane;
+	loop {
+		let shape = fetch__load_shape(index);
+		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
+		let primitive = types__SHAPE | index;
+		let counts = candidate.hit & (primitive != ray.leaving);
+		let wins = counts & (candidate.t < hit.t);
+		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+		if (bindings__HAS_CONTACT) {
+			primitive__keep_runner_up(hit, found, counts, wins);
+		}
+		if (wins) {
+			hit = found;
+		}
+		continuing {
+			index += 1u;
+			break if index >= fetch__end_plane;
 		}
 	}
-	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
+	loops__cut_off |= index < fetch__end_plane;
+	return hit;
 }
 
-fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
-	return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
+	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
+	var hit = start;
+	if (bindings__HAS_TRIANGLES) {
+		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
+	}
+	if (bindings__HAS_SHAPES) {
+		hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
+	}
+	if (bindings__HAS_INSTANCES) {
+		var index = 0u;
+		for (; index < bindings__frame.instance_count; index += 1u) {
+			let instance = fetch__load_instance(index);
+			let local = instance__object_ray(ray, instance__space_of(instance));
+			let at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
+			hit = exhaustive__hit_run(at, hit, instance.first, instance.count);
+		}
+		loops__cut_off |= index < bindings__frame.instance_count;
+	}
+	return hit;
 }
 
-fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
-	return n * space.inverse;
+fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
+	var hit = start;
+	var index = 0u;
+	for (; index < count; index += 1u) {
+		hit = primitive__closer(at, hit, first + index);
+	}
+	loops__cut_off |= index < count;
+	return hit;
 }
 
-fn instance__placement_error(space: motion__Space, p: vec3f, q: vec3f) -> vec3f {
-	let from_p = instance__abs_times(space.inverse, abs(p) + abs(space.translation));
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(space.translation) + instance__abs_times(space.linear, abs(q) + from_p));
-}
-
-fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
-	return abs(m[0]) * v.x + abs(m[1]) * v.y + abs(m[2]) * v.z;
-}
-
-fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
-	let at = vec4f(q, 1.0);
-	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
-}
-
-const node__MISS: u32 = 4294967292u;
-
-const node__WIDENING: i32 = 8;
-
-fn node__bytes(word: u32) -> vec4f {
-	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
-}
-
-fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
-	return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
-}
-
-fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
-	let lo = mix(a.lo, b.lo, vec3f(fraction));
-	let shift_a = a.lo - lo;
-	let shift_b = b.lo - lo;
-	let s = vec4f(fraction);
-	return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
-}
-
-fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
-	let base = (node.lo - origin) * inv;
-	let step = node.scale * inv;
-	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
-	let x1 = bitcast<vec4i>(node.max_x * step.x + base.x);
-	let y0 = bitcast<vec4i>(node.min_y * step.y + base.y);
-	let y1 = bitcast<vec4i>(node.max_y * step.y + base.y);
-	let z0 = bitcast<vec4i>(node.min_z * step.z + base.z);
-	let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
-	let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
-	let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
-	let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
-	let hit = (near <= limit) & (node.children != vec4u(0u));
-	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
-	return select(vec4u(node__MISS), keys, hit);
-}
-
-fn node__sort4(keys: vec4u) -> vec4u {
-	let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
-	let lowest = min(a.x, a.y);
-	let middle_low = max(a.x, a.y);
-	let middle_high = min(a.z, a.w);
-	let highest = max(a.z, a.w);
-	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
+fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
+	let slope = dot(n, ray.direction);
+	let steep = abs(slope) > 1e-12;
+	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
+	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
 struct direct__Receiver {
@@ -4553,14 +4707,61 @@ fn phong__phong(coefficients: types__Phong, n: vec3f, l: vec3f, v: vec3f) -> vec
 
 const shadow__MAX_CROSSINGS: u32 = 64u;
 
+struct shadow__Passage {
+	ray: types__Ray,
+	media: vec4u,
+	through: vec3f,
+	crossings: u32
+}
+
+fn shadow__sees_through() -> bool {
+	return bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS);
+}
+
+fn shadow__crossed(before: shadow__Passage, hit: types__Hit) -> shadow__Passage {
+	var passage = before;
+	passage.ray = rays__DEAD;
+	if (hit.primitive == types__NONE) {
+		if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+			passage.through *= medium__transmittance(medium__medium_of(medium__dominant(before.media)), hit.t);
+		}
+		return passage;
+	}
+	if (!shadow__sees_through()) {
+		record__record_met(hit, before.ray.t_max);
+		passage.through = vec3f(0.0);
+		return passage;
+	}
+	let contact = contact__contact_at(before.ray, hit, types__Cone(0.0, 0.0));
+	record__record_met(record__seen, before.ray.t_max);
+	let surface = contact.surface;
+	var through = vec3f(0.0);
+	if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+		passage.media = contact__media_behind(before.media, contact);
+		through = shadow__passing(before.ray, hit.t, surface, before.media, medium__dominant(passage.media));
+	}
+	passage.through *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
+	passage.crossings += 1u;
+	let rest = before.ray.t_max - hit.t;
+	if (any(passage.through > vec3f(0.0)) && rest > 0.0) {
+		if (passage.crossings < shadow__MAX_CROSSINGS) {
+			passage.ray = leaving__leaving_ray(surface, before.ray.direction, rest);
+		}
+		else {
+			passage.through = vec3f(0.0);
+		}
+	}
+	return passage;
+}
+
 fn shadow__light_through(rays: rays__Rays, media: ray_states__Media) -> wide__Vectors {
-	record__open_shadow(rays__ray_at(rays, 0u).t_max);
+	record__open_shadow(rays.t_max);
 	var through: wide__Vectors;
-	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
+	if (shadow__sees_through()) {
 		through = shadow__filtered(rays, media);
 	}
 	else {
-		record__record_met(rays__hit_at(rays__closest_hits(rays), 0u), 0.0);
+		record__record_met(rays__hit_at(rays__closest_hits(rays), 0u), rays.t_max);
 		let hits = rays__any_hits(rays);
 		let passed = select(wide__Floats(0.0), wide__Floats(1.0), hits.primitive == wide__Words(types__NONE));
 		through = wide__Vectors(passed, passed, passed);
@@ -4574,16 +4775,22 @@ fn shadow__light_through(rays: rays__Rays, media: ray_states__Media) -> wide__Ve
 fn shadow__count_shadows(rays: rays__Rays, through: wide__Vectors) {
 	var k = 0u;
 	loop {
-		let is_cast = wide__float_at(rays.t_max, k) >= 0.0;
-		let is_blocked = is_cast & all(wide__vector_at(through, k) == vec3f(0.0));
-		dispatch__counts.shadow += select(0u, 1u, is_cast);
-		dispatch__counts.shadow_blocked += select(0u, 1u, is_blocked);
+		if (wide__float_at(rays.t_max, k) >= 0.0) {
+			shadow__count_shadow(wide__vector_at(through, k));
+		}
 		continuing {
 			k += 1u;
 			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
 		}
 	}
 	loops__cut_off |= k < wide__RAYS_PER_LANE;
+}
+
+fn shadow__count_shadow(through: vec3f) {
+	if (bindings__COUNT_RAYS) {
+		dispatch__counts.shadow += 1u;
+		dispatch__counts.shadow_blocked += select(0u, 1u, all(through == vec3f(0.0)));
+	}
 }
 
 fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__Vectors {
@@ -4600,36 +4807,14 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__
 			let k = rays__first_row(rows);
 			let ray = rays__ray_at(rays, k);
 			if (ray.t_max >= 0.0) {
-				let hit = rays__hit_at(hits, k);
-				var passed = wide__vector_at(transmitted, k);
-				var next = rays__DEAD;
-				if (hit.primitive == types__NONE) {
-					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-						passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_states__media_at(media, k))), hit.t);
-					}
+				ray_stack__current_tree = k;
+				let passage = shadow__crossed(shadow__Passage(ray, ray_states__media_at(media, k), wide__vector_at(transmitted, k), crossings), rays__hit_at(hits, k));
+				if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+					media = ray_states__media_set(media, k, passage.media);
 				}
-				else {
-					ray_stack__current_tree = k;
-					let contact = contact__contact_at(ray, hit, types__Cone(0.0, 0.0));
-					record__record_met(record__seen, shadow_rays.t_max - ray.t_max);
-					let surface = contact.surface;
-					var through = vec3f(0.0);
-					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-						let around = ray_states__media_at(media, k);
-						let beyond = contact__media_behind(around, contact);
-						media = ray_states__media_set(media, k, beyond);
-						through = shadow__passing(ray, hit.t, surface, around, medium__dominant(beyond));
-					}
-					passed *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
-					let rest = ray.t_max - hit.t;
-					if (any(passed > vec3f(0.0)) & (rest > 0.0)) {
-						next = leaving__leaving_ray(surface, ray.direction, rest);
-						is_unfinished = true;
-						passed = select(passed, vec3f(0.0), crossings + 1u >= shadow__MAX_CROSSINGS);
-					}
-				}
-				transmitted = wide__vector_set(transmitted, k, passed);
-				rays = rays__ray_set(rays, k, next);
+				transmitted = wide__vector_set(transmitted, k, passage.through);
+				rays = rays__ray_set(rays, k, passage.ray);
+				is_unfinished |= passage.ray.t_max >= 0.0;
 			}
 			continuing {
 				rows = rays__later_rows(rows);
@@ -4640,10 +4825,10 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__
 		crossings += 1u;
 		continuing {
 		
-			break if !rays__any_lane(is_unfinished) | (crossings >= shadow__MAX_CROSSINGS);
+			break if !rays__any_lane(is_unfinished);
 		}
 	}
-	loops__cut_off |= is_unfinished & (crossings < shadow__MAX_CROSSINGS);
+	loops__cut_off |= is_unfinished;
 	return transmitted;
 }
 

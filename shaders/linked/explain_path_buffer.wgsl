@@ -11,7 +11,7 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 		let key = rng__pixel_key(batch.seed, pixel);
 		var path = path__path_along(batch, dispatch__sample_ray(batch, pixel, key, probe.sample), key, probe.sample);
 		loop {
-			path = traced(batch, path);
+			path = arrived(batch, path, traverse__walked(path__next_walk(path), traverse__NO_LIMIT).hit);
 			record__close_ray();
 			record__sender = record__traced_index;
 			continuing {
@@ -29,13 +29,19 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 	dispatch__add_counts(lane);
 }
 
-fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
+fn arrived(batch: dispatch__Batch, path: path__Path, hit: types__Hit) -> path__Path {
+	if (path__is_to_lamp(path)) {
+		return path__lit(path, hit);
+	}
+	if (path__is_going(path)) {
+		return traced(batch, path, hit);
+	}
+	return path;
+}
+
+fn traced(batch: dispatch__Batch, before: path__Path, hit: types__Hit) -> path__Path {
 	var path = before;
 	let ray = path.ray;
-	let hit = rays__hit_at(rays__closest_hits(rays__ray_set(rays__dead_rays(), 0u, ray)), 0u);
-	if (ray.t_max < 0.0) {
-		return path;
-	}
 	dispatch__count_hit(path.kind, hit);
 	record__open_ray(ray, hit, path.kind, path.throughput, path.media);
 	record_path__record_density(path.pdf);
@@ -44,7 +50,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 		let seen = backdrop__radiance_behind(batch, path);
 		record_path__record_found(seen, weight);
 		features__see_albedo(path.throughput * seen, vec3f(0.0));
-		return path__ended(path__gained(path, weight * seen, path.bounces));
+		return path__ended(path__gained(path, path.throughput * (weight * seen), path.bounces));
 	}
 	let contact = contact__contact_at(ray, hit, path.cone);
 	let surface = contact.surface;
@@ -63,8 +69,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	features__see_first(surface, hit, distance(path.origin, surface.p));
 	if (bindings__HAS_CATCHERS && backdrop__is_seen(path) && (optics.flags & types__MATERIAL_SHADOW_CATCHER) != 0u) {
 		features__see_albedo(vec3f(1.0), surface.n);
-		shadow_catcher__catch_shadow(batch, path, surface);
-		return path__ended(path);
+		return shadow_catcher__caught(batch, path, surface);
 	}
 	if (bindings__HAS_DISPERSION) {
 		path = dispersion__colored(path, met);
@@ -75,29 +80,30 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
 	let emission = coat * emitters__emitted(surface, optics, layers.glow);
 	record_path__record_found(emission, weight);
-	path = path__gained(path, weight * emission, path.bounces);
+	path = path__gained(path, path.throughput * (weight * emission), path.bounces);
 	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
 	seen__see_surface(path, bsdf, emission);
 	record_path__record_interface(met, bsdf);
 	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
-		path = path__gained(path, lamp_light(batch, path, surface, bsdf, met), path.bounces + 1u);
+		path = toward_lamp(batch, path, surface, bsdf, met);
 	}
 	return scattered(batch, path, surface, bsdf, met);
 }
 
-fn lamp_light(batch: dispatch__Batch, path: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> vec3f {
+fn toward_lamp(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
+	var path = before;
 	let light = emitters__sample_light(batch, surface.p, bsdf__receiving_normal(bsdf), path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
 	let found = bsdf__bsdf_eval(bsdf, light.incident.direction);
 	let weight = select(1.0, mis__power_heuristic(light.pdf, found.pdf), light.pdf > 0.0);
 	let unshadowed = weight * found.value * light.incident.radiance;
-	var rays = rays__dead_rays();
 	if (any(unshadowed > vec3f(0.0))) {
-		rays = rays__ray_set(rays, 0u, direct__shadow_ray(surface, light.incident));
+		let media = select(path.media, met.media, vec4<bool>(dot(light.incident.direction, bsdf.ng) < 0.0));
+		path.lamp = shadow__passage_of(direct__shadow_ray(surface, light.incident), media);
+		path.lamp_light = path.throughput * unshadowed;
+		path.lamp_scatterings = path.bounces + 1u;
 	}
-	let media = select(path.media, met.media, vec4<bool>(dot(light.incident.direction, bsdf.ng) < 0.0));
-	let through = wide__vector_at(shadow__light_through(rays, ray_states__Media(media.x, media.y, media.z, media.w)), 0u);
-	record_path__record_light_sample(surface, rays__ray_at(rays, 0u), light, found, weight, unshadowed, through);
-	return unshadowed * through;
+	record_path__record_light_sample(surface, path.lamp.ray, light, found, weight, unshadowed);
+	return path;
 }
 
 fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
@@ -919,6 +925,8 @@ var<private> record__met: types__Hit;
 
 var<private> record__met_count: u32;
 
+var<private> record__shadow_length: f32;
+
 fn record__load_probe(index: u32) -> types__PackedProbe {
 	let row = types__PROBE_ROWS * index;
 	let r0 = bindings__records[row];
@@ -998,12 +1006,13 @@ fn record__record_arriving(arriving: vec3f) {
 fn record__open_shadow(t_max: f32) {
 	record__met = types__Hit(t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	record__met_count = 0u;
+	record__shadow_length = t_max;
 }
 
-fn record__record_met(hit: types__Hit, before: f32) {
+fn record__record_met(hit: types__Hit, rest: f32) {
 	if (hit.primitive != types__NONE) {
 		record__met = hit;
-		record__met.t = before + hit.t;
+		record__met.t = record__shadow_length - rest + hit.t;
 		record__met_count += 1u;
 	}
 }
@@ -1399,26 +1408,60 @@ struct path__Path {
 	cone: types__Cone,
 	key: u32,
 	sample: u32,
-	channel: u32
+	channel: u32,
+	lamp: shadow__Passage,
+	lamp_light: vec3f,
+	lamp_scatterings: u32
 }
 
 const path__ALL_CHANNELS: u32 = 3u;
+
+const path__CAUGHT: u32 = 4294967295u;
 
 fn path__path_along(batch: dispatch__Batch, ray: types__Ray, key: u32, sample: u32) -> path__Path {
 	var cone = types__Cone(0.0, 0.0);
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, vec3f(0.0), 0.0, cone, key, sample, path__ALL_CHANNELS);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, vec3f(0.0), 0.0, cone, key, sample, path__ALL_CHANNELS, shadow__Passage(rays__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u);
 }
 
 fn path__is_going(path: path__Path) -> bool {
-	return path.ray.t_max >= 0.0;
+	return path.ray.t_max >= 0.0 || path__is_to_lamp(path);
+}
+
+fn path__is_to_lamp(path: path__Path) -> bool {
+	return path.lamp.ray.t_max >= 0.0;
+}
+
+fn path__next_walk(path: path__Path) -> traverse__Walk {
+	var ray = path.ray;
+	var any = false;
+	if (path__is_to_lamp(path)) {
+		ray = path.lamp.ray;
+	}
+	return traverse__walk_of(ray, any);
+}
+
+fn path__lit(before: path__Path, hit: types__Hit) -> path__Path {
+	var path = before;
+	path.lamp = shadow__crossed(path.lamp, hit);
+	if (path__is_to_lamp(path)) {
+		return path;
+	}
+	shadow__count_shadow(path.lamp.through);
+	let light = path.lamp_light * path.lamp.through;
+	if (bindings__HAS_CATCHERS && path.lamp_scatterings == path__CAUGHT) {
+		opacity__clearness.light += dot(light, tone__LUMINANCE_REC709);
+		return path;
+	}
+	record_path__record_passage(path.lamp.through);
+	return path__gained(path, light, path.lamp_scatterings);
 }
 
 fn path__gained(before: path__Path, light: vec3f, scatterings: u32) -> path__Path {
 	var path = before;
-	var gain = path.throughput * light;
+	var gain = light;
 	if (bindings__CLAMP_INDIRECT > 0.0) {
 		let brightest = numeric__max_component(gain);
 		let is_clamped = scatterings > 1u && brightest > bindings__CLAMP_INDIRECT;
@@ -1453,6 +1496,94 @@ fn path__random_1d(path: path__Path, purpose: u32) -> f32 {
 
 fn path__random_2d(path: path__Path, purpose: u32) -> vec2f {
 	return sampling__stratified_2d(path.sample, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
+}
+
+const shadow__MAX_CROSSINGS: u32 = 64u;
+
+struct shadow__Passage {
+	ray: types__Ray,
+	media: vec4u,
+	through: vec3f,
+	crossings: u32
+}
+
+fn shadow__passage_of(ray: types__Ray, media: vec4u) -> shadow__Passage {
+	record__open_shadow(ray.t_max);
+	return shadow__Passage(ray, media, vec3f(1.0), 0u);
+}
+
+fn shadow__sees_through() -> bool {
+	return bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS);
+}
+
+fn shadow__crossed(before: shadow__Passage, hit: types__Hit) -> shadow__Passage {
+	var passage = before;
+	passage.ray = rays__DEAD;
+	if (hit.primitive == types__NONE) {
+		if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+			passage.through *= medium__transmittance(medium__medium_of(medium__dominant(before.media)), hit.t);
+		}
+		return passage;
+	}
+	if (!shadow__sees_through()) {
+		record__record_met(hit, before.ray.t_max);
+		passage.through = vec3f(0.0);
+		return passage;
+	}
+	let contact = contact__contact_at(before.ray, hit, types__Cone(0.0, 0.0));
+	record__record_met(record__seen, before.ray.t_max);
+	let surface = contact.surface;
+	var through = vec3f(0.0);
+	if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+		passage.media = contact__media_behind(before.media, contact);
+		through = shadow__passing(before.ray, hit.t, surface, before.media, medium__dominant(passage.media));
+	}
+	passage.through *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
+	passage.crossings += 1u;
+	let rest = before.ray.t_max - hit.t;
+	if (any(passage.through > vec3f(0.0)) && rest > 0.0) {
+		if (passage.crossings < shadow__MAX_CROSSINGS) {
+			passage.ray = leaving__leaving_ray(surface, before.ray.direction, rest);
+		}
+		else {
+			passage.through = vec3f(0.0);
+		}
+	}
+	return passage;
+}
+
+fn shadow__count_shadow(through: vec3f) {
+	if (bindings__COUNT_RAYS) {
+		dispatch__counts.shadow += 1u;
+		dispatch__counts.shadow_blocked += select(0u, 1u, all(through == vec3f(0.0)));
+	}
+}
+
+fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, around: vec4u, behind: u32) -> vec3f {
+	let optics = material__load_optics(surface.material);
+	let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
+	if (bindings__SOLID_GLASS) {
+		let layers = layers__layers_at(surface, optics);
+		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < layers__SMOOTH;
+		let medium = medium__medium_of(behind);
+		var share = 1.0;
+		if ((layers.fresnel & types__MATERIAL_FRESNEL) != 0u) {
+			share -= boundary__boundary_at(layers.fresnel, cos_i, medium.ior / layers.ior).reflectance;
+		}
+		return select(vec3f(0.0), share * layers.transmit * medium__transmittance(medium, distance), is_window);
+	}
+	var here = medium__medium_before(around, surface.material, surface.outside);
+	var ior_behind = medium__medium_of(behind).ior;
+	if ((optics.flags & types__MATERIAL_THIN) != 0u) {
+		here = behind;
+		ior_behind = optics.ior;
+	}
+	var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), distance);
+	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
+		let eta = medium__medium_of(here).ior / ior_behind;
+		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
+	}
+	return through;
 }
 
 const footprint__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
@@ -1545,20 +1676,7 @@ const ray_states__KIND_REFLECTED: u32 = 1u;
 
 const ray_states__KIND_REFRACTED: u32 = 2u;
 
-struct ray_states__Media {
-	x: wide__Words,
-	y: wide__Words,
-	z: wide__Words,
-	w: wide__Words
-}
-
-fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
-	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
-}
-
-fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
-	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
-}
+const rays__DEAD: types__Ray = types__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
 
 const filter__PI: f32 = 3.14159265;
 
@@ -1898,421 +2016,419 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	return direction.x * x + direction.y * y + direction.z * n;
 }
 
-struct rays__Rays {
-	origin: wide__Vectors,
-	direction: wide__Vectors,
-	t_max: wide__Floats,
-	leaving: wide__Words,
-	leaving_instance: wide__Words
-}
+const medium__VACUUM: types__Medium = types__Medium(vec3f(0.0), 1.0, 0);
 
-struct rays__Hits {
-	t: wide__Floats,
-	primitive: wide__Words,
-	b1: wide__Floats,
-	b2: wide__Floats,
-	instance: wide__Words
-}
-
-fn rays__rows_where(condition: bool) -> u32 {
-	return select(0u, 1u, condition);
-}
-
-fn rays__first_row(rows: u32) -> u32 {
-	{
-		return 0u;
+fn medium__dominant(media: vec4u) -> u32 {
+	if (!bindings__HAS_CONTACT) {
+		return media.x;
 	}
-}
-
-fn rays__later_rows(rows: u32) -> u32 {
-	return rows & (rows - 1u);
-}
-
-const rays__DEAD: types__Ray = types__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
-
-fn rays__dead_rays() -> rays__Rays {
-	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
-}
-
-fn rays__ray_at(rays: rays__Rays, k: u32) -> types__Ray {
-	return types__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
-}
-
-fn rays__ray_set(rays: rays__Rays, k: u32, ray: types__Ray) -> rays__Rays {
-	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
-}
-
-fn rays__hit_at(hits: rays__Hits, k: u32) -> types__Hit {
-	return types__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
-}
-
-fn rays__hits_of(hit: types__Hit) -> rays__Hits {
-	return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
-}
-
-fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
+	if (!bindings__HAS_PRIORITIES) {
+		let last = select(media.xz, media.yw, media.yw != vec2u(types__NONE));
+		return select(last.x, last.y, last.y != types__NONE);
 	}
+	var best = media.x;
+	best = medium__higher(best, media.y);
+	best = medium__higher(best, media.z);
+	return medium__higher(best, media.w);
 }
 
-fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
+fn medium__higher(best: u32, next: u32) -> u32 {
+	if (next == types__NONE) {
+		return best;
 	}
+	return select(best, next, material__load_medium(next).priority >= material__load_medium(best).priority);
 }
 
-fn rays__any_lane(condition: bool) -> bool {
-	{
-		return condition;
+fn medium__medium_of(material: u32) -> types__Medium {
+	if (material == types__NONE) {
+		return medium__VACUUM;
 	}
+	return material__load_medium(material);
 }
 
-const wide__RAYS_PER_LANE: u32 = 1u;
-
-const wide__ONE_RAY: bool = wide__RAYS_PER_LANE == 1u;
-
-alias wide__Floats = f32;
-
-alias wide__Words = u32;
-
-struct wide__Vectors {
-	x: wide__Floats,
-	y: wide__Floats,
-	z: wide__Floats
+fn medium__transmittance(medium: types__Medium, distance: f32) -> vec3f {
+	return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
 }
 
-fn wide__float_at(all: wide__Floats, k: u32) -> f32 {
-	return all;
+fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
+	return select(media__left(media, material), media__entered(media, material), vec4<bool>(entering));
 }
 
-fn wide__word_at(all: wide__Words, k: u32) -> u32 {
-	return all;
+fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
+	let started_inside = !entering & !media__contains(media, material);
+	return select(medium__dominant(media), material, started_inside);
 }
 
-fn wide__vector_at(all: wide__Vectors, k: u32) -> vec3f {
-	return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
+struct material__PhongMaterial {
+	phong: types__Phong,
+	flags: u32
 }
 
-fn wide__float_set(all: wide__Floats, k: u32, value: f32) -> wide__Floats {
-	{
-		return value;
+fn material__load_material(index: u32) -> material__PhongMaterial {
+	let row = types__MATERIAL_ROWS * index;
+	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = fetch__material_row(row + 2u);
+	var reflect = vec3f(0.0);
+	if (bindings__HAS_REFLECTION) {
+		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
 	}
+	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+	return material__PhongMaterial(phong, r1.w);
 }
 
-fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
-	{
-		return value;
-	}
+fn material__load_optics(index: u32) -> types__Optics {
+	let row = types__MATERIAL_ROWS * index;
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = fetch__material_row(row + 2u);
+	let r3 = fetch__material_row(row + 3u);
+	let r4 = fetch__material_row(row + 4u);
+	return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
 }
 
-fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
-	return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
+fn material__load_medium(index: u32) -> types__Medium {
+	let row = types__MATERIAL_ROWS * index;
+	let r5 = fetch__material_row(row + 5u);
+	return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
 }
 
-const traverse__EMPTY: u32 = 4294967295u;
-
-const traverse__RETURN: u32 = 4294967294u;
-
-var<private> traverse__stack: array<u32, types__STACK_SIZE>;
-
-const traverse__CONTACT_RANGE: f32 = 0.0001;
-
-fn traverse__closest_hit(ray: types__Ray) -> types__Hit {
-	if (bindings__HAS_CONTACT) {
-		primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
-	}
-	return traverse__traverse(ray, false);
+fn material__load_emission(index: u32) -> vec3f {
+	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
 }
 
-fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
-	if (bindings__HAS_CONTACT) {
-		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
-	}
-	return hit.t;
+fn material__load_texture_indices(index: u32) -> vec4u {
+	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
 }
 
-fn traverse__any_hit(ray: types__Ray) -> types__Hit {
-	return traverse__traverse(ray, true);
+struct material__CoverageMaterial {
+	alpha: f32,
+	flags: u32
 }
 
-fn traverse__traverse(ray: types__Ray, any: bool) -> types__Hit {
-	var hit = types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
-	let shear = triangle_watertight__shear_of(ray.direction);
-	if (bindings__HAS_PLANES) {
-		hit = exhaustive__hit_planes(ray, hit);
-	}
-	if (bindings__BRUTE_FORCE) {
-		return exhaustive__hit_everything(ray, shear, hit);
-	}
-	if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) || (any && hit.primitive != types__NONE)) {
-		return hit;
-	}
-	return traverse__walk(ray, shear, any, hit);
+fn material__load_coverage(index: u32) -> material__CoverageMaterial {
+	let row = types__MATERIAL_ROWS * index;
+	return material__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
 }
 
-fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool, start: types__Hit) -> types__Hit {
-	var hit = start;
-	var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
-	traverse__stack[0] = traverse__EMPTY;
-	var top = 0u;
-	var current = 0u;
-	if (bindings__HAS_INSTANCES) {
-		current = fetch__root;
-	}
+fn material__load_normal_scale(index: u32) -> f32 {
+	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+}
+
+fn material__load_texture(index: u32) -> types__PackedTexture {
+	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r5 = fetch__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+}
+
+fn material__load_layers(index: u32) -> types__PackedLayers {
+	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
+	let r3 = fetch__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
+	let r6 = fetch__material_row(row + 6u);
+	let r7 = fetch__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
+}
+
+struct material__Glow {
+	light: u32,
+	luminance: f32,
+	texture: u32
+}
+
+fn material__load_glow(index: u32) -> material__Glow {
+	let row = types__MATERIAL_ROWS * index;
+	let own = fetch__material_row(row + types__LAYERS_ROW + 7u);
+	let luminance = bitcast<f32>(own.y) * dot(material__load_emission(index), tone__LUMINANCE_REC709);
+	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
+}
+
+fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
+	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
+	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
+}
+
+const contact__NEAR: f32 = 1e-5;
+
+const contact__EDGE: f32 = 1e-6;
+
+const contact__VAGUE_EDGE: f32 = 0.0001;
+
+struct contact__Contact {
+	surface: types__Surface,
+	touching: u32,
+	enters_touching: bool
+}
+
+fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> contact__Contact {
+	var contact: contact__Contact;
+	record__seen = hit;
+	contact.touching = types__NONE;
+	var current = hit;
+	var first = true;
+	var second_wanted = false;
+	var vertices = vec3u(0u);
 	loop {
-		if (bindings__HAS_INSTANCES) {
-			if (current == traverse__RETURN) {
-				at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
-				current = traverse__stack[top];
-				top -= select(1u, 0u, current == traverse__EMPTY);
-			}
-			if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
-				let index = current & types__LEAF_FIRST_MASK;
-				let instance = fetch__load_instance(index);
-				let local = instance__object_ray(ray, instance__space_of(instance));
-				at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
-				top += 1u;
-				traverse__stack[top] = traverse__RETURN;
-				current = instance.root;
-			}
+		let surface = surface__surface_at(ray, current, cone);
+		if (first) {
+			contact.surface = surface;
+			vertices = triangle_surface__met_vertices;
+			second_wanted = bindings__HAS_REFRACTION && bindings__HAS_CONTACT && contact__is_near(ray, hit, surface);
 		}
-		let is_node = !bindings__HAS_INSTANCES || (current & types__LEAF) == 0u;
-		if (is_node) {
-			loop {
-				let node = traverse__load_current_node(current, at.keys);
-				let keys = node__sort4(node__child_keys(node, at.ray.origin, at.inv, traverse__search_limit(ray, hit)));
-				let is_hit = keys < vec4u(node__MISS);
-				let pushed = select(vec4u(0u), vec4u(1u), is_hit);
-				traverse__stack[top + 1u] = node.children[keys.w & 3u];
-				top += pushed.w;
-				traverse__stack[top + 1u] = node.children[keys.z & 3u];
-				top += pushed.z;
-				traverse__stack[top + 1u] = node.children[keys.y & 3u];
-				top += pushed.y;
-				let popped = traverse__stack[top];
-				current = select(popped, node.children[keys.x & 3u], is_hit.x);
-				top -= select(1u, 0u, is_hit.x | (popped == traverse__EMPTY));
-				if (bindings__COUNT_STEPS) {
-					loops__nodes_visited += 1u;
-				}
-				continuing {
-				
-					break if (current & types__LEAF) != 0u;
-				}
-			}
+		else {
+			contact = contact__merge(contact, surface, contact__is_same_volume(hit, primitive__runner_up, vertices));
+			second_wanted = false;
 		}
-		if (current == traverse__EMPTY) {
-			break;
-		}
-		if (bindings__HAS_INSTANCES && current >= types__INSTANCE) {
-			continue;
-		}
-		loop {
-			hit = primitive__closer(at, hit, current & (types__SHAPE | types__LEAF_FIRST_MASK));
-			let popped = traverse__stack[top];
-			let is_last = (current & types__LEAF_COUNT_MASK) == 0u;
-			top -= select(0u, 1u, is_last & (popped != traverse__EMPTY));
-			current = select(current - types__LEAF_COUNT_ONE + 1u, popped, is_last);
-			current = select(current, traverse__EMPTY, any & (hit.primitive != types__NONE));
-			if (bindings__COUNT_STEPS) {
-				loops__primitives_tested += 1u;
-			}
-			continuing {
-			
-				break if ((current & types__LEAF) == 0u) | (current >= types__INSTANCE);
-			}
-		}
+		first = false;
+		current = primitive__runner_up;
 		continuing {
 		
-			break if current == traverse__EMPTY;
+			break if !second_wanted;
 		}
 	}
-	loops__cut_off |= current != traverse__EMPTY;
-	return hit;
+	loops__cut_off |= second_wanted;
+	return contact;
 }
 
-fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> types__Node {
-	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
-		return deforming__node_now(reference, keys);
+fn contact__media_behind(media: vec4u, contact: contact__Contact) -> vec4u {
+	var behind = media;
+	if (!contact__is_thin(contact.surface)) {
+		if (contact.surface.outside && !media__has_room(behind)) {
+			ray_stack__cut_tree();
+		}
+		behind = medium__cross_surface(behind, contact.surface.material, contact.surface.outside);
 	}
-	return fetch__load_node(reference);
+	if (bindings__HAS_CONTACT && contact.touching != types__NONE) {
+		if (contact.enters_touching && !media__has_room(behind)) {
+			ray_stack__cut_tree();
+		}
+		behind = medium__cross_surface(behind, contact.touching, contact.enters_touching);
+	}
+	return behind;
 }
 
-var<private> primitive__runner_up: types__Hit;
+fn contact__is_near(ray: types__Ray, hit: types__Hit, surface: types__Surface) -> bool {
+	let gap = (primitive__runner_up.t - hit.t) * abs(dot(surface.ng, ray.direction));
+	let reach = numeric__max_component(abs(surface.p)) + hit.t;
+	return primitive__runner_up.primitive != types__NONE && gap <= contact__NEAR * reach && contact__is_transparent(surface);
+}
 
-struct primitive__TraversalRay {
-	ray: types__Ray,
-	inv: vec3f,
-	shear: triangle_watertight__Shear,
-	instance: u32,
+fn contact__is_transparent(surface: types__Surface) -> bool {
+	return any(material__load_optics(surface.material).transmit > vec3f(0.0));
+}
+
+fn contact__is_thin(surface: types__Surface) -> bool {
+	return (material__load_optics(surface.material).flags & types__MATERIAL_THIN) != 0u;
+}
+
+fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_volume: bool) -> contact__Contact {
+	let is_alike = (second.material == contact.surface.material) & (second.outside == contact.surface.outside);
+	let is_other = !(is_alike & is_same_volume);
+	let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
+	var both = contact;
+	if (together && contact__is_transparent(second)) {
+		if (contact__is_thin(second)) {
+			return both;
+		}
+		both.touching = second.material;
+		both.enters_touching = second.outside;
+	}
+	else if (together) {
+		both.surface = second;
+		record__seen = primitive__runner_up;
+	}
+	return both;
+}
+
+fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3u) -> bool {
+	let are_triangles = bindings__HAS_TRIANGLES && ((first.primitive | second.primitive) & types__SHAPE) == 0u;
+	if (!are_triangles || first.instance != second.instance) {
+		return false;
+	}
+	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, triangle_surface__met_vertices);
+}
+
+fn contact__is_at_edge(hit: types__Hit) -> bool {
+	let nearest = min(min(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
+	return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
+}
+
+fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
+	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
+}
+
+fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
+	var instance: types__PackedInstance;
+	var space: motion__Space;
+	var local = ray;
+	let is_placed = bindings__HAS_INSTANCES && hit.instance != types__NO_INSTANCE;
+	if (is_placed) {
+		instance = fetch__load_instance(hit.instance);
+		space = instance__space_of(instance);
+		local = instance__object_ray(ray, space);
+	}
+	var surface: types__Surface;
+	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
+		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
+	}
+	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+		surface = shape_surface__shape_surface(local, hit);
+		let p = surface.p;
+		if (is_placed) {
+			surface = surface__placed_surface(ray, surface, space);
+		}
+		if (bindings__HAS_FOOTPRINTS) {
+			surface = footprint__with_shape_footprint(surface, ray, hit, p, space, is_placed, cone);
+		}
+	}
+	if (is_placed) {
+		let q = surface.place;
+		surface.error += instance__placement_error(space, surface.p, q);
+		surface.id += 2654435761u * instance.id;
+		surface.place = instance__pattern_place(instance, q);
+		surface.instance = hit.instance;
+		if (bindings__HAS_FOOTPRINTS) {
+			let own = mat2x3f(space.inverse * surface.footprint.place[0], space.inverse * surface.footprint.place[1]);
+			surface.footprint.place = footprint__instance_footprint(instance, own);
+		}
+	}
+	return surface;
+}
+
+fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__Space) -> types__Surface {
+	var surface = own;
+	surface.p = space.linear * own.p + space.translation;
+	surface.ng = numeric__normalize_or(instance__placed_normal(space, own.ng), -ray.direction);
+	surface.n = numeric__normalize_or(instance__placed_normal(space, own.n), surface.ng);
+	surface.error = instance__abs_times(space.linear, own.error);
+	return surface;
+}
+
+fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
+	if (bindings__HAS_MOTION) {
+		if (instance.key_count > 1u) {
+			let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
+			let key = instance.first_key + moment.key;
+			return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
+		}
+	}
+	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
+}
+
+fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
+	return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+}
+
+fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
+	return n * space.inverse;
+}
+
+fn instance__placement_error(space: motion__Space, p: vec3f, q: vec3f) -> vec3f {
+	let from_p = instance__abs_times(space.inverse, abs(p) + abs(space.translation));
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(space.translation) + instance__abs_times(space.linear, abs(q) + from_p));
+}
+
+fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
+	return abs(m[0]) * v.x + abs(m[1]) * v.y + abs(m[2]) * v.z;
+}
+
+fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
+	let at = vec4f(q, 1.0);
+	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
+}
+
+var<private> triangle_surface__met_vertices: vec3u;
+
+struct triangle_surface__Placing {
+	space: motion__Space,
+	is_placed: bool,
 	keys: deforming__Keys
 }
 
-fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
-	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
-}
-
-fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
-	return primitive__closer_of(at, hit, primitive__test_primitive(at, primitive), primitive);
-}
-
-fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
-	var is_lower = primitive < hit.primitive;
-	var is_left = primitive == at.ray.leaving;
-	if (bindings__HAS_INSTANCES) {
-		is_lower = (at.instance < hit.instance) | ((at.instance == hit.instance) & is_lower);
-		is_left = is_left & (at.instance == at.ray.leaving_instance);
-	}
-	let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
-	let counts = candidate.hit & !is_left;
-	let wins = counts & ((candidate.t < hit.t) | ties);
-	if (bindings__HAS_CONTACT) {
-		let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
-		primitive__keep_runner_up(hit, found, counts, wins);
-	}
-	return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
-}
-
-fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, wins: bool) {
-	let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
-	if (wins) {
-		primitive__runner_up = hit;
-	}
-	else if (counts & !is_same & (found.t < primitive__runner_up.t)) {
-		primitive__runner_up = found;
-	}
-}
-
-fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> types__Candidate {
-	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
-	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
-		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
-	}
-	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
-		candidate = shape__test_shape(at.ray, fetch__load_shape(primitive & ~types__SHAPE));
-	}
-	return candidate;
-}
-
-fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> types__Candidate {
-	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
-		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
-	}
-	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
-		return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
-	}
-	return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
-}
-
-struct triangle_watertight__Shear {
-	x: vec3f,
-	y: vec3f,
-	z: vec3f
-}
-
-fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
-	let size = abs(direction);
-	let is_x = (size.x >= size.y) & (size.x >= size.z);
-	let is_y = !is_x & (size.y >= size.z);
-	let axis_z = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), is_y), vec3f(1.0, 0.0, 0.0), is_x);
-	let axis_x = axis_z.zxy;
-	let axis_y = axis_z.yzx;
-	let scale = 1.0 / dot(direction, axis_z);
-	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
-}
-
-fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
-	let a = v0 - origin;
-	let b = v1 - origin;
-	let c = v2 - origin;
-	let ax = dot(shear.x, a);
-	let ay = dot(shear.y, a);
-	let bx = dot(shear.x, b);
-	let by = dot(shear.y, b);
-	let cx = dot(shear.x, c);
-	let cy = dot(shear.y, c);
-	let left = vec3f(cx * by, ax * cy, bx * ay);
-	let right = vec3f(cy * bx, ay * cx, by * ax);
-	let inside = all(left >= right) | all(left <= right);
-	let edges = left - right;
-	let det = edges.x + edges.y + edges.z;
-	let usable = inside & (abs(det) > 1e-36);
-	let inv_det = 1.0 / select(1.0, det, usable);
-	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
-	let t = dot(edges, depths) * inv_det;
-	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
-}
-
-fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
-	var hit = start;
-	var index = fetch__first_plane;
-	loop {
-		let shape = fetch__load_shape(index);
-		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
-		let primitive = types__SHAPE | index;
-		let counts = candidate.hit & (primitive != ray.leaving);
-		let wins = counts & (candidate.t < hit.t);
-		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
-		if (bindings__HAS_CONTACT) {
-			primitive__keep_runner_up(hit, found, counts, wins);
-		}
-		if (wins) {
-			hit = found;
-		}
-		continuing {
-			index += 1u;
-			break if index >= fetch__end_plane;
+fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: triangle_surface__Placing, cone: types__Cone) -> types__Surface {
+	let space = placing.space;
+	let keys = placing.keys;
+	let own = deforming__triangle_now(hit.primitive, keys);
+	triangle_surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
+	let v0 = fetch__load_vertex(own.i0);
+	let v1 = fetch__load_vertex(own.i1);
+	let v2 = fetch__load_vertex(own.i2);
+	let b1 = hit.b1;
+	let b2 = hit.b2;
+	let b0 = 1.0 - b1 - b2;
+	var corners = mat3x3f(own.v0, own.v1, own.v2);
+	var normals = mat3x3f(v0.normal, v1.normal, v2.normal);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			normals = deforming__normals_now(hit.primitive, keys);
 		}
 	}
-	loops__cut_off |= index < fetch__end_plane;
-	return hit;
-}
-
-fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
-	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
-	var hit = start;
-	if (bindings__HAS_TRIANGLES) {
-		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
+	let place = corners * vec3f(b0, b1, b2);
+	if (bindings__HAS_INSTANCES && placing.is_placed) {
+		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
+		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, normals[0]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[1]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[2]), -ray.direction));
 	}
-	if (bindings__HAS_SHAPES) {
-		hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
-	}
-	if (bindings__HAS_INSTANCES) {
-		var index = 0u;
-		for (; index < bindings__frame.instance_count; index += 1u) {
-			let instance = fetch__load_instance(index);
-			let local = instance__object_ray(ray, instance__space_of(instance));
-			let at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
-			hit = exhaustive__hit_run(at, hit, instance.first, instance.count);
+	let weights = vec3f(b0, b1, b2);
+	var frame = mat3x3f();
+	if (bindings__HAS_TANGENTS) {
+		var tangents = deforming__tangents_now(hit.primitive, keys);
+		if (bindings__HAS_INSTANCES && placing.is_placed) {
+			tangents = tangent_space__placed_tangents(space, tangents);
 		}
-		loops__cut_off |= index < bindings__frame.instance_count;
+		frame = tangent_space__vertex_frame(tangents, normals, weights);
 	}
-	return hit;
-}
-
-fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
-	var hit = start;
-	var index = 0u;
-	for (; index < count; index += 1u) {
-		hit = primitive__closer(at, hit, first + index);
+	let material = material__load_material(v0.material);
+	var phong = material.phong;
+	if (bindings__MIXED_MATERIALS) {
+		phong = triangle_surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
 	}
-	loops__cut_off |= index < count;
-	return hit;
+	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
+	let n = numeric__normalize_or(normals * weights, ng);
+	var shading_normal = n;
+	var coat_normal = vec3f(0.0);
+	if (bindings__HAS_COAT_NORMALS) {
+		coat_normal = n;
+	}
+	var uv = vec2f(b1, b2);
+	if (bindings__HAS_TEXTURES) {
+		uv = vec2f(0.0);
+	}
+	var second_uv = uv;
+	var footprint = footprint__NO_FOOTPRINT;
+	if (bindings__HAS_FOOTPRINTS) {
+		footprint.place = ray_cone__footprint_axes(ray.direction, ng, ray_cone__cone_at(cone, hit.t).width);
+	}
+	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
+		let rows = mat3x4f(fetch__load_uvs(own.i0), fetch__load_uvs(own.i1), fetch__load_uvs(own.i2));
+		let uvs = mat3x2f(rows[0].xy, rows[1].xy, rows[2].xy);
+		let second_uvs = mat3x2f(rows[0].zw, rows[1].zw, rows[2].zw);
+		uv = uvs * weights;
+		second_uv = select(uv, second_uvs * weights, bindings__HAS_SECOND_UVS);
+		if (bindings__HAS_FOOTPRINTS) {
+			footprint.uv = footprint__triangle_uv_footprint(footprint.place, corners, uvs);
+			if (bindings__HAS_SECOND_UVS) {
+				footprint.second_uv = footprint__triangle_uv_footprint(footprint.place, corners, second_uvs);
+			}
+		}
+		if (bindings__HAS_NORMAL_MAPS) {
+			shading_normal = normal_map__mapped_normal(normal_map__normal_map_of(v0.material), frame, n, corners, rows, weights, footprint);
+		}
+		if (bindings__HAS_COAT_NORMALS) {
+			coat_normal = normal_map__mapped_normal(normal_map__coat_map_of(v0.material), frame, n, corners, rows, weights, footprint);
+		}
+	}
+	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
+	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
 }
 
-fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
-	let slope = dot(n, ray.direction);
-	let steep = abs(slope) > 1e-12;
-	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
+	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
 }
-
-var<private> loops__nodes_visited: u32 = 0u;
-
-var<private> loops__primitives_tested: u32 = 0u;
-
-var<private> loops__cut_off: bool = false;
 
 struct deforming__Keys {
 	next: u32,
@@ -2411,35 +2527,562 @@ fn numeric__max_component(v: vec3f) -> f32 {
 	return max(v.x, max(v.y, v.z));
 }
 
-fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
-	let e1 = v1 - v0;
-	let e2 = v2 - v0;
-	let n = cross(e1, e2);
-	let slope = dot(n, ray.direction);
-	let area = dot(n, n);
-	let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
-	let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
-	let w = ray.origin + t * ray.direction - v0;
-	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
-	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
-	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+fn tangent_space__placed_tangents(space: motion__Space, own: mat3x4f) -> mat3x4f {
+	let mirrors = select(1.0, -1.0, determinant(space.linear) < 0.0);
+	return mat3x4f(tangent_space__placed_tangent(space, own[0], mirrors), tangent_space__placed_tangent(space, own[1], mirrors), tangent_space__placed_tangent(space, own[2], mirrors));
 }
 
-fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
-	let e1 = v1 - v0;
-	let e2 = v2 - v0;
-	let p = cross(ray.direction, e2);
-	let det = dot(e1, p);
-	let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
-	let inv_det = 1.0 / select(1.0, det, usable);
-	let s = ray.origin - v0;
-	let b1 = inv_det * dot(s, p);
-	let q = cross(s, e1);
-	let b2 = inv_det * dot(ray.direction, q);
-	let t = inv_det * dot(e2, q);
-	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+fn tangent_space__placed_tangent(space: motion__Space, own: vec4f, mirrors: f32) -> vec4f {
+	return vec4f(numeric__normalize_or(space.linear * own.xyz, vec3f(0.0)), mirrors * own.w);
+}
+
+fn tangent_space__vertex_frame(tangents: mat3x4f, normals: mat3x3f, weights: vec3f) -> mat3x3f {
+	let is_whole = tangents[0].w * tangents[1].w * tangents[2].w != 0.0;
+	let tangent = tangents * weights;
+	let n = normals * weights;
+	let frame = mat3x3f(tangent.xyz, sign(tangent.w) * cross(n, tangent.xyz), n);
+	return frame * select(0.0, 1.0, is_whole);
+}
+
+fn tangent_space__surface_tangent(frame: mat3x3f, n: vec3f, flips: bool) -> vec4f {
+	if (!bindings__HAS_ANISOTROPY) {
+		return vec4f(0.0);
+	}
+	let along = numeric__normalize_or(frame[0] - dot(frame[0], n) * n, vec3f(0.0));
+	let hand = select(-1.0, 1.0, (dot(cross(n, along), frame[1]) >= 0.0) != flips);
+	return vec4f(along, select(hand, 0.0, dot(along, along) == 0.0));
+}
+
+const ray_cone__MOST_TAPS: f32 = 8.0;
+
+const ray_cone__WIDEST: f32 = 1000000000000000.0;
+
+struct ray_cone__Filtering {
+	level: f32,
+	tap_count: u32,
+	way: vec2f
+}
+
+fn ray_cone__cone_at(cone: types__Cone, distance: f32) -> types__Cone {
+	return types__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
+}
+
+fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
+	let cosine = dot(n, direction);
+	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+	let other = numeric__normalize_or(cross(n, axis), vec3f(0.0, 0.0, 1.0));
+	let slope = direction - cosine * n;
+	let along = select(other, numeric__normalize_or(slope, other), dot(slope, slope) > 1e-8);
+	let size = abs(width);
+	return mat2x3f((size / max(abs(cosine), 0.001)) * along, size * cross(n, along));
+}
+
+fn ray_cone__uv_along(v: vec3f, e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f) -> vec2f {
+	let normal = cross(e1, e2);
+	let n = numeric__normalize_or(normal, vec3f(0.0));
+	let area = max(dot(normal, n), 1e-30);
+	return (dot(cross(v, e2), n) / area) * d1 + (dot(cross(e1, v), n) / area) * d2;
+}
+
+fn ray_cone__curvature_along(edge: vec3f, bend: vec3f) -> f32 {
+	return dot(edge, bend) / max(dot(edge, edge), 1e-30);
+}
+
+fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
+	let is_first = dot(a, a) >= dot(b, b);
+	let way = select(b, a, is_first);
+	let long = length(way);
+	let short = length(select(a, b, is_first));
+	let count = clamp(round(long / max(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
+	let width = max(max(short, long / count), 1e-9);
+	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
+}
+
+struct normal_map__NormalMap {
+	index: u32,
+	scale: f32
+}
+
+fn normal_map__normal_map_of(material: u32) -> normal_map__NormalMap {
+	return normal_map__NormalMap(material__load_texture_indices(material).w & 65535u, material__load_normal_scale(material));
+}
+
+fn normal_map__coat_map_of(material: u32) -> normal_map__NormalMap {
+	let layers = material__load_layers(material);
+	return normal_map__NormalMap(layers__texture_in(layers, types__SLOT_COAT_NORMAL), layers.coat_normal_scale);
+}
+
+fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+	if (map.index == types__NO_TEXTURE) {
+		return n;
+	}
+	let texture = material__load_texture(map.index);
+	let q0 = normal_map__in_picture(texture, uvs[0]);
+	let q1 = normal_map__in_picture(texture, uvs[1]);
+	let q2 = normal_map__in_picture(texture, uvs[2]);
+	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
+	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
+	let tilt = map.scale * (2.0 * code.xy - vec2f(1.0));
+	let up = max(2.0 * code.z - 1.0, 0.0);
+	if (bindings__HAS_TANGENTS) {
+		if (dot(frame[2], frame[2]) > 0.0) {
+			return numeric__normalize_or(frame * vec3f(tilt, up), n);
+		}
+	}
+	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
+	let bitangent = tangent.w * cross(n, tangent.xyz);
+	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + up * n, n);
+}
+
+fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
+	let is_second = bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
+	let at = vec4f(select(uvs.xy, uvs.zw, is_second), 0.0, 1.0);
+	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
+}
+
+fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
+	if (!(bindings__HAS_TEXTURES && bindings__HAS_OPTICS_TEXTURES)) {
+		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
+	}
+	let indices = material__load_texture_indices(surface.material);
+	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
+}
+
+fn texture__texture_factors(wanted: vec3u, surface: types__Surface) -> mat3x3f {
+	var factors = mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
+	var open = wanted != vec3u(types__NO_TEXTURE);
+	loop {
+		let index = select(select(select(0u, wanted.z, open.z), wanted.y, open.y), wanted.x, open.x);
+		let color = texture__texture_color(material__load_texture(index), surface);
+		let found = open & (wanted == vec3u(index));
+		factors[0] = select(factors[0], color, found.x);
+		factors[1] = select(factors[1], color, found.y);
+		factors[2] = select(factors[2], color, found.z);
+		open = open & !found;
+		continuing {
+		
+			break if !any(open);
+		}
+	}
+	loops__cut_off |= any(open);
+	return factors;
+}
+
+fn texture__picture_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
+	if (bindings__HAS_FOOTPRINTS) {
+		return mipmap__mipmap_color(texture, q, axes);
+	}
+	let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
+	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
+	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
+	return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v));
+}
+
+fn texture__uses_second_uv(texture: types__PackedTexture) -> bool {
+	return bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
+}
+
+fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footprint) -> mat2x2f {
+	if (!bindings__HAS_FOOTPRINTS) {
+		return mat2x2f();
+	}
+	let is_uv = (texture.flags & types__TEXTURE_UV) != 0u;
+	var in_uv = footprint.uv;
+	if (texture__uses_second_uv(texture)) {
+		in_uv = footprint.second_uv;
+	}
+	let a = select(footprint.place[0], vec3f(in_uv[0], 0.0), is_uv);
+	let b = select(footprint.place[1], vec3f(in_uv[1], 0.0), is_uv);
+	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
+}
+
+fn texture__place_in_pattern(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+	let uv = select(surface.uv, surface.second_uv, texture__uses_second_uv(texture));
+	let at = select(vec4f(surface.place, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
+	return clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
+}
+
+fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface, is_mask: bool) -> f32 {
+	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
+		let axes = texture__footprint_in(texture, surface.footprint);
+		let size = select(1.0, 0.0, is_mask);
+		return texture__picture_color(texture, texture__place_in_pattern(texture, surface).xy, size * axes).w;
+	}
+	return 1.0;
+}
+
+fn texture__texture_color(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+	return texture__texture_value(texture, surface).xyz;
+}
+
+fn texture__texture_value(texture: types__PackedTexture, surface: types__Surface) -> vec4f {
+	let q = texture__place_in_pattern(texture, surface);
+	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
+		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint));
+	}
+	var weight = pattern__checker(q);
+	if (bindings__HAS_NOISE && texture.kind == types__PATTERN_NOISE) {
+		let octaves = noise__noise_octaves(q, texture.octaves);
+		loops__cut_off |= octaves.count < texture.octaves;
+		weight = pattern__clouds(octaves.sum);
+	}
+	weight = select(weight, pattern__stripes(q), texture.kind == types__PATTERN_STRIPES);
+	weight = select(weight, pattern__gradient(q), texture.kind == types__PATTERN_GRADIENT);
+	return vec4f(mix(texture.color_a, texture.color_b, weight), 1.0);
+}
+
+fn mipmap__mipmap_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
+	let size = vec2f(vec2u(texture.width, texture.height));
+	let plan = ray_cone__filtering(size * axes[0], size * axes[1]);
+	let has_levels = (texture.flags & types__TEXTURE_LEVELS) != 0u;
+	let last = select(0.0, f32(31u - countLeadingZeros(max(texture.width, texture.height))), has_levels);
+	let exact = clamp(plan.level, 0.0, last);
+	let level = select(round(exact), exact, (texture.flags & types__TEXTURE_BETWEEN_LEVELS) != 0u);
+	let tap_count = select(1u, plan.tap_count, has_levels);
+	let way = select(vec2f(0.0), plan.way / size, has_levels);
+	let nearest_bit = select(types__TEXTURE_NEAREST, types__TEXTURE_MINIFY_NEAREST, plan.level > 0.0);
+	let nearest = (texture.flags & nearest_bit) != 0u;
+	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
+	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
+	let below = u32(level);
+	let weight = fract(level);
+	let end = select(tap_count, 2u * tap_count, weight > 0.0);
+	var color = vec4f(0.0);
+	var k = 0u;
+	loop {
+		let is_above = k >= tap_count;
+		let tap = f32(k - select(0u, tap_count, is_above));
+		let at = q + ((tap + 0.5) / f32(tap_count) - 0.5) * way;
+		let own = below + select(0u, 1u, is_above);
+		let width = max(texture.width >> own, 1u);
+		let height = max(texture.height >> own, 1u);
+		let sample = picture__blend_texels(mipmap__level_of(texture.picture, own), width, height, picture__neighbours(at.x, width, nearest, wrap_u), picture__neighbours(at.y, height, nearest, wrap_v));
+		color += select(1.0 - weight, weight, is_above) * sample;
+		continuing {
+			k += 1u;
+			break if k >= end;
+		}
+	}
+	loops__cut_off |= k < end;
+	return color / f32(tap_count);
+}
+
+fn mipmap__level_of(picture: u32, level: u32) -> u32 {
+	if (level == 0u) {
+		return picture;
+	}
+	return picture + picture__load_texel_word((picture & types__PICTURE_FIRST_MASK) - level);
+}
+
+fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec4f {
+	let lower = (height - 1u - rows.first) * width;
+	let upper = (height - 1u - rows.second) * width;
+	return mix(mix(picture__texel_at(picture, lower + columns.first), picture__texel_at(picture, lower + columns.second), columns.weight), mix(picture__texel_at(picture, upper + columns.first), picture__texel_at(picture, upper + columns.second), columns.weight), rows.weight);
+}
+
+fn picture__texel_at(picture: u32, index: u32) -> vec4f {
+	let first = picture & types__PICTURE_FIRST_MASK;
+	if (bindings__HAS_HALF_TEXELS && (!bindings__HAS_BYTE_TEXELS || (picture & types__PICTURE_HALF) != 0u)) {
+		let low = picture__load_texel_word(first + 2u * index);
+		let high = picture__load_texel_word(first + 2u * index + 1u);
+		return vec4f(picture__halves(low), picture__halves(high));
+	}
+	let values = unpack4x8unorm(picture__load_texel_word(first + index));
+	return vec4f(select(values.xyz, picture__linear_from_srgb(values.xyz), (picture & types__PICTURE_SRGB) != 0u), values.w);
+}
+
+fn picture__load_texel_word(index: u32) -> u32 {
+	let row = index >> types__IMAGE_WIDTH_LOG2;
+	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
+	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
+}
+
+const picture__PI: f32 = 3.14159265;
+
+struct picture__Neighbours {
+	first: u32,
+	second: u32,
+	weight: f32
+}
+
+fn picture__neighbours(at: f32, count: u32, nearest: bool, wrap: u32) -> picture__Neighbours {
+	let mirrored = 1.0 - abs(1.0 - 2.0 * fract(0.5 * at));
+	let inside = select(select(clamp(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
+	let place = f32(count) * inside + select(-0.5, 0.0, nearest);
+	let below = floor(place);
+	let last = i32(count) - 1;
+	let index = min(i32(below), last);
+	let first = picture__within(index, last, wrap == types__WRAP_REPEAT);
+	let second = picture__within(index + 1, last, wrap == types__WRAP_REPEAT);
+	return picture__Neighbours(u32(first), u32(second), select(place - below, 0.0, nearest));
+}
+
+fn picture__within(index: i32, last: i32, repeats: bool) -> i32 {
+	let before = select(0, last, repeats);
+	let after = select(last, 0, repeats);
+	return select(select(index, before, index < 0), after, index > last);
+}
+
+fn picture__halves(bits: u32) -> vec2f {
+	let codes = vec2u(bits & 65535u, bits >> 16u);
+	let normal = bitcast<vec2f>(codes << vec2u(13u)) * 5.192296858534828e33;
+	return select(normal, vec2f(codes) * 5.960464477539063e-8, codes < vec2u(1024u));
+}
+
+fn picture__linear_from_srgb(encoded: vec3f) -> vec3f {
+	var power = vec3f(-0.1110666543);
+	power = power * encoded + vec3f(0.5140681863);
+	power = power * encoded + vec3f(-1.0304795504);
+	power = power * encoded + vec3f(1.2059204578);
+	power = power * encoded + vec3f(-0.9925410748);
+	power = power * encoded + vec3f(0.8972986937);
+	power = power * encoded + vec3f(0.4803068042);
+	power = power * encoded + vec3f(0.0356449671);
+	power = power * encoded + vec3f(0.0008464342);
+	return select(power, encoded / 12.92, encoded <= vec3f(0.04045));
+}
+
+fn picture__equirectangular(direction: vec3f, rotation: f32) -> vec2f {
+	let level = length(direction.xz);
+	let around = atan2(direction.x, select(-direction.z, 1.0, level < 1e-12));
+	return vec2f(0.5 + (around + rotation) / (2.0 * picture__PI), 0.5 + atan2(direction.y, level) / picture__PI);
+}
+
+fn picture__equirectangular_direction(uv: vec2f, rotation: f32) -> vec3f {
+	let around = (uv.x - 0.5) * 2.0 * picture__PI - rotation;
+	let up = (uv.y - 0.5) * picture__PI;
+	return vec3f(cos(up) * sin(around), sin(up), -cos(up) * cos(around));
+}
+
+var<private> loops__nodes_visited: u32 = 0u;
+
+var<private> loops__primitives_tested: u32 = 0u;
+
+var<private> loops__cut_off: bool = false;
+
+fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) -> vec4f {
+	let area = d1.x * d2.y - d1.y * d2.x;
+	let hand = select(1.0, -1.0, area < 0.0);
+	let along = hand * (d2.y * e1 - d1.y * e2);
+	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+	let other = numeric__normalize_or(cross(n, axis), vec3f(1.0, 0.0, 0.0));
+	let within = numeric__normalize_or(along, other);
+	return vec4f(numeric__normalize_or(within - dot(within, n) * n, other), hand);
+}
+
+const layers__SMOOTH: f32 = 0.0001;
+
+struct layers__Layers {
+	diffuse: vec3f,
+	f0: vec3f,
+	f90: vec3f,
+	over_f0: vec3f,
+	over_f90: vec3f,
+	alpha: f32,
+	reflect: vec3f,
+	transmit: vec3f,
+	boundary_alpha: f32,
+	fresnel: u32,
+	ior: f32,
+	glow: vec3f,
+	coat: f32,
+	coat_roughness: f32,
+	sheen: vec3f,
+	sheen_roughness: f32,
+	anisotropy: f32,
+	along: vec2f,
+	film: f32,
+	film_ior: f32,
+	film_thickness: f32,
+	diffuse_transmission: f32,
+	diffuse_transmission_color: vec3f
+}
+
+fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
+	var own = material__load_layers(surface.material);
+	own.base = surface.phong.diffuse;
+	var reflect = surface.phong.reflect;
+	var transmit = optics.transmit;
+	var glow = vec3f(1.0);
+	var thickness = 1.0;
+	var along = vec2f(1.0, 0.0);
+	if (bindings__HAS_TEXTURES) {
+		var rest = own.slots;
+		loop {
+			let slot = firstTrailingBit(rest | 2147483648u);
+			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
+			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
+			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
+			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
+			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
+			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
+			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
+			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
+			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
+			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
+			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			if (bindings__HAS_ANISOTROPY) {
+				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
+				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
+			}
+			if (bindings__HAS_COATINGS) {
+				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
+				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
+				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
+				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
+				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
+				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
+				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
+				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
+			}
+			rest &= rest - 1u;
+			continuing {
+			
+				break if rest == 0u;
+			}
+		}
+		loops__cut_off |= rest != 0u;
+	}
+	var layers: layers__Layers;
+	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
+		layers = layers__metallic_roughness(own);
+	}
+	else {
+		layers.diffuse = own.base;
+		layers.f0 = own.f0;
+		layers.f90 = own.f0;
+		layers.over_f0 = own.f0;
+		layers.over_f90 = own.f0;
+		layers.alpha = own.roughness * own.roughness;
+		layers.reflect = reflect;
+		layers.transmit = transmit;
+		layers.fresnel = optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK);
+		layers.ior = own.ior;
+	}
+	layers.glow = glow;
+	if (bindings__HAS_ANISOTROPY) {
+		layers.anisotropy = own.anisotropy;
+		layers.along = dispersion__anisotropy_tangent(own.anisotropy_rotation, along);
+	}
+	if (bindings__HAS_COATINGS) {
+		layers.coat = own.coat;
+		layers.coat_roughness = own.coat_roughness;
+		layers.sheen = own.sheen;
+		layers.sheen_roughness = own.sheen_roughness;
+		layers.film = own.iridescence;
+		layers.film_ior = own.iridescence_ior;
+		layers.film_thickness = mix(own.film_thinnest, own.film_thickest, thickness);
+		layers.diffuse_transmission = own.diffuse_transmission;
+		layers.diffuse_transmission_color = own.diffuse_transmission_color;
+	}
+	return layers;
+}
+
+fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
+	var layers: layers__Layers;
+	layers.alpha = own.roughness * own.roughness;
+	layers.ior = own.ior;
+	let body = 1.0 - own.metallic;
+	layers.diffuse = body * own.base;
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
+		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
+		layers.diffuse *= 1.0 - own.transmission;
+		layers.f0 = own.metallic * own.base;
+		layers.f90 = vec3f(own.metallic);
+		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
+		layers.transmit = (body * own.transmission) * own.base;
+		layers.boundary_alpha = layers.alpha;
+		layers.fresnel = types__MATERIAL_FRESNEL;
+		return layers;
+	}
+	layers.f0 = mix(own.f0, own.base, own.metallic);
+	layers.f90 = vec3f(mix(own.f90, 1.0, own.metallic));
+	layers.over_f0 = own.f0;
+	layers.over_f90 = vec3f(own.f90);
+	return layers;
+}
+
+fn layers__textured(own: types__PackedLayers, slot: u32, surface: types__Surface) -> vec4f {
+	if ((own.slots & (1u << slot)) == 0u) {
+		return vec4f(1.0);
+	}
+	return texture__texture_value(material__load_texture(layers__texture_in(own, slot)), surface);
+}
+
+fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
+	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
+	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
+	let word = (slot >> 1u) & 3u;
+	let low = select(four.x, four.y, word == 1u);
+	let high = select(four.z, four.w, word == 3u);
+	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
+}
+
+fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
+	let b0 = abs(1.0 - b1 - b2);
+	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
+}
+
+fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
+}
+
+fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
+}
+
+fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
+}
+
+fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
+	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
+}
+
+fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
+	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
+}
+
+fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
+	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
+}
+
+fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let reached = ray.origin + hit.t * ray.direction;
+	let material = material__load_material(shape.material);
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		let ng = shape.row_y;
+		let p = reached - dot(reached - shape.position, ng) * ng;
+		let outside = dot(ng, ray.direction) <= 0.0;
+		var plane_uv = vec2f(0.0);
+		if (bindings__HAS_TEXTURES) {
+			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
+		}
+		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+	}
+	if (!shape__is_round(shape.kind)) {
+		let point = shape__canonical_point(shape, reached, hit.b1);
+		let placed = canonical__placed_point(shape, reached, point);
+		let ng = placed.ng;
+		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+	}
+	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
+	let ng = placed.ng;
+	let outside = dot(ng, ray.direction) <= 0.0;
+	var uv = vec2f(0.0);
+	if (bindings__HAS_TEXTURES) {
+		uv = canonical__sphere_uv(ng);
+	}
+	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+}
+
+fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
+	if (shape__is_globe(shape.kind)) {
+		return globe__globe_point(shape, reached);
+	}
+	let ng = numeric__normalize_or(reached - shape.position, -direction);
+	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
 }
 
 const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
@@ -2528,54 +3171,6 @@ fn shape__is_globe(kind: u32) -> bool {
 
 fn shape__is_flat(kind: u32) -> bool {
 	return (bindings__SHAPE_KINDS & (shape__DISCS | shape__RECTANGLES)) != 0u && (kind == types__SHAPE_DISC || kind == types__SHAPE_RECTANGLE);
-}
-
-fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> types__Candidate {
-	let f = ray.origin - center;
-	let a = dot(ray.direction, ray.direction);
-	let b = -dot(f, ray.direction);
-	let nearest = f + (b / a) * ray.direction;
-	let discriminant = radius * radius - dot(nearest, nearest);
-	if (discriminant < 0.0) {
-		return types__Candidate(false, 0.0, 0.0, 0.0);
-	}
-	let c = dot(f, f) - radius * radius;
-	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
-	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
-	let t1 = q / a;
-	let near = min(t0, t1);
-	let t = select(max(t0, t1), near, near > 0.0);
-	return types__Candidate(t > 0.0, t, 0.0, 0.0);
-}
-
-fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> types__Candidate {
-	let w = ray.origin - anchor;
-	let f = n + curvature * w;
-	let c = curvature * dot(w, w) + 2.0 * dot(n, w);
-	let length2 = dot(ray.direction, ray.direction);
-	let a = curvature * length2;
-	let b = -dot(f, ray.direction);
-	let nearest = f + (b / length2) * ray.direction;
-	let is_near = abs(curvature * c) < 1.0;
-	let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
-	if (discriminant < 0.0) {
-		return types__Candidate(false, 0.0, 0.0, 0.0);
-	}
-	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
-	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
-	let t1 = q / a;
-	let near = min(t0, t1);
-	let t = select(max(t0, t1), near, near > 0.0);
-	return types__Candidate(t > 0.0, t, 0.0, 0.0);
-}
-
-fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__PlacedPoint {
-	let w = reached - shape.position;
-	let f = shape.row_y + shape.size0 * w;
-	let height = (shape.size0 * dot(w, w) + 2.0 * dot(shape.row_y, w)) / (1.0 + length(f));
-	let ng = numeric__normalize_or(f, shape.row_y);
-	let p = reached - height * ng;
-	return canonical__PlacedPoint(p, ng, 16.0 * numeric__ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
 }
 
 const canonical__TWO_PI: f32 = 6.2831855;
@@ -2911,84 +3506,323 @@ fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
 }
 
-fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
-	if (bindings__HAS_MOTION) {
-		if (instance.key_count > 1u) {
-			let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
-			let key = instance.first_key + moment.key;
-			return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
+fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> types__Candidate {
+	let w = ray.origin - anchor;
+	let f = n + curvature * w;
+	let c = curvature * dot(w, w) + 2.0 * dot(n, w);
+	let length2 = dot(ray.direction, ray.direction);
+	let a = curvature * length2;
+	let b = -dot(f, ray.direction);
+	let nearest = f + (b / length2) * ray.direction;
+	let is_near = abs(curvature * c) < 1.0;
+	let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
+	if (discriminant < 0.0) {
+		return types__Candidate(false, 0.0, 0.0, 0.0);
+	}
+	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
+	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
+	let t1 = q / a;
+	let near = min(t0, t1);
+	let t = select(max(t0, t1), near, near > 0.0);
+	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+}
+
+fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__PlacedPoint {
+	let w = reached - shape.position;
+	let f = shape.row_y + shape.size0 * w;
+	let height = (shape.size0 * dot(w, w) + 2.0 * dot(shape.row_y, w)) / (1.0 + length(f));
+	let ng = numeric__normalize_or(f, shape.row_y);
+	let p = reached - height * ng;
+	return canonical__PlacedPoint(p, ng, 16.0 * numeric__ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
+}
+
+var<private> primitive__runner_up: types__Hit;
+
+struct primitive__TraversalRay {
+	ray: types__Ray,
+	inv: vec3f,
+	shear: triangle_watertight__Shear,
+	instance: u32,
+	keys: deforming__Keys
+}
+
+fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
+	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
+}
+
+fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
+	return primitive__closer_of(at, hit, primitive__test_primitive(at, primitive), primitive);
+}
+
+fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
+	var is_lower = primitive < hit.primitive;
+	var is_left = primitive == at.ray.leaving;
+	if (bindings__HAS_INSTANCES) {
+		is_lower = (at.instance < hit.instance) | ((at.instance == hit.instance) & is_lower);
+		is_left = is_left & (at.instance == at.ray.leaving_instance);
+	}
+	let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
+	let counts = candidate.hit & !is_left;
+	let wins = counts & ((candidate.t < hit.t) | ties);
+	if (bindings__HAS_CONTACT) {
+		let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
+		primitive__keep_runner_up(hit, found, counts, wins);
+	}
+	return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+}
+
+fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, wins: bool) {
+	let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
+	if (wins) {
+		primitive__runner_up = hit;
+	}
+	else if (counts & !is_same & (found.t < primitive__runner_up.t)) {
+		primitive__runner_up = found;
+	}
+}
+
+fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> types__Candidate {
+	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
+		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
+	}
+	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
+		candidate = shape__test_shape(at.ray, fetch__load_shape(primitive & ~types__SHAPE));
+	}
+	return candidate;
+}
+
+fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> types__Candidate {
+	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
+		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
+	}
+	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
+		return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
+	}
+	return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
+}
+
+fn media__has_room(media: vec4u) -> bool {
+	return media.w == types__NONE;
+}
+
+fn media__contains(media: vec4u, material: u32) -> bool {
+	return any(media == vec4u(material));
+}
+
+fn media__entered(media: vec4u, material: u32) -> vec4u {
+	let is_free = media == vec4u(types__NONE);
+	let is_first_free = is_free & !vec4<bool>(false, is_free.xyz);
+	return select(media, vec4u(material), is_first_free);
+}
+
+fn media__left(media: vec4u, material: u32) -> vec4u {
+	let is_it = media == vec4u(material);
+	let later = vec4<bool>(is_it.y | is_it.z | is_it.w, is_it.z | is_it.w, is_it.w, false);
+	let is_last = is_it & !later;
+	let x = is_last.x;
+	let y = x | is_last.y;
+	let z = y | is_last.z;
+	let w = z | is_last.w;
+	return select(media, vec4u(media.yzw, types__NONE), vec4<bool>(x, y, z, w));
+}
+
+var<private> ray_stack__current_tree: u32;
+
+var<private> ray_stack__trees_cut_off: wide__Words;
+
+var<private> ray_stack__cut_off_trees: u32 = 0u;
+
+fn ray_stack__cut_tree() {
+	ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);
+	ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
+}
+
+alias wide__Words = u32;
+
+fn wide__word_at(all: wide__Words, k: u32) -> u32 {
+	return all;
+}
+
+fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
+	{
+		return value;
+	}
+}
+
+const pattern__CELL_SHIFT: f32 = 0.00073;
+
+fn pattern__checker(p: vec3f) -> f32 {
+	let cell = vec3i(floor(p + pattern__CELL_SHIFT));
+	return f32((cell.x + cell.y + cell.z) & 1);
+}
+
+fn pattern__stripes(p: vec3f) -> f32 {
+	return f32(i32(floor(2.0 * (p.x + pattern__CELL_SHIFT))) & 1);
+}
+
+fn pattern__gradient(p: vec3f) -> f32 {
+	return clamp(p.x, 0.0, 1.0);
+}
+
+fn pattern__clouds(sum: f32) -> f32 {
+	return clamp(0.5 + 0.5 * sum, 0.0, 1.0);
+}
+
+const noise__NOISE_PERIOD: u32 = 256u;
+
+const noise__OCTAVE_SHIFT = vec3f(0.37, 0.59, 0.83);
+
+struct noise__Octaves {
+	sum: f32,
+	count: u32
+}
+
+fn noise__noise_octaves(p: vec3f, count: u32) -> noise__Octaves {
+	let period = f32(noise__NOISE_PERIOD);
+	let home = p - period * floor(p / period);
+	var octaves = noise__Octaves(0.0, 0u);
+	var scale = 1.0;
+	loop {
+		let q = scale * home + f32(octaves.count) * noise__OCTAVE_SHIFT;
+		octaves.sum += noise__gradient_noise(q, noise__NOISE_PERIOD << octaves.count) / scale;
+		scale *= 2.0;
+		octaves.count += 1u;
+		continuing {
+		
+			break if octaves.count >= count;
 		}
 	}
-	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
+	return octaves;
 }
 
-fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
-	return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+fn noise__gradient_noise(p: vec3f, period: u32) -> f32 {
+	let cell = floor(p);
+	let f = p - cell;
+	let low = vec3u(vec3i(cell)) & vec3u(period - 1u);
+	let high = (low + 1u) & vec3u(period - 1u);
+	let z0 = rng__hash(low.z);
+	let z1 = rng__hash(high.z);
+	let y00 = rng__hash(low.y + z0);
+	let y10 = rng__hash(high.y + z0);
+	let y01 = rng__hash(low.y + z1);
+	let y11 = rng__hash(high.y + z1);
+	let t = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+	let x = vec4f(mix(noise__corner(low.x + y00, f), noise__corner(high.x + y00, f - vec3f(1.0, 0.0, 0.0)), t.x), mix(noise__corner(low.x + y10, f - vec3f(0.0, 1.0, 0.0)), noise__corner(high.x + y10, f - vec3f(1.0, 1.0, 0.0)), t.x), mix(noise__corner(low.x + y01, f - vec3f(0.0, 0.0, 1.0)), noise__corner(high.x + y01, f - vec3f(1.0, 0.0, 1.0)), t.x), mix(noise__corner(low.x + y11, f - vec3f(0.0, 1.0, 1.0)), noise__corner(high.x + y11, f - vec3f(1.0, 1.0, 1.0)), t.x));
+	let y = mix(x.xz, x.yw, t.y);
+	return mix(y.x, y.y, t.z);
 }
 
-fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
-	return n * space.inverse;
+fn noise__corner(key: u32, d: vec3f) -> f32 {
+	let h = rng__hash(key) & 15u;
+	let u = select(d.y, d.x, h < 8u);
+	let v = select(select(d.z, d.x, (h == 12u) | (h == 14u)), d.y, h < 4u);
+	return select(u, -u, (h & 1u) != 0u) + select(v, -v, (h & 2u) != 0u);
 }
 
-fn instance__placement_error(space: motion__Space, p: vec3f, q: vec3f) -> vec3f {
-	let from_p = instance__abs_times(space.inverse, abs(p) + abs(space.translation));
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(space.translation) + instance__abs_times(space.linear, abs(q) + from_p));
+const dispersion__WAVELENGTHS: vec3f = vec3f(611.4, 549.1, 464.2);
+
+fn dispersion__dispersed_ior(ior: f32, dispersion: f32, wavelength: f32) -> f32 {
+	let spread = (ior - 1.0) * dispersion / 20.0;
+	return max(ior + spread * (523655.0 / (wavelength * wavelength) - 1.5168), 1.0);
 }
 
-fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
-	return abs(m[0]) * v.x + abs(m[1]) * v.y + abs(m[2]) * v.z;
+fn dispersion__anisotropic_alpha(alpha: f32, strength: f32) -> vec2f {
+	return vec2f(mix(alpha, 1.0, strength * strength), alpha);
 }
 
-fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
-	let at = vec4f(q, 1.0);
-	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
+fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
+	let own = texel * inverseSqrt(max(dot(texel, texel), 1e-12));
+	let turn = vec2f(cos(rotation), sin(rotation));
+	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
 }
 
-const node__MISS: u32 = 4294967292u;
-
-const node__WIDENING: i32 = 8;
-
-fn node__bytes(word: u32) -> vec4f {
-	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
+fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
+	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
+		return fresnel__schlick(cos_i, eta);
+	}
+	return fresnel__fresnel(cos_i, eta);
 }
 
-fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
-	return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
+struct fresnel__Boundary {
+	reflectance: f32,
+	cos_t: f32,
+	total: bool
 }
 
-fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
-	let lo = mix(a.lo, b.lo, vec3f(fraction));
-	let shift_a = a.lo - lo;
-	let shift_b = b.lo - lo;
-	let s = vec4f(fraction);
-	return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+fn fresnel__ratio(a: f32, b: f32) -> f32 {
+	return a / max(b, 1e-12);
 }
 
-fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
-	let base = (node.lo - origin) * inv;
-	let step = node.scale * inv;
-	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
-	let x1 = bitcast<vec4i>(node.max_x * step.x + base.x);
-	let y0 = bitcast<vec4i>(node.min_y * step.y + base.y);
-	let y1 = bitcast<vec4i>(node.max_y * step.y + base.y);
-	let z0 = bitcast<vec4i>(node.min_z * step.z + base.z);
-	let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
-	let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
-	let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
-	let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
-	let hit = (near <= limit) & (node.children != vec4u(0u));
-	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
-	return select(vec4u(node__MISS), keys, hit);
+fn fresnel__fresnel(cos_i: f32, eta: f32) -> fresnel__Boundary {
+	let sin2_t = eta * eta * max(1.0 - cos_i * cos_i, 0.0);
+	let total = (sin2_t >= 1.0) & (eta > 1.0);
+	let cos_t = sqrt(max(1.0 - sin2_t, 0.0));
+	let r_s = fresnel__ratio(eta * cos_i - cos_t, eta * cos_i + cos_t);
+	let r_p = fresnel__ratio(cos_i - eta * cos_t, cos_i + eta * cos_t);
+	return fresnel__Boundary(select(0.5 * (r_s * r_s + r_p * r_p), 1.0, total), cos_t, total);
 }
 
-fn node__sort4(keys: vec4u) -> vec4u {
-	let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
-	let lowest = min(a.x, a.y);
-	let middle_low = max(a.x, a.y);
-	let middle_high = min(a.z, a.w);
-	let highest = max(a.z, a.w);
-	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
+fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
+	let exact = fresnel__fresnel(cos_i, eta);
+	let r0 = fresnel__ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
+	let grazing = fresnel__schlick_weight(select(cos_i, exact.cos_t, eta > 1.0));
+	return fresnel__Boundary(select(mix(r0, 1.0, grazing), 1.0, exact.total), exact.cos_t, exact.total);
 }
+
+fn fresnel__schlick_weight(cosine: f32) -> f32 {
+	let x = 1.0 - clamp(cosine, 0.0, 1.0);
+	let x2 = x * x;
+	return x2 * x2 * x;
+}
+
+fn fresnel__schlick_between(f0: vec3f, f90: vec3f, cosine: f32) -> vec3f {
+	return mix(f0, f90, fresnel__schlick_weight(cosine));
+}
+
+fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f {
+	let cos_i = -dot(direction, n);
+	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
+}
+
+fn coverage__coverage_at(surface: types__Surface) -> f32 {
+	if (!bindings__HAS_COVERAGE) {
+		return 1.0;
+	}
+	let material = material__load_coverage(surface.material);
+	if ((material.flags & types__MATERIAL_COVERAGE) == 0u) {
+		return 1.0;
+	}
+	var alpha = material.alpha;
+	if (bindings__HAS_TEXTURES) {
+		let index = material__load_texture_indices(surface.material).w >> 16u;
+		if (index != types__NO_TEXTURE) {
+			alpha *= texture__texture_alpha(material__load_texture(index), surface, (material.flags & types__MATERIAL_MASK) != 0u);
+		}
+	}
+	let masked = select(0.0, 1.0, alpha >= 0.999999);
+	return select(clamp(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
+}
+
+fn leaving__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -> types__Ray {
+	if (bindings__FIXED_OFFSET > 0.0) {
+		let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
+		return types__Ray(origin, t_max, direction, types__NONE, surface.instance);
+	}
+	let origin = offset__offset_origin(surface.p, surface.error, surface.ng, direction);
+	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
+}
+
+struct opacity__Clearness {
+	nothing: f32,
+	catchers: f32,
+	light: f32,
+	unshadowed: f32
+}
+
+var<private> opacity__clearness: opacity__Clearness;
+
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 var<private> record_path__sampled: types__PackedRay;
 
@@ -3026,19 +3860,17 @@ fn record_path__record_source(source: u32, index: u32, chance: f32) {
 	record_path__sampled.chance = chance;
 }
 
-fn record_path__record_light_sample(surface: types__Surface, ray: types__Ray, light: emitters__LightSample, found: bsdf__BsdfValue, weight: f32, unshadowed: vec3f, through: vec3f) {
+fn record_path__record_light_sample(surface: types__Surface, ray: types__Ray, light: emitters__LightSample, found: bsdf__BsdfValue, weight: f32, unshadowed: vec3f) {
 	let is_traced = ray.t_max >= 0.0;
 	record_path__sampled.origin = select(surface.p, ray.origin, is_traced);
 	record_path__sampled.kind = types__RAY_SHADOW;
 	record_path__sampled.direction = light.incident.direction;
-	record_path__sampled.t = record__met.t;
+	record_path__sampled.t = ray.t_max;
 	record_path__sampled.t_max = select(light.incident.distance, ray.t_max, is_traced);
-	record_path__sampled.primitive = select(types__NONE, record__met.primitive, is_traced);
-	record_path__sampled.instance = record__met.instance;
+	record_path__sampled.primitive = types__NONE;
+	record_path__sampled.instance = types__NO_INSTANCE;
 	record_path__sampled.material = types__NONE;
 	record_path__sampled.throughput = record__traced.arriving;
-	record_path__sampled.transmit = select(vec3f(0.0), through, is_traced);
-	record_path__sampled.arriving = record__traced.arriving * record_path__sampled.transmit;
 	record_path__sampled.parent = record__traced_index;
 	record_path__sampled.flags = select(types__RAY_UNTRACED, 0u, is_traced);
 	record_path__sampled.ambient = unshadowed;
@@ -3046,12 +3878,23 @@ fn record_path__record_light_sample(surface: types__Surface, ray: types__Ray, li
 	record_path__sampled.medium = types__NONE;
 	record_path__sampled.medium_behind = types__NONE;
 	record_path__sampled.media = vec4u(types__NONE);
-	record_path__sampled.crossings = record__met_count;
 	record_path__sampled.value = found.value;
 	record_path__sampled.own_pdf = light.pdf;
 	record_path__sampled.other_pdf = found.pdf;
 	record_path__sampled.mis_weight = weight;
 	record_path__is_sampled = true;
+	if (!is_traced) {
+		record_path__record_gain(vec3f(0.0));
+	}
+}
+
+fn record_path__record_passage(through: vec3f) {
+	record_path__sampled.t = record__met.t;
+	record_path__sampled.primitive = record__met.primitive;
+	record_path__sampled.instance = record__met.instance;
+	record_path__sampled.crossings = record__met_count;
+	record_path__sampled.transmit = through;
+	record_path__sampled.arriving = record_path__sampled.throughput * through;
 }
 
 fn record_path__record_interface(met_here: interface__Interface, bsdf: lobes__Bsdf) {
@@ -3144,86 +3987,6 @@ fn environment__density_at(batch: dispatch__Batch, cell: vec2u, direction: vec3f
 	return density / (2.0 * picture__PI * picture__PI * max(length(direction.xz), 1e-6));
 }
 
-const picture__PI: f32 = 3.14159265;
-
-struct picture__Neighbours {
-	first: u32,
-	second: u32,
-	weight: f32
-}
-
-fn picture__neighbours(at: f32, count: u32, nearest: bool, wrap: u32) -> picture__Neighbours {
-	let mirrored = 1.0 - abs(1.0 - 2.0 * fract(0.5 * at));
-	let inside = select(select(clamp(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
-	let place = f32(count) * inside + select(-0.5, 0.0, nearest);
-	let below = floor(place);
-	let last = i32(count) - 1;
-	let index = min(i32(below), last);
-	let first = picture__within(index, last, wrap == types__WRAP_REPEAT);
-	let second = picture__within(index + 1, last, wrap == types__WRAP_REPEAT);
-	return picture__Neighbours(u32(first), u32(second), select(place - below, 0.0, nearest));
-}
-
-fn picture__within(index: i32, last: i32, repeats: bool) -> i32 {
-	let before = select(0, last, repeats);
-	let after = select(last, 0, repeats);
-	return select(select(index, before, index < 0), after, index > last);
-}
-
-fn picture__halves(bits: u32) -> vec2f {
-	let codes = vec2u(bits & 65535u, bits >> 16u);
-	let normal = bitcast<vec2f>(codes << vec2u(13u)) * 5.192296858534828e33;
-	return select(normal, vec2f(codes) * 5.960464477539063e-8, codes < vec2u(1024u));
-}
-
-fn picture__linear_from_srgb(encoded: vec3f) -> vec3f {
-	var power = vec3f(-0.1110666543);
-	power = power * encoded + vec3f(0.5140681863);
-	power = power * encoded + vec3f(-1.0304795504);
-	power = power * encoded + vec3f(1.2059204578);
-	power = power * encoded + vec3f(-0.9925410748);
-	power = power * encoded + vec3f(0.8972986937);
-	power = power * encoded + vec3f(0.4803068042);
-	power = power * encoded + vec3f(0.0356449671);
-	power = power * encoded + vec3f(0.0008464342);
-	return select(power, encoded / 12.92, encoded <= vec3f(0.04045));
-}
-
-fn picture__equirectangular(direction: vec3f, rotation: f32) -> vec2f {
-	let level = length(direction.xz);
-	let around = atan2(direction.x, select(-direction.z, 1.0, level < 1e-12));
-	return vec2f(0.5 + (around + rotation) / (2.0 * picture__PI), 0.5 + atan2(direction.y, level) / picture__PI);
-}
-
-fn picture__equirectangular_direction(uv: vec2f, rotation: f32) -> vec3f {
-	let around = (uv.x - 0.5) * 2.0 * picture__PI - rotation;
-	let up = (uv.y - 0.5) * picture__PI;
-	return vec3f(cos(up) * sin(around), sin(up), -cos(up) * cos(around));
-}
-
-fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec4f {
-	let lower = (height - 1u - rows.first) * width;
-	let upper = (height - 1u - rows.second) * width;
-	return mix(mix(picture__texel_at(picture, lower + columns.first), picture__texel_at(picture, lower + columns.second), columns.weight), mix(picture__texel_at(picture, upper + columns.first), picture__texel_at(picture, upper + columns.second), columns.weight), rows.weight);
-}
-
-fn picture__texel_at(picture: u32, index: u32) -> vec4f {
-	let first = picture & types__PICTURE_FIRST_MASK;
-	if (bindings__HAS_HALF_TEXELS && (!bindings__HAS_BYTE_TEXELS || (picture & types__PICTURE_HALF) != 0u)) {
-		let low = picture__load_texel_word(first + 2u * index);
-		let high = picture__load_texel_word(first + 2u * index + 1u);
-		return vec4f(picture__halves(low), picture__halves(high));
-	}
-	let values = unpack4x8unorm(picture__load_texel_word(first + index));
-	return vec4f(select(values.xyz, picture__linear_from_srgb(values.xyz), (picture & types__PICTURE_SRGB) != 0u), values.w);
-}
-
-fn picture__load_texel_word(index: u32) -> u32 {
-	let row = index >> types__IMAGE_WIDTH_LOG2;
-	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
-	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
-}
-
 fn mis__power_heuristic(own: f32, other: f32) -> f32 {
 	let ratio = other / max(own, 1e-30);
 	return select(0.0, 1.0 / (1.0 + min(ratio * ratio, 1e30)), own > 0.0);
@@ -3261,827 +4024,6 @@ fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
 	return batch.background;
 }
 
-struct opacity__Clearness {
-	nothing: f32,
-	catchers: f32,
-	light: f32,
-	unshadowed: f32
-}
-
-var<private> opacity__clearness: opacity__Clearness;
-
-const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
-
-const contact__NEAR: f32 = 1e-5;
-
-const contact__EDGE: f32 = 1e-6;
-
-const contact__VAGUE_EDGE: f32 = 0.0001;
-
-struct contact__Contact {
-	surface: types__Surface,
-	touching: u32,
-	enters_touching: bool
-}
-
-fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> contact__Contact {
-	var contact: contact__Contact;
-	record__seen = hit;
-	contact.touching = types__NONE;
-	var current = hit;
-	var first = true;
-	var second_wanted = false;
-	var vertices = vec3u(0u);
-	loop {
-		let surface = surface__surface_at(ray, current, cone);
-		if (first) {
-			contact.surface = surface;
-			vertices = triangle_surface__met_vertices;
-			second_wanted = bindings__HAS_REFRACTION && bindings__HAS_CONTACT && contact__is_near(ray, hit, surface);
-		}
-		else {
-			contact = contact__merge(contact, surface, contact__is_same_volume(hit, primitive__runner_up, vertices));
-			second_wanted = false;
-		}
-		first = false;
-		current = primitive__runner_up;
-		continuing {
-		
-			break if !second_wanted;
-		}
-	}
-	loops__cut_off |= second_wanted;
-	return contact;
-}
-
-fn contact__media_behind(media: vec4u, contact: contact__Contact) -> vec4u {
-	var behind = media;
-	if (!contact__is_thin(contact.surface)) {
-		if (contact.surface.outside && !media__has_room(behind)) {
-			ray_stack__cut_tree();
-		}
-		behind = medium__cross_surface(behind, contact.surface.material, contact.surface.outside);
-	}
-	if (bindings__HAS_CONTACT && contact.touching != types__NONE) {
-		if (contact.enters_touching && !media__has_room(behind)) {
-			ray_stack__cut_tree();
-		}
-		behind = medium__cross_surface(behind, contact.touching, contact.enters_touching);
-	}
-	return behind;
-}
-
-fn contact__is_near(ray: types__Ray, hit: types__Hit, surface: types__Surface) -> bool {
-	let gap = (primitive__runner_up.t - hit.t) * abs(dot(surface.ng, ray.direction));
-	let reach = numeric__max_component(abs(surface.p)) + hit.t;
-	return primitive__runner_up.primitive != types__NONE && gap <= contact__NEAR * reach && contact__is_transparent(surface);
-}
-
-fn contact__is_transparent(surface: types__Surface) -> bool {
-	return any(material__load_optics(surface.material).transmit > vec3f(0.0));
-}
-
-fn contact__is_thin(surface: types__Surface) -> bool {
-	return (material__load_optics(surface.material).flags & types__MATERIAL_THIN) != 0u;
-}
-
-fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_volume: bool) -> contact__Contact {
-	let is_alike = (second.material == contact.surface.material) & (second.outside == contact.surface.outside);
-	let is_other = !(is_alike & is_same_volume);
-	let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
-	var both = contact;
-	if (together && contact__is_transparent(second)) {
-		if (contact__is_thin(second)) {
-			return both;
-		}
-		both.touching = second.material;
-		both.enters_touching = second.outside;
-	}
-	else if (together) {
-		both.surface = second;
-		record__seen = primitive__runner_up;
-	}
-	return both;
-}
-
-fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3u) -> bool {
-	let are_triangles = bindings__HAS_TRIANGLES && ((first.primitive | second.primitive) & types__SHAPE) == 0u;
-	if (!are_triangles || first.instance != second.instance) {
-		return false;
-	}
-	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, triangle_surface__met_vertices);
-}
-
-fn contact__is_at_edge(hit: types__Hit) -> bool {
-	let nearest = min(min(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
-	return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
-}
-
-fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
-	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
-}
-
-fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
-	var instance: types__PackedInstance;
-	var space: motion__Space;
-	var local = ray;
-	let is_placed = bindings__HAS_INSTANCES && hit.instance != types__NO_INSTANCE;
-	if (is_placed) {
-		instance = fetch__load_instance(hit.instance);
-		space = instance__space_of(instance);
-		local = instance__object_ray(ray, space);
-	}
-	var surface: types__Surface;
-	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
-		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
-	}
-	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
-		surface = shape_surface__shape_surface(local, hit);
-		let p = surface.p;
-		if (is_placed) {
-			surface = surface__placed_surface(ray, surface, space);
-		}
-		if (bindings__HAS_FOOTPRINTS) {
-			surface = footprint__with_shape_footprint(surface, ray, hit, p, space, is_placed, cone);
-		}
-	}
-	if (is_placed) {
-		let q = surface.place;
-		surface.error += instance__placement_error(space, surface.p, q);
-		surface.id += 2654435761u * instance.id;
-		surface.place = instance__pattern_place(instance, q);
-		surface.instance = hit.instance;
-		if (bindings__HAS_FOOTPRINTS) {
-			let own = mat2x3f(space.inverse * surface.footprint.place[0], space.inverse * surface.footprint.place[1]);
-			surface.footprint.place = footprint__instance_footprint(instance, own);
-		}
-	}
-	return surface;
-}
-
-fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__Space) -> types__Surface {
-	var surface = own;
-	surface.p = space.linear * own.p + space.translation;
-	surface.ng = numeric__normalize_or(instance__placed_normal(space, own.ng), -ray.direction);
-	surface.n = numeric__normalize_or(instance__placed_normal(space, own.n), surface.ng);
-	surface.error = instance__abs_times(space.linear, own.error);
-	return surface;
-}
-
-var<private> triangle_surface__met_vertices: vec3u;
-
-struct triangle_surface__Placing {
-	space: motion__Space,
-	is_placed: bool,
-	keys: deforming__Keys
-}
-
-fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: triangle_surface__Placing, cone: types__Cone) -> types__Surface {
-	let space = placing.space;
-	let keys = placing.keys;
-	let own = deforming__triangle_now(hit.primitive, keys);
-	triangle_surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
-	let v0 = fetch__load_vertex(own.i0);
-	let v1 = fetch__load_vertex(own.i1);
-	let v2 = fetch__load_vertex(own.i2);
-	let b1 = hit.b1;
-	let b2 = hit.b2;
-	let b0 = 1.0 - b1 - b2;
-	var corners = mat3x3f(own.v0, own.v1, own.v2);
-	var normals = mat3x3f(v0.normal, v1.normal, v2.normal);
-	if (bindings__HAS_DEFORMATION) {
-		if (keys.next != 0u) {
-			normals = deforming__normals_now(hit.primitive, keys);
-		}
-	}
-	let place = corners * vec3f(b0, b1, b2);
-	if (bindings__HAS_INSTANCES && placing.is_placed) {
-		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
-		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, normals[0]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[1]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[2]), -ray.direction));
-	}
-	let weights = vec3f(b0, b1, b2);
-	var frame = mat3x3f();
-	if (bindings__HAS_TANGENTS) {
-		var tangents = deforming__tangents_now(hit.primitive, keys);
-		if (bindings__HAS_INSTANCES && placing.is_placed) {
-			tangents = tangent_space__placed_tangents(space, tangents);
-		}
-		frame = tangent_space__vertex_frame(tangents, normals, weights);
-	}
-	let material = material__load_material(v0.material);
-	var phong = material.phong;
-	if (bindings__MIXED_MATERIALS) {
-		phong = triangle_surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
-	}
-	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
-	let n = numeric__normalize_or(normals * weights, ng);
-	var shading_normal = n;
-	var coat_normal = vec3f(0.0);
-	if (bindings__HAS_COAT_NORMALS) {
-		coat_normal = n;
-	}
-	var uv = vec2f(b1, b2);
-	if (bindings__HAS_TEXTURES) {
-		uv = vec2f(0.0);
-	}
-	var second_uv = uv;
-	var footprint = footprint__NO_FOOTPRINT;
-	if (bindings__HAS_FOOTPRINTS) {
-		footprint.place = ray_cone__footprint_axes(ray.direction, ng, ray_cone__cone_at(cone, hit.t).width);
-	}
-	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
-		let rows = mat3x4f(fetch__load_uvs(own.i0), fetch__load_uvs(own.i1), fetch__load_uvs(own.i2));
-		let uvs = mat3x2f(rows[0].xy, rows[1].xy, rows[2].xy);
-		let second_uvs = mat3x2f(rows[0].zw, rows[1].zw, rows[2].zw);
-		uv = uvs * weights;
-		second_uv = select(uv, second_uvs * weights, bindings__HAS_SECOND_UVS);
-		if (bindings__HAS_FOOTPRINTS) {
-			footprint.uv = footprint__triangle_uv_footprint(footprint.place, corners, uvs);
-			if (bindings__HAS_SECOND_UVS) {
-				footprint.second_uv = footprint__triangle_uv_footprint(footprint.place, corners, second_uvs);
-			}
-		}
-		if (bindings__HAS_NORMAL_MAPS) {
-			shading_normal = normal_map__mapped_normal(normal_map__normal_map_of(v0.material), frame, n, corners, rows, weights, footprint);
-		}
-		if (bindings__HAS_COAT_NORMALS) {
-			coat_normal = normal_map__mapped_normal(normal_map__coat_map_of(v0.material), frame, n, corners, rows, weights, footprint);
-		}
-	}
-	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
-}
-
-fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
-	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
-}
-
-fn tangent_space__placed_tangents(space: motion__Space, own: mat3x4f) -> mat3x4f {
-	let mirrors = select(1.0, -1.0, determinant(space.linear) < 0.0);
-	return mat3x4f(tangent_space__placed_tangent(space, own[0], mirrors), tangent_space__placed_tangent(space, own[1], mirrors), tangent_space__placed_tangent(space, own[2], mirrors));
-}
-
-fn tangent_space__placed_tangent(space: motion__Space, own: vec4f, mirrors: f32) -> vec4f {
-	return vec4f(numeric__normalize_or(space.linear * own.xyz, vec3f(0.0)), mirrors * own.w);
-}
-
-fn tangent_space__vertex_frame(tangents: mat3x4f, normals: mat3x3f, weights: vec3f) -> mat3x3f {
-	let is_whole = tangents[0].w * tangents[1].w * tangents[2].w != 0.0;
-	let tangent = tangents * weights;
-	let n = normals * weights;
-	let frame = mat3x3f(tangent.xyz, sign(tangent.w) * cross(n, tangent.xyz), n);
-	return frame * select(0.0, 1.0, is_whole);
-}
-
-fn tangent_space__surface_tangent(frame: mat3x3f, n: vec3f, flips: bool) -> vec4f {
-	if (!bindings__HAS_ANISOTROPY) {
-		return vec4f(0.0);
-	}
-	let along = numeric__normalize_or(frame[0] - dot(frame[0], n) * n, vec3f(0.0));
-	let hand = select(-1.0, 1.0, (dot(cross(n, along), frame[1]) >= 0.0) != flips);
-	return vec4f(along, select(hand, 0.0, dot(along, along) == 0.0));
-}
-
-struct material__PhongMaterial {
-	phong: types__Phong,
-	flags: u32
-}
-
-fn material__load_material(index: u32) -> material__PhongMaterial {
-	let row = types__MATERIAL_ROWS * index;
-	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	var reflect = vec3f(0.0);
-	if (bindings__HAS_REFLECTION) {
-		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
-	}
-	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
-	return material__PhongMaterial(phong, r1.w);
-}
-
-fn material__load_optics(index: u32) -> types__Optics {
-	let row = types__MATERIAL_ROWS * index;
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = fetch__material_row(row + 4u);
-	return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
-}
-
-fn material__load_medium(index: u32) -> types__Medium {
-	let row = types__MATERIAL_ROWS * index;
-	let r5 = fetch__material_row(row + 5u);
-	return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
-}
-
-fn material__load_emission(index: u32) -> vec3f {
-	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
-}
-
-fn material__load_texture_indices(index: u32) -> vec4u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
-}
-
-struct material__CoverageMaterial {
-	alpha: f32,
-	flags: u32
-}
-
-fn material__load_coverage(index: u32) -> material__CoverageMaterial {
-	let row = types__MATERIAL_ROWS * index;
-	return material__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
-}
-
-fn material__load_normal_scale(index: u32) -> f32 {
-	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
-}
-
-fn material__load_texture(index: u32) -> types__PackedTexture {
-	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r5 = fetch__material_row(row + 5u);
-	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
-}
-
-fn material__load_layers(index: u32) -> types__PackedLayers {
-	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
-	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
-	let r6 = fetch__material_row(row + 6u);
-	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
-}
-
-struct material__Glow {
-	light: u32,
-	luminance: f32,
-	texture: u32
-}
-
-fn material__load_glow(index: u32) -> material__Glow {
-	let row = types__MATERIAL_ROWS * index;
-	let own = fetch__material_row(row + types__LAYERS_ROW + 7u);
-	let luminance = bitcast<f32>(own.y) * dot(material__load_emission(index), tone__LUMINANCE_REC709);
-	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
-}
-
-fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
-	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
-	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
-}
-
-const ray_cone__MOST_TAPS: f32 = 8.0;
-
-const ray_cone__WIDEST: f32 = 1000000000000000.0;
-
-struct ray_cone__Filtering {
-	level: f32,
-	tap_count: u32,
-	way: vec2f
-}
-
-fn ray_cone__cone_at(cone: types__Cone, distance: f32) -> types__Cone {
-	return types__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
-}
-
-fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
-	let cosine = dot(n, direction);
-	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
-	let other = numeric__normalize_or(cross(n, axis), vec3f(0.0, 0.0, 1.0));
-	let slope = direction - cosine * n;
-	let along = select(other, numeric__normalize_or(slope, other), dot(slope, slope) > 1e-8);
-	let size = abs(width);
-	return mat2x3f((size / max(abs(cosine), 0.001)) * along, size * cross(n, along));
-}
-
-fn ray_cone__uv_along(v: vec3f, e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f) -> vec2f {
-	let normal = cross(e1, e2);
-	let n = numeric__normalize_or(normal, vec3f(0.0));
-	let area = max(dot(normal, n), 1e-30);
-	return (dot(cross(v, e2), n) / area) * d1 + (dot(cross(e1, v), n) / area) * d2;
-}
-
-fn ray_cone__curvature_along(edge: vec3f, bend: vec3f) -> f32 {
-	return dot(edge, bend) / max(dot(edge, edge), 1e-30);
-}
-
-fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
-	let is_first = dot(a, a) >= dot(b, b);
-	let way = select(b, a, is_first);
-	let long = length(way);
-	let short = length(select(a, b, is_first));
-	let count = clamp(round(long / max(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
-	let width = max(max(short, long / count), 1e-9);
-	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
-}
-
-struct normal_map__NormalMap {
-	index: u32,
-	scale: f32
-}
-
-fn normal_map__normal_map_of(material: u32) -> normal_map__NormalMap {
-	return normal_map__NormalMap(material__load_texture_indices(material).w & 65535u, material__load_normal_scale(material));
-}
-
-fn normal_map__coat_map_of(material: u32) -> normal_map__NormalMap {
-	let layers = material__load_layers(material);
-	return normal_map__NormalMap(layers__texture_in(layers, types__SLOT_COAT_NORMAL), layers.coat_normal_scale);
-}
-
-fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
-	if (map.index == types__NO_TEXTURE) {
-		return n;
-	}
-	let texture = material__load_texture(map.index);
-	let q0 = normal_map__in_picture(texture, uvs[0]);
-	let q1 = normal_map__in_picture(texture, uvs[1]);
-	let q2 = normal_map__in_picture(texture, uvs[2]);
-	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
-	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
-	let tilt = map.scale * (2.0 * code.xy - vec2f(1.0));
-	let up = max(2.0 * code.z - 1.0, 0.0);
-	if (bindings__HAS_TANGENTS) {
-		if (dot(frame[2], frame[2]) > 0.0) {
-			return numeric__normalize_or(frame * vec3f(tilt, up), n);
-		}
-	}
-	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
-	let bitangent = tangent.w * cross(n, tangent.xyz);
-	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + up * n, n);
-}
-
-fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
-	let is_second = bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
-	let at = vec4f(select(uvs.xy, uvs.zw, is_second), 0.0, 1.0);
-	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
-}
-
-fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
-	if (!(bindings__HAS_TEXTURES && bindings__HAS_OPTICS_TEXTURES)) {
-		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
-	}
-	let indices = material__load_texture_indices(surface.material);
-	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
-}
-
-fn texture__texture_factors(wanted: vec3u, surface: types__Surface) -> mat3x3f {
-	var factors = mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
-	var open = wanted != vec3u(types__NO_TEXTURE);
-	loop {
-		let index = select(select(select(0u, wanted.z, open.z), wanted.y, open.y), wanted.x, open.x);
-		let color = texture__texture_color(material__load_texture(index), surface);
-		let found = open & (wanted == vec3u(index));
-		factors[0] = select(factors[0], color, found.x);
-		factors[1] = select(factors[1], color, found.y);
-		factors[2] = select(factors[2], color, found.z);
-		open = open & !found;
-		continuing {
-		
-			break if !any(open);
-		}
-	}
-	loops__cut_off |= any(open);
-	return factors;
-}
-
-fn texture__picture_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
-	if (bindings__HAS_FOOTPRINTS) {
-		return mipmap__mipmap_color(texture, q, axes);
-	}
-	let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
-	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
-	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
-	return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v));
-}
-
-fn texture__uses_second_uv(texture: types__PackedTexture) -> bool {
-	return bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
-}
-
-fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footprint) -> mat2x2f {
-	if (!bindings__HAS_FOOTPRINTS) {
-		return mat2x2f();
-	}
-	let is_uv = (texture.flags & types__TEXTURE_UV) != 0u;
-	var in_uv = footprint.uv;
-	if (texture__uses_second_uv(texture)) {
-		in_uv = footprint.second_uv;
-	}
-	let a = select(footprint.place[0], vec3f(in_uv[0], 0.0), is_uv);
-	let b = select(footprint.place[1], vec3f(in_uv[1], 0.0), is_uv);
-	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
-}
-
-fn texture__place_in_pattern(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
-	let uv = select(surface.uv, surface.second_uv, texture__uses_second_uv(texture));
-	let at = select(vec4f(surface.place, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
-	return clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
-}
-
-fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface, is_mask: bool) -> f32 {
-	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
-		let axes = texture__footprint_in(texture, surface.footprint);
-		let size = select(1.0, 0.0, is_mask);
-		return texture__picture_color(texture, texture__place_in_pattern(texture, surface).xy, size * axes).w;
-	}
-	return 1.0;
-}
-
-fn texture__texture_color(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
-	return texture__texture_value(texture, surface).xyz;
-}
-
-fn texture__texture_value(texture: types__PackedTexture, surface: types__Surface) -> vec4f {
-	let q = texture__place_in_pattern(texture, surface);
-	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
-		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint));
-	}
-	var weight = pattern__checker(q);
-	if (bindings__HAS_NOISE && texture.kind == types__PATTERN_NOISE) {
-		let octaves = noise__noise_octaves(q, texture.octaves);
-		loops__cut_off |= octaves.count < texture.octaves;
-		weight = pattern__clouds(octaves.sum);
-	}
-	weight = select(weight, pattern__stripes(q), texture.kind == types__PATTERN_STRIPES);
-	weight = select(weight, pattern__gradient(q), texture.kind == types__PATTERN_GRADIENT);
-	return vec4f(mix(texture.color_a, texture.color_b, weight), 1.0);
-}
-
-fn mipmap__mipmap_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
-	let size = vec2f(vec2u(texture.width, texture.height));
-	let plan = ray_cone__filtering(size * axes[0], size * axes[1]);
-	let has_levels = (texture.flags & types__TEXTURE_LEVELS) != 0u;
-	let last = select(0.0, f32(31u - countLeadingZeros(max(texture.width, texture.height))), has_levels);
-	let exact = clamp(plan.level, 0.0, last);
-	let level = select(round(exact), exact, (texture.flags & types__TEXTURE_BETWEEN_LEVELS) != 0u);
-	let tap_count = select(1u, plan.tap_count, has_levels);
-	let way = select(vec2f(0.0), plan.way / size, has_levels);
-	let nearest_bit = select(types__TEXTURE_NEAREST, types__TEXTURE_MINIFY_NEAREST, plan.level > 0.0);
-	let nearest = (texture.flags & nearest_bit) != 0u;
-	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
-	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
-	let below = u32(level);
-	let weight = fract(level);
-	let end = select(tap_count, 2u * tap_count, weight > 0.0);
-	var color = vec4f(0.0);
-	var k = 0u;
-	loop {
-		let is_above = k >= tap_count;
-		let tap = f32(k - select(0u, tap_count, is_above));
-		let at = q + ((tap + 0.5) / f32(tap_count) - 0.5) * way;
-		let own = below + select(0u, 1u, is_above);
-		let width = max(texture.width >> own, 1u);
-		let height = max(texture.height >> own, 1u);
-		let sample = picture__blend_texels(mipmap__level_of(texture.picture, own), width, height, picture__neighbours(at.x, width, nearest, wrap_u), picture__neighbours(at.y, height, nearest, wrap_v));
-		color += select(1.0 - weight, weight, is_above) * sample;
-		continuing {
-			k += 1u;
-			break if k >= end;
-		}
-	}
-	loops__cut_off |= k < end;
-	return color / f32(tap_count);
-}
-
-fn mipmap__level_of(picture: u32, level: u32) -> u32 {
-	if (level == 0u) {
-		return picture;
-	}
-	return picture + picture__load_texel_word((picture & types__PICTURE_FIRST_MASK) - level);
-}
-
-fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) -> vec4f {
-	let area = d1.x * d2.y - d1.y * d2.x;
-	let hand = select(1.0, -1.0, area < 0.0);
-	let along = hand * (d2.y * e1 - d1.y * e2);
-	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
-	let other = numeric__normalize_or(cross(n, axis), vec3f(1.0, 0.0, 0.0));
-	let within = numeric__normalize_or(along, other);
-	return vec4f(numeric__normalize_or(within - dot(within, n) * n, other), hand);
-}
-
-const layers__SMOOTH: f32 = 0.0001;
-
-struct layers__Layers {
-	diffuse: vec3f,
-	f0: vec3f,
-	f90: vec3f,
-	over_f0: vec3f,
-	over_f90: vec3f,
-	alpha: f32,
-	reflect: vec3f,
-	transmit: vec3f,
-	boundary_alpha: f32,
-	fresnel: u32,
-	ior: f32,
-	glow: vec3f,
-	coat: f32,
-	coat_roughness: f32,
-	sheen: vec3f,
-	sheen_roughness: f32,
-	anisotropy: f32,
-	along: vec2f,
-	film: f32,
-	film_ior: f32,
-	film_thickness: f32,
-	diffuse_transmission: f32,
-	diffuse_transmission_color: vec3f
-}
-
-fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
-	var own = material__load_layers(surface.material);
-	own.base = surface.phong.diffuse;
-	var reflect = surface.phong.reflect;
-	var transmit = optics.transmit;
-	var glow = vec3f(1.0);
-	var thickness = 1.0;
-	var along = vec2f(1.0, 0.0);
-	if (bindings__HAS_TEXTURES) {
-		var rest = own.slots;
-		loop {
-			let slot = firstTrailingBit(rest | 2147483648u);
-			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
-			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
-			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
-			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
-			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
-			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
-			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
-			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
-			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
-			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
-			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
-			if (bindings__HAS_ANISOTROPY) {
-				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
-				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
-			}
-			if (bindings__HAS_COATINGS) {
-				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
-				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
-				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
-				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
-				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
-				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
-				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
-				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
-			}
-			rest &= rest - 1u;
-			continuing {
-			
-				break if rest == 0u;
-			}
-		}
-		loops__cut_off |= rest != 0u;
-	}
-	var layers: layers__Layers;
-	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
-		layers = layers__metallic_roughness(own);
-	}
-	else {
-		layers.diffuse = own.base;
-		layers.f0 = own.f0;
-		layers.f90 = own.f0;
-		layers.over_f0 = own.f0;
-		layers.over_f90 = own.f0;
-		layers.alpha = own.roughness * own.roughness;
-		layers.reflect = reflect;
-		layers.transmit = transmit;
-		layers.fresnel = optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK);
-		layers.ior = own.ior;
-	}
-	layers.glow = glow;
-	if (bindings__HAS_ANISOTROPY) {
-		layers.anisotropy = own.anisotropy;
-		layers.along = dispersion__anisotropy_tangent(own.anisotropy_rotation, along);
-	}
-	if (bindings__HAS_COATINGS) {
-		layers.coat = own.coat;
-		layers.coat_roughness = own.coat_roughness;
-		layers.sheen = own.sheen;
-		layers.sheen_roughness = own.sheen_roughness;
-		layers.film = own.iridescence;
-		layers.film_ior = own.iridescence_ior;
-		layers.film_thickness = mix(own.film_thinnest, own.film_thickest, thickness);
-		layers.diffuse_transmission = own.diffuse_transmission;
-		layers.diffuse_transmission_color = own.diffuse_transmission_color;
-	}
-	return layers;
-}
-
-fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
-	var layers: layers__Layers;
-	layers.alpha = own.roughness * own.roughness;
-	layers.ior = own.ior;
-	let body = 1.0 - own.metallic;
-	layers.diffuse = body * own.base;
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
-		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
-		layers.diffuse *= 1.0 - own.transmission;
-		layers.f0 = own.metallic * own.base;
-		layers.f90 = vec3f(own.metallic);
-		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
-		layers.transmit = (body * own.transmission) * own.base;
-		layers.boundary_alpha = layers.alpha;
-		layers.fresnel = types__MATERIAL_FRESNEL;
-		return layers;
-	}
-	layers.f0 = mix(own.f0, own.base, own.metallic);
-	layers.f90 = vec3f(mix(own.f90, 1.0, own.metallic));
-	layers.over_f0 = own.f0;
-	layers.over_f90 = vec3f(own.f90);
-	return layers;
-}
-
-fn layers__textured(own: types__PackedLayers, slot: u32, surface: types__Surface) -> vec4f {
-	if ((own.slots & (1u << slot)) == 0u) {
-		return vec4f(1.0);
-	}
-	return texture__texture_value(material__load_texture(layers__texture_in(own, slot)), surface);
-}
-
-fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
-	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
-	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
-	let word = (slot >> 1u) & 3u;
-	let low = select(four.x, four.y, word == 1u);
-	let high = select(four.z, four.w, word == 3u);
-	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
-}
-
-fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
-	let b0 = abs(1.0 - b1 - b2);
-	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
-}
-
-fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
-}
-
-fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
-}
-
-fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
-}
-
-fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
-	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
-}
-
-fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
-	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
-}
-
-fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
-	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
-}
-
-fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
-	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	let reached = ray.origin + hit.t * ray.direction;
-	let material = material__load_material(shape.material);
-	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
-		let ng = shape.row_y;
-		let p = reached - dot(reached - shape.position, ng) * ng;
-		let outside = dot(ng, ray.direction) <= 0.0;
-		var plane_uv = vec2f(0.0);
-		if (bindings__HAS_TEXTURES) {
-			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
-		}
-		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
-	}
-	if (!shape__is_round(shape.kind)) {
-		let point = shape__canonical_point(shape, reached, hit.b1);
-		let placed = canonical__placed_point(shape, reached, point);
-		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
-	}
-	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
-	let ng = placed.ng;
-	let outside = dot(ng, ray.direction) <= 0.0;
-	var uv = vec2f(0.0);
-	if (bindings__HAS_TEXTURES) {
-		uv = canonical__sphere_uv(ng);
-	}
-	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
-}
-
-fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
-	if (shape__is_globe(shape.kind)) {
-		return globe__globe_point(shape, reached);
-	}
-	let ng = numeric__normalize_or(reached - shape.position, -direction);
-	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
-}
-
 struct interface__Interface {
 	here: u32,
 	media: vec4u,
@@ -4112,85 +4054,6 @@ fn interface__interface_at(around: vec4u, contact: contact__Contact, optics: typ
 	return found;
 }
 
-const medium__VACUUM: types__Medium = types__Medium(vec3f(0.0), 1.0, 0);
-
-fn medium__dominant(media: vec4u) -> u32 {
-	if (!bindings__HAS_CONTACT) {
-		return media.x;
-	}
-	if (!bindings__HAS_PRIORITIES) {
-		let last = select(media.xz, media.yw, media.yw != vec2u(types__NONE));
-		return select(last.x, last.y, last.y != types__NONE);
-	}
-	var best = media.x;
-	best = medium__higher(best, media.y);
-	best = medium__higher(best, media.z);
-	return medium__higher(best, media.w);
-}
-
-fn medium__higher(best: u32, next: u32) -> u32 {
-	if (next == types__NONE) {
-		return best;
-	}
-	return select(best, next, material__load_medium(next).priority >= material__load_medium(best).priority);
-}
-
-fn medium__medium_of(material: u32) -> types__Medium {
-	if (material == types__NONE) {
-		return medium__VACUUM;
-	}
-	return material__load_medium(material);
-}
-
-fn medium__transmittance(medium: types__Medium, distance: f32) -> vec3f {
-	return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
-}
-
-fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
-	return select(media__left(media, material), media__entered(media, material), vec4<bool>(entering));
-}
-
-fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
-	let started_inside = !entering & !media__contains(media, material);
-	return select(medium__dominant(media), material, started_inside);
-}
-
-fn media__has_room(media: vec4u) -> bool {
-	return media.w == types__NONE;
-}
-
-fn media__contains(media: vec4u, material: u32) -> bool {
-	return any(media == vec4u(material));
-}
-
-fn media__entered(media: vec4u, material: u32) -> vec4u {
-	let is_free = media == vec4u(types__NONE);
-	let is_first_free = is_free & !vec4<bool>(false, is_free.xyz);
-	return select(media, vec4u(material), is_first_free);
-}
-
-fn media__left(media: vec4u, material: u32) -> vec4u {
-	let is_it = media == vec4u(material);
-	let later = vec4<bool>(is_it.y | is_it.z | is_it.w, is_it.z | is_it.w, is_it.w, false);
-	let is_last = is_it & !later;
-	let x = is_last.x;
-	let y = x | is_last.y;
-	let z = y | is_last.z;
-	let w = z | is_last.w;
-	return select(media, vec4u(media.yzw, types__NONE), vec4<bool>(x, y, z, w));
-}
-
-var<private> ray_stack__current_tree: u32;
-
-var<private> ray_stack__trees_cut_off: wide__Words;
-
-var<private> ray_stack__cut_off_trees: u32 = 0u;
-
-fn ray_stack__cut_tree() {
-	ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);
-	ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
-}
-
 const dimensions__SCATTER_CHOICE: u32 = 0u;
 
 const dimensions__SCATTER_DIRECTION: u32 = 1u;
@@ -4211,47 +4074,19 @@ fn dimensions__dimension_key(pixel_key: u32, segment: u32, purpose: u32) -> u32 
 	return rng__hash_combine(pixel_key, dimensions__DIMENSIONS * (segment + 1u) + purpose);
 }
 
-fn coverage__coverage_at(surface: types__Surface) -> f32 {
-	if (!bindings__HAS_COVERAGE) {
-		return 1.0;
-	}
-	let material = material__load_coverage(surface.material);
-	if ((material.flags & types__MATERIAL_COVERAGE) == 0u) {
-		return 1.0;
-	}
-	var alpha = material.alpha;
-	if (bindings__HAS_TEXTURES) {
-		let index = material__load_texture_indices(surface.material).w >> 16u;
-		if (index != types__NO_TEXTURE) {
-			alpha *= texture__texture_alpha(material__load_texture(index), surface, (material.flags & types__MATERIAL_MASK) != 0u);
-		}
-	}
-	let masked = select(0.0, 1.0, alpha >= 0.999999);
-	return select(clamp(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
-}
-
-fn leaving__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -> types__Ray {
-	if (bindings__FIXED_OFFSET > 0.0) {
-		let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
-		return types__Ray(origin, t_max, direction, types__NONE, surface.instance);
-	}
-	let origin = offset__offset_origin(surface.p, surface.error, surface.ng, direction);
-	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
-}
-
-fn shadow_catcher__catch_shadow(batch: dispatch__Batch, path: path__Path, surface: types__Surface) {
-	let n = select(surface.n, -surface.n, dot(surface.n, path.ray.direction) > 0.0);
+fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: types__Surface) -> path__Path {
+	var path = path__ended(before);
+	let n = select(surface.n, -surface.n, dot(surface.n, before.ray.direction) > 0.0);
 	let arriving = shadow_catcher__light_on(batch, path, surface.p, n);
-	var rays = rays__dead_rays();
 	if (any(arriving.radiance > vec3f(0.0))) {
-		rays = rays__ray_set(rays, 0u, direct__shadow_ray(surface, arriving));
+		path.lamp = shadow__passage_of(direct__shadow_ray(surface, arriving), path.media);
 	}
-	let media = path.media;
-	let through = wide__vector_at(shadow__light_through(rays, ray_states__Media(media.x, media.y, media.z, media.w)), 0u);
 	let share = dot(path.throughput, tone__LUMINANCE_REC709);
+	path.lamp_light = share * arriving.radiance;
+	path.lamp_scatterings = path__CAUGHT;
 	opacity__clearness.catchers += share;
-	opacity__clearness.light += share * dot(arriving.radiance * through, tone__LUMINANCE_REC709);
 	opacity__clearness.unshadowed += share * dot(arriving.radiance, tone__LUMINANCE_REC709);
+	return path;
 }
 
 fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, n: vec3f) -> types__Incident {
@@ -4749,76 +4584,6 @@ fn area_light__max_abs(v: vec3f) -> f32 {
 	return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
-const pattern__CELL_SHIFT: f32 = 0.00073;
-
-fn pattern__checker(p: vec3f) -> f32 {
-	let cell = vec3i(floor(p + pattern__CELL_SHIFT));
-	return f32((cell.x + cell.y + cell.z) & 1);
-}
-
-fn pattern__stripes(p: vec3f) -> f32 {
-	return f32(i32(floor(2.0 * (p.x + pattern__CELL_SHIFT))) & 1);
-}
-
-fn pattern__gradient(p: vec3f) -> f32 {
-	return clamp(p.x, 0.0, 1.0);
-}
-
-fn pattern__clouds(sum: f32) -> f32 {
-	return clamp(0.5 + 0.5 * sum, 0.0, 1.0);
-}
-
-const noise__NOISE_PERIOD: u32 = 256u;
-
-const noise__OCTAVE_SHIFT = vec3f(0.37, 0.59, 0.83);
-
-struct noise__Octaves {
-	sum: f32,
-	count: u32
-}
-
-fn noise__noise_octaves(p: vec3f, count: u32) -> noise__Octaves {
-	let period = f32(noise__NOISE_PERIOD);
-	let home = p - period * floor(p / period);
-	var octaves = noise__Octaves(0.0, 0u);
-	var scale = 1.0;
-	loop {
-		let q = scale * home + f32(octaves.count) * noise__OCTAVE_SHIFT;
-		octaves.sum += noise__gradient_noise(q, noise__NOISE_PERIOD << octaves.count) / scale;
-		scale *= 2.0;
-		octaves.count += 1u;
-		continuing {
-		
-			break if octaves.count >= count;
-		}
-	}
-	return octaves;
-}
-
-fn noise__gradient_noise(p: vec3f, period: u32) -> f32 {
-	let cell = floor(p);
-	let f = p - cell;
-	let low = vec3u(vec3i(cell)) & vec3u(period - 1u);
-	let high = (low + 1u) & vec3u(period - 1u);
-	let z0 = rng__hash(low.z);
-	let z1 = rng__hash(high.z);
-	let y00 = rng__hash(low.y + z0);
-	let y10 = rng__hash(high.y + z0);
-	let y01 = rng__hash(low.y + z1);
-	let y11 = rng__hash(high.y + z1);
-	let t = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-	let x = vec4f(mix(noise__corner(low.x + y00, f), noise__corner(high.x + y00, f - vec3f(1.0, 0.0, 0.0)), t.x), mix(noise__corner(low.x + y10, f - vec3f(0.0, 1.0, 0.0)), noise__corner(high.x + y10, f - vec3f(1.0, 1.0, 0.0)), t.x), mix(noise__corner(low.x + y01, f - vec3f(0.0, 0.0, 1.0)), noise__corner(high.x + y01, f - vec3f(1.0, 0.0, 1.0)), t.x), mix(noise__corner(low.x + y11, f - vec3f(0.0, 1.0, 1.0)), noise__corner(high.x + y11, f - vec3f(1.0, 1.0, 1.0)), t.x));
-	let y = mix(x.xz, x.yw, t.y);
-	return mix(y.x, y.y, t.z);
-}
-
-fn noise__corner(key: u32, d: vec3f) -> f32 {
-	let h = rng__hash(key) & 15u;
-	let u = select(d.y, d.x, h < 8u);
-	let v = select(select(d.z, d.x, (h == 12u) | (h == 14u)), d.y, h < 4u);
-	return select(u, -u, (h & 1u) != 0u) + select(v, -v, (h & 2u) != 0u);
-}
-
 const coating__COAT_F0: f32 = 0.04;
 
 struct coating__Coating {
@@ -4891,47 +4656,6 @@ fn coating__to_coat(coating: coating__Coating, w: vec3f) -> vec3f {
 	let x = warp__turn_to(coating.coat_axis, vec3f(1.0, 0.0, 0.0));
 	let y = warp__turn_to(coating.coat_axis, vec3f(0.0, 1.0, 0.0));
 	return vec3f(dot(w, x), dot(w, y), dot(w, coating.coat_axis));
-}
-
-struct fresnel__Boundary {
-	reflectance: f32,
-	cos_t: f32,
-	total: bool
-}
-
-fn fresnel__ratio(a: f32, b: f32) -> f32 {
-	return a / max(b, 1e-12);
-}
-
-fn fresnel__fresnel(cos_i: f32, eta: f32) -> fresnel__Boundary {
-	let sin2_t = eta * eta * max(1.0 - cos_i * cos_i, 0.0);
-	let total = (sin2_t >= 1.0) & (eta > 1.0);
-	let cos_t = sqrt(max(1.0 - sin2_t, 0.0));
-	let r_s = fresnel__ratio(eta * cos_i - cos_t, eta * cos_i + cos_t);
-	let r_p = fresnel__ratio(cos_i - eta * cos_t, cos_i + eta * cos_t);
-	return fresnel__Boundary(select(0.5 * (r_s * r_s + r_p * r_p), 1.0, total), cos_t, total);
-}
-
-fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
-	let exact = fresnel__fresnel(cos_i, eta);
-	let r0 = fresnel__ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
-	let grazing = fresnel__schlick_weight(select(cos_i, exact.cos_t, eta > 1.0));
-	return fresnel__Boundary(select(mix(r0, 1.0, grazing), 1.0, exact.total), exact.cos_t, exact.total);
-}
-
-fn fresnel__schlick_weight(cosine: f32) -> f32 {
-	let x = 1.0 - clamp(cosine, 0.0, 1.0);
-	let x2 = x * x;
-	return x2 * x2 * x;
-}
-
-fn fresnel__schlick_between(f0: vec3f, f90: vec3f, cosine: f32) -> vec3f {
-	return mix(f0, f90, fresnel__schlick_weight(cosine));
-}
-
-fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f {
-	let cos_i = -dot(direction, n);
-	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
 const albedo__ALBEDO_SIDE: u32 = 32u;
@@ -5113,153 +4837,6 @@ fn direct__shadow_ray(surface: types__Surface, arriving: types__Incident) -> typ
 	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
 	ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
 	return ray;
-}
-
-const shadow__MAX_CROSSINGS: u32 = 64u;
-
-fn shadow__light_through(rays: rays__Rays, media: ray_states__Media) -> wide__Vectors {
-	record__open_shadow(rays__ray_at(rays, 0u).t_max);
-	var through: wide__Vectors;
-	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
-		through = shadow__filtered(rays, media);
-	}
-	else {
-		record__record_met(rays__hit_at(rays__closest_hits(rays), 0u), 0.0);
-		let hits = rays__any_hits(rays);
-		let passed = select(wide__Floats(0.0), wide__Floats(1.0), hits.primitive == wide__Words(types__NONE));
-		through = wide__Vectors(passed, passed, passed);
-	}
-	if (bindings__COUNT_RAYS) {
-		shadow__count_shadows(rays, through);
-	}
-	return through;
-}
-
-fn shadow__count_shadows(rays: rays__Rays, through: wide__Vectors) {
-	var k = 0u;
-	loop {
-		let is_cast = wide__float_at(rays.t_max, k) >= 0.0;
-		let is_blocked = is_cast & all(wide__vector_at(through, k) == vec3f(0.0));
-		dispatch__counts.shadow += select(0u, 1u, is_cast);
-		dispatch__counts.shadow_blocked += select(0u, 1u, is_blocked);
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-}
-
-fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__Vectors {
-	var rays = shadow_rays;
-	var media = start;
-	var transmitted = wide__Vectors(wide__Floats(1.0), wide__Floats(1.0), wide__Floats(1.0));
-	var crossings = 0u;
-	var is_unfinished = true;
-	loop {
-		let hits = rays__closest_hits(rays);
-		is_unfinished = false;
-		var rows = rays__rows_where(rays.t_max >= wide__Floats(0.0));
-		loop {
-			let k = rays__first_row(rows);
-			let ray = rays__ray_at(rays, k);
-			if (ray.t_max >= 0.0) {
-				let hit = rays__hit_at(hits, k);
-				var passed = wide__vector_at(transmitted, k);
-				var next = rays__DEAD;
-				if (hit.primitive == types__NONE) {
-					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-						passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_states__media_at(media, k))), hit.t);
-					}
-				}
-				else {
-					ray_stack__current_tree = k;
-					let contact = contact__contact_at(ray, hit, types__Cone(0.0, 0.0));
-					record__record_met(record__seen, shadow_rays.t_max - ray.t_max);
-					let surface = contact.surface;
-					var through = vec3f(0.0);
-					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-						let around = ray_states__media_at(media, k);
-						let beyond = contact__media_behind(around, contact);
-						media = ray_states__media_set(media, k, beyond);
-						through = shadow__passing(ray, hit.t, surface, around, medium__dominant(beyond));
-					}
-					passed *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
-					let rest = ray.t_max - hit.t;
-					if (any(passed > vec3f(0.0)) & (rest > 0.0)) {
-						next = leaving__leaving_ray(surface, ray.direction, rest);
-						is_unfinished = true;
-						passed = select(passed, vec3f(0.0), crossings + 1u >= shadow__MAX_CROSSINGS);
-					}
-				}
-				transmitted = wide__vector_set(transmitted, k, passed);
-				rays = rays__ray_set(rays, k, next);
-			}
-			continuing {
-				rows = rays__later_rows(rows);
-				break if wide__ONE_RAY | (rows == 0u);
-			}
-		}
-		loops__cut_off |= rows != 0u;
-		crossings += 1u;
-		continuing {
-		
-			break if !rays__any_lane(is_unfinished) | (crossings >= shadow__MAX_CROSSINGS);
-		}
-	}
-	loops__cut_off |= is_unfinished & (crossings < shadow__MAX_CROSSINGS);
-	return transmitted;
-}
-
-fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, around: vec4u, behind: u32) -> vec3f {
-	let optics = material__load_optics(surface.material);
-	let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
-	if (bindings__SOLID_GLASS) {
-		let layers = layers__layers_at(surface, optics);
-		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < layers__SMOOTH;
-		let medium = medium__medium_of(behind);
-		var share = 1.0;
-		if ((layers.fresnel & types__MATERIAL_FRESNEL) != 0u) {
-			share -= boundary__boundary_at(layers.fresnel, cos_i, medium.ior / layers.ior).reflectance;
-		}
-		return select(vec3f(0.0), share * layers.transmit * medium__transmittance(medium, distance), is_window);
-	}
-	var here = medium__medium_before(around, surface.material, surface.outside);
-	var ior_behind = medium__medium_of(behind).ior;
-	if ((optics.flags & types__MATERIAL_THIN) != 0u) {
-		here = behind;
-		ior_behind = optics.ior;
-	}
-	var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), distance);
-	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
-		let eta = medium__medium_of(here).ior / ior_behind;
-		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
-	}
-	return through;
-}
-
-const dispersion__WAVELENGTHS: vec3f = vec3f(611.4, 549.1, 464.2);
-
-fn dispersion__dispersed_ior(ior: f32, dispersion: f32, wavelength: f32) -> f32 {
-	let spread = (ior - 1.0) * dispersion / 20.0;
-	return max(ior + spread * (523655.0 / (wavelength * wavelength) - 1.5168), 1.0);
-}
-
-fn dispersion__anisotropic_alpha(alpha: f32, strength: f32) -> vec2f {
-	return vec2f(mix(alpha, 1.0, strength * strength), alpha);
-}
-
-fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
-	let own = texel * inverseSqrt(max(dot(texel, texel), 1e-12));
-	let turn = vec2f(cos(rotation), sin(rotation));
-	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
-}
-
-fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
-	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
-		return fresnel__schlick(cos_i, eta);
-	}
-	return fresnel__fresnel(cos_i, eta);
 }
 
 fn dispersion__load_dispersion(material: u32) -> f32 {
@@ -5769,4 +5346,369 @@ fn bsdf_ggx_transmission__ggx_transmission(wo: vec3f, wi: vec3f, alpha: vec2f, e
 	let refracted_density = abs(dot(wo, h) * dot(wi, h)) / (max(wo.z, 1e-6) * max(dot(sum, sum), 1e-12));
 	let pdf = bsdf_ggx__ggx_distribution(h, alpha) * refracted_density / seen;
 	return select(vec2f(0.0), vec2f(pdf / lit, pdf), wo.z > 0.0 && wi.z < 0.0);
+}
+
+const traverse__RETURN: u32 = 4294967294u;
+
+const traverse__CONTACT_RANGE: f32 = 0.0001;
+
+struct traverse__Walk {
+	ray: types__Ray,
+	shear: triangle_watertight__Shear,
+	any: bool,
+	at: primitive__TraversalRay,
+	hit: types__Hit,
+	current: u32
+}
+
+const traverse__NO_LIMIT: u32 = 4294967295u;
+
+fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
+	if (bindings__HAS_CONTACT) {
+		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
+	}
+	return hit.t;
+}
+
+fn traverse__walk_of(ray: types__Ray, any: bool) -> traverse__Walk {
+	if (bindings__HAS_CONTACT) {
+		primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+	}
+	let shear = triangle_watertight__shear_of(ray.direction);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
+	if (bindings__HAS_PLANES) {
+		walk.hit = exhaustive__hit_planes(ray, walk.hit);
+	}
+	if (bindings__BRUTE_FORCE) {
+		walk.hit = exhaustive__hit_everything(ray, shear, walk.hit);
+		return walk;
+	}
+	if ((bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) && ray.t_max >= 0.0 && !(any && walk.hit.primitive != types__NONE)) {
+		stack__start_stack();
+		walk.current = 0u;
+		if (bindings__HAS_INSTANCES) {
+			walk.current = fetch__root;
+		}
+	}
+	return walk;
+}
+
+fn traverse__is_walking(walk: traverse__Walk) -> bool {
+	return walk.current != stack__EMPTY;
+}
+
+fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
+	var walk = before;
+	var round = 0u;
+	if (traverse__is_walking(walk)) {
+		loop {
+			if (bindings__HAS_INSTANCES) {
+				walk = traverse__in_its_space(walk);
+			}
+			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
+			if (is_node) {
+				loop {
+					let node = traverse__load_current_node(walk.current, walk.at.keys);
+					let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
+					let is_hit = keys < vec4u(node__MISS);
+					let top = stack__top_of_stack();
+					let next = vec3u(node.children[keys.y & 3u], node.children[keys.z & 3u], node.children[keys.w & 3u]);
+					stack__move_stack(next, traverse__hit_count(keys) - 1);
+					walk.current = select(top, node.children[keys.x & 3u], keys.x < node__MISS);
+					if (bindings__COUNT_STEPS) {
+						loops__nodes_visited += 1u;
+					}
+					continuing {
+					
+						break if (walk.current & types__LEAF) != 0u;
+					}
+				}
+			}
+			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
+			if (is_leaf) {
+				loop {
+					walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
+					let is_last = (walk.current & types__LEAF_COUNT_MASK) == 0u;
+					walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__top_of_stack(), is_last);
+					stack__move_stack(vec3u(stack__EMPTY), select(0, -1, is_last));
+					walk.current = select(walk.current, stack__EMPTY, walk.any & (walk.hit.primitive != types__NONE));
+					if (bindings__COUNT_STEPS) {
+						loops__primitives_tested += 1u;
+					}
+					continuing {
+					
+						break if ((walk.current & types__LEAF) == 0u) | (walk.current >= types__INSTANCE);
+					}
+				}
+			}
+			round += 1u;
+			continuing {
+			
+				break if !traverse__is_walking(walk) | (round >= rounds);
+			}
+		}
+		loops__cut_off |= traverse__is_walking(walk) & (round < rounds);
+	}
+	return walk;
+}
+
+fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	if (walk.current == traverse__RETURN) {
+		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
+		walk.current = stack__top_of_stack();
+		stack__pop();
+	}
+	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
+		let index = walk.current & types__LEAF_FIRST_MASK;
+		let instance = fetch__load_instance(index);
+		let local = instance__object_ray(walk.ray, instance__space_of(instance));
+		walk.at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
+		stack__push(traverse__RETURN);
+		walk.current = instance.root;
+	}
+	return walk;
+}
+
+fn traverse__hit_count(keys: vec4u) -> i32 {
+	let hits = select(vec4i(0), vec4i(1), keys < vec4u(node__MISS));
+	return hits.x + hits.y + hits.z + hits.w;
+}
+
+fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> types__Node {
+	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
+		return deforming__node_now(reference, keys);
+	}
+	return fetch__load_node(reference);
+}
+
+struct triangle_watertight__Shear {
+	x: vec3f,
+	y: vec3f,
+	z: vec3f
+}
+
+fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
+	let size = abs(direction);
+	let is_x = (size.x >= size.y) & (size.x >= size.z);
+	let is_y = !is_x & (size.y >= size.z);
+	let axis_z = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), is_y), vec3f(1.0, 0.0, 0.0), is_x);
+	let axis_x = axis_z.zxy;
+	let axis_y = axis_z.yzx;
+	let scale = 1.0 / dot(direction, axis_z);
+	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
+}
+
+fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+	let a = v0 - origin;
+	let b = v1 - origin;
+	let c = v2 - origin;
+	let ax = dot(shear.x, a);
+	let ay = dot(shear.y, a);
+	let bx = dot(shear.x, b);
+	let by = dot(shear.y, b);
+	let cx = dot(shear.x, c);
+	let cy = dot(shear.y, c);
+	let left = vec3f(cx * by, ax * cy, bx * ay);
+	let right = vec3f(cy * bx, ay * cx, by * ax);
+	let inside = all(left >= right) | all(left <= right);
+	let edges = left - right;
+	let det = edges.x + edges.y + edges.z;
+	let usable = inside & (abs(det) > 1e-36);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
+	let t = dot(edges, depths) * inv_det;
+	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+}
+
+const stack__EMPTY: u32 = 4294967295u;
+
+var<private> stack__top: u32;
+
+var<private> stack__entries: array<u32, types__STACK_SIZE>;
+
+fn stack__start_stack() {
+	stack__top = 0u;
+	stack__entries[0] = stack__EMPTY;
+}
+
+fn stack__top_of_stack() -> u32 {
+	return stack__entries[stack__top];
+}
+
+fn stack__pop() {
+	stack__move_stack(vec3u(stack__EMPTY), -1);
+}
+
+fn stack__push(reference: u32) {
+	stack__move_stack(vec3u(reference, stack__EMPTY, stack__EMPTY), 1);
+}
+
+fn stack__move_stack(references: vec3u, count: i32) {
+	stack__entries[stack__top + 1u] = references.z;
+	stack__top += select(0u, 1u, count >= 3);
+	stack__entries[stack__top + 1u] = references.y;
+	stack__top += select(0u, 1u, count >= 2);
+	stack__entries[stack__top + 1u] = references.x;
+	stack__top += select(0u, 1u, count >= 1);
+	stack__top -= select(0u, 1u, (count < 0) & (stack__entries[stack__top] != stack__EMPTY));
+}
+
+const node__MISS: u32 = 4294967292u;
+
+const node__WIDENING: i32 = 8;
+
+fn node__bytes(word: u32) -> vec4f {
+	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
+}
+
+fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
+	return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
+}
+
+fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
+	let lo = mix(a.lo, b.lo, vec3f(fraction));
+	let shift_a = a.lo - lo;
+	let shift_b = b.lo - lo;
+	let s = vec4f(fraction);
+	return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+}
+
+fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
+	let base = (node.lo - origin) * inv;
+	let step = node.scale * inv;
+	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
+	let x1 = bitcast<vec4i>(node.max_x * step.x + base.x);
+	let y0 = bitcast<vec4i>(node.min_y * step.y + base.y);
+	let y1 = bitcast<vec4i>(node.max_y * step.y + base.y);
+	let z0 = bitcast<vec4i>(node.min_z * step.z + base.z);
+	let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
+	let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
+	let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
+	let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
+	let hit = (near <= limit) & (node.children != vec4u(0u));
+	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
+	return select(vec4u(node__MISS), keys, hit);
+}
+
+fn node__sort4(keys: vec4u) -> vec4u {
+	let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
+	let lowest = min(a.x, a.y);
+	let middle_low = max(a.x, a.y);
+	let middle_high = min(a.z, a.w);
+	let highest = max(a.z, a.w);
+	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
+}
+
+fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let n = cross(e1, e2);
+	let slope = dot(n, ray.direction);
+	let area = dot(n, n);
+	let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
+	let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
+	let w = ray.origin + t * ray.direction - v0;
+	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
+	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+}
+
+fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let p = cross(ray.direction, e2);
+	let det = dot(e1, p);
+	let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let s = ray.origin - v0;
+	let b1 = inv_det * dot(s, p);
+	let q = cross(s, e1);
+	let b2 = inv_det * dot(ray.direction, q);
+	let t = inv_det * dot(e2, q);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+}
+
+fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> types__Candidate {
+	let f = ray.origin - center;
+	let a = dot(ray.direction, ray.direction);
+	let b = -dot(f, ray.direction);
+	let nearest = f + (b / a) * ray.direction;
+	let discriminant = radius * radius - dot(nearest, nearest);
+	if (discriminant < 0.0) {
+		return types__Candidate(false, 0.0, 0.0, 0.0);
+	}
+	let c = dot(f, f) - radius * radius;
+	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
+	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
+	let t1 = q / a;
+	let near = min(t0, t1);
+	let t = select(max(t0, t1), near, near > 0.0);
+	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+}
+
+fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
+	var hit = start;
+	var index = fetch__first_plane;
+	loop {
+		let shape = fetch__load_shape(index);
+		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
+		let primitive = types__SHAPE | index;
+		let counts = candidate.hit & (primitive != ray.leaving);
+		let wins = counts & (candidate.t < hit.t);
+		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+		if (bindings__HAS_CONTACT) {
+			primitive__keep_runner_up(hit, found, counts, wins);
+		}
+		if (wins) {
+			hit = found;
+		}
+		continuing {
+			index += 1u;
+			break if index >= fetch__end_plane;
+		}
+	}
+	loops__cut_off |= index < fetch__end_plane;
+	return hit;
+}
+
+fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
+	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
+	var hit = start;
+	if (bindings__HAS_TRIANGLES) {
+		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
+	}
+	if (bindings__HAS_SHAPES) {
+		hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
+	}
+	if (bindings__HAS_INSTANCES) {
+		var index = 0u;
+		for (; index < bindings__frame.instance_count; index += 1u) {
+			let instance = fetch__load_instance(index);
+			let local = instance__object_ray(ray, instance__space_of(instance));
+			let at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
+			hit = exhaustive__hit_run(at, hit, instance.first, instance.count);
+		}
+		loops__cut_off |= index < bindings__frame.instance_count;
+	}
+	return hit;
+}
+
+fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
+	var hit = start;
+	var index = 0u;
+	for (; index < count; index += 1u) {
+		hit = primitive__closer(at, hit, first + index);
+	}
+	loops__cut_off |= index < count;
+	return hit;
+}
+
+fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
+	let slope = dot(n, ray.direction);
+	let steep = abs(slope) > 1e-12;
+	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
+	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }

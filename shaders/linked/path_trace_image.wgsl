@@ -1,3 +1,5 @@
+const WALK_ROUNDS: u32 = 2u;
+
 const ROULETTE_START: u32 = 3u;
 
 @compute @workgroup_size(64, 1, 1)
@@ -6,12 +8,17 @@ fn path_trace(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 	var pixels = pixels__load_pixels(batch, dispatch__load_block(group), lane);
 	var sample = batch.first_sample;
 	var path = path__camera_path(batch, pixels, sample);
+	var walk = path__next_walk(path);
 	loop {
-		path = traced(batch, path);
-		if (!path__is_going(path)) {
-			pixels = pixels__add_samples(pixels, sample, wide__Vectors(path.radiance.x, path.radiance.y, path.radiance.z));
-			sample += 1u;
-			path = path__camera_path(batch, pixels, sample);
+		walk = traverse__walked(walk, WALK_ROUNDS);
+		if (!traverse__is_walking(walk)) {
+			path = arrived(batch, path, walk.hit);
+			if (!path__is_going(path)) {
+				pixels = pixels__add_samples(pixels, sample, wide__Vectors(path.radiance.x, path.radiance.y, path.radiance.z));
+				sample += 1u;
+				path = path__camera_path(batch, pixels, sample);
+			}
+			walk = path__next_walk(path);
 		}
 		continuing {
 		
@@ -23,19 +30,25 @@ fn path_trace(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 	dispatch__add_counts(lane);
 }
 
-fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
+fn arrived(batch: dispatch__Batch, path: path__Path, hit: types__Hit) -> path__Path {
+	if (path__is_to_lamp(path)) {
+		return path__lit(path, hit);
+	}
+	if (path__is_going(path)) {
+		return traced(batch, path, hit);
+	}
+	return path;
+}
+
+fn traced(batch: dispatch__Batch, before: path__Path, hit: types__Hit) -> path__Path {
 	var path = before;
 	let ray = path.ray;
-	let hit = rays__hit_at(rays__closest_hits(rays__ray_set(rays__dead_rays(), 0u, ray)), 0u);
-	if (ray.t_max < 0.0) {
-		return path;
-	}
 	dispatch__count_hit(path.kind, hit);
 	if (hit.primitive == types__NONE) {
 		let weight = environment__background_weight(batch, ray.direction, path.pdf);
 		let seen = backdrop__radiance_behind(batch, path);
 		features__see_albedo(path.throughput * seen, vec3f(0.0));
-		return path__ended(path__gained(path, weight * seen, path.bounces));
+		return path__ended(path__gained(path, path.throughput * (weight * seen), path.bounces));
 	}
 	let contact = contact__contact_at(ray, hit, path.cone);
 	let surface = contact.surface;
@@ -51,8 +64,7 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	features__see_first(surface, hit, distance(path.origin, surface.p));
 	if (bindings__HAS_CATCHERS && backdrop__is_seen(path) && (optics.flags & types__MATERIAL_SHADOW_CATCHER) != 0u) {
 		features__see_albedo(vec3f(1.0), surface.n);
-		shadow_catcher__catch_shadow(batch, path, surface);
-		return path__ended(path);
+		return shadow_catcher__caught(batch, path, surface);
 	}
 	if (bindings__HAS_DISPERSION) {
 		path = dispersion__colored(path, met);
@@ -62,27 +74,28 @@ fn traced(batch: dispatch__Batch, before: path__Path) -> path__Path {
 	let weight = emitters__emission_weight(batch, surface, hit, emitters__Sender(path.origin, path.normal, path.pdf), ray.direction);
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
 	let emission = coat * emitters__emitted(surface, optics, layers.glow);
-	path = path__gained(path, weight * emission, path.bounces);
+	path = path__gained(path, path.throughput * (weight * emission), path.bounces);
 	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
 	seen__see_surface(path, bsdf, emission);
 	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
-		path = path__gained(path, lamp_light(batch, path, surface, bsdf, met), path.bounces + 1u);
+		path = toward_lamp(batch, path, surface, bsdf, met);
 	}
 	return scattered(batch, path, surface, bsdf, met);
 }
 
-fn lamp_light(batch: dispatch__Batch, path: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> vec3f {
+fn toward_lamp(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
+	var path = before;
 	let light = emitters__sample_light(batch, surface.p, bsdf__receiving_normal(bsdf), path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
 	let found = bsdf__bsdf_eval(bsdf, light.incident.direction);
 	let weight = select(1.0, mis__power_heuristic(light.pdf, found.pdf), light.pdf > 0.0);
 	let unshadowed = weight * found.value * light.incident.radiance;
-	var rays = rays__dead_rays();
 	if (any(unshadowed > vec3f(0.0))) {
-		rays = rays__ray_set(rays, 0u, direct__shadow_ray(surface, light.incident));
+		let media = select(path.media, met.media, vec4<bool>(dot(light.incident.direction, bsdf.ng) < 0.0));
+		path.lamp = shadow__passage_of(direct__shadow_ray(surface, light.incident), media);
+		path.lamp_light = path.throughput * unshadowed;
+		path.lamp_scatterings = path.bounces + 1u;
 	}
-	let media = select(path.media, met.media, vec4<bool>(dot(light.incident.direction, bsdf.ng) < 0.0));
-	let through = wide__vector_at(shadow__light_through(rays, ray_states__Media(media.x, media.y, media.z, media.w)), 0u);
-	return unshadowed * through;
+	return path;
 }
 
 fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
@@ -1032,6 +1045,8 @@ override bindings__MIXED_MATERIALS: bool = true;
 
 override bindings__BRUTE_FORCE: bool = false;
 
+override bindings__STACK_REGISTERS: u32 = 0u;
+
 override bindings__FIXED_OFFSET: f32 = 0.0;
 
 override bindings__STRATIFIED: bool = false;
@@ -1413,10 +1428,15 @@ struct path__Path {
 	cone: types__Cone,
 	key: u32,
 	sample: u32,
-	channel: u32
+	channel: u32,
+	lamp: shadow__Passage,
+	lamp_light: vec3f,
+	lamp_scatterings: u32
 }
 
 const path__ALL_CHANNELS: u32 = 3u;
+
+const path__CAUGHT: u32 = 4294967295u;
 
 fn path__camera_path(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32) -> path__Path {
 	features__start_features();
@@ -1429,16 +1449,45 @@ fn path__path_along(batch: dispatch__Batch, ray: types__Ray, key: u32, sample: u
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, vec3f(0.0), 0.0, cone, key, sample, path__ALL_CHANNELS);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, vec3f(0.0), 0.0, cone, key, sample, path__ALL_CHANNELS, shadow__Passage(rays__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u);
 }
 
 fn path__is_going(path: path__Path) -> bool {
-	return path.ray.t_max >= 0.0;
+	return path.ray.t_max >= 0.0 || path__is_to_lamp(path);
+}
+
+fn path__is_to_lamp(path: path__Path) -> bool {
+	return path.lamp.ray.t_max >= 0.0;
+}
+
+fn path__next_walk(path: path__Path) -> traverse__Walk {
+	var ray = path.ray;
+	var any = false;
+	if (path__is_to_lamp(path)) {
+		ray = path.lamp.ray;
+		any = !shadow__sees_through();
+	}
+	return traverse__walk_of(ray, any);
+}
+
+fn path__lit(before: path__Path, hit: types__Hit) -> path__Path {
+	var path = before;
+	path.lamp = shadow__crossed(path.lamp, hit);
+	if (path__is_to_lamp(path)) {
+		return path;
+	}
+	shadow__count_shadow(path.lamp.through);
+	let light = path.lamp_light * path.lamp.through;
+	if (bindings__HAS_CATCHERS && path.lamp_scatterings == path__CAUGHT) {
+		opacity__clearness.light += dot(light, tone__LUMINANCE_REC709);
+		return path;
+	}
+	return path__gained(path, light, path.lamp_scatterings);
 }
 
 fn path__gained(before: path__Path, light: vec3f, scatterings: u32) -> path__Path {
 	var path = before;
-	var gain = path.throughput * light;
+	var gain = light;
 	if (bindings__CLAMP_INDIRECT > 0.0) {
 		let brightest = numeric__max_component(gain);
 		let is_clamped = scatterings > 1u && brightest > bindings__CLAMP_INDIRECT;
@@ -1472,6 +1521,91 @@ fn path__random_1d(path: path__Path, purpose: u32) -> f32 {
 
 fn path__random_2d(path: path__Path, purpose: u32) -> vec2f {
 	return sampling__stratified_2d(path.sample, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
+}
+
+const shadow__MAX_CROSSINGS: u32 = 64u;
+
+struct shadow__Passage {
+	ray: types__Ray,
+	media: vec4u,
+	through: vec3f,
+	crossings: u32
+}
+
+fn shadow__passage_of(ray: types__Ray, media: vec4u) -> shadow__Passage {
+	return shadow__Passage(ray, media, vec3f(1.0), 0u);
+}
+
+fn shadow__sees_through() -> bool {
+	return bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS);
+}
+
+fn shadow__crossed(before: shadow__Passage, hit: types__Hit) -> shadow__Passage {
+	var passage = before;
+	passage.ray = rays__DEAD;
+	if (hit.primitive == types__NONE) {
+		if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+			passage.through *= medium__transmittance(medium__medium_of(medium__dominant(before.media)), hit.t);
+		}
+		return passage;
+	}
+	if (!shadow__sees_through()) {
+		passage.through = vec3f(0.0);
+		return passage;
+	}
+	let contact = contact__contact_at(before.ray, hit, types__Cone(0.0, 0.0));
+	let surface = contact.surface;
+	var through = vec3f(0.0);
+	if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+		passage.media = contact__media_behind(before.media, contact);
+		through = shadow__passing(before.ray, hit.t, surface, before.media, medium__dominant(passage.media));
+	}
+	passage.through *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
+	passage.crossings += 1u;
+	let rest = before.ray.t_max - hit.t;
+	if (any(passage.through > vec3f(0.0)) && rest > 0.0) {
+		if (passage.crossings < shadow__MAX_CROSSINGS) {
+			passage.ray = leaving__leaving_ray(surface, before.ray.direction, rest);
+		}
+		else {
+			passage.through = vec3f(0.0);
+		}
+	}
+	return passage;
+}
+
+fn shadow__count_shadow(through: vec3f) {
+	if (bindings__COUNT_RAYS) {
+		dispatch__counts.shadow += 1u;
+		dispatch__counts.shadow_blocked += select(0u, 1u, all(through == vec3f(0.0)));
+	}
+}
+
+fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, around: vec4u, behind: u32) -> vec3f {
+	let optics = material__load_optics(surface.material);
+	let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
+	if (bindings__SOLID_GLASS) {
+		let layers = layers__layers_at(surface, optics);
+		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < layers__SMOOTH;
+		let medium = medium__medium_of(behind);
+		var share = 1.0;
+		if ((layers.fresnel & types__MATERIAL_FRESNEL) != 0u) {
+			share -= boundary__boundary_at(layers.fresnel, cos_i, medium.ior / layers.ior).reflectance;
+		}
+		return select(vec3f(0.0), share * layers.transmit * medium__transmittance(medium, distance), is_window);
+	}
+	var here = medium__medium_before(around, surface.material, surface.outside);
+	var ior_behind = medium__medium_of(behind).ior;
+	if ((optics.flags & types__MATERIAL_THIN) != 0u) {
+		here = behind;
+		ior_behind = optics.ior;
+	}
+	var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), distance);
+	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
+		let eta = medium__medium_of(here).ior / ior_behind;
+		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
+	}
+	return through;
 }
 
 struct features__Features {
@@ -1658,49 +1792,12 @@ const ray_states__KIND_REFLECTED: u32 = 1u;
 
 const ray_states__KIND_REFRACTED: u32 = 2u;
 
-struct ray_states__Media {
-	x: wide__Words,
-	y: wide__Words,
-	z: wide__Words,
-	w: wide__Words
-}
-
-fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
-	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
-}
-
-fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
-	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
-}
-
 struct rays__Rays {
 	origin: wide__Vectors,
 	direction: wide__Vectors,
 	t_max: wide__Floats,
 	leaving: wide__Words,
 	leaving_instance: wide__Words
-}
-
-struct rays__Hits {
-	t: wide__Floats,
-	primitive: wide__Words,
-	b1: wide__Floats,
-	b2: wide__Floats,
-	instance: wide__Words
-}
-
-fn rays__rows_where(condition: bool) -> u32 {
-	return select(0u, 1u, condition);
-}
-
-fn rays__first_row(rows: u32) -> u32 {
-	{
-		return 0u;
-	}
-}
-
-fn rays__later_rows(rows: u32) -> u32 {
-	return rows & (rows - 1u);
 }
 
 const rays__DEAD: types__Ray = types__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
@@ -1715,32 +1812,6 @@ fn rays__ray_at(rays: rays__Rays, k: u32) -> types__Ray {
 
 fn rays__ray_set(rays: rays__Rays, k: u32, ray: types__Ray) -> rays__Rays {
 	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
-}
-
-fn rays__hit_at(hits: rays__Hits, k: u32) -> types__Hit {
-	return types__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
-}
-
-fn rays__hits_of(hit: types__Hit) -> rays__Hits {
-	return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
-}
-
-fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
-	}
-}
-
-fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
-	}
-}
-
-fn rays__any_lane(condition: bool) -> bool {
-	{
-		return condition;
-	}
 }
 
 const filter__PI: f32 = 3.14159265;
@@ -2037,19 +2108,17 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	return direction.x * x + direction.y * y + direction.z * n;
 }
 
-const traverse__EMPTY: u32 = 4294967295u;
-
 const traverse__RETURN: u32 = 4294967294u;
-
-var<private> traverse__stack: array<u32, types__STACK_SIZE>;
 
 const traverse__CONTACT_RANGE: f32 = 0.0001;
 
-fn traverse__closest_hit(ray: types__Ray) -> types__Hit {
-	if (bindings__HAS_CONTACT) {
-		primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
-	}
-	return traverse__traverse(ray, false);
+struct traverse__Walk {
+	ray: types__Ray,
+	shear: triangle_watertight__Shear,
+	any: bool,
+	at: primitive__TraversalRay,
+	hit: types__Hit,
+	current: u32
 }
 
 fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
@@ -2059,104 +2128,109 @@ fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
 	return hit.t;
 }
 
-fn traverse__any_hit(ray: types__Ray) -> types__Hit {
-	return traverse__traverse(ray, true);
-}
-
-fn traverse__traverse(ray: types__Ray, any: bool) -> types__Hit {
-	var hit = types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+fn traverse__walk_of(ray: types__Ray, any: bool) -> traverse__Walk {
+	if (bindings__HAS_CONTACT) {
+		primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+	}
 	let shear = triangle_watertight__shear_of(ray.direction);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
 	if (bindings__HAS_PLANES) {
-		hit = exhaustive__hit_planes(ray, hit);
+		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
 	if (bindings__BRUTE_FORCE) {
-		return exhaustive__hit_everything(ray, shear, hit);
+		walk.hit = exhaustive__hit_everything(ray, shear, walk.hit);
+		return walk;
 	}
-	if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) || (any && hit.primitive != types__NONE)) {
-		return hit;
+	if ((bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) && ray.t_max >= 0.0 && !(any && walk.hit.primitive != types__NONE)) {
+		stack__start_stack();
+		walk.current = 0u;
+		if (bindings__HAS_INSTANCES) {
+			walk.current = fetch__root;
+		}
 	}
-	return traverse__walk(ray, shear, any, hit);
+	return walk;
 }
 
-fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool, start: types__Hit) -> types__Hit {
-	var hit = start;
-	var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
-	traverse__stack[0] = traverse__EMPTY;
-	var top = 0u;
-	var current = 0u;
-	if (bindings__HAS_INSTANCES) {
-		current = fetch__root;
-	}
-	loop {
-		if (bindings__HAS_INSTANCES) {
-			if (current == traverse__RETURN) {
-				at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
-				current = traverse__stack[top];
-				top -= select(1u, 0u, current == traverse__EMPTY);
-			}
-			if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
-				let index = current & types__LEAF_FIRST_MASK;
-				let instance = fetch__load_instance(index);
-				let local = instance__object_ray(ray, instance__space_of(instance));
-				at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
-				top += 1u;
-				traverse__stack[top] = traverse__RETURN;
-				current = instance.root;
-			}
-		}
-		let is_node = !bindings__HAS_INSTANCES || (current & types__LEAF) == 0u;
-		if (is_node) {
-			loop {
-				let node = traverse__load_current_node(current, at.keys);
-				let keys = node__sort4(node__child_keys(node, at.ray.origin, at.inv, traverse__search_limit(ray, hit)));
-				let is_hit = keys < vec4u(node__MISS);
-				let pushed = select(vec4u(0u), vec4u(1u), is_hit);
-				traverse__stack[top + 1u] = node.children[keys.w & 3u];
-				top += pushed.w;
-				traverse__stack[top + 1u] = node.children[keys.z & 3u];
-				top += pushed.z;
-				traverse__stack[top + 1u] = node.children[keys.y & 3u];
-				top += pushed.y;
-				let popped = traverse__stack[top];
-				current = select(popped, node.children[keys.x & 3u], is_hit.x);
-				top -= select(1u, 0u, is_hit.x | (popped == traverse__EMPTY));
-				if (bindings__COUNT_STEPS) {
-					loops__nodes_visited += 1u;
-				}
-				continuing {
-				
-					break if (current & types__LEAF) != 0u;
-				}
-			}
-		}
-		if (current == traverse__EMPTY) {
-			break;
-		}
-		if (bindings__HAS_INSTANCES && current >= types__INSTANCE) {
-			continue;
-		}
+fn traverse__is_walking(walk: traverse__Walk) -> bool {
+	return walk.current != stack__EMPTY;
+}
+
+fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
+	var walk = before;
+	var round = 0u;
+	if (traverse__is_walking(walk)) {
 		loop {
-			hit = primitive__closer(at, hit, current & (types__SHAPE | types__LEAF_FIRST_MASK));
-			let popped = traverse__stack[top];
-			let is_last = (current & types__LEAF_COUNT_MASK) == 0u;
-			top -= select(0u, 1u, is_last & (popped != traverse__EMPTY));
-			current = select(current - types__LEAF_COUNT_ONE + 1u, popped, is_last);
-			current = select(current, traverse__EMPTY, any & (hit.primitive != types__NONE));
-			if (bindings__COUNT_STEPS) {
-				loops__primitives_tested += 1u;
+			if (bindings__HAS_INSTANCES) {
+				walk = traverse__in_its_space(walk);
 			}
+			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
+			if (is_node) {
+				loop {
+					let node = traverse__load_current_node(walk.current, walk.at.keys);
+					let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
+					let is_hit = keys < vec4u(node__MISS);
+					let top = stack__top_of_stack();
+					let next = vec3u(node.children[keys.y & 3u], node.children[keys.z & 3u], node.children[keys.w & 3u]);
+					stack__move_stack(next, traverse__hit_count(keys) - 1);
+					walk.current = select(top, node.children[keys.x & 3u], keys.x < node__MISS);
+					if (bindings__COUNT_STEPS) {
+						loops__nodes_visited += 1u;
+					}
+					continuing {
+					
+						break if (walk.current & types__LEAF) != 0u;
+					}
+				}
+			}
+			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
+			if (is_leaf) {
+				loop {
+					walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
+					let is_last = (walk.current & types__LEAF_COUNT_MASK) == 0u;
+					walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__top_of_stack(), is_last);
+					stack__move_stack(vec3u(stack__EMPTY), select(0, -1, is_last));
+					walk.current = select(walk.current, stack__EMPTY, walk.any & (walk.hit.primitive != types__NONE));
+					if (bindings__COUNT_STEPS) {
+						loops__primitives_tested += 1u;
+					}
+					continuing {
+					
+						break if ((walk.current & types__LEAF) == 0u) | (walk.current >= types__INSTANCE);
+					}
+				}
+			}
+			round += 1u;
 			continuing {
 			
-				break if ((current & types__LEAF) == 0u) | (current >= types__INSTANCE);
+				break if !traverse__is_walking(walk) | (round >= rounds);
 			}
 		}
-		continuing {
-		
-			break if current == traverse__EMPTY;
-		}
+		loops__cut_off |= traverse__is_walking(walk) & (round < rounds);
 	}
-	loops__cut_off |= current != traverse__EMPTY;
-	return hit;
+	return walk;
+}
+
+fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	if (walk.current == traverse__RETURN) {
+		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
+		walk.current = stack__top_of_stack();
+		stack__pop();
+	}
+	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
+		let index = walk.current & types__LEAF_FIRST_MASK;
+		let instance = fetch__load_instance(index);
+		let local = instance__object_ray(walk.ray, instance__space_of(instance));
+		walk.at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
+		stack__push(traverse__RETURN);
+		walk.current = instance.root;
+	}
+	return walk;
+}
+
+fn traverse__hit_count(keys: vec4u) -> i32 {
+	let hits = select(vec4i(0), vec4i(1), keys < vec4u(node__MISS));
+	return hits.x + hits.y + hits.z + hits.w;
 }
 
 fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> types__Node {
@@ -2164,6 +2238,45 @@ fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> types__
 		return deforming__node_now(reference, keys);
 	}
 	return fetch__load_node(reference);
+}
+
+struct triangle_watertight__Shear {
+	x: vec3f,
+	y: vec3f,
+	z: vec3f
+}
+
+fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
+	let size = abs(direction);
+	let is_x = (size.x >= size.y) & (size.x >= size.z);
+	let is_y = !is_x & (size.y >= size.z);
+	let axis_z = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), is_y), vec3f(1.0, 0.0, 0.0), is_x);
+	let axis_x = axis_z.zxy;
+	let axis_y = axis_z.yzx;
+	let scale = 1.0 / dot(direction, axis_z);
+	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
+}
+
+fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+	let a = v0 - origin;
+	let b = v1 - origin;
+	let c = v2 - origin;
+	let ax = dot(shear.x, a);
+	let ay = dot(shear.y, a);
+	let bx = dot(shear.x, b);
+	let by = dot(shear.y, b);
+	let cx = dot(shear.x, c);
+	let cy = dot(shear.y, c);
+	let left = vec3f(cx * by, ax * cy, bx * ay);
+	let right = vec3f(cy * bx, ay * cx, by * ax);
+	let inside = all(left >= right) | all(left <= right);
+	let edges = left - right;
+	let det = edges.x + edges.y + edges.z;
+	let usable = inside & (abs(det) > 1e-36);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
+	let t = dot(edges, depths) * inv_det;
+	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
 }
 
 var<private> primitive__runner_up: types__Hit;
@@ -2230,109 +2343,6 @@ fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, she
 		return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
 	}
 	return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
-}
-
-struct triangle_watertight__Shear {
-	x: vec3f,
-	y: vec3f,
-	z: vec3f
-}
-
-fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
-	let size = abs(direction);
-	let is_x = (size.x >= size.y) & (size.x >= size.z);
-	let is_y = !is_x & (size.y >= size.z);
-	let axis_z = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), is_y), vec3f(1.0, 0.0, 0.0), is_x);
-	let axis_x = axis_z.zxy;
-	let axis_y = axis_z.yzx;
-	let scale = 1.0 / dot(direction, axis_z);
-	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
-}
-
-fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
-	let a = v0 - origin;
-	let b = v1 - origin;
-	let c = v2 - origin;
-	let ax = dot(shear.x, a);
-	let ay = dot(shear.y, a);
-	let bx = dot(shear.x, b);
-	let by = dot(shear.y, b);
-	let cx = dot(shear.x, c);
-	let cy = dot(shear.y, c);
-	let left = vec3f(cx * by, ax * cy, bx * ay);
-	let right = vec3f(cy * bx, ay * cx, by * ax);
-	let inside = all(left >= right) | all(left <= right);
-	let edges = left - right;
-	let det = edges.x + edges.y + edges.z;
-	let usable = inside & (abs(det) > 1e-36);
-	let inv_det = 1.0 / select(1.0, det, usable);
-	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
-	let t = dot(edges, depths) * inv_det;
-	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
-}
-
-fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
-	var hit = start;
-	var index = fetch__first_plane;
-	loop {
-		let shape = fetch__load_shape(index);
-		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
-		let primitive = types__SHAPE | index;
-		let counts = candidate.hit & (primitive != ray.leaving);
-		let wins = counts & (candidate.t < hit.t);
-		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
-		if (bindings__HAS_CONTACT) {
-			primitive__keep_runner_up(hit, found, counts, wins);
-		}
-		if (wins) {
-			hit = found;
-		}
-		continuing {
-			index += 1u;
-			break if index >= fetch__end_plane;
-		}
-	}
-	loops__cut_off |= index < fetch__end_plane;
-	return hit;
-}
-
-fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
-	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
-	var hit = start;
-	if (bindings__HAS_TRIANGLES) {
-		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
-	}
-	if (bindings__HAS_SHAPES) {
-		hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
-	}
-	if (bindings__HAS_INSTANCES) {
-		var index = 0u;
-		for (; index < bindings__frame.instance_count; index += 1u) {
-			let instance = fetch__load_instance(index);
-			let local = instance__object_ray(ray, instance__space_of(instance));
-			let at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
-			hit = exhaustive__hit_run(at, hit, instance.first, instance.count);
-		}
-		loops__cut_off |= index < bindings__frame.instance_count;
-	}
-	return hit;
-}
-
-fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
-	var hit = start;
-	var index = 0u;
-	for (; index < count; index += 1u) {
-		hit = primitive__closer(at, hit, first + index);
-	}
-	loops__cut_off |= index < count;
-	return hit;
-}
-
-fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
-	let slope = dot(n, ray.direction);
-	let steep = abs(slope) > 1e-12;
-	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
 struct deforming__Keys {
@@ -2435,6 +2445,206 @@ fn numeric__is_finite(v: vec3f) -> bool {
 
 fn numeric__max_component(v: vec3f) -> f32 {
 	return max(v.x, max(v.y, v.z));
+}
+
+const stack__EMPTY: u32 = 4294967295u;
+
+var<private> stack__top: u32;
+
+var<private> stack__entries: array<u32, types__STACK_SIZE>;
+
+var<private> stack__s0: vec4u;
+
+var<private> stack__s1: vec4u;
+
+var<private> stack__s2: vec4u;
+
+var<private> stack__s3: vec4u;
+
+var<private> stack__s4: vec4u;
+
+var<private> stack__s5: vec4u;
+
+var<private> stack__s6: vec4u;
+
+var<private> stack__s7: vec4u;
+
+fn stack__start_stack() {
+	if (bindings__STACK_REGISTERS > 0u) {
+		stack__s0 = vec4u(stack__EMPTY);
+		stack__s1 = vec4u(stack__EMPTY);
+		stack__s2 = vec4u(stack__EMPTY);
+		stack__s3 = vec4u(stack__EMPTY);
+		stack__s4 = vec4u(stack__EMPTY);
+		stack__s5 = vec4u(stack__EMPTY);
+		stack__s6 = vec4u(stack__EMPTY);
+		stack__s7 = vec4u(stack__EMPTY);
+		return;
+	}
+	stack__top = 0u;
+	stack__entries[0] = stack__EMPTY;
+}
+
+fn stack__top_of_stack() -> u32 {
+	if (bindings__STACK_REGISTERS > 0u) {
+		return stack__s0.x;
+	}
+	return stack__entries[stack__top];
+}
+
+fn stack__pop() {
+	stack__move_stack(vec3u(stack__EMPTY), -1);
+}
+
+fn stack__push(reference: u32) {
+	stack__move_stack(vec3u(reference, stack__EMPTY, stack__EMPTY), 1);
+}
+
+fn stack__move_stack(references: vec3u, count: i32) {
+	if (bindings__STACK_REGISTERS > 0u) {
+		stack__move_registers(references, count);
+		return;
+	}
+	stack__entries[stack__top + 1u] = references.z;
+	stack__top += select(0u, 1u, count >= 3);
+	stack__entries[stack__top + 1u] = references.y;
+	stack__top += select(0u, 1u, count >= 2);
+	stack__entries[stack__top + 1u] = references.x;
+	stack__top += select(0u, 1u, count >= 1);
+	stack__top -= select(0u, 1u, (count < 0) & (stack__entries[stack__top] != stack__EMPTY));
+}
+
+fn stack__move_registers(references: vec3u, count: i32) {
+	let above = vec4u(stack__EMPTY, references.x, select(references.y, references.x, count == 2), select(select(references.z, references.y, count == 2), references.x, count == 1));
+	let last = stack__last_register();
+	let deepest = select(select(last.y, last.z, count == 2), last.w, count == 1);
+	loops__cut_off |= (count > 0) & (deepest != stack__EMPTY);
+	let m0 = stack__moved(above, stack__s0, stack__s1, count);
+	let m1 = stack__moved(stack__s0, stack__s1, stack__s2, count);
+	let m2 = stack__moved(stack__s1, stack__s2, stack__s3, count);
+	let m3 = stack__moved(stack__s2, stack__s3, stack__s4, count);
+	let m4 = stack__moved(stack__s3, stack__s4, stack__s5, count);
+	let m5 = stack__moved(stack__s4, stack__s5, stack__s6, count);
+	let m6 = stack__moved(stack__s5, stack__s6, stack__s7, count);
+	let m7 = stack__moved(stack__s6, stack__s7, vec4u(stack__EMPTY), count);
+	stack__s0 = m0;
+	if (bindings__STACK_REGISTERS > 1u) {
+		stack__s1 = m1;
+	}
+	if (bindings__STACK_REGISTERS > 2u) {
+		stack__s2 = m2;
+	}
+	if (bindings__STACK_REGISTERS > 3u) {
+		stack__s3 = m3;
+	}
+	if (bindings__STACK_REGISTERS > 4u) {
+		stack__s4 = m4;
+	}
+	if (bindings__STACK_REGISTERS > 5u) {
+		stack__s5 = m5;
+	}
+	if (bindings__STACK_REGISTERS > 6u) {
+		stack__s6 = m6;
+	}
+	if (bindings__STACK_REGISTERS > 7u) {
+		stack__s7 = m7;
+	}
+}
+
+fn stack__last_register() -> vec4u {
+	if (bindings__STACK_REGISTERS == 1u) {
+		return stack__s0;
+	}
+	if (bindings__STACK_REGISTERS == 2u) {
+		return stack__s1;
+	}
+	if (bindings__STACK_REGISTERS == 3u) {
+		return stack__s2;
+	}
+	if (bindings__STACK_REGISTERS == 4u) {
+		return stack__s3;
+	}
+	if (bindings__STACK_REGISTERS == 5u) {
+		return stack__s4;
+	}
+	if (bindings__STACK_REGISTERS == 6u) {
+		return stack__s5;
+	}
+	if (bindings__STACK_REGISTERS == 7u) {
+		return stack__s6;
+	}
+	return stack__s7;
+}
+
+fn stack__moved(above: vec4u, here: vec4u, below: vec4u, count: i32) -> vec4u {
+	var next = select(here, vec4u(here.yzw, below.x), count < 0);
+	next = select(next, vec4u(above.w, here.xyz), count == 1);
+	next = select(next, vec4u(above.zw, here.xy), count == 2);
+	return select(next, vec4u(above.yzw, here.x), count == 3);
+}
+
+fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
+	var hit = start;
+	var index = fetch__first_plane;
+	loop {
+		let shape = fetch__load_shape(index);
+		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
+		let primitive = types__SHAPE | index;
+		let counts = candidate.hit & (primitive != ray.leaving);
+		let wins = counts & (candidate.t < hit.t);
+		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+		if (bindings__HAS_CONTACT) {
+			primitive__keep_runner_up(hit, found, counts, wins);
+		}
+		if (wins) {
+			hit = found;
+		}
+		continuing {
+			index += 1u;
+			break if index >= fetch__end_plane;
+		}
+	}
+	loops__cut_off |= index < fetch__end_plane;
+	return hit;
+}
+
+fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
+	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
+	var hit = start;
+	if (bindings__HAS_TRIANGLES) {
+		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
+	}
+	if (bindings__HAS_SHAPES) {
+		hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
+	}
+	if (bindings__HAS_INSTANCES) {
+		var index = 0u;
+		for (; index < bindings__frame.instance_count; index += 1u) {
+			let instance = fetch__load_instance(index);
+			let local = instance__object_ray(ray, instance__space_of(instance));
+			let at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
+			hit = exhaustive__hit_run(at, hit, instance.first, instance.count);
+		}
+		loops__cut_off |= index < bindings__frame.instance_count;
+	}
+	return hit;
+}
+
+fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
+	var hit = start;
+	var index = 0u;
+	for (; index < count; index += 1u) {
+		hit = primitive__closer(at, hit, first + index);
+	}
+	loops__cut_off |= index < count;
+	return hit;
+}
+
+fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
+	let slope = dot(n, ray.direction);
+	let steep = abs(slope) > 1e-12;
+	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
+	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
 fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
@@ -3016,171 +3226,142 @@ fn node__sort4(keys: vec4u) -> vec4u {
 	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
-struct environment__EnvironmentSample {
-	direction: vec3f,
-	pdf: f32
-}
+const medium__VACUUM: types__Medium = types__Medium(vec3f(0.0), 1.0, 0);
 
-fn environment__sample_environment(batch: dispatch__Batch, u: vec2f) -> environment__EnvironmentSample {
-	let width = batch.environment_width;
-	var place = quad_warp__quad_root(picture__load_texel_word(batch.environment_first), u);
-	var first = batch.environment_first + 1u;
-	var columns = 2u;
-	loop {
-		place = quad_warp__quad_step(picture__load_texel_word(first + place.cell.y * columns + place.cell.x), place);
-		first += columns * columns / 2u;
-		columns *= 2u;
-		continuing {
-		
-			break if columns >= width;
-		}
+fn medium__dominant(media: vec4u) -> u32 {
+	if (!bindings__HAS_CONTACT) {
+		return media.x;
 	}
-	loops__cut_off |= columns < width;
-	let uv = (vec2f(place.cell) + place.u) / vec2f(f32(width), f32(width / 2u));
-	let direction = picture__equirectangular_direction(uv, batch.background_rotation);
-	return environment__EnvironmentSample(direction, environment__density_at(batch, place.cell, direction));
-}
-
-fn environment__environment_pdf(batch: dispatch__Batch, direction: vec3f) -> f32 {
-	let size = vec2u(batch.environment_width, batch.environment_width / 2u);
-	let uv = picture__equirectangular(direction, batch.background_rotation);
-	let place = vec2f(fract(uv.x), clamp(uv.y, 0.0, 1.0)) * vec2f(size);
-	return environment__density_at(batch, min(vec2u(place), size - 1u), direction);
-}
-
-fn environment__background_weight(batch: dispatch__Batch, direction: vec3f, pdf: f32) -> f32 {
-	if (!bindings__HAS_ENVIRONMENT || pdf <= 0.0) {
-		return 1.0;
+	if (!bindings__HAS_PRIORITIES) {
+		let last = select(media.xz, media.yw, media.yw != vec2u(types__NONE));
+		return select(last.x, last.y, last.y != types__NONE);
 	}
-	let density = batch.environment_share * environment__environment_pdf(batch, direction);
-	return mis__power_heuristic(pdf, density);
+	var best = media.x;
+	best = medium__higher(best, media.y);
+	best = medium__higher(best, media.z);
+	return medium__higher(best, media.w);
 }
 
-fn environment__density_at(batch: dispatch__Batch, cell: vec2u, direction: vec3f) -> f32 {
-	let height = batch.environment_width / 2u;
-	let first = batch.environment_first + 1u + 2u * ((height * height - 1u) / 3u);
-	let density = bitcast<f32>(picture__load_texel_word(first + cell.y * batch.environment_width + cell.x));
-	return density / (2.0 * picture__PI * picture__PI * max(length(direction.xz), 1e-6));
-}
-
-const picture__PI: f32 = 3.14159265;
-
-struct picture__Neighbours {
-	first: u32,
-	second: u32,
-	weight: f32
-}
-
-fn picture__neighbours(at: f32, count: u32, nearest: bool, wrap: u32) -> picture__Neighbours {
-	let mirrored = 1.0 - abs(1.0 - 2.0 * fract(0.5 * at));
-	let inside = select(select(clamp(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
-	let place = f32(count) * inside + select(-0.5, 0.0, nearest);
-	let below = floor(place);
-	let last = i32(count) - 1;
-	let index = min(i32(below), last);
-	let first = picture__within(index, last, wrap == types__WRAP_REPEAT);
-	let second = picture__within(index + 1, last, wrap == types__WRAP_REPEAT);
-	return picture__Neighbours(u32(first), u32(second), select(place - below, 0.0, nearest));
-}
-
-fn picture__within(index: i32, last: i32, repeats: bool) -> i32 {
-	let before = select(0, last, repeats);
-	let after = select(last, 0, repeats);
-	return select(select(index, before, index < 0), after, index > last);
-}
-
-fn picture__halves(bits: u32) -> vec2f {
-	let codes = vec2u(bits & 65535u, bits >> 16u);
-	let normal = bitcast<vec2f>(codes << vec2u(13u)) * 5.192296858534828e33;
-	return select(normal, vec2f(codes) * 5.960464477539063e-8, codes < vec2u(1024u));
-}
-
-fn picture__linear_from_srgb(encoded: vec3f) -> vec3f {
-	var power = vec3f(-0.1110666543);
-	power = power * encoded + vec3f(0.5140681863);
-	power = power * encoded + vec3f(-1.0304795504);
-	power = power * encoded + vec3f(1.2059204578);
-	power = power * encoded + vec3f(-0.9925410748);
-	power = power * encoded + vec3f(0.8972986937);
-	power = power * encoded + vec3f(0.4803068042);
-	power = power * encoded + vec3f(0.0356449671);
-	power = power * encoded + vec3f(0.0008464342);
-	return select(power, encoded / 12.92, encoded <= vec3f(0.04045));
-}
-
-fn picture__equirectangular(direction: vec3f, rotation: f32) -> vec2f {
-	let level = length(direction.xz);
-	let around = atan2(direction.x, select(-direction.z, 1.0, level < 1e-12));
-	return vec2f(0.5 + (around + rotation) / (2.0 * picture__PI), 0.5 + atan2(direction.y, level) / picture__PI);
-}
-
-fn picture__equirectangular_direction(uv: vec2f, rotation: f32) -> vec3f {
-	let around = (uv.x - 0.5) * 2.0 * picture__PI - rotation;
-	let up = (uv.y - 0.5) * picture__PI;
-	return vec3f(cos(up) * sin(around), sin(up), -cos(up) * cos(around));
-}
-
-fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec4f {
-	let lower = (height - 1u - rows.first) * width;
-	let upper = (height - 1u - rows.second) * width;
-	return mix(mix(picture__texel_at(picture, lower + columns.first), picture__texel_at(picture, lower + columns.second), columns.weight), mix(picture__texel_at(picture, upper + columns.first), picture__texel_at(picture, upper + columns.second), columns.weight), rows.weight);
-}
-
-fn picture__texel_at(picture: u32, index: u32) -> vec4f {
-	let first = picture & types__PICTURE_FIRST_MASK;
-	if (bindings__HAS_HALF_TEXELS && (!bindings__HAS_BYTE_TEXELS || (picture & types__PICTURE_HALF) != 0u)) {
-		let low = picture__load_texel_word(first + 2u * index);
-		let high = picture__load_texel_word(first + 2u * index + 1u);
-		return vec4f(picture__halves(low), picture__halves(high));
+fn medium__higher(best: u32, next: u32) -> u32 {
+	if (next == types__NONE) {
+		return best;
 	}
-	let values = unpack4x8unorm(picture__load_texel_word(first + index));
-	return vec4f(select(values.xyz, picture__linear_from_srgb(values.xyz), (picture & types__PICTURE_SRGB) != 0u), values.w);
+	return select(best, next, material__load_medium(next).priority >= material__load_medium(best).priority);
 }
 
-fn picture__load_texel_word(index: u32) -> u32 {
-	let row = index >> types__IMAGE_WIDTH_LOG2;
-	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
-	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
-}
-
-fn mis__power_heuristic(own: f32, other: f32) -> f32 {
-	let ratio = other / max(own, 1e-30);
-	return select(0.0, 1.0 / (1.0 + min(ratio * ratio, 1e30)), own > 0.0);
-}
-
-fn mis__survival_chance(throughput: vec3f) -> f32 {
-	return min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
-}
-
-fn backdrop__is_seen(path: path__Path) -> bool {
-	return path.bounces == 0u;
-}
-
-fn backdrop__radiance_behind(batch: dispatch__Batch, path: path__Path) -> vec3f {
-	if (bindings__BACKDROP == types__BACKDROP_BACKGROUND || !backdrop__is_seen(path)) {
-		return background__background(batch, path.ray.direction);
+fn medium__medium_of(material: u32) -> types__Medium {
+	if (material == types__NONE) {
+		return medium__VACUUM;
 	}
-	if (bindings__BACKDROP == types__BACKDROP_TRANSPARENT) {
-		opacity__clearness.nothing += dot(path.throughput, tone__LUMINANCE_REC709);
-		return vec3f(0.0);
-	}
-	return batch.backdrop;
+	return material__load_medium(material);
 }
 
-fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
-	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
-		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
-	}
-	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE) {
-		let size = batch.background_size;
-		let uv = picture__equirectangular(direction, batch.background_rotation);
-		let color = picture__blend_texels(batch.background_picture, size.x, size.y, picture__neighbours(uv.x, size.x, false, types__WRAP_REPEAT), picture__neighbours(uv.y, size.y, false, types__WRAP_CLAMP));
-		return batch.background * color.xyz;
-	}
-	return batch.background;
+fn medium__transmittance(medium: types__Medium, distance: f32) -> vec3f {
+	return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
 }
 
-const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
+	return select(media__left(media, material), media__entered(media, material), vec4<bool>(entering));
+}
+
+fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
+	let started_inside = !entering & !media__contains(media, material);
+	return select(medium__dominant(media), material, started_inside);
+}
+
+struct material__PhongMaterial {
+	phong: types__Phong,
+	flags: u32
+}
+
+fn material__load_material(index: u32) -> material__PhongMaterial {
+	let row = types__MATERIAL_ROWS * index;
+	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = fetch__material_row(row + 2u);
+	var reflect = vec3f(0.0);
+	if (bindings__HAS_REFLECTION) {
+		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
+	}
+	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+	return material__PhongMaterial(phong, r1.w);
+}
+
+fn material__load_optics(index: u32) -> types__Optics {
+	let row = types__MATERIAL_ROWS * index;
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = fetch__material_row(row + 2u);
+	let r3 = fetch__material_row(row + 3u);
+	let r4 = fetch__material_row(row + 4u);
+	return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
+}
+
+fn material__load_medium(index: u32) -> types__Medium {
+	let row = types__MATERIAL_ROWS * index;
+	let r5 = fetch__material_row(row + 5u);
+	return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
+}
+
+fn material__load_emission(index: u32) -> vec3f {
+	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
+}
+
+fn material__load_texture_indices(index: u32) -> vec4u {
+	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+}
+
+struct material__CoverageMaterial {
+	alpha: f32,
+	flags: u32
+}
+
+fn material__load_coverage(index: u32) -> material__CoverageMaterial {
+	let row = types__MATERIAL_ROWS * index;
+	return material__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
+}
+
+fn material__load_normal_scale(index: u32) -> f32 {
+	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+}
+
+fn material__load_texture(index: u32) -> types__PackedTexture {
+	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r5 = fetch__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+}
+
+fn material__load_layers(index: u32) -> types__PackedLayers {
+	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
+	let r3 = fetch__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
+	let r6 = fetch__material_row(row + 6u);
+	let r7 = fetch__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
+}
+
+struct material__Glow {
+	light: u32,
+	luminance: f32,
+	texture: u32
+}
+
+fn material__load_glow(index: u32) -> material__Glow {
+	let row = types__MATERIAL_ROWS * index;
+	let own = fetch__material_row(row + types__LAYERS_ROW + 7u);
+	let luminance = bitcast<f32>(own.y) * dot(material__load_emission(index), tone__LUMINANCE_REC709);
+	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
+}
+
+fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
+	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
+	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
+}
 
 const contact__NEAR: f32 = 1e-5;
 
@@ -3450,100 +3631,6 @@ fn tangent_space__surface_tangent(frame: mat3x3f, n: vec3f, flips: bool) -> vec4
 	return vec4f(along, select(hand, 0.0, dot(along, along) == 0.0));
 }
 
-struct material__PhongMaterial {
-	phong: types__Phong,
-	flags: u32
-}
-
-fn material__load_material(index: u32) -> material__PhongMaterial {
-	let row = types__MATERIAL_ROWS * index;
-	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	var reflect = vec3f(0.0);
-	if (bindings__HAS_REFLECTION) {
-		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
-	}
-	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
-	return material__PhongMaterial(phong, r1.w);
-}
-
-fn material__load_optics(index: u32) -> types__Optics {
-	let row = types__MATERIAL_ROWS * index;
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = fetch__material_row(row + 4u);
-	return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
-}
-
-fn material__load_medium(index: u32) -> types__Medium {
-	let row = types__MATERIAL_ROWS * index;
-	let r5 = fetch__material_row(row + 5u);
-	return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
-}
-
-fn material__load_emission(index: u32) -> vec3f {
-	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
-}
-
-fn material__load_texture_indices(index: u32) -> vec4u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
-}
-
-struct material__CoverageMaterial {
-	alpha: f32,
-	flags: u32
-}
-
-fn material__load_coverage(index: u32) -> material__CoverageMaterial {
-	let row = types__MATERIAL_ROWS * index;
-	return material__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
-}
-
-fn material__load_normal_scale(index: u32) -> f32 {
-	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
-}
-
-fn material__load_texture(index: u32) -> types__PackedTexture {
-	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r5 = fetch__material_row(row + 5u);
-	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
-}
-
-fn material__load_layers(index: u32) -> types__PackedLayers {
-	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
-	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
-	let r6 = fetch__material_row(row + 6u);
-	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
-}
-
-struct material__Glow {
-	light: u32,
-	luminance: f32,
-	texture: u32
-}
-
-fn material__load_glow(index: u32) -> material__Glow {
-	let row = types__MATERIAL_ROWS * index;
-	let own = fetch__material_row(row + types__LAYERS_ROW + 7u);
-	let luminance = bitcast<f32>(own.y) * dot(material__load_emission(index), tone__LUMINANCE_REC709);
-	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
-}
-
-fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
-	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
-	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
-}
-
 const ray_cone__MOST_TAPS: f32 = 8.0;
 
 const ray_cone__WIDEST: f32 = 1000000000000000.0;
@@ -3763,6 +3850,86 @@ fn mipmap__level_of(picture: u32, level: u32) -> u32 {
 		return picture;
 	}
 	return picture + picture__load_texel_word((picture & types__PICTURE_FIRST_MASK) - level);
+}
+
+fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec4f {
+	let lower = (height - 1u - rows.first) * width;
+	let upper = (height - 1u - rows.second) * width;
+	return mix(mix(picture__texel_at(picture, lower + columns.first), picture__texel_at(picture, lower + columns.second), columns.weight), mix(picture__texel_at(picture, upper + columns.first), picture__texel_at(picture, upper + columns.second), columns.weight), rows.weight);
+}
+
+fn picture__texel_at(picture: u32, index: u32) -> vec4f {
+	let first = picture & types__PICTURE_FIRST_MASK;
+	if (bindings__HAS_HALF_TEXELS && (!bindings__HAS_BYTE_TEXELS || (picture & types__PICTURE_HALF) != 0u)) {
+		let low = picture__load_texel_word(first + 2u * index);
+		let high = picture__load_texel_word(first + 2u * index + 1u);
+		return vec4f(picture__halves(low), picture__halves(high));
+	}
+	let values = unpack4x8unorm(picture__load_texel_word(first + index));
+	return vec4f(select(values.xyz, picture__linear_from_srgb(values.xyz), (picture & types__PICTURE_SRGB) != 0u), values.w);
+}
+
+fn picture__load_texel_word(index: u32) -> u32 {
+	let row = index >> types__IMAGE_WIDTH_LOG2;
+	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
+	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
+}
+
+const picture__PI: f32 = 3.14159265;
+
+struct picture__Neighbours {
+	first: u32,
+	second: u32,
+	weight: f32
+}
+
+fn picture__neighbours(at: f32, count: u32, nearest: bool, wrap: u32) -> picture__Neighbours {
+	let mirrored = 1.0 - abs(1.0 - 2.0 * fract(0.5 * at));
+	let inside = select(select(clamp(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
+	let place = f32(count) * inside + select(-0.5, 0.0, nearest);
+	let below = floor(place);
+	let last = i32(count) - 1;
+	let index = min(i32(below), last);
+	let first = picture__within(index, last, wrap == types__WRAP_REPEAT);
+	let second = picture__within(index + 1, last, wrap == types__WRAP_REPEAT);
+	return picture__Neighbours(u32(first), u32(second), select(place - below, 0.0, nearest));
+}
+
+fn picture__within(index: i32, last: i32, repeats: bool) -> i32 {
+	let before = select(0, last, repeats);
+	let after = select(last, 0, repeats);
+	return select(select(index, before, index < 0), after, index > last);
+}
+
+fn picture__halves(bits: u32) -> vec2f {
+	let codes = vec2u(bits & 65535u, bits >> 16u);
+	let normal = bitcast<vec2f>(codes << vec2u(13u)) * 5.192296858534828e33;
+	return select(normal, vec2f(codes) * 5.960464477539063e-8, codes < vec2u(1024u));
+}
+
+fn picture__linear_from_srgb(encoded: vec3f) -> vec3f {
+	var power = vec3f(-0.1110666543);
+	power = power * encoded + vec3f(0.5140681863);
+	power = power * encoded + vec3f(-1.0304795504);
+	power = power * encoded + vec3f(1.2059204578);
+	power = power * encoded + vec3f(-0.9925410748);
+	power = power * encoded + vec3f(0.8972986937);
+	power = power * encoded + vec3f(0.4803068042);
+	power = power * encoded + vec3f(0.0356449671);
+	power = power * encoded + vec3f(0.0008464342);
+	return select(power, encoded / 12.92, encoded <= vec3f(0.04045));
+}
+
+fn picture__equirectangular(direction: vec3f, rotation: f32) -> vec2f {
+	let level = length(direction.xz);
+	let around = atan2(direction.x, select(-direction.z, 1.0, level < 1e-12));
+	return vec2f(0.5 + (around + rotation) / (2.0 * picture__PI), 0.5 + atan2(direction.y, level) / picture__PI);
+}
+
+fn picture__equirectangular_direction(uv: vec2f, rotation: f32) -> vec3f {
+	let around = (uv.x - 0.5) * 2.0 * picture__PI - rotation;
+	let up = (uv.y - 0.5) * picture__PI;
+	return vec3f(cos(up) * sin(around), sin(up), -cos(up) * cos(around));
 }
 
 fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) -> vec4f {
@@ -3990,79 +4157,6 @@ fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direct
 	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
 }
 
-struct interface__Interface {
-	here: u32,
-	media: vec4u,
-	ior: f32,
-	ior_behind: f32,
-	is_boundary: bool,
-	is_transparent: bool,
-	encloses: bool
-}
-
-fn interface__interface_at(around: vec4u, contact: contact__Contact, optics: types__Optics) -> interface__Interface {
-	let surface = contact.surface;
-	let transparent = bindings__HAS_REFRACTION && any(optics.transmit > vec3f(0.0));
-	let encloses = transparent && (optics.flags & types__MATERIAL_THIN) == 0u;
-	var found = interface__Interface(medium__dominant(around), around, 1.0, optics.ior, true, transparent, encloses);
-	if (bindings__HAS_REFRACTION) {
-		if (transparent) {
-			found.media = contact__media_behind(around, contact);
-		}
-		if (encloses) {
-			found.here = medium__medium_before(around, surface.material, surface.outside);
-			let behind = medium__dominant(found.media);
-			found.ior_behind = medium__medium_of(behind).ior;
-			found.is_boundary = !bindings__HAS_CONTACT || found.here != behind;
-		}
-		found.ior = medium__medium_of(found.here).ior;
-	}
-	return found;
-}
-
-const medium__VACUUM: types__Medium = types__Medium(vec3f(0.0), 1.0, 0);
-
-fn medium__dominant(media: vec4u) -> u32 {
-	if (!bindings__HAS_CONTACT) {
-		return media.x;
-	}
-	if (!bindings__HAS_PRIORITIES) {
-		let last = select(media.xz, media.yw, media.yw != vec2u(types__NONE));
-		return select(last.x, last.y, last.y != types__NONE);
-	}
-	var best = media.x;
-	best = medium__higher(best, media.y);
-	best = medium__higher(best, media.z);
-	return medium__higher(best, media.w);
-}
-
-fn medium__higher(best: u32, next: u32) -> u32 {
-	if (next == types__NONE) {
-		return best;
-	}
-	return select(best, next, material__load_medium(next).priority >= material__load_medium(best).priority);
-}
-
-fn medium__medium_of(material: u32) -> types__Medium {
-	if (material == types__NONE) {
-		return medium__VACUUM;
-	}
-	return material__load_medium(material);
-}
-
-fn medium__transmittance(medium: types__Medium, distance: f32) -> vec3f {
-	return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
-}
-
-fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
-	return select(media__left(media, material), media__entered(media, material), vec4<bool>(entering));
-}
-
-fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
-	let started_inside = !entering & !media__contains(media, material);
-	return select(medium__dominant(media), material, started_inside);
-}
-
 fn media__has_room(media: vec4u) -> bool {
 	return media.w == types__NONE;
 }
@@ -4099,24 +4193,139 @@ fn ray_stack__cut_tree() {
 	ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
 }
 
-const dimensions__SCATTER_CHOICE: u32 = 0u;
+const pattern__CELL_SHIFT: f32 = 0.00073;
 
-const dimensions__SCATTER_DIRECTION: u32 = 1u;
+fn pattern__checker(p: vec3f) -> f32 {
+	let cell = vec3i(floor(p + pattern__CELL_SHIFT));
+	return f32((cell.x + cell.y + cell.z) & 1);
+}
 
-const dimensions__LIGHT_CHOICE: u32 = 2u;
+fn pattern__stripes(p: vec3f) -> f32 {
+	return f32(i32(floor(2.0 * (p.x + pattern__CELL_SHIFT))) & 1);
+}
 
-const dimensions__LIGHT_POINT_ON: u32 = 3u;
+fn pattern__gradient(p: vec3f) -> f32 {
+	return clamp(p.x, 0.0, 1.0);
+}
 
-const dimensions__ROULETTE: u32 = 4u;
+fn pattern__clouds(sum: f32) -> f32 {
+	return clamp(0.5 + 0.5 * sum, 0.0, 1.0);
+}
 
-const dimensions__COVERAGE_CHOICE: u32 = 5u;
+const noise__NOISE_PERIOD: u32 = 256u;
 
-const dimensions__CHANNEL_CHOICE: u32 = 6u;
+const noise__OCTAVE_SHIFT = vec3f(0.37, 0.59, 0.83);
 
-const dimensions__DIMENSIONS: u32 = 8u;
+struct noise__Octaves {
+	sum: f32,
+	count: u32
+}
 
-fn dimensions__dimension_key(pixel_key: u32, segment: u32, purpose: u32) -> u32 {
-	return rng__hash_combine(pixel_key, dimensions__DIMENSIONS * (segment + 1u) + purpose);
+fn noise__noise_octaves(p: vec3f, count: u32) -> noise__Octaves {
+	let period = f32(noise__NOISE_PERIOD);
+	let home = p - period * floor(p / period);
+	var octaves = noise__Octaves(0.0, 0u);
+	var scale = 1.0;
+	loop {
+		let q = scale * home + f32(octaves.count) * noise__OCTAVE_SHIFT;
+		octaves.sum += noise__gradient_noise(q, noise__NOISE_PERIOD << octaves.count) / scale;
+		scale *= 2.0;
+		octaves.count += 1u;
+		continuing {
+		
+			break if octaves.count >= count;
+		}
+	}
+	return octaves;
+}
+
+fn noise__gradient_noise(p: vec3f, period: u32) -> f32 {
+	let cell = floor(p);
+	let f = p - cell;
+	let low = vec3u(vec3i(cell)) & vec3u(period - 1u);
+	let high = (low + 1u) & vec3u(period - 1u);
+	let z0 = rng__hash(low.z);
+	let z1 = rng__hash(high.z);
+	let y00 = rng__hash(low.y + z0);
+	let y10 = rng__hash(high.y + z0);
+	let y01 = rng__hash(low.y + z1);
+	let y11 = rng__hash(high.y + z1);
+	let t = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+	let x = vec4f(mix(noise__corner(low.x + y00, f), noise__corner(high.x + y00, f - vec3f(1.0, 0.0, 0.0)), t.x), mix(noise__corner(low.x + y10, f - vec3f(0.0, 1.0, 0.0)), noise__corner(high.x + y10, f - vec3f(1.0, 1.0, 0.0)), t.x), mix(noise__corner(low.x + y01, f - vec3f(0.0, 0.0, 1.0)), noise__corner(high.x + y01, f - vec3f(1.0, 0.0, 1.0)), t.x), mix(noise__corner(low.x + y11, f - vec3f(0.0, 1.0, 1.0)), noise__corner(high.x + y11, f - vec3f(1.0, 1.0, 1.0)), t.x));
+	let y = mix(x.xz, x.yw, t.y);
+	return mix(y.x, y.y, t.z);
+}
+
+fn noise__corner(key: u32, d: vec3f) -> f32 {
+	let h = rng__hash(key) & 15u;
+	let u = select(d.y, d.x, h < 8u);
+	let v = select(select(d.z, d.x, (h == 12u) | (h == 14u)), d.y, h < 4u);
+	return select(u, -u, (h & 1u) != 0u) + select(v, -v, (h & 2u) != 0u);
+}
+
+const dispersion__WAVELENGTHS: vec3f = vec3f(611.4, 549.1, 464.2);
+
+fn dispersion__dispersed_ior(ior: f32, dispersion: f32, wavelength: f32) -> f32 {
+	let spread = (ior - 1.0) * dispersion / 20.0;
+	return max(ior + spread * (523655.0 / (wavelength * wavelength) - 1.5168), 1.0);
+}
+
+fn dispersion__anisotropic_alpha(alpha: f32, strength: f32) -> vec2f {
+	return vec2f(mix(alpha, 1.0, strength * strength), alpha);
+}
+
+fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
+	let own = texel * inverseSqrt(max(dot(texel, texel), 1e-12));
+	let turn = vec2f(cos(rotation), sin(rotation));
+	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
+}
+
+fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
+	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
+		return fresnel__schlick(cos_i, eta);
+	}
+	return fresnel__fresnel(cos_i, eta);
+}
+
+struct fresnel__Boundary {
+	reflectance: f32,
+	cos_t: f32,
+	total: bool
+}
+
+fn fresnel__ratio(a: f32, b: f32) -> f32 {
+	return a / max(b, 1e-12);
+}
+
+fn fresnel__fresnel(cos_i: f32, eta: f32) -> fresnel__Boundary {
+	let sin2_t = eta * eta * max(1.0 - cos_i * cos_i, 0.0);
+	let total = (sin2_t >= 1.0) & (eta > 1.0);
+	let cos_t = sqrt(max(1.0 - sin2_t, 0.0));
+	let r_s = fresnel__ratio(eta * cos_i - cos_t, eta * cos_i + cos_t);
+	let r_p = fresnel__ratio(cos_i - eta * cos_t, cos_i + eta * cos_t);
+	return fresnel__Boundary(select(0.5 * (r_s * r_s + r_p * r_p), 1.0, total), cos_t, total);
+}
+
+fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
+	let exact = fresnel__fresnel(cos_i, eta);
+	let r0 = fresnel__ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
+	let grazing = fresnel__schlick_weight(select(cos_i, exact.cos_t, eta > 1.0));
+	return fresnel__Boundary(select(mix(r0, 1.0, grazing), 1.0, exact.total), exact.cos_t, exact.total);
+}
+
+fn fresnel__schlick_weight(cosine: f32) -> f32 {
+	let x = 1.0 - clamp(cosine, 0.0, 1.0);
+	let x2 = x * x;
+	return x2 * x2 * x;
+}
+
+fn fresnel__schlick_between(f0: vec3f, f90: vec3f, cosine: f32) -> vec3f {
+	return mix(f0, f90, fresnel__schlick_weight(cosine));
+}
+
+fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f {
+	let cos_i = -dot(direction, n);
+	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
 fn coverage__coverage_at(surface: types__Surface) -> f32 {
@@ -4147,19 +4356,155 @@ fn leaving__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -
 	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
-fn shadow_catcher__catch_shadow(batch: dispatch__Batch, path: path__Path, surface: types__Surface) {
-	let n = select(surface.n, -surface.n, dot(surface.n, path.ray.direction) > 0.0);
-	let arriving = shadow_catcher__light_on(batch, path, surface.p, n);
-	var rays = rays__dead_rays();
-	if (any(arriving.radiance > vec3f(0.0))) {
-		rays = rays__ray_set(rays, 0u, direct__shadow_ray(surface, arriving));
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+
+struct environment__EnvironmentSample {
+	direction: vec3f,
+	pdf: f32
+}
+
+fn environment__sample_environment(batch: dispatch__Batch, u: vec2f) -> environment__EnvironmentSample {
+	let width = batch.environment_width;
+	var place = quad_warp__quad_root(picture__load_texel_word(batch.environment_first), u);
+	var first = batch.environment_first + 1u;
+	var columns = 2u;
+	loop {
+		place = quad_warp__quad_step(picture__load_texel_word(first + place.cell.y * columns + place.cell.x), place);
+		first += columns * columns / 2u;
+		columns *= 2u;
+		continuing {
+		
+			break if columns >= width;
+		}
 	}
-	let media = path.media;
-	let through = wide__vector_at(shadow__light_through(rays, ray_states__Media(media.x, media.y, media.z, media.w)), 0u);
+	loops__cut_off |= columns < width;
+	let uv = (vec2f(place.cell) + place.u) / vec2f(f32(width), f32(width / 2u));
+	let direction = picture__equirectangular_direction(uv, batch.background_rotation);
+	return environment__EnvironmentSample(direction, environment__density_at(batch, place.cell, direction));
+}
+
+fn environment__environment_pdf(batch: dispatch__Batch, direction: vec3f) -> f32 {
+	let size = vec2u(batch.environment_width, batch.environment_width / 2u);
+	let uv = picture__equirectangular(direction, batch.background_rotation);
+	let place = vec2f(fract(uv.x), clamp(uv.y, 0.0, 1.0)) * vec2f(size);
+	return environment__density_at(batch, min(vec2u(place), size - 1u), direction);
+}
+
+fn environment__background_weight(batch: dispatch__Batch, direction: vec3f, pdf: f32) -> f32 {
+	if (!bindings__HAS_ENVIRONMENT || pdf <= 0.0) {
+		return 1.0;
+	}
+	let density = batch.environment_share * environment__environment_pdf(batch, direction);
+	return mis__power_heuristic(pdf, density);
+}
+
+fn environment__density_at(batch: dispatch__Batch, cell: vec2u, direction: vec3f) -> f32 {
+	let height = batch.environment_width / 2u;
+	let first = batch.environment_first + 1u + 2u * ((height * height - 1u) / 3u);
+	let density = bitcast<f32>(picture__load_texel_word(first + cell.y * batch.environment_width + cell.x));
+	return density / (2.0 * picture__PI * picture__PI * max(length(direction.xz), 1e-6));
+}
+
+fn mis__power_heuristic(own: f32, other: f32) -> f32 {
+	let ratio = other / max(own, 1e-30);
+	return select(0.0, 1.0 / (1.0 + min(ratio * ratio, 1e30)), own > 0.0);
+}
+
+fn mis__survival_chance(throughput: vec3f) -> f32 {
+	return min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
+}
+
+fn backdrop__is_seen(path: path__Path) -> bool {
+	return path.bounces == 0u;
+}
+
+fn backdrop__radiance_behind(batch: dispatch__Batch, path: path__Path) -> vec3f {
+	if (bindings__BACKDROP == types__BACKDROP_BACKGROUND || !backdrop__is_seen(path)) {
+		return background__background(batch, path.ray.direction);
+	}
+	if (bindings__BACKDROP == types__BACKDROP_TRANSPARENT) {
+		opacity__clearness.nothing += dot(path.throughput, tone__LUMINANCE_REC709);
+		return vec3f(0.0);
+	}
+	return batch.backdrop;
+}
+
+fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
+	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
+		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
+	}
+	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE) {
+		let size = batch.background_size;
+		let uv = picture__equirectangular(direction, batch.background_rotation);
+		let color = picture__blend_texels(batch.background_picture, size.x, size.y, picture__neighbours(uv.x, size.x, false, types__WRAP_REPEAT), picture__neighbours(uv.y, size.y, false, types__WRAP_CLAMP));
+		return batch.background * color.xyz;
+	}
+	return batch.background;
+}
+
+struct interface__Interface {
+	here: u32,
+	media: vec4u,
+	ior: f32,
+	ior_behind: f32,
+	is_boundary: bool,
+	is_transparent: bool,
+	encloses: bool
+}
+
+fn interface__interface_at(around: vec4u, contact: contact__Contact, optics: types__Optics) -> interface__Interface {
+	let surface = contact.surface;
+	let transparent = bindings__HAS_REFRACTION && any(optics.transmit > vec3f(0.0));
+	let encloses = transparent && (optics.flags & types__MATERIAL_THIN) == 0u;
+	var found = interface__Interface(medium__dominant(around), around, 1.0, optics.ior, true, transparent, encloses);
+	if (bindings__HAS_REFRACTION) {
+		if (transparent) {
+			found.media = contact__media_behind(around, contact);
+		}
+		if (encloses) {
+			found.here = medium__medium_before(around, surface.material, surface.outside);
+			let behind = medium__dominant(found.media);
+			found.ior_behind = medium__medium_of(behind).ior;
+			found.is_boundary = !bindings__HAS_CONTACT || found.here != behind;
+		}
+		found.ior = medium__medium_of(found.here).ior;
+	}
+	return found;
+}
+
+const dimensions__SCATTER_CHOICE: u32 = 0u;
+
+const dimensions__SCATTER_DIRECTION: u32 = 1u;
+
+const dimensions__LIGHT_CHOICE: u32 = 2u;
+
+const dimensions__LIGHT_POINT_ON: u32 = 3u;
+
+const dimensions__ROULETTE: u32 = 4u;
+
+const dimensions__COVERAGE_CHOICE: u32 = 5u;
+
+const dimensions__CHANNEL_CHOICE: u32 = 6u;
+
+const dimensions__DIMENSIONS: u32 = 8u;
+
+fn dimensions__dimension_key(pixel_key: u32, segment: u32, purpose: u32) -> u32 {
+	return rng__hash_combine(pixel_key, dimensions__DIMENSIONS * (segment + 1u) + purpose);
+}
+
+fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: types__Surface) -> path__Path {
+	var path = path__ended(before);
+	let n = select(surface.n, -surface.n, dot(surface.n, before.ray.direction) > 0.0);
+	let arriving = shadow_catcher__light_on(batch, path, surface.p, n);
+	if (any(arriving.radiance > vec3f(0.0))) {
+		path.lamp = shadow__passage_of(direct__shadow_ray(surface, arriving), path.media);
+	}
 	let share = dot(path.throughput, tone__LUMINANCE_REC709);
+	path.lamp_light = share * arriving.radiance;
+	path.lamp_scatterings = path__CAUGHT;
 	opacity__clearness.catchers += share;
-	opacity__clearness.light += share * dot(arriving.radiance * through, tone__LUMINANCE_REC709);
 	opacity__clearness.unshadowed += share * dot(arriving.radiance, tone__LUMINANCE_REC709);
+	return path;
 }
 
 fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, n: vec3f) -> types__Incident {
@@ -4652,76 +4997,6 @@ fn area_light__max_abs(v: vec3f) -> f32 {
 	return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
-const pattern__CELL_SHIFT: f32 = 0.00073;
-
-fn pattern__checker(p: vec3f) -> f32 {
-	let cell = vec3i(floor(p + pattern__CELL_SHIFT));
-	return f32((cell.x + cell.y + cell.z) & 1);
-}
-
-fn pattern__stripes(p: vec3f) -> f32 {
-	return f32(i32(floor(2.0 * (p.x + pattern__CELL_SHIFT))) & 1);
-}
-
-fn pattern__gradient(p: vec3f) -> f32 {
-	return clamp(p.x, 0.0, 1.0);
-}
-
-fn pattern__clouds(sum: f32) -> f32 {
-	return clamp(0.5 + 0.5 * sum, 0.0, 1.0);
-}
-
-const noise__NOISE_PERIOD: u32 = 256u;
-
-const noise__OCTAVE_SHIFT = vec3f(0.37, 0.59, 0.83);
-
-struct noise__Octaves {
-	sum: f32,
-	count: u32
-}
-
-fn noise__noise_octaves(p: vec3f, count: u32) -> noise__Octaves {
-	let period = f32(noise__NOISE_PERIOD);
-	let home = p - period * floor(p / period);
-	var octaves = noise__Octaves(0.0, 0u);
-	var scale = 1.0;
-	loop {
-		let q = scale * home + f32(octaves.count) * noise__OCTAVE_SHIFT;
-		octaves.sum += noise__gradient_noise(q, noise__NOISE_PERIOD << octaves.count) / scale;
-		scale *= 2.0;
-		octaves.count += 1u;
-		continuing {
-		
-			break if octaves.count >= count;
-		}
-	}
-	return octaves;
-}
-
-fn noise__gradient_noise(p: vec3f, period: u32) -> f32 {
-	let cell = floor(p);
-	let f = p - cell;
-	let low = vec3u(vec3i(cell)) & vec3u(period - 1u);
-	let high = (low + 1u) & vec3u(period - 1u);
-	let z0 = rng__hash(low.z);
-	let z1 = rng__hash(high.z);
-	let y00 = rng__hash(low.y + z0);
-	let y10 = rng__hash(high.y + z0);
-	let y01 = rng__hash(low.y + z1);
-	let y11 = rng__hash(high.y + z1);
-	let t = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-	let x = vec4f(mix(noise__corner(low.x + y00, f), noise__corner(high.x + y00, f - vec3f(1.0, 0.0, 0.0)), t.x), mix(noise__corner(low.x + y10, f - vec3f(0.0, 1.0, 0.0)), noise__corner(high.x + y10, f - vec3f(1.0, 1.0, 0.0)), t.x), mix(noise__corner(low.x + y01, f - vec3f(0.0, 0.0, 1.0)), noise__corner(high.x + y01, f - vec3f(1.0, 0.0, 1.0)), t.x), mix(noise__corner(low.x + y11, f - vec3f(0.0, 1.0, 1.0)), noise__corner(high.x + y11, f - vec3f(1.0, 1.0, 1.0)), t.x));
-	let y = mix(x.xz, x.yw, t.y);
-	return mix(y.x, y.y, t.z);
-}
-
-fn noise__corner(key: u32, d: vec3f) -> f32 {
-	let h = rng__hash(key) & 15u;
-	let u = select(d.y, d.x, h < 8u);
-	let v = select(select(d.z, d.x, (h == 12u) | (h == 14u)), d.y, h < 4u);
-	return select(u, -u, (h & 1u) != 0u) + select(v, -v, (h & 2u) != 0u);
-}
-
 const coating__COAT_F0: f32 = 0.04;
 
 struct coating__Coating {
@@ -4794,47 +5069,6 @@ fn coating__to_coat(coating: coating__Coating, w: vec3f) -> vec3f {
 	let x = warp__turn_to(coating.coat_axis, vec3f(1.0, 0.0, 0.0));
 	let y = warp__turn_to(coating.coat_axis, vec3f(0.0, 1.0, 0.0));
 	return vec3f(dot(w, x), dot(w, y), dot(w, coating.coat_axis));
-}
-
-struct fresnel__Boundary {
-	reflectance: f32,
-	cos_t: f32,
-	total: bool
-}
-
-fn fresnel__ratio(a: f32, b: f32) -> f32 {
-	return a / max(b, 1e-12);
-}
-
-fn fresnel__fresnel(cos_i: f32, eta: f32) -> fresnel__Boundary {
-	let sin2_t = eta * eta * max(1.0 - cos_i * cos_i, 0.0);
-	let total = (sin2_t >= 1.0) & (eta > 1.0);
-	let cos_t = sqrt(max(1.0 - sin2_t, 0.0));
-	let r_s = fresnel__ratio(eta * cos_i - cos_t, eta * cos_i + cos_t);
-	let r_p = fresnel__ratio(cos_i - eta * cos_t, cos_i + eta * cos_t);
-	return fresnel__Boundary(select(0.5 * (r_s * r_s + r_p * r_p), 1.0, total), cos_t, total);
-}
-
-fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
-	let exact = fresnel__fresnel(cos_i, eta);
-	let r0 = fresnel__ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
-	let grazing = fresnel__schlick_weight(select(cos_i, exact.cos_t, eta > 1.0));
-	return fresnel__Boundary(select(mix(r0, 1.0, grazing), 1.0, exact.total), exact.cos_t, exact.total);
-}
-
-fn fresnel__schlick_weight(cosine: f32) -> f32 {
-	let x = 1.0 - clamp(cosine, 0.0, 1.0);
-	let x2 = x * x;
-	return x2 * x2 * x;
-}
-
-fn fresnel__schlick_between(f0: vec3f, f90: vec3f, cosine: f32) -> vec3f {
-	return mix(f0, f90, fresnel__schlick_weight(cosine));
-}
-
-fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f {
-	let cos_i = -dot(direction, n);
-	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
 const albedo__ALBEDO_SIDE: u32 = 32u;
@@ -5016,150 +5250,6 @@ fn direct__shadow_ray(surface: types__Surface, arriving: types__Incident) -> typ
 	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
 	ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
 	return ray;
-}
-
-const shadow__MAX_CROSSINGS: u32 = 64u;
-
-fn shadow__light_through(rays: rays__Rays, media: ray_states__Media) -> wide__Vectors {
-	var through: wide__Vectors;
-	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
-		through = shadow__filtered(rays, media);
-	}
-	else {
-		let hits = rays__any_hits(rays);
-		let passed = select(wide__Floats(0.0), wide__Floats(1.0), hits.primitive == wide__Words(types__NONE));
-		through = wide__Vectors(passed, passed, passed);
-	}
-	if (bindings__COUNT_RAYS) {
-		shadow__count_shadows(rays, through);
-	}
-	return through;
-}
-
-fn shadow__count_shadows(rays: rays__Rays, through: wide__Vectors) {
-	var k = 0u;
-	loop {
-		let is_cast = wide__float_at(rays.t_max, k) >= 0.0;
-		let is_blocked = is_cast & all(wide__vector_at(through, k) == vec3f(0.0));
-		dispatch__counts.shadow += select(0u, 1u, is_cast);
-		dispatch__counts.shadow_blocked += select(0u, 1u, is_blocked);
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-}
-
-fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__Vectors {
-	var rays = shadow_rays;
-	var media = start;
-	var transmitted = wide__Vectors(wide__Floats(1.0), wide__Floats(1.0), wide__Floats(1.0));
-	var crossings = 0u;
-	var is_unfinished = true;
-	loop {
-		let hits = rays__closest_hits(rays);
-		is_unfinished = false;
-		var rows = rays__rows_where(rays.t_max >= wide__Floats(0.0));
-		loop {
-			let k = rays__first_row(rows);
-			let ray = rays__ray_at(rays, k);
-			if (ray.t_max >= 0.0) {
-				let hit = rays__hit_at(hits, k);
-				var passed = wide__vector_at(transmitted, k);
-				var next = rays__DEAD;
-				if (hit.primitive == types__NONE) {
-					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-						passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_states__media_at(media, k))), hit.t);
-					}
-				}
-				else {
-					ray_stack__current_tree = k;
-					let contact = contact__contact_at(ray, hit, types__Cone(0.0, 0.0));
-					let surface = contact.surface;
-					var through = vec3f(0.0);
-					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-						let around = ray_states__media_at(media, k);
-						let beyond = contact__media_behind(around, contact);
-						media = ray_states__media_set(media, k, beyond);
-						through = shadow__passing(ray, hit.t, surface, around, medium__dominant(beyond));
-					}
-					passed *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
-					let rest = ray.t_max - hit.t;
-					if (any(passed > vec3f(0.0)) & (rest > 0.0)) {
-						next = leaving__leaving_ray(surface, ray.direction, rest);
-						is_unfinished = true;
-						passed = select(passed, vec3f(0.0), crossings + 1u >= shadow__MAX_CROSSINGS);
-					}
-				}
-				transmitted = wide__vector_set(transmitted, k, passed);
-				rays = rays__ray_set(rays, k, next);
-			}
-			continuing {
-				rows = rays__later_rows(rows);
-				break if wide__ONE_RAY | (rows == 0u);
-			}
-		}
-		loops__cut_off |= rows != 0u;
-		crossings += 1u;
-		continuing {
-		
-			break if !rays__any_lane(is_unfinished) | (crossings >= shadow__MAX_CROSSINGS);
-		}
-	}
-	loops__cut_off |= is_unfinished & (crossings < shadow__MAX_CROSSINGS);
-	return transmitted;
-}
-
-fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, around: vec4u, behind: u32) -> vec3f {
-	let optics = material__load_optics(surface.material);
-	let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
-	if (bindings__SOLID_GLASS) {
-		let layers = layers__layers_at(surface, optics);
-		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < layers__SMOOTH;
-		let medium = medium__medium_of(behind);
-		var share = 1.0;
-		if ((layers.fresnel & types__MATERIAL_FRESNEL) != 0u) {
-			share -= boundary__boundary_at(layers.fresnel, cos_i, medium.ior / layers.ior).reflectance;
-		}
-		return select(vec3f(0.0), share * layers.transmit * medium__transmittance(medium, distance), is_window);
-	}
-	var here = medium__medium_before(around, surface.material, surface.outside);
-	var ior_behind = medium__medium_of(behind).ior;
-	if ((optics.flags & types__MATERIAL_THIN) != 0u) {
-		here = behind;
-		ior_behind = optics.ior;
-	}
-	var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), distance);
-	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
-		let eta = medium__medium_of(here).ior / ior_behind;
-		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
-	}
-	return through;
-}
-
-const dispersion__WAVELENGTHS: vec3f = vec3f(611.4, 549.1, 464.2);
-
-fn dispersion__dispersed_ior(ior: f32, dispersion: f32, wavelength: f32) -> f32 {
-	let spread = (ior - 1.0) * dispersion / 20.0;
-	return max(ior + spread * (523655.0 / (wavelength * wavelength) - 1.5168), 1.0);
-}
-
-fn dispersion__anisotropic_alpha(alpha: f32, strength: f32) -> vec2f {
-	return vec2f(mix(alpha, 1.0, strength * strength), alpha);
-}
-
-fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
-	let own = texel * inverseSqrt(max(dot(texel, texel), 1e-12));
-	let turn = vec2f(cos(rotation), sin(rotation));
-	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
-}
-
-fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
-	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
-		return fresnel__schlick(cos_i, eta);
-	}
-	return fresnel__fresnel(cos_i, eta);
 }
 
 fn dispersion__load_dispersion(material: u32) -> f32 {

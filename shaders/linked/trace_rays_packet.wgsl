@@ -582,7 +582,7 @@ fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types_
 		return hits;
 	}
 	var rays = lanes__FourRays(walk__world_ray(ray0), walk__world_ray(ray1), walk__world_ray(ray2), walk__world_ray(ray3));
-	var stack = stack__Stack(traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY);
+	var stack = stack__Stack(stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY);
 	var current = 0u;
 	if (bindings__HAS_INSTANCES) {
 		current = fetch__root;
@@ -595,7 +595,7 @@ fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types_
 					current = stack__top_of(stack);
 					stack = stack__popped(stack);
 				}
-				if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
+				if ((current >= types__INSTANCE) & (current != stack__EMPTY)) {
 					let index = current & types__LEAF_FIRST_MASK;
 					let instance = fetch__load_instance(index);
 					let space = instance__space_of(instance);
@@ -629,10 +629,10 @@ fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types_
 				let next = leaf__after(current, stack__top_of(stack));
 				if (is_here) {
 					hits = leaf__meet_common(rays, hits, current);
-					stack = stack__pushed(stack, traverse__EMPTY, select(0u, stack__POP, next.is_last));
+					stack = stack__pushed(stack, stack__EMPTY, select(0u, stack__POP, next.is_last));
 					current = next.reference;
 					if (any) {
-						current = select(traverse__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
+						current = select(stack__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
 					}
 				}
 				continuing {
@@ -642,26 +642,26 @@ fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types_
 			}
 			continuing {
 			
-				break if (current == traverse__EMPTY) | leaf__is_rare(current);
+				break if (current == stack__EMPTY) | leaf__is_rare(current);
 			}
 		}
 		if (bindings__HAS_SHAPES && bindings__HAS_TRIANGLES) {
 			let next = leaf__after(current, stack__top_of(stack));
 			if (leaf__is_rare(current)) {
 				hits = leaf__meet_rare(rays, hits, current);
-				stack = stack__pushed(stack, traverse__EMPTY, select(0u, stack__POP, next.is_last));
+				stack = stack__pushed(stack, stack__EMPTY, select(0u, stack__POP, next.is_last));
 				current = next.reference;
 				if (any) {
-					current = select(traverse__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
+					current = select(stack__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
 				}
 			}
 		}
 		continuing {
 		
-			break if current == traverse__EMPTY;
+			break if current == stack__EMPTY;
 		}
 	}
-	loops__cut_off |= stack__is_full | (current != traverse__EMPTY);
+	loops__cut_off |= stack__is_full | (current != stack__EMPTY);
 	return hits;
 }
 
@@ -848,7 +848,7 @@ fn stack__pushed16(stack: stack__Stack, reference: u32, count: u32) -> stack__St
 	let is_pop = count == stack__POP;
 	let moves_one = !is_pop & ((count & 1u) != 0u);
 	let moves_two = !is_pop & (count >= 2u);
-	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 16u) & (stack.s2 != traverse__EMPTY);
+	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 16u) & (stack.s2 != stack__EMPTY);
 	let one_up = (lanes__packet_lane - 1u) & 15u;
 	let u0 = subgroupShuffle(stack.s0, one_up);
 	let u1 = subgroupShuffle(stack.s1, one_up);
@@ -861,13 +861,13 @@ fn stack__pushed16(stack: stack__Stack, reference: u32, count: u32) -> stack__St
 	let is_last = lanes__packet_lane == 15u;
 	let m0 = select(select(stack.s0, u0, moves_one), select(d0, d1, is_last), is_pop);
 	let m1 = select(select(stack.s1, select(u1, u0, is_first), moves_one), select(d1, d2, is_last), is_pop);
-	let m2 = select(select(stack.s2, select(u2, u1, is_first), moves_one), select(d2, traverse__EMPTY, is_last), is_pop);
+	let m2 = select(select(stack.s2, select(u2, u1, is_first), moves_one), select(d2, stack__EMPTY, is_last), is_pop);
 	let two_up = (lanes__packet_lane - 2u) & 15u;
 	let w0 = subgroupShuffle(m0, two_up);
 	let w1 = subgroupShuffle(m1, two_up);
 	let w2 = subgroupShuffle(m2, two_up);
 	let is_low = lanes__packet_lane < 2u;
-	return stack__Stack(select(select(m0, w0, moves_two), reference, !is_pop & (lanes__packet_lane < count)), select(m1, select(w1, w0, is_low), moves_two), select(m2, select(w2, w1, is_low), moves_two), traverse__EMPTY, traverse__EMPTY, traverse__EMPTY);
+	return stack__Stack(select(select(m0, w0, moves_two), reference, !is_pop & (lanes__packet_lane < count)), select(m1, select(w1, w0, is_low), moves_two), select(m2, select(w2, w1, is_low), moves_two), stack__EMPTY, stack__EMPTY, stack__EMPTY);
 }
 
 fn stack__pushed8(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
@@ -875,21 +875,21 @@ fn stack__pushed8(stack: stack__Stack, reference: u32, count: u32) -> stack__Sta
 	let is_pop = count == stack__POP;
 	let is_new = !is_pop & (lanes__packet_lane < count);
 	let is_last = is_pop & (lanes__packet_lane == 7u);
-	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 8u) & (stack.s5 != traverse__EMPTY);
+	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 8u) & (stack.s5 != stack__EMPTY);
 	let m0 = subgroupShuffle(stack.s0, source);
 	let m1 = subgroupShuffle(stack.s1, source);
 	let m2 = subgroupShuffle(stack.s2, source);
 	let m3 = subgroupShuffle(stack.s3, source);
 	let m4 = subgroupShuffle(stack.s4, source);
 	let m5 = subgroupShuffle(stack.s5, source);
-	return stack__Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), m4, is_last), select(select(m4, m3, is_new), m5, is_last), select(select(m5, m4, is_new), traverse__EMPTY, is_last));
+	return stack__Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), m4, is_last), select(select(m4, m3, is_new), m5, is_last), select(select(m5, m4, is_new), stack__EMPTY, is_last));
 }
 
 fn stack__popped(stack: stack__Stack) -> stack__Stack {
-	return stack__pushed(stack, traverse__EMPTY, stack__POP);
+	return stack__pushed(stack, stack__EMPTY, stack__POP);
 }
 
-const traverse__EMPTY: u32 = 4294967295u;
+const stack__EMPTY: u32 = 4294967295u;
 
 const traverse__RETURN: u32 = 4294967294u;
 

@@ -1830,7 +1830,7 @@ fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types_
 		return hits;
 	}
 	var rays = lanes__FourRays(walk__world_ray(ray0), walk__world_ray(ray1), walk__world_ray(ray2), walk__world_ray(ray3));
-	var stack = stack__Stack(traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY);
+	var stack = stack__Stack(stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY);
 	var current = 0u;
 	if (bindings__HAS_INSTANCES) {
 		current = fetch__root;
@@ -1843,7 +1843,7 @@ fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types_
 					current = stack__top_of(stack);
 					stack = stack__popped(stack);
 				}
-				if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
+				if ((current >= types__INSTANCE) & (current != stack__EMPTY)) {
 					let index = current & types__LEAF_FIRST_MASK;
 					let instance = fetch__load_instance(index);
 					let space = instance__space_of(instance);
@@ -1877,10 +1877,10 @@ fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types_
 				let next = leaf__after(current, stack__top_of(stack));
 				if (is_here) {
 					hits = leaf__meet_common(rays, hits, current);
-					stack = stack__pushed(stack, traverse__EMPTY, select(0u, stack__POP, next.is_last));
+					stack = stack__pushed(stack, stack__EMPTY, select(0u, stack__POP, next.is_last));
 					current = next.reference;
 					if (any) {
-						current = select(traverse__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
+						current = select(stack__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
 					}
 				}
 				continuing {
@@ -1890,26 +1890,26 @@ fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types_
 			}
 			continuing {
 			
-				break if (current == traverse__EMPTY) | leaf__is_rare(current);
+				break if (current == stack__EMPTY) | leaf__is_rare(current);
 			}
 		}
 		if (bindings__HAS_SHAPES && bindings__HAS_TRIANGLES) {
 			let next = leaf__after(current, stack__top_of(stack));
 			if (leaf__is_rare(current)) {
 				hits = leaf__meet_rare(rays, hits, current);
-				stack = stack__pushed(stack, traverse__EMPTY, select(0u, stack__POP, next.is_last));
+				stack = stack__pushed(stack, stack__EMPTY, select(0u, stack__POP, next.is_last));
 				current = next.reference;
 				if (any) {
-					current = select(traverse__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
+					current = select(stack__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
 				}
 			}
 		}
 		continuing {
 		
-			break if current == traverse__EMPTY;
+			break if current == stack__EMPTY;
 		}
 	}
-	loops__cut_off |= stack__is_full | (current != traverse__EMPTY);
+	loops__cut_off |= stack__is_full | (current != stack__EMPTY);
 	return hits;
 }
 
@@ -2215,7 +2215,7 @@ fn stack__pushed16(stack: stack__Stack, reference: u32, count: u32) -> stack__St
 	let is_pop = count == stack__POP;
 	let moves_one = !is_pop & ((count & 1u) != 0u);
 	let moves_two = !is_pop & (count >= 2u);
-	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 16u) & (stack.s2 != traverse__EMPTY);
+	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 16u) & (stack.s2 != stack__EMPTY);
 	let one_up = (lanes__packet_lane - 1u) & 15u;
 	let u0 = subgroupShuffle(stack.s0, one_up);
 	let u1 = subgroupShuffle(stack.s1, one_up);
@@ -2228,13 +2228,13 @@ fn stack__pushed16(stack: stack__Stack, reference: u32, count: u32) -> stack__St
 	let is_last = lanes__packet_lane == 15u;
 	let m0 = select(select(stack.s0, u0, moves_one), select(d0, d1, is_last), is_pop);
 	let m1 = select(select(stack.s1, select(u1, u0, is_first), moves_one), select(d1, d2, is_last), is_pop);
-	let m2 = select(select(stack.s2, select(u2, u1, is_first), moves_one), select(d2, traverse__EMPTY, is_last), is_pop);
+	let m2 = select(select(stack.s2, select(u2, u1, is_first), moves_one), select(d2, stack__EMPTY, is_last), is_pop);
 	let two_up = (lanes__packet_lane - 2u) & 15u;
 	let w0 = subgroupShuffle(m0, two_up);
 	let w1 = subgroupShuffle(m1, two_up);
 	let w2 = subgroupShuffle(m2, two_up);
 	let is_low = lanes__packet_lane < 2u;
-	return stack__Stack(select(select(m0, w0, moves_two), reference, !is_pop & (lanes__packet_lane < count)), select(m1, select(w1, w0, is_low), moves_two), select(m2, select(w2, w1, is_low), moves_two), traverse__EMPTY, traverse__EMPTY, traverse__EMPTY);
+	return stack__Stack(select(select(m0, w0, moves_two), reference, !is_pop & (lanes__packet_lane < count)), select(m1, select(w1, w0, is_low), moves_two), select(m2, select(w2, w1, is_low), moves_two), stack__EMPTY, stack__EMPTY, stack__EMPTY);
 }
 
 fn stack__pushed8(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
@@ -2242,21 +2242,21 @@ fn stack__pushed8(stack: stack__Stack, reference: u32, count: u32) -> stack__Sta
 	let is_pop = count == stack__POP;
 	let is_new = !is_pop & (lanes__packet_lane < count);
 	let is_last = is_pop & (lanes__packet_lane == 7u);
-	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 8u) & (stack.s5 != traverse__EMPTY);
+	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 8u) & (stack.s5 != stack__EMPTY);
 	let m0 = subgroupShuffle(stack.s0, source);
 	let m1 = subgroupShuffle(stack.s1, source);
 	let m2 = subgroupShuffle(stack.s2, source);
 	let m3 = subgroupShuffle(stack.s3, source);
 	let m4 = subgroupShuffle(stack.s4, source);
 	let m5 = subgroupShuffle(stack.s5, source);
-	return stack__Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), m4, is_last), select(select(m4, m3, is_new), m5, is_last), select(select(m5, m4, is_new), traverse__EMPTY, is_last));
+	return stack__Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), m4, is_last), select(select(m4, m3, is_new), m5, is_last), select(select(m5, m4, is_new), stack__EMPTY, is_last));
 }
 
 fn stack__popped(stack: stack__Stack) -> stack__Stack {
-	return stack__pushed(stack, traverse__EMPTY, stack__POP);
+	return stack__pushed(stack, stack__EMPTY, stack__POP);
 }
 
-const traverse__EMPTY: u32 = 4294967295u;
+const stack__EMPTY: u32 = 4294967295u;
 
 const traverse__RETURN: u32 = 4294967294u;
 
@@ -4636,9 +4636,54 @@ fn phong__phong(coefficients: types__Phong, n: vec3f, l: vec3f, v: vec3f) -> vec
 
 const shadow__MAX_CROSSINGS: u32 = 64u;
 
+struct shadow__Passage {
+	ray: types__Ray,
+	media: vec4u,
+	through: vec3f,
+	crossings: u32
+}
+
+fn shadow__sees_through() -> bool {
+	return bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS);
+}
+
+fn shadow__crossed(before: shadow__Passage, hit: types__Hit) -> shadow__Passage {
+	var passage = before;
+	passage.ray = rays__DEAD;
+	if (hit.primitive == types__NONE) {
+		if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+			passage.through *= medium__transmittance(medium__medium_of(medium__dominant(before.media)), hit.t);
+		}
+		return passage;
+	}
+	if (!shadow__sees_through()) {
+		passage.through = vec3f(0.0);
+		return passage;
+	}
+	let contact = contact__contact_at(before.ray, hit, types__Cone(0.0, 0.0));
+	let surface = contact.surface;
+	var through = vec3f(0.0);
+	if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+		passage.media = contact__media_behind(before.media, contact);
+		through = shadow__passing(before.ray, hit.t, surface, before.media, medium__dominant(passage.media));
+	}
+	passage.through *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
+	passage.crossings += 1u;
+	let rest = before.ray.t_max - hit.t;
+	if (any(passage.through > vec3f(0.0)) && rest > 0.0) {
+		if (passage.crossings < shadow__MAX_CROSSINGS) {
+			passage.ray = leaving__leaving_ray(surface, before.ray.direction, rest);
+		}
+		else {
+			passage.through = vec3f(0.0);
+		}
+	}
+	return passage;
+}
+
 fn shadow__light_through(rays: rays__Rays, media: ray_states__Media) -> wide__Vectors {
 	var through: wide__Vectors;
-	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
+	if (shadow__sees_through()) {
 		through = shadow__filtered(rays, media);
 	}
 	else {
@@ -4655,16 +4700,22 @@ fn shadow__light_through(rays: rays__Rays, media: ray_states__Media) -> wide__Ve
 fn shadow__count_shadows(rays: rays__Rays, through: wide__Vectors) {
 	var k = 0u;
 	loop {
-		let is_cast = wide__float_at(rays.t_max, k) >= 0.0;
-		let is_blocked = is_cast & all(wide__vector_at(through, k) == vec3f(0.0));
-		dispatch__counts.shadow += select(0u, 1u, is_cast);
-		dispatch__counts.shadow_blocked += select(0u, 1u, is_blocked);
+		if (wide__float_at(rays.t_max, k) >= 0.0) {
+			shadow__count_shadow(wide__vector_at(through, k));
+		}
 		continuing {
 			k += 1u;
 			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
 		}
 	}
 	loops__cut_off |= k < wide__RAYS_PER_LANE;
+}
+
+fn shadow__count_shadow(through: vec3f) {
+	if (bindings__COUNT_RAYS) {
+		dispatch__counts.shadow += 1u;
+		dispatch__counts.shadow_blocked += select(0u, 1u, all(through == vec3f(0.0)));
+	}
 }
 
 fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__Vectors {
@@ -4681,35 +4732,14 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__
 			let k = rays__first_row(rows);
 			let ray = rays__ray_at(rays, k);
 			if (ray.t_max >= 0.0) {
-				let hit = rays__hit_at(hits, k);
-				var passed = wide__vector_at(transmitted, k);
-				var next = rays__DEAD;
-				if (hit.primitive == types__NONE) {
-					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-						passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_states__media_at(media, k))), hit.t);
-					}
+				ray_stack__current_tree = k;
+				let passage = shadow__crossed(shadow__Passage(ray, ray_states__media_at(media, k), wide__vector_at(transmitted, k), crossings), rays__hit_at(hits, k));
+				if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+					media = ray_states__media_set(media, k, passage.media);
 				}
-				else {
-					ray_stack__current_tree = k;
-					let contact = contact__contact_at(ray, hit, types__Cone(0.0, 0.0));
-					let surface = contact.surface;
-					var through = vec3f(0.0);
-					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-						let around = ray_states__media_at(media, k);
-						let beyond = contact__media_behind(around, contact);
-						media = ray_states__media_set(media, k, beyond);
-						through = shadow__passing(ray, hit.t, surface, around, medium__dominant(beyond));
-					}
-					passed *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
-					let rest = ray.t_max - hit.t;
-					if (any(passed > vec3f(0.0)) & (rest > 0.0)) {
-						next = leaving__leaving_ray(surface, ray.direction, rest);
-						is_unfinished = true;
-						passed = select(passed, vec3f(0.0), crossings + 1u >= shadow__MAX_CROSSINGS);
-					}
-				}
-				transmitted = wide__vector_set(transmitted, k, passed);
-				rays = rays__ray_set(rays, k, next);
+				transmitted = wide__vector_set(transmitted, k, passage.through);
+				rays = rays__ray_set(rays, k, passage.ray);
+				is_unfinished |= passage.ray.t_max >= 0.0;
 			}
 			continuing {
 				rows = rays__later_rows(rows);
@@ -4720,10 +4750,10 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__
 		crossings += 1u;
 		continuing {
 		
-			break if !rays__any_lane(is_unfinished) | (crossings >= shadow__MAX_CROSSINGS);
+			break if !rays__any_lane(is_unfinished);
 		}
 	}
-	loops__cut_off |= is_unfinished & (crossings < shadow__MAX_CROSSINGS);
+	loops__cut_off |= is_unfinished;
 	return transmitted;
 }
 

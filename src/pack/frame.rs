@@ -57,6 +57,11 @@ pub struct PackedView {
 }
 
 impl PackedScene {
+    /// Maximum number of stack entries of a walk through the trees of a view of this scene.
+    pub fn stack_entries(&self, view: &PackedView) -> usize {
+        self.tlas_source.stack_need.max(view.tlas.stack_need)
+    }
+
     /// Packs a frame of the scene that this was packed from.
     pub fn frame(&self, frame: &Frame) -> Result<PackedView, PackError> {
         self.view(slice::from_ref(frame))

@@ -42,6 +42,8 @@ pub struct Tlas {
     pub moves: bool,
     /// Index of its first node in the nodes array.
     pub first_node: u32,
+    /// Maximum number of stack entries of a walk through it and a BLAS below, 0 without instances.
+    pub stack_need: usize,
     /// The input it was built from: for each instance the transforms to world space over the shutter interval,
     /// one if it does not move; `None` if it is hidden.
     source: Arc<TlasSource>,
@@ -154,6 +156,8 @@ impl Tlas {
         if need > limit {
             return Err(PackError::TooDeep { need, limit });
         }
+        // With the entry that returns from a BLAS.
+        tlas.stack_need = need + 1;
         tlas.nodes = pack_nodes(&bvh, &boxes, &references, tlas.first_node, tlas.moves);
         Ok(tlas)
     }

@@ -198,7 +198,7 @@ pub fn of_denoiser(is_first: bool) -> Overrides {
 }
 
 /// The overrides for the contents of the trees.
-fn geometry(scene: &PackedScene, view: &PackedView) -> [(&'static str, f64); 8] {
+fn geometry(scene: &PackedScene, view: &PackedView) -> [(&'static str, f64); 9] {
     let features = scene.features;
     [
         ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
@@ -210,9 +210,22 @@ fn geometry(scene: &PackedScene, view: &PackedView) -> [(&'static str, f64); 8] 
         ),
         ("SHAPE_KINDS", f64::from(features.shape_kinds)),
         ("HAS_INSTANCES", flag(features.instances)),
+        ("STACK_REGISTERS", f64::from(stack_registers(scene, view))),
         ("HAS_MOTION", flag(view.has_moving_instances())),
         ("HAS_DEFORMATION", flag(view.deforms())),
     ]
+}
+
+/// The registers, of four entries each, that hold the stack of the portable walk on software adapters; 0 if so many are
+/// slower than an array. Trees over instances differ between frames, and one kernel is for all of them.
+fn stack_registers(scene: &PackedScene, view: &PackedView) -> u32 {
+    const MOST: usize = 8;
+    match scene.stack_entries(view).div_ceil(4) {
+        0..=MOST if scene.features.instances => MOST as u32,
+        registers @ 1..=MOST => registers as u32,
+        0 => 1,
+        _ => 0,
+    }
 }
 
 fn flag(on: bool) -> f64 {

@@ -571,4 +571,7 @@ fn traversal_of_both_levels_fits_on_the_stack() {
     // writes one entry beyond the top.
     let all = 1 + outer + 1 + inner + 1;
     assert!(all <= STACK_SIZE as usize, "{all} entries");
+    // Registers hold all but the end marker, which counts as no entry.
+    let kept = packed.stack_entries(&view);
+    assert!(kept >= outer + 1 + inner, "{kept} entries");
 }
