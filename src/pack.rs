@@ -99,7 +99,8 @@ pub struct PackedScene {
     pub pictures: Vec<[u32; 3]>,
     /// The features that the scene uses; all others are compiled out.
     pub features: Features,
-    /// From this many lamps and emissive triangles and shapes on, paths choose them from the light tree.
+    /// From this many lamps and emissive triangles and shapes on, paths choose them from the light tree, unless they are one
+    /// flat patch.
     pub tree_from: usize,
     /// Dielectric volumes that are transparent at some time, which the camera may be inside of.
     volumes: Vec<media::Volume>,

@@ -45,9 +45,17 @@ pub struct Emitters {
     pub power: f64,
     /// The number of emitters in a group.
     pub group: usize,
+    /// Whether lights of this view are to be chosen from the light tree.
+    pub in_tree: bool,
     /// What the light tree must know of each.
     clusters: Vec<Cluster>,
 }
+
+/// Emitters that point one way and cover this part of a disc around them are as good as one light without a tree.
+const DENSE: f64 = 0.4;
+
+/// The cosine of the angle up to which they point one way.
+const SAME_WAY: f64 = 0.99;
 
 /// The mean luminance of the texture of each material's emission; 1 without one.
 pub fn mean_glow(scene: &Scene) -> Vec<f32> {
@@ -172,6 +180,15 @@ impl Emitters {
         self
     }
 
+    /// Whether all of them together are a flat patch of this area.
+    fn is_patch(&self, area: f64) -> bool {
+        let all = self.clusters.iter().copied().reduce(Cluster::union);
+        all.is_some_and(|all| {
+            let disc = (all.max - all.min).length_squared() * std::f64::consts::PI / 4.0;
+            all.spread.cos() > SAME_WAY && area > DENSE * disc
+        })
+    }
+
     /// The leaves of the light tree.
     pub fn leaves(&self) -> impl Iterator<Item = Leaf> {
         let groups = self.clusters.chunks(self.group.max(1));
@@ -218,14 +235,15 @@ impl PackedScene {
             &self.emissive[start..end]
         };
         let mut all = Emitters::default();
-        let mut weights = Vec::new();
+        let (mut weights, mut area) = (Vec::new(), 0.0);
         let no_keys: &dyn Fn() -> Vec<DVec3> = &Vec::new;
         let mut add =
             |instance: u32, places: &Places, one: &Emissive, later: &dyn Fn() -> Vec<DVec3>| {
                 let material = &materials[one.material as usize];
                 let radiance = LUMINANCE.dot(material.emission.into()) * material.layers.glow;
                 let [a, b] = one.edges.map(|edge| places.linear() * edge);
-                let weight = f64::from(radiance) * f64::from(a.cross(b).length() * one.share);
+                let own_area = f64::from(a.cross(b).length() * one.share);
+                let weight = f64::from(radiance) * own_area;
                 if weight > 0.0 && (instance == NO_INSTANCE || !one.is_sphere) {
                     let power = weight / std::f64::consts::PI;
                     let mut cluster = one.cluster(power, places, &later());
@@ -237,6 +255,7 @@ impl PackedScene {
                         ..PackedEmitter::default()
                     });
                     weights.push(weight);
+                    area += own_area;
                 }
             };
         for (index, instance) in tlas.instances.iter().enumerate() {
@@ -259,9 +278,9 @@ impl PackedScene {
         let here = Places::default();
         (baked.iter()).for_each(|one| add(NO_INSTANCE, &here, one, no_keys));
         all.power = weights.iter().sum();
-        match all.rows.len() + lamp_count < self.tree_from {
-            true => all.grouped(&weights, 1),
-            false => all.grouped(&weights, MAX_GROUPS),
-        }
+        all.in_tree = all.rows.len() + lamp_count >= self.tree_from
+            && (lamp_count > 0 || !all.is_patch(area));
+        let groups = if all.in_tree { MAX_GROUPS } else { 1 };
+        all.grouped(&weights, groups)
     }
 }

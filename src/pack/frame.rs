@@ -128,11 +128,11 @@ impl PackedScene {
         let share = emitters.share(powers.iter().sum());
         let lights_share = (1.0 - environment_share) * (1.0 - share);
         let emitters_share = (1.0 - environment_share) * share;
-        let leaves = match emitters.rows.len() + lamp_count < self.tree_from {
-            true => Vec::new(),
-            false => (Leaf::of_lamps(&lights, &powers).into_iter())
+        let leaves = match emitters.in_tree {
+            true => (Leaf::of_lamps(&lights, &powers).into_iter())
                 .chain(emitters.leaves())
                 .collect(),
+            false => Vec::new(),
         };
         let light_tree = match previous {
             Some(previous) if previous.light_tree.is_of(&leaves) => previous.light_tree.clone(),

@@ -10,8 +10,8 @@ use crate::layout::{
 };
 use glam::DVec3;
 
-/// With fewer lights they are chosen by their power alone.
-pub const LEAST_LIGHTS: usize = 16;
+/// With fewer lights they are chosen by their power alone: see benches/LOG.md.
+pub const LEAST_LIGHTS: usize = 4;
 
 const BUCKETS: usize = 12;
 
