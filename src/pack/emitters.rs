@@ -2,8 +2,12 @@
 //! the light tree.
 
 use super::{
-    PackedScene, deform::Deformed, emitter_places::Places, light_cluster::Cluster,
-    light_tree::Leaf, tlas::Tlas,
+    PackedScene,
+    deform::Deformed,
+    emitter_places::Places,
+    light_cluster::{Cluster, LUMINANCE},
+    light_tree::Leaf,
+    tlas::Tlas,
 };
 use crate::layout::{
     MATERIAL_TWO_SIDED, NO_INSTANCE, PackedEmitter, PackedMaterial, PackedShape, PackedTriangle,
@@ -15,9 +19,6 @@ use std::f32::consts::PI;
 
 /// Groups of emitters that the light tree has room for: for more emitters the groups become larger.
 const MAX_GROUPS: usize = 1 << 16;
-
-/// The luminance of linear Rec. 709 colours is the dot product with this.
-pub(super) const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 /// A triangle or a shape whose material emits at some time.
 #[derive(Clone, Copy, Debug)]

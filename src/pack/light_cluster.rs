@@ -1,12 +1,14 @@
 //! What a node of the light tree knows of the lights in it: where they are, in which directions they shine, and how much.
 
-use super::emitters::LUMINANCE;
 use crate::layout::{
     LIGHT_DISC, LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TWO_SIDED,
     PackedCluster, PackedLight,
 };
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI};
+
+/// The luminance of linear Rec. 709 colours is the dot product with this.
+pub const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 /// Cosines of cones are lowered by this, for rounding.
 const SLACK: f64 = 1e-3;
