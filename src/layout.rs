@@ -307,10 +307,10 @@ packed! {
         radius: f32,
         /// Shadow rays per shaded point, at least 1.
         sample_count: u32,
-        /// Chance with which a path samples this light.
+        /// Chance with which a path samples this light, without a light tree.
         chance: f32,
-        /// The bits of the sum of the chances of the lights before it, as a float. With a light tree the chance is that
-        /// of all lights, and this the way from the root: bit k is set if it is under the second child at depth k.
+        /// The bits of the sum of the chances of the lights before it, as a float. With a light tree the way from the
+        /// root: bit k is set if it is under the second child at depth k.
         place: u32,
         /// Whether rays can hit it, 0 or 1.
         visible: u32,
@@ -319,29 +319,31 @@ packed! {
     PackedCluster {
         /// The centre of the box in render space.
         center: [f32; 3],
-        /// The sum of the intensities, in luminance.
+        /// The sum of the intensities, in luminance; of a surface its area times its radiance, divided by π.
         power: f32,
-        /// Half of the edges of the box.
-        extent: [f32; 3],
-        /// [`LIGHT_LEAF`] with the index of a light, or the index of the first of two clusters, with [`LIGHT_BY_POWER`]
-        /// if these are chosen by power alone.
+        /// Half of the diagonal of the box, squared.
+        radius2: f32,
+        /// The index of the first of two clusters, with [`LIGHT_BY_POWER`] if these are chosen by power alone; or
+        /// [`LIGHT_LEAF`] with the index of a light, or also with [`LIGHT_EMITTERS`] that of a group of emitters. With
+        /// [`LIGHT_TWO_SIDED`] as the cluster is.
         child: u32,
-        /// The unit axis of the cone.
-        axis: [f32; 3],
+        /// The axis of the cone, by signed 16-bit fractions: x and y where its octahedron is cut along its edges and laid
+        /// flat (Meyer and others 2010).
+        axis: u32,
         /// Signed 16-bit fractions: the cosine of the cone's half angle, and above it that of the angle from a light's
         /// direction beyond which it sends nothing.
         cones: u32,
     }
-    /// An emissive triangle or shape that paths sample as a light.
+    /// An emissive triangle or shape that paths sample as a light. Emitters are sorted by instance, then by primitive.
     PackedEmitter {
         /// Its index in the triangles array, or in the shapes array with [`SHAPE`].
         primitive: u32,
         /// Its instance, or [`NO_INSTANCE`].
         instance: u32,
-        /// Chance with which it is sampled.
-        chance: f32,
-        /// The sum of the chances of the lights and of the emitters up to it.
+        /// The sum of the chances in its group up to it: the last one has 1.
         end: f32,
+        /// The way to its group in the light tree: bit k says whether it is under the second child at depth k.
+        trail: u32,
     }
     /// A camera; `right` and `up` reach from the centre of the image plane to its edges.
     PackedCamera {
@@ -418,7 +420,8 @@ packed! {
         emitter_row: u32,
         /// Number of emitters.
         emitter_count: u32,
-        /// Radiance divided by this is the chance per area with which a path samples a point of an emitter.
+        /// Without a light tree, radiance divided by this is the chance per area with which a path samples a point of an
+        /// emitter.
         emitter_power: f32,
         /// The first word of the table from which paths sample a picture in the background, among the texels.
         environment_first: u32,
@@ -432,10 +435,10 @@ packed! {
         cluster_row: u32,
         /// The [`PackedCluster::child`] of the root of the light tree.
         light_root: u32,
-        /// With a light tree, the chance with which a light sample is one of the lights.
+        /// Without a light tree, the chance with which a light sample is one of the lights.
         lights_share: f32,
-        /// Always 0.
-        _pad0: u32,
+        /// Number of emitters in each group: all of them without a light tree.
+        emitter_group: u32,
     }
     /// The parameters of one dispatch: which workgroups of which film tile, which samples. `counters` is its
     /// result.

@@ -4,6 +4,7 @@
 pub mod albedo;
 mod blas;
 mod deform;
+mod emitter_places;
 mod emitters;
 mod environment;
 mod features;
@@ -12,6 +13,7 @@ mod geometry;
 mod instance;
 mod layers;
 mod light;
+mod light_cluster;
 mod light_tree;
 mod material;
 mod media;
@@ -97,6 +99,9 @@ pub struct PackedScene {
     pub pictures: Vec<[u32; 3]>,
     /// The features that the scene uses; all others are compiled out.
     pub features: Features,
+    /// From this many lamps and emissive triangles and shapes on, paths choose them from the light tree, unless they are one
+    /// flat patch.
+    pub tree_from: usize,
     /// Dielectric volumes that are transparent at some time, which the camera may be inside of.
     volumes: Vec<media::Volume>,
     /// Triangles that emit light at some time, by their index.
@@ -295,6 +300,7 @@ fn pack(
         volumes: media::volumes(scene, &meshes),
         radius: light::radius(scene),
         emissive: Vec::new(),
+        tree_from: light_tree::LEAST_LIGHTS,
         origins: Origins::new(scene, &plan, &trees),
         work: trees.work,
         meshes,

@@ -76,7 +76,7 @@ fn traced(batch: dispatch__Batch, before: path__Path, hit: types__Hit) -> path__
 		met = dispersion__dispersed(met, path.channel);
 	}
 	let layers = layers__layers_at(surface, optics);
-	let weight = emitters__emission_weight(batch, surface, hit, emitters__Sender(path.origin, path.normal, path.pdf), ray.direction);
+	let weight = light_weight__emission_weight(batch, surface, contact.hit, light_weight__Sender(path.origin, path.normal, path.pdf), ray.direction);
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
 	let emission = coat * emitters__emitted(surface, optics, layers.glow);
 	record_path__record_found(emission, weight);
@@ -311,13 +311,17 @@ const types__KEY_ROWS: u32 = 4u;
 
 const types__LIGHT_ROWS: u32 = 6u;
 
-const types__CLUSTER_ROWS: u32 = 3u;
+const types__CLUSTER_ROWS: u32 = 2u;
 
 const types__LIGHT_LEAF: u32 = 2147483648u;
 
 const types__LIGHT_BY_POWER: u32 = 1073741824u;
 
-const types__LIGHT_INDEX_MASK: u32 = 1073741823u;
+const types__LIGHT_EMITTERS: u32 = 1073741824u;
+
+const types__LIGHT_TWO_SIDED: u32 = 536870912u;
+
+const types__LIGHT_INDEX_MASK: u32 = 536870911u;
 
 const types__CAMERA_ROWS: u32 = 4u;
 
@@ -655,17 +659,17 @@ struct types__PackedLight {
 struct types__PackedCluster {
 	center: vec3f,
 	power: f32,
-	extent: vec3f,
+	radius2: f32,
 	child: u32,
-	axis: vec3f,
+	axis: u32,
 	cones: u32
 }
 
 struct types__PackedEmitter {
 	primitive: u32,
 	instance: u32,
-	chance: f32,
-	end: f32
+	end: f32,
+	trail: u32
 }
 
 struct types__PackedCamera {
@@ -715,7 +719,7 @@ struct types__PackedFrame {
 	cluster_row: u32,
 	light_root: u32,
 	lights_share: f32,
-	_pad0: u32
+	emitter_group: u32
 }
 
 struct types__PackedDispatch {
@@ -1090,7 +1094,8 @@ struct dispatch__Batch {
 	environment_width: u32,
 	environment_share: f32,
 	light_root: u32,
-	lights_share: f32
+	lights_share: f32,
+	emitter_group: u32
 }
 
 fn dispatch__load_batch() -> dispatch__Batch {
@@ -1099,7 +1104,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 		albedo__albedo_first = bindings__frame.albedo_first;
 	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
@@ -1277,19 +1282,14 @@ fn fetch__load_light_end(index: u32) -> f32 {
 
 fn fetch__load_emitter(index: u32) -> types__PackedEmitter {
 	let r0 = fetch__node_row(bindings__frame.emitter_row + index);
-	return types__PackedEmitter(r0.x, r0.y, bitcast<f32>(r0.z), bitcast<f32>(r0.w));
+	return types__PackedEmitter(r0.x, r0.y, bitcast<f32>(r0.z), r0.w);
 }
 
 fn fetch__load_cluster(index: u32) -> types__PackedCluster {
 	let row = bindings__frame.cluster_row + types__CLUSTER_ROWS * index;
 	let r0 = fetch__node_row(row);
 	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	return types__PackedCluster(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
-}
-
-fn fetch__load_light_child(index: u32) -> u32 {
-	return fetch__node_row(bindings__frame.cluster_row + types__CLUSTER_ROWS * index + 1u).w;
+	return types__PackedCluster(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<f32>(r1.x), r1.y, r1.z, r1.w);
 }
 
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
@@ -4030,6 +4030,833 @@ fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
 	return batch.background;
 }
 
+<<<<<<< HEAD
+=======
+struct opacity__Clearness {
+	nothing: f32,
+	catchers: f32,
+	light: f32,
+	unshadowed: f32
+}
+
+var<private> opacity__clearness: opacity__Clearness;
+
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+
+const contact__NEAR: f32 = 1e-5;
+
+const contact__EDGE: f32 = 1e-6;
+
+const contact__VAGUE_EDGE: f32 = 0.0001;
+
+struct contact__Contact {
+	surface: types__Surface,
+	hit: types__Hit,
+	touching: u32,
+	enters_touching: bool
+}
+
+fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> contact__Contact {
+	var contact: contact__Contact;
+	record__seen = hit;
+	contact.hit = hit;
+	contact.touching = types__NONE;
+	var current = hit;
+	var first = true;
+	var second_wanted = false;
+	var vertices = vec3u(0u);
+	loop {
+		let surface = surface__surface_at(ray, current, cone);
+		if (first) {
+			contact.surface = surface;
+			vertices = triangle_surface__met_vertices;
+			second_wanted = bindings__HAS_REFRACTION && bindings__HAS_CONTACT && contact__is_near(ray, hit, surface);
+		}
+		else {
+			contact = contact__merge(contact, surface, contact__is_same_volume(hit, primitive__runner_up, vertices));
+			second_wanted = false;
+		}
+		first = false;
+		current = primitive__runner_up;
+		continuing {
+		
+			break if !second_wanted;
+		}
+	}
+	loops__cut_off |= second_wanted;
+	return contact;
+}
+
+fn contact__media_behind(media: vec4u, contact: contact__Contact) -> vec4u {
+	var behind = media;
+	if (!contact__is_thin(contact.surface)) {
+		if (contact.surface.outside && !media__has_room(behind)) {
+			ray_stack__cut_tree();
+		}
+		behind = medium__cross_surface(behind, contact.surface.material, contact.surface.outside);
+	}
+	if (bindings__HAS_CONTACT && contact.touching != types__NONE) {
+		if (contact.enters_touching && !media__has_room(behind)) {
+			ray_stack__cut_tree();
+		}
+		behind = medium__cross_surface(behind, contact.touching, contact.enters_touching);
+	}
+	return behind;
+}
+
+fn contact__is_near(ray: types__Ray, hit: types__Hit, surface: types__Surface) -> bool {
+	let gap = (primitive__runner_up.t - hit.t) * abs(dot(surface.ng, ray.direction));
+	let reach = numeric__max_component(abs(surface.p)) + hit.t;
+	return primitive__runner_up.primitive != types__NONE && gap <= contact__NEAR * reach && contact__is_transparent(surface);
+}
+
+fn contact__is_transparent(surface: types__Surface) -> bool {
+	return any(material__load_optics(surface.material).transmit > vec3f(0.0));
+}
+
+fn contact__is_thin(surface: types__Surface) -> bool {
+	return (material__load_optics(surface.material).flags & types__MATERIAL_THIN) != 0u;
+}
+
+fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_volume: bool) -> contact__Contact {
+	let is_alike = (second.material == contact.surface.material) & (second.outside == contact.surface.outside);
+	let is_other = !(is_alike & is_same_volume);
+	let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
+	var both = contact;
+	if (together && contact__is_transparent(second)) {
+		if (contact__is_thin(second)) {
+			return both;
+		}
+		both.touching = second.material;
+		both.enters_touching = second.outside;
+	}
+	else if (together) {
+		both.surface = second;
+		both.hit = primitive__runner_up;
+		record__seen = primitive__runner_up;
+	}
+	return both;
+}
+
+fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3u) -> bool {
+	let are_triangles = bindings__HAS_TRIANGLES && ((first.primitive | second.primitive) & types__SHAPE) == 0u;
+	if (!are_triangles || first.instance != second.instance) {
+		return false;
+	}
+	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, triangle_surface__met_vertices);
+}
+
+fn contact__is_at_edge(hit: types__Hit) -> bool {
+	let nearest = min(min(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
+	return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
+}
+
+fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
+	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
+}
+
+fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
+	var instance: types__PackedInstance;
+	var space: motion__Space;
+	var local = ray;
+	let is_placed = bindings__HAS_INSTANCES && hit.instance != types__NO_INSTANCE;
+	if (is_placed) {
+		instance = fetch__load_instance(hit.instance);
+		space = instance__space_of(instance);
+		local = instance__object_ray(ray, space);
+	}
+	var surface: types__Surface;
+	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
+		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
+	}
+	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+		surface = shape_surface__shape_surface(local, hit);
+		let p = surface.p;
+		if (is_placed) {
+			surface = surface__placed_surface(ray, surface, space);
+		}
+		if (bindings__HAS_FOOTPRINTS) {
+			surface = footprint__with_shape_footprint(surface, ray, hit, p, space, is_placed, cone);
+		}
+	}
+	if (is_placed) {
+		let q = surface.place;
+		surface.error += instance__placement_error(space, surface.p, q);
+		surface.id += 2654435761u * instance.id;
+		surface.place = instance__pattern_place(instance, q);
+		surface.instance = hit.instance;
+		if (bindings__HAS_FOOTPRINTS) {
+			let own = mat2x3f(space.inverse * surface.footprint.place[0], space.inverse * surface.footprint.place[1]);
+			surface.footprint.place = footprint__instance_footprint(instance, own);
+		}
+	}
+	return surface;
+}
+
+fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__Space) -> types__Surface {
+	var surface = own;
+	surface.p = space.linear * own.p + space.translation;
+	surface.ng = numeric__normalize_or(instance__placed_normal(space, own.ng), -ray.direction);
+	surface.n = numeric__normalize_or(instance__placed_normal(space, own.n), surface.ng);
+	surface.error = instance__abs_times(space.linear, own.error);
+	return surface;
+}
+
+var<private> triangle_surface__met_vertices: vec3u;
+
+struct triangle_surface__Placing {
+	space: motion__Space,
+	is_placed: bool,
+	keys: deforming__Keys
+}
+
+fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: triangle_surface__Placing, cone: types__Cone) -> types__Surface {
+	let space = placing.space;
+	let keys = placing.keys;
+	let own = deforming__triangle_now(hit.primitive, keys);
+	triangle_surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
+	let v0 = fetch__load_vertex(own.i0);
+	let v1 = fetch__load_vertex(own.i1);
+	let v2 = fetch__load_vertex(own.i2);
+	let b1 = hit.b1;
+	let b2 = hit.b2;
+	let b0 = 1.0 - b1 - b2;
+	var corners = mat3x3f(own.v0, own.v1, own.v2);
+	var normals = mat3x3f(v0.normal, v1.normal, v2.normal);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			normals = deforming__normals_now(hit.primitive, keys);
+		}
+	}
+	let place = corners * vec3f(b0, b1, b2);
+	if (bindings__HAS_INSTANCES && placing.is_placed) {
+		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
+		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, normals[0]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[1]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[2]), -ray.direction));
+	}
+	let weights = vec3f(b0, b1, b2);
+	var frame = mat3x3f();
+	if (bindings__HAS_TANGENTS) {
+		var tangents = deforming__tangents_now(hit.primitive, keys);
+		if (bindings__HAS_INSTANCES && placing.is_placed) {
+			tangents = tangent_space__placed_tangents(space, tangents);
+		}
+		frame = tangent_space__vertex_frame(tangents, normals, weights);
+	}
+	let material = material__load_material(v0.material);
+	var phong = material.phong;
+	if (bindings__MIXED_MATERIALS) {
+		phong = triangle_surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
+	}
+	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
+	let n = numeric__normalize_or(normals * weights, ng);
+	var shading_normal = n;
+	var coat_normal = vec3f(0.0);
+	if (bindings__HAS_COAT_NORMALS) {
+		coat_normal = n;
+	}
+	var uv = vec2f(b1, b2);
+	if (bindings__HAS_TEXTURES) {
+		uv = vec2f(0.0);
+	}
+	var second_uv = uv;
+	var footprint = footprint__NO_FOOTPRINT;
+	if (bindings__HAS_FOOTPRINTS) {
+		footprint.place = ray_cone__footprint_axes(ray.direction, ng, ray_cone__cone_at(cone, hit.t).width);
+	}
+	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
+		let rows = mat3x4f(fetch__load_uvs(own.i0), fetch__load_uvs(own.i1), fetch__load_uvs(own.i2));
+		let uvs = mat3x2f(rows[0].xy, rows[1].xy, rows[2].xy);
+		let second_uvs = mat3x2f(rows[0].zw, rows[1].zw, rows[2].zw);
+		uv = uvs * weights;
+		second_uv = select(uv, second_uvs * weights, bindings__HAS_SECOND_UVS);
+		if (bindings__HAS_FOOTPRINTS) {
+			footprint.uv = footprint__triangle_uv_footprint(footprint.place, corners, uvs);
+			if (bindings__HAS_SECOND_UVS) {
+				footprint.second_uv = footprint__triangle_uv_footprint(footprint.place, corners, second_uvs);
+			}
+		}
+		if (bindings__HAS_NORMAL_MAPS) {
+			shading_normal = normal_map__mapped_normal(normal_map__normal_map_of(v0.material), frame, n, corners, rows, weights, footprint);
+		}
+		if (bindings__HAS_COAT_NORMALS) {
+			coat_normal = normal_map__mapped_normal(normal_map__coat_map_of(v0.material), frame, n, corners, rows, weights, footprint);
+		}
+	}
+	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
+	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
+}
+
+fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
+	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+}
+
+fn tangent_space__placed_tangents(space: motion__Space, own: mat3x4f) -> mat3x4f {
+	let mirrors = select(1.0, -1.0, determinant(space.linear) < 0.0);
+	return mat3x4f(tangent_space__placed_tangent(space, own[0], mirrors), tangent_space__placed_tangent(space, own[1], mirrors), tangent_space__placed_tangent(space, own[2], mirrors));
+}
+
+fn tangent_space__placed_tangent(space: motion__Space, own: vec4f, mirrors: f32) -> vec4f {
+	return vec4f(numeric__normalize_or(space.linear * own.xyz, vec3f(0.0)), mirrors * own.w);
+}
+
+fn tangent_space__vertex_frame(tangents: mat3x4f, normals: mat3x3f, weights: vec3f) -> mat3x3f {
+	let is_whole = tangents[0].w * tangents[1].w * tangents[2].w != 0.0;
+	let tangent = tangents * weights;
+	let n = normals * weights;
+	let frame = mat3x3f(tangent.xyz, sign(tangent.w) * cross(n, tangent.xyz), n);
+	return frame * select(0.0, 1.0, is_whole);
+}
+
+fn tangent_space__surface_tangent(frame: mat3x3f, n: vec3f, flips: bool) -> vec4f {
+	if (!bindings__HAS_ANISOTROPY) {
+		return vec4f(0.0);
+	}
+	let along = numeric__normalize_or(frame[0] - dot(frame[0], n) * n, vec3f(0.0));
+	let hand = select(-1.0, 1.0, (dot(cross(n, along), frame[1]) >= 0.0) != flips);
+	return vec4f(along, select(hand, 0.0, dot(along, along) == 0.0));
+}
+
+struct material__PhongMaterial {
+	phong: types__Phong,
+	flags: u32
+}
+
+fn material__load_material(index: u32) -> material__PhongMaterial {
+	let row = types__MATERIAL_ROWS * index;
+	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = fetch__material_row(row + 2u);
+	var reflect = vec3f(0.0);
+	if (bindings__HAS_REFLECTION) {
+		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
+	}
+	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+	return material__PhongMaterial(phong, r1.w);
+}
+
+fn material__load_optics(index: u32) -> types__Optics {
+	let row = types__MATERIAL_ROWS * index;
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = fetch__material_row(row + 2u);
+	let r3 = fetch__material_row(row + 3u);
+	let r4 = fetch__material_row(row + 4u);
+	return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
+}
+
+fn material__load_medium(index: u32) -> types__Medium {
+	let row = types__MATERIAL_ROWS * index;
+	let r5 = fetch__material_row(row + 5u);
+	return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
+}
+
+fn material__load_emission(index: u32) -> vec3f {
+	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
+}
+
+fn material__load_texture_indices(index: u32) -> vec4u {
+	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+}
+
+struct material__CoverageMaterial {
+	alpha: f32,
+	flags: u32
+}
+
+fn material__load_coverage(index: u32) -> material__CoverageMaterial {
+	let row = types__MATERIAL_ROWS * index;
+	return material__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
+}
+
+fn material__load_normal_scale(index: u32) -> f32 {
+	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+}
+
+fn material__load_texture(index: u32) -> types__PackedTexture {
+	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r5 = fetch__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+}
+
+fn material__load_layers(index: u32) -> types__PackedLayers {
+	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
+	let r3 = fetch__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
+	let r6 = fetch__material_row(row + 6u);
+	let r7 = fetch__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
+}
+
+struct material__Glow {
+	light: u32,
+	luminance: f32,
+	texture: u32
+}
+
+fn material__load_glow(index: u32) -> material__Glow {
+	let row = types__MATERIAL_ROWS * index;
+	let own = fetch__material_row(row + types__LAYERS_ROW + 7u);
+	let luminance = bitcast<f32>(own.y) * dot(material__load_emission(index), tone__LUMINANCE_REC709);
+	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
+}
+
+fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
+	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
+	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
+}
+
+const ray_cone__MOST_TAPS: f32 = 8.0;
+
+const ray_cone__WIDEST: f32 = 1000000000000000.0;
+
+struct ray_cone__Filtering {
+	level: f32,
+	tap_count: u32,
+	way: vec2f
+}
+
+fn ray_cone__cone_at(cone: types__Cone, distance: f32) -> types__Cone {
+	return types__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
+}
+
+fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
+	let cosine = dot(n, direction);
+	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+	let other = numeric__normalize_or(cross(n, axis), vec3f(0.0, 0.0, 1.0));
+	let slope = direction - cosine * n;
+	let along = select(other, numeric__normalize_or(slope, other), dot(slope, slope) > 1e-8);
+	let size = abs(width);
+	return mat2x3f((size / max(abs(cosine), 0.001)) * along, size * cross(n, along));
+}
+
+fn ray_cone__uv_along(v: vec3f, e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f) -> vec2f {
+	let normal = cross(e1, e2);
+	let n = numeric__normalize_or(normal, vec3f(0.0));
+	let area = max(dot(normal, n), 1e-30);
+	return (dot(cross(v, e2), n) / area) * d1 + (dot(cross(e1, v), n) / area) * d2;
+}
+
+fn ray_cone__curvature_along(edge: vec3f, bend: vec3f) -> f32 {
+	return dot(edge, bend) / max(dot(edge, edge), 1e-30);
+}
+
+fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
+	let is_first = dot(a, a) >= dot(b, b);
+	let way = select(b, a, is_first);
+	let long = length(way);
+	let short = length(select(a, b, is_first));
+	let count = clamp(round(long / max(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
+	let width = max(max(short, long / count), 1e-9);
+	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
+}
+
+struct normal_map__NormalMap {
+	index: u32,
+	scale: f32
+}
+
+fn normal_map__normal_map_of(material: u32) -> normal_map__NormalMap {
+	return normal_map__NormalMap(material__load_texture_indices(material).w & 65535u, material__load_normal_scale(material));
+}
+
+fn normal_map__coat_map_of(material: u32) -> normal_map__NormalMap {
+	let layers = material__load_layers(material);
+	return normal_map__NormalMap(layers__texture_in(layers, types__SLOT_COAT_NORMAL), layers.coat_normal_scale);
+}
+
+fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+	if (map.index == types__NO_TEXTURE) {
+		return n;
+	}
+	let texture = material__load_texture(map.index);
+	let q0 = normal_map__in_picture(texture, uvs[0]);
+	let q1 = normal_map__in_picture(texture, uvs[1]);
+	let q2 = normal_map__in_picture(texture, uvs[2]);
+	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
+	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
+	let tilt = map.scale * (2.0 * code.xy - vec2f(1.0));
+	let up = max(2.0 * code.z - 1.0, 0.0);
+	if (bindings__HAS_TANGENTS) {
+		if (dot(frame[2], frame[2]) > 0.0) {
+			return numeric__normalize_or(frame * vec3f(tilt, up), n);
+		}
+	}
+	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
+	let bitangent = tangent.w * cross(n, tangent.xyz);
+	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + up * n, n);
+}
+
+fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
+	let is_second = bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
+	let at = vec4f(select(uvs.xy, uvs.zw, is_second), 0.0, 1.0);
+	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
+}
+
+fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
+	if (!(bindings__HAS_TEXTURES && bindings__HAS_OPTICS_TEXTURES)) {
+		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
+	}
+	let indices = material__load_texture_indices(surface.material);
+	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
+}
+
+fn texture__texture_factors(wanted: vec3u, surface: types__Surface) -> mat3x3f {
+	var factors = mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
+	var open = wanted != vec3u(types__NO_TEXTURE);
+	loop {
+		let index = select(select(select(0u, wanted.z, open.z), wanted.y, open.y), wanted.x, open.x);
+		let color = texture__texture_color(material__load_texture(index), surface);
+		let found = open & (wanted == vec3u(index));
+		factors[0] = select(factors[0], color, found.x);
+		factors[1] = select(factors[1], color, found.y);
+		factors[2] = select(factors[2], color, found.z);
+		open = open & !found;
+		continuing {
+		
+			break if !any(open);
+		}
+	}
+	loops__cut_off |= any(open);
+	return factors;
+}
+
+fn texture__picture_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
+	if (bindings__HAS_FOOTPRINTS) {
+		return mipmap__mipmap_color(texture, q, axes);
+	}
+	let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
+	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
+	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
+	return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v));
+}
+
+fn texture__uses_second_uv(texture: types__PackedTexture) -> bool {
+	return bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
+}
+
+fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footprint) -> mat2x2f {
+	if (!bindings__HAS_FOOTPRINTS) {
+		return mat2x2f();
+	}
+	let is_uv = (texture.flags & types__TEXTURE_UV) != 0u;
+	var in_uv = footprint.uv;
+	if (texture__uses_second_uv(texture)) {
+		in_uv = footprint.second_uv;
+	}
+	let a = select(footprint.place[0], vec3f(in_uv[0], 0.0), is_uv);
+	let b = select(footprint.place[1], vec3f(in_uv[1], 0.0), is_uv);
+	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
+}
+
+fn texture__place_in_pattern(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+	let uv = select(surface.uv, surface.second_uv, texture__uses_second_uv(texture));
+	let at = select(vec4f(surface.place, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
+	return clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
+}
+
+fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface, is_mask: bool) -> f32 {
+	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
+		let axes = texture__footprint_in(texture, surface.footprint);
+		let size = select(1.0, 0.0, is_mask);
+		return texture__picture_color(texture, texture__place_in_pattern(texture, surface).xy, size * axes).w;
+	}
+	return 1.0;
+}
+
+fn texture__texture_color(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+	return texture__texture_value(texture, surface).xyz;
+}
+
+fn texture__texture_value(texture: types__PackedTexture, surface: types__Surface) -> vec4f {
+	let q = texture__place_in_pattern(texture, surface);
+	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
+		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint));
+	}
+	var weight = pattern__checker(q);
+	if (bindings__HAS_NOISE && texture.kind == types__PATTERN_NOISE) {
+		let octaves = noise__noise_octaves(q, texture.octaves);
+		loops__cut_off |= octaves.count < texture.octaves;
+		weight = pattern__clouds(octaves.sum);
+	}
+	weight = select(weight, pattern__stripes(q), texture.kind == types__PATTERN_STRIPES);
+	weight = select(weight, pattern__gradient(q), texture.kind == types__PATTERN_GRADIENT);
+	return vec4f(mix(texture.color_a, texture.color_b, weight), 1.0);
+}
+
+fn mipmap__mipmap_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
+	let size = vec2f(vec2u(texture.width, texture.height));
+	let plan = ray_cone__filtering(size * axes[0], size * axes[1]);
+	let has_levels = (texture.flags & types__TEXTURE_LEVELS) != 0u;
+	let last = select(0.0, f32(31u - countLeadingZeros(max(texture.width, texture.height))), has_levels);
+	let exact = clamp(plan.level, 0.0, last);
+	let level = select(round(exact), exact, (texture.flags & types__TEXTURE_BETWEEN_LEVELS) != 0u);
+	let tap_count = select(1u, plan.tap_count, has_levels);
+	let way = select(vec2f(0.0), plan.way / size, has_levels);
+	let nearest_bit = select(types__TEXTURE_NEAREST, types__TEXTURE_MINIFY_NEAREST, plan.level > 0.0);
+	let nearest = (texture.flags & nearest_bit) != 0u;
+	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
+	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
+	let below = u32(level);
+	let weight = fract(level);
+	let end = select(tap_count, 2u * tap_count, weight > 0.0);
+	var color = vec4f(0.0);
+	var k = 0u;
+	loop {
+		let is_above = k >= tap_count;
+		let tap = f32(k - select(0u, tap_count, is_above));
+		let at = q + ((tap + 0.5) / f32(tap_count) - 0.5) * way;
+		let own = below + select(0u, 1u, is_above);
+		let width = max(texture.width >> own, 1u);
+		let height = max(texture.height >> own, 1u);
+		let sample = picture__blend_texels(mipmap__level_of(texture.picture, own), width, height, picture__neighbours(at.x, width, nearest, wrap_u), picture__neighbours(at.y, height, nearest, wrap_v));
+		color += select(1.0 - weight, weight, is_above) * sample;
+		continuing {
+			k += 1u;
+			break if k >= end;
+		}
+	}
+	loops__cut_off |= k < end;
+	return color / f32(tap_count);
+}
+
+fn mipmap__level_of(picture: u32, level: u32) -> u32 {
+	if (level == 0u) {
+		return picture;
+	}
+	return picture + picture__load_texel_word((picture & types__PICTURE_FIRST_MASK) - level);
+}
+
+fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) -> vec4f {
+	let area = d1.x * d2.y - d1.y * d2.x;
+	let hand = select(1.0, -1.0, area < 0.0);
+	let along = hand * (d2.y * e1 - d1.y * e2);
+	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+	let other = numeric__normalize_or(cross(n, axis), vec3f(1.0, 0.0, 0.0));
+	let within = numeric__normalize_or(along, other);
+	return vec4f(numeric__normalize_or(within - dot(within, n) * n, other), hand);
+}
+
+const layers__SMOOTH: f32 = 0.0001;
+
+struct layers__Layers {
+	diffuse: vec3f,
+	f0: vec3f,
+	f90: vec3f,
+	over_f0: vec3f,
+	over_f90: vec3f,
+	alpha: f32,
+	reflect: vec3f,
+	transmit: vec3f,
+	boundary_alpha: f32,
+	fresnel: u32,
+	ior: f32,
+	glow: vec3f,
+	coat: f32,
+	coat_roughness: f32,
+	sheen: vec3f,
+	sheen_roughness: f32,
+	anisotropy: f32,
+	along: vec2f,
+	film: f32,
+	film_ior: f32,
+	film_thickness: f32,
+	diffuse_transmission: f32,
+	diffuse_transmission_color: vec3f
+}
+
+fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
+	var own = material__load_layers(surface.material);
+	own.base = surface.phong.diffuse;
+	var reflect = surface.phong.reflect;
+	var transmit = optics.transmit;
+	var glow = vec3f(1.0);
+	var thickness = 1.0;
+	var along = vec2f(1.0, 0.0);
+	if (bindings__HAS_TEXTURES) {
+		var rest = own.slots;
+		loop {
+			let slot = firstTrailingBit(rest | 2147483648u);
+			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
+			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
+			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
+			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
+			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
+			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
+			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
+			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
+			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
+			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
+			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			if (bindings__HAS_ANISOTROPY) {
+				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
+				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
+			}
+			if (bindings__HAS_COATINGS) {
+				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
+				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
+				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
+				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
+				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
+				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
+				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
+				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
+			}
+			rest &= rest - 1u;
+			continuing {
+			
+				break if rest == 0u;
+			}
+		}
+		loops__cut_off |= rest != 0u;
+	}
+	var layers: layers__Layers;
+	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
+		layers = layers__metallic_roughness(own);
+	}
+	else {
+		layers.diffuse = own.base;
+		layers.f0 = own.f0;
+		layers.f90 = own.f0;
+		layers.over_f0 = own.f0;
+		layers.over_f90 = own.f0;
+		layers.alpha = own.roughness * own.roughness;
+		layers.reflect = reflect;
+		layers.transmit = transmit;
+		layers.fresnel = optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK);
+		layers.ior = own.ior;
+	}
+	layers.glow = glow;
+	if (bindings__HAS_ANISOTROPY) {
+		layers.anisotropy = own.anisotropy;
+		layers.along = dispersion__anisotropy_tangent(own.anisotropy_rotation, along);
+	}
+	if (bindings__HAS_COATINGS) {
+		layers.coat = own.coat;
+		layers.coat_roughness = own.coat_roughness;
+		layers.sheen = own.sheen;
+		layers.sheen_roughness = own.sheen_roughness;
+		layers.film = own.iridescence;
+		layers.film_ior = own.iridescence_ior;
+		layers.film_thickness = mix(own.film_thinnest, own.film_thickest, thickness);
+		layers.diffuse_transmission = own.diffuse_transmission;
+		layers.diffuse_transmission_color = own.diffuse_transmission_color;
+	}
+	return layers;
+}
+
+fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
+	var layers: layers__Layers;
+	layers.alpha = own.roughness * own.roughness;
+	layers.ior = own.ior;
+	let body = 1.0 - own.metallic;
+	layers.diffuse = body * own.base;
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
+		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
+		layers.diffuse *= 1.0 - own.transmission;
+		layers.f0 = own.metallic * own.base;
+		layers.f90 = vec3f(own.metallic);
+		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
+		layers.transmit = (body * own.transmission) * own.base;
+		layers.boundary_alpha = layers.alpha;
+		layers.fresnel = types__MATERIAL_FRESNEL;
+		return layers;
+	}
+	layers.f0 = mix(own.f0, own.base, own.metallic);
+	layers.f90 = vec3f(mix(own.f90, 1.0, own.metallic));
+	layers.over_f0 = own.f0;
+	layers.over_f90 = vec3f(own.f90);
+	return layers;
+}
+
+fn layers__textured(own: types__PackedLayers, slot: u32, surface: types__Surface) -> vec4f {
+	if ((own.slots & (1u << slot)) == 0u) {
+		return vec4f(1.0);
+	}
+	return texture__texture_value(material__load_texture(layers__texture_in(own, slot)), surface);
+}
+
+fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
+	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
+	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
+	let word = (slot >> 1u) & 3u;
+	let low = select(four.x, four.y, word == 1u);
+	let high = select(four.z, four.w, word == 3u);
+	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
+}
+
+fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
+	let b0 = abs(1.0 - b1 - b2);
+	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
+}
+
+fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
+}
+
+fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
+}
+
+fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
+}
+
+fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
+	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
+}
+
+fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
+	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
+}
+
+fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
+	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
+}
+
+fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let reached = ray.origin + hit.t * ray.direction;
+	let material = material__load_material(shape.material);
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		let ng = shape.row_y;
+		let p = reached - dot(reached - shape.position, ng) * ng;
+		let outside = dot(ng, ray.direction) <= 0.0;
+		var plane_uv = vec2f(0.0);
+		if (bindings__HAS_TEXTURES) {
+			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
+		}
+		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+	}
+	if (!shape__is_round(shape.kind)) {
+		let point = shape__canonical_point(shape, reached, hit.b1);
+		let placed = canonical__placed_point(shape, reached, point);
+		let ng = placed.ng;
+		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+	}
+	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
+	let ng = placed.ng;
+	let outside = dot(ng, ray.direction) <= 0.0;
+	var uv = vec2f(0.0);
+	if (bindings__HAS_TEXTURES) {
+		uv = canonical__sphere_uv(ng);
+	}
+	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+}
+
+fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
+	if (shape__is_globe(shape.kind)) {
+		return globe__globe_point(shape, reached);
+	}
+	let ng = numeric__normalize_or(reached - shape.position, -direction);
+	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
+}
+
+>>>>>>> refs/lanes/tree
 struct interface__Interface {
 	here: u32,
 	media: vec4u,
@@ -4118,12 +4945,6 @@ struct emitters__LightSample {
 	pdf: f32
 }
 
-struct emitters__Sender {
-	p: vec3f,
-	n: vec3f,
-	pdf: f32
-}
-
 fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
 	if (bindings__HAS_ENVIRONMENT && (!(bindings__HAS_LIGHTS || bindings__HAS_EMITTERS) || choice >= 1.0 - batch.environment_share)) {
 		let found = environment__sample_environment(batch, u);
@@ -4132,21 +4953,21 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f3
 		let radiance = background__background(batch, found.direction) / max(pdf, 1e-30);
 		return emitters__LightSample(types__Incident(found.direction, camera__T_FAR, radiance), pdf);
 	}
-	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || choice >= light_choice__end_of_lights(batch))) {
-		return emitters__sample_emitter(batch, p, choice, u);
+	let source = light_choice__choose_source(batch, p, n, choice);
+	record_path__record_source(select(types__SOURCE_LIGHT, types__SOURCE_EMITTER, source.is_emitter), source.index, source.chance);
+	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || source.is_emitter)) {
+		return emitters__sample_emitter(p, source, u);
 	}
-	let lamp = light_choice__lamp_for(batch, p, n, choice);
-	let light = shutter__shutter_light(lamp.index, batch.light_count);
-	record_path__record_source(types__SOURCE_LIGHT, lamp.index, lamp.chance);
+	let light = shutter__shutter_light(source.index, batch.light_count);
 	var arriving = light__incident(light, p);
 	var pdf = 0.0;
 	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
 		arriving = emitters__lamp_incident(light, p, u);
-		if (emitters__can_be_hit(light)) {
-			pdf = lamp.chance * spherical_rectangle__solid_density(light, p, arriving.direction, arriving.distance);
+		if (light_weight__can_be_hit(light)) {
+			pdf = source.chance * spherical_rectangle__solid_density(light, p, arriving.direction, arriving.distance);
 		}
 	}
-	arriving.radiance *= select(0.0, warp__PI / max(lamp.chance, 1e-30), lamp.chance > 0.0);
+	arriving.radiance *= select(0.0, warp__PI / max(source.chance, 1e-30), source.chance > 0.0);
 	return emitters__LightSample(arriving, pdf);
 }
 
@@ -4161,19 +4982,18 @@ fn emitters__lamp_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> typ
 	return types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), strength * light.color);
 }
 
-fn emitters__sample_emitter(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
-	let index = light_choice__chosen(choice, batch.emitter_count, true);
-	let emitter = fetch__load_emitter(index);
-	record_path__record_source(types__SOURCE_EMITTER, index, emitter.chance);
+fn emitters__sample_emitter(p: vec3f, source: light_choice__Source, u: vec2f) -> emitters__LightSample {
+	let emitter = fetch__load_emitter(source.index);
 	if (bindings__HAS_EMISSIVE_SHAPES && (emitter.primitive & types__SHAPE) != 0u) {
-		return emitters__sample_shape(batch, p, emitter, u);
+		return emitters__sample_shape(p, emitter, source, u);
 	}
 	var instance: types__PackedInstance;
 	let is_placed = bindings__HAS_INSTANCES && emitter.instance != types__NO_INSTANCE;
 	if (is_placed) {
 		instance = fetch__load_instance(emitter.instance);
 	}
-	let own = deforming__triangle_now(emitter.primitive, deforming__keys_of(instance));
+	let keys = deforming__keys_of(instance);
+	let own = deforming__triangle_now(emitter.primitive, keys);
 	let b = warp__triangle_from_square(u);
 	let weights = vec3f(1.0 - b.x - b.y, b);
 	var surface: types__Surface;
@@ -4204,21 +5024,27 @@ fn emitters__sample_emitter(batch: dispatch__Batch, p: vec3f, choice: f32, u: ve
 	let direction = numeric__normalize_or(to_point, vec3f(0.0, 0.0, 1.0));
 	let n = numeric__normalize_or(across, -direction);
 	let cosine = -dot(direction, n);
-	let normals = mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+	var normals = mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			normals = deforming__normals_now(emitter.primitive, keys);
+		}
+	}
 	var front = normals * weights;
 	if (is_placed) {
 		front = instance__placed_normal(instance__space_of(instance), front);
 	}
-	let shines = dot(front, direction) < 0.0 || (material__load_optics(material).flags & types__MATERIAL_TWO_SIDED) != 0u;
+	let is_outside = (dot(front, n) < 0.0) == (cosine < 0.0);
+	let shines = is_outside || (material__load_optics(material).flags & types__MATERIAL_TWO_SIDED) != 0u;
 	radiance *= coating__through_coat(surface, abs(cosine));
-	let facing = select(0.0, abs(cosine), shines);
-	let actual = emitter.chance / max(0.5 * length(across), 1e-30);
+	let facing = select(0.0, abs(cosine), shines && source.chance > 0.0);
+	let actual = source.chance / max(0.5 * length(across), 1e-30);
 	let fading = 1.0 / max(distance * distance, 1e-30);
 	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
-	return emitters__LightSample(types__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max(actual, 1e-30)) * radiance), glow.luminance / batch.emitter_power / max(abs(cosine) * fading, 1e-30));
+	return emitters__LightSample(types__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max(actual, 1e-30)) * radiance), glow.luminance * source.rate / max(abs(cosine) * fading, 1e-30));
 }
 
-fn emitters__sample_shape(batch: dispatch__Batch, p: vec3f, emitter: types__PackedEmitter, u: vec2f) -> emitters__LightSample {
+fn emitters__sample_shape(p: vec3f, emitter: types__PackedEmitter, source: light_choice__Source, u: vec2f) -> emitters__LightSample {
 	let shape = fetch__load_shape(emitter.primitive & ~types__SHAPE);
 	let light = emissive_shape__light_of(shape, emitter.instance);
 	let found = spherical_rectangle__solid_sample(light, p, u);
@@ -4234,43 +5060,9 @@ fn emitters__sample_shape(batch: dispatch__Batch, p: vec3f, emitter: types__Pack
 	}
 	let cosine = -dot(front, found.direction);
 	let shines = cosine > 0.0 || (material__load_optics(shape.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
-	radiance *= select(0.0, coating__through_coat(surface, abs(cosine)), shines);
+	radiance *= select(0.0, coating__through_coat(surface, abs(cosine)), shines && source.chance > 0.0);
 	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
-	return emitters__LightSample(types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max(emitter.chance * found.pdf, 1e-30)), glow.luminance / batch.emitter_power * emissive_shape__area_of(light) * found.pdf);
-}
-
-fn emitters__emission_weight(batch: dispatch__Batch, surface: types__Surface, hit: types__Hit, sender: emitters__Sender, direction: vec3f) -> f32 {
-	let origin = sender.p;
-	let pdf = sender.pdf;
-	let distance = distance(origin, surface.p);
-	if (!(bindings__HAS_AREA_LIGHTS || bindings__HAS_EMITTERS) || pdf <= 0.0) {
-		return 1.0;
-	}
-	let glow = material__load_glow(surface.material);
-	if (bindings__HAS_AREA_LIGHTS && glow.light != types__NONE) {
-		let light = shutter__shutter_light(glow.light, batch.light_count);
-		var density = light.chance * spherical_rectangle__solid_density(light, origin, direction, distance);
-		if (bindings__HAS_LIGHT_TREE && density > 0.0) {
-			density *= light_tree__lamp_chance(batch, light.place, origin, sender.n);
-		}
-		record_path__record_light_density(select(0.0, density, emitters__can_be_hit(light)));
-		return select(0.0, mis__power_heuristic(pdf, density), emitters__can_be_hit(light));
-	}
-	if (!bindings__HAS_EMITTERS) {
-		return 1.0;
-	}
-	let cosine = abs(dot(direction, surface.ng));
-	var density = distance * distance / max(cosine, 1e-30);
-	if ((hit.primitive & types__SHAPE) != 0u) {
-		density = emissive_shape__shape_density(hit, origin, direction, distance);
-	}
-	density *= glow.luminance / batch.emitter_power;
-	record_path__record_light_density(density);
-	return mis__power_heuristic(pdf, density);
-}
-
-fn emitters__can_be_hit(light: types__PackedLight) -> bool {
-	return light.visible != 0u && light.attenuation == types__ATTENUATION_INVERSE_SQUARE;
+	return emitters__LightSample(types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max(source.chance * found.pdf, 1e-30)), glow.luminance * source.rate * emissive_shape__area_of(light) * found.pdf);
 }
 
 fn emitters__emitted(surface: types__Surface, optics: types__Optics, glow: vec3f) -> vec3f {
@@ -4317,35 +5109,56 @@ fn quad_warp__half_of(chance: f32, u: f32) -> quad_warp__Half {
 	return quad_warp__Half(select(0u, 1u, is_second), clamp((u - start) / max(size, 1e-9), 0.0, 0.99999994));
 }
 
-fn light_choice__end_of_lights(batch: dispatch__Batch) -> f32 {
-	if (bindings__HAS_LIGHT_TREE) {
-		return batch.lights_share;
-	}
-	return fetch__load_light_end(batch.light_count - 1u);
+struct light_choice__Source {
+	is_emitter: bool,
+	index: u32,
+	chance: f32,
+	rate: f32
 }
 
-fn light_choice__lamp_for(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32) -> light_tree__ChosenLamp {
+fn light_choice__choose_source(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32) -> light_choice__Source {
+	let share = 1.0 - batch.environment_share;
 	if (bindings__HAS_LIGHT_TREE) {
-		let lamp = light_tree__choose_lamp(batch, p, n, choice / batch.lights_share);
-		return light_tree__ChosenLamp(lamp.index, batch.lights_share * lamp.chance);
+		let leaf = light_tree__choose_leaf(batch, p, n, min(choice / share, 0.99999994));
+		let index = select(0u, leaf.reference & types__LIGHT_INDEX_MASK, leaf.chance > 0.0);
+		if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || (leaf.reference & types__LIGHT_EMITTERS) != 0u)) {
+			let rate = share * light_choice__emitter_rate(leaf.chance, leaf.power);
+			return light_choice__emitter_in(batch, index * batch.emitter_group, share * leaf.chance, rate, leaf.rest);
+		}
+		return light_choice__Source(false, index, share * leaf.chance, 0.0);
 	}
-	let index = light_choice__chosen(choice, batch.light_count, false);
-	return light_tree__ChosenLamp(index, fetch__load_light(index).chance);
+	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || choice >= batch.lights_share)) {
+		let own = share - batch.lights_share;
+		return light_choice__emitter_in(batch, 0u, own, 1.0 / batch.emitter_power, (choice - batch.lights_share) / own);
+	}
+	let index = light_choice__chosen(choice, 0u, batch.light_count, false);
+	return light_choice__Source(false, index, fetch__load_light(index).chance, 0.0);
 }
 
-fn light_choice__chosen(choice: f32, count: u32, among_emitters: bool) -> u32 {
-	var low = 0u;
-	var high = count - 1u;
+fn light_choice__emitter_rate(chance: f32, power: f32) -> f32 {
+	return chance / max(warp__PI * power, 1e-30);
+}
+
+fn light_choice__emitter_in(batch: dispatch__Batch, first: u32, chance: f32, rate: f32, choice: f32) -> light_choice__Source {
+	let end = min(first + batch.emitter_group, batch.emitter_count);
+	let index = light_choice__chosen(choice, first, end, true);
+	let start = select(0.0, fetch__load_emitter(max(index, 1u) - 1u).end, index > first);
+	return light_choice__Source(true, index, chance * (fetch__load_emitter(index).end - start), rate);
+}
+
+fn light_choice__chosen(choice: f32, first: u32, end: u32, among_emitters: bool) -> u32 {
+	var low = first;
+	var high = end - 1u;
 	loop {
 		let middle = (low + high) / 2u;
-		var end = 0.0;
+		var sum = 0.0;
 		if (among_emitters) {
-			end = fetch__load_emitter(middle).end;
+			sum = fetch__load_emitter(middle).end;
 		}
 		else {
-			end = fetch__load_light_end(middle);
+			sum = fetch__load_light_end(middle);
 		}
-		let is_below = choice < end;
+		let is_below = choice < sum;
 		low = select(min(middle + 1u, high), low, is_below);
 		high = select(high, middle, is_below);
 		continuing {
@@ -4355,6 +5168,111 @@ fn light_choice__chosen(choice: f32, count: u32, among_emitters: bool) -> u32 {
 	}
 	loops__cut_off |= low < high;
 	return low;
+}
+
+struct light_tree__LightLeaf {
+	reference: u32,
+	chance: f32,
+	power: f32,
+	rest: f32
+}
+
+struct light_tree__Fork {
+	chances: vec2f,
+	powers: vec2f,
+	children: vec2u
+}
+
+fn light_tree__fork_at(reference: u32, p: vec3f, n: vec3f) -> light_tree__Fork {
+	let first = fetch__load_cluster(reference & types__LIGHT_INDEX_MASK);
+	let second = fetch__load_cluster((reference & types__LIGHT_INDEX_MASK) + 1u);
+	let powers = vec2f(first.power, second.power);
+	var weights = powers;
+	if ((reference & types__LIGHT_BY_POWER) == 0u) {
+		weights = vec2f(light_cluster__cluster_importance(first, p, n), light_cluster__cluster_importance(second, p, n));
+	}
+	let total = weights.x + weights.y;
+	let chances = select(vec2f(0.0), weights / max(total, 1e-37), total > 0.0);
+	return light_tree__Fork(chances, powers, vec2u(first.child, second.child));
+}
+
+fn light_tree__child_of(node: light_tree__LightLeaf, fork: light_tree__Fork, is_second: bool) -> light_tree__LightLeaf {
+	let chance = select(fork.chances.x, fork.chances.y, is_second);
+	let rest = (node.rest - select(0.0, fork.chances.x, is_second)) / max(chance, 1e-30);
+	return light_tree__LightLeaf(select(fork.children.x, fork.children.y, is_second), node.chance * chance, select(fork.powers.x, fork.powers.y, is_second), clamp(rest, 0.0, 0.99999994));
+}
+
+fn light_tree__is_on_the_way(node: light_tree__LightLeaf) -> bool {
+	return (node.reference & types__LIGHT_LEAF) == 0u && node.chance > 0.0;
+}
+
+fn light_tree__choose_leaf(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32) -> light_tree__LightLeaf {
+	var node = light_tree__LightLeaf(batch.light_root, 1.0, 0.0, choice);
+	loop {
+		let fork = light_tree__fork_at(node.reference, p, n);
+		node = light_tree__child_of(node, fork, node.rest >= fork.chances.x);
+		continuing {
+		
+			break if !light_tree__is_on_the_way(node);
+		}
+	}
+	loops__cut_off |= light_tree__is_on_the_way(node);
+	return node;
+}
+
+fn light_tree__leaf_at(batch: dispatch__Batch, trail: u32, p: vec3f, n: vec3f) -> light_tree__LightLeaf {
+	var node = light_tree__LightLeaf(batch.light_root, 1.0, 0.0, 0.0);
+	var left = trail;
+	loop {
+		node = light_tree__child_of(node, light_tree__fork_at(node.reference, p, n), (left & 1u) != 0u);
+		left >>= 1u;
+		continuing {
+		
+			break if !light_tree__is_on_the_way(node);
+		}
+	}
+	loops__cut_off |= light_tree__is_on_the_way(node);
+	return node;
+}
+
+const light_cluster__SLACK: f32 = 0.001;
+
+fn light_cluster__cos_of_rest(a: vec2f, b: vec2f) -> f32 {
+	return select(a.y * b.y + a.x * b.x, 1.0, a.y > b.y);
+}
+
+fn light_cluster__sine_of(cosine: f32) -> f32 {
+	return sqrt(max(1.0 - cosine * cosine, 0.0));
+}
+
+fn light_cluster__octahedral_vector(word: u32) -> vec3f {
+	let at = unpack2x16snorm(word);
+	let z = 1.0 - abs(at.x) - abs(at.y);
+	let fold = max(-z, 0.0);
+	return normalize(vec3f(at - select(vec2f(-fold), vec2f(fold), at >= vec2f(0.0)), z));
+}
+
+fn light_cluster__cluster_importance(cluster: types__PackedCluster, p: vec3f, n: vec3f) -> f32 {
+	let offset = p - cluster.center;
+	let d2 = dot(offset, offset);
+	let r2 = cluster.radius2;
+	let nearest2 = max(max(d2, r2), 1e-30);
+	let w = offset / sqrt(max(d2, 1e-30));
+	let is_inside = d2 <= r2;
+	let sin2_b = r2 / nearest2;
+	let b = select(vec2f(sqrt(sin2_b), sqrt(max(1.0 - sin2_b, 0.0))), vec2f(0.0, -1.0), is_inside);
+	let cones = unpack2x16snorm(cluster.cones);
+	let along = clamp(dot(light_cluster__octahedral_vector(cluster.axis), w), -1.0, 1.0);
+	let cos_w = select(along, abs(along), (cluster.child & types__LIGHT_TWO_SIDED) != 0u);
+	let cos_x = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_w), cos_w), vec2f(light_cluster__sine_of(cones.x), cones.x));
+	let cos_p = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_x), cos_x), b);
+	var importance = select(max(cos_p, light_cluster__SLACK), 0.0, cos_p + light_cluster__SLACK <= cones.y);
+	if (any(n != vec3f(0.0))) {
+		let cos_n = clamp(-dot(n, w), -1.0, 1.0);
+		let cos_i = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_n), cos_n), b);
+		importance *= select(max(cos_i, light_cluster__SLACK), 0.0, cos_i + light_cluster__SLACK <= 0.0);
+	}
+	return min(importance * cluster.power / nearest2, 1e30);
 }
 
 fn emissive_shape__is_sampled(shape: types__PackedShape, instance: u32) -> bool {
@@ -4718,98 +5636,6 @@ fn albedo__multiple_scattering(f0: vec3f, albedo: vec2f) -> vec3f {
 	return 1.0 + f0 * ((1.0 - single) / single);
 }
 
-struct light_tree__ChosenLamp {
-	index: u32,
-	chance: f32
-}
-
-fn light_tree__child_chances(reference: u32, p: vec3f, n: vec3f) -> vec2f {
-	let first = fetch__load_cluster(reference & types__LIGHT_INDEX_MASK);
-	let second = fetch__load_cluster((reference & types__LIGHT_INDEX_MASK) + 1u);
-	var weights = vec2f(first.power, second.power);
-	if ((reference & types__LIGHT_BY_POWER) == 0u) {
-		weights = vec2f(light_cluster__cluster_importance(first, p, n), light_cluster__cluster_importance(second, p, n));
-	}
-	let total = weights.x + weights.y;
-	return select(vec2f(0.0), weights / max(total, 1e-37), total > 0.0);
-}
-
-fn light_tree__child_of(reference: u32, is_second: bool) -> u32 {
-	return fetch__load_light_child((reference & types__LIGHT_INDEX_MASK) + select(0u, 1u, is_second));
-}
-
-fn light_tree__choose_lamp(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32) -> light_tree__ChosenLamp {
-	var reference = batch.light_root;
-	var chance = 1.0;
-	var u = choice;
-	loop {
-		let chances = light_tree__child_chances(reference, p, n);
-		let is_second = u >= chances.x;
-		let own = select(chances.x, chances.y, is_second);
-		u = clamp((u - select(0.0, chances.x, is_second)) / max(own, 1e-30), 0.0, 0.99999994);
-		chance *= own;
-		reference = light_tree__child_of(reference, is_second);
-		continuing {
-		
-			break if (reference & types__LIGHT_LEAF) != 0u || chance <= 0.0;
-		}
-	}
-	let is_leaf = (reference & types__LIGHT_LEAF) != 0u;
-	loops__cut_off |= !is_leaf && chance > 0.0;
-	return light_tree__ChosenLamp(select(0u, reference & types__LIGHT_INDEX_MASK, is_leaf), select(0.0, chance, is_leaf));
-}
-
-fn light_tree__lamp_chance(batch: dispatch__Batch, trail: u32, p: vec3f, n: vec3f) -> f32 {
-	var reference = batch.light_root;
-	var left = trail;
-	var chance = 1.0;
-	loop {
-		let chances = light_tree__child_chances(reference, p, n);
-		let is_second = (left & 1u) != 0u;
-		chance *= select(chances.x, chances.y, is_second);
-		left >>= 1u;
-		reference = light_tree__child_of(reference, is_second);
-		continuing {
-		
-			break if (reference & types__LIGHT_LEAF) != 0u || chance <= 0.0;
-		}
-	}
-	loops__cut_off |= (reference & types__LIGHT_LEAF) == 0u && chance > 0.0;
-	return chance;
-}
-
-const light_cluster__SLACK: f32 = 0.001;
-
-fn light_cluster__cos_of_rest(a: vec2f, b: vec2f) -> f32 {
-	return select(a.y * b.y + a.x * b.x, 1.0, a.y > b.y);
-}
-
-fn light_cluster__sine_of(cosine: f32) -> f32 {
-	return sqrt(max(1.0 - cosine * cosine, 0.0));
-}
-
-fn light_cluster__cluster_importance(cluster: types__PackedCluster, p: vec3f, n: vec3f) -> f32 {
-	let offset = p - cluster.center;
-	let d2 = dot(offset, offset);
-	let r2 = dot(cluster.extent, cluster.extent);
-	let nearest2 = max(max(d2, r2), 1e-30);
-	let w = offset / sqrt(max(d2, 1e-30));
-	let is_inside = d2 <= r2;
-	let sin2_b = r2 / nearest2;
-	let b = select(vec2f(sqrt(sin2_b), sqrt(max(1.0 - sin2_b, 0.0))), vec2f(0.0, -1.0), is_inside);
-	let cones = unpack2x16snorm(cluster.cones);
-	let cos_w = clamp(dot(cluster.axis, w), -1.0, 1.0);
-	let cos_x = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_w), cos_w), vec2f(light_cluster__sine_of(cones.x), cones.x));
-	let cos_p = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_x), cos_x), b);
-	var importance = select(max(cos_p, light_cluster__SLACK), 0.0, cos_p + light_cluster__SLACK <= cones.y);
-	if (any(n != vec3f(0.0))) {
-		let cos_n = clamp(-dot(n, w), -1.0, 1.0);
-		let cos_i = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_n), cos_n), b);
-		importance *= select(max(cos_i, light_cluster__SLACK), 0.0, cos_i + light_cluster__SLACK <= 0.0);
-	}
-	return min(importance * cluster.power / nearest2, 1e30);
-}
-
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
 	let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
 	return x * x * (3.0 - 2.0 * x);
@@ -4828,6 +5654,79 @@ fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
 		strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
 	}
 	return types__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
+}
+
+struct light_weight__Sender {
+	p: vec3f,
+	n: vec3f,
+	pdf: f32
+}
+
+fn light_weight__emission_weight(batch: dispatch__Batch, surface: types__Surface, hit: types__Hit, sender: light_weight__Sender, direction: vec3f) -> f32 {
+	if (!(bindings__HAS_AREA_LIGHTS || bindings__HAS_EMITTERS) || sender.pdf <= 0.0) {
+		return 1.0;
+	}
+	let distance = distance(sender.p, surface.p);
+	let glow = material__load_glow(surface.material);
+	let is_lamp = bindings__HAS_AREA_LIGHTS && glow.light != types__NONE;
+	var density = 0.0;
+	var chance = 0.0;
+	var trail = 0u;
+	var counts = true;
+	if (is_lamp) {
+		let light = shutter__shutter_light(glow.light, batch.light_count);
+		density = spherical_rectangle__solid_density(light, sender.p, direction, distance);
+		chance = light.chance;
+		trail = light.place;
+		counts = light_weight__can_be_hit(light);
+	}
+	else if (bindings__HAS_EMITTERS) {
+		density = glow.luminance * light_weight__emitter_density(surface, hit, sender.p, direction, distance);
+		chance = 1.0 / batch.emitter_power;
+		if (bindings__HAS_LIGHT_TREE) {
+			let emitter = light_weight__emitter_of(batch, hit.primitive, hit.instance);
+			trail = emitter.trail;
+			density = select(density, 0.0, emitter.primitive == types__NONE);
+		}
+	}
+	if (bindings__HAS_LIGHT_TREE && density > 0.0) {
+		let leaf = light_tree__leaf_at(batch, trail, sender.p, sender.n);
+		chance = (1.0 - batch.environment_share) * select(light_choice__emitter_rate(leaf.chance, leaf.power), leaf.chance, is_lamp);
+	}
+	density = select(0.0, density * chance, counts);
+	record_path__record_light_density(density);
+	return select(0.0, mis__power_heuristic(sender.pdf, density), counts);
+}
+
+fn light_weight__emitter_density(surface: types__Surface, hit: types__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
+	if ((hit.primitive & types__SHAPE) != 0u) {
+		return emissive_shape__shape_density(hit, origin, direction, distance);
+	}
+	return distance * distance / max(abs(dot(direction, surface.ng)), 1e-30);
+}
+
+fn light_weight__can_be_hit(light: types__PackedLight) -> bool {
+	return light.visible != 0u && light.attenuation == types__ATTENUATION_INVERSE_SQUARE;
+}
+
+fn light_weight__emitter_of(batch: dispatch__Batch, primitive: u32, instance: u32) -> types__PackedEmitter {
+	var low = 0u;
+	var high = batch.emitter_count - 1u;
+	loop {
+		let middle = (low + high) / 2u;
+		let emitter = fetch__load_emitter(middle);
+		let is_below = emitter.instance < instance || (emitter.instance == instance && emitter.primitive < primitive);
+		low = select(low, min(middle + 1u, high), is_below);
+		high = select(middle, high, is_below);
+		continuing {
+		
+			break if low >= high;
+		}
+	}
+	loops__cut_off |= low < high;
+	let found = fetch__load_emitter(low);
+	let is_it = found.instance == instance && found.primitive == primitive;
+	return types__PackedEmitter(select(types__NONE, primitive, is_it), instance, found.end, found.trail);
 }
 
 fn bsdf_diffuse__diffuse_eval(wi: vec3f) -> f32 {

@@ -71,7 +71,7 @@ fn traced(batch: dispatch__Batch, before: path__Path, hit: types__Hit) -> path__
 		met = dispersion__dispersed(met, path.channel);
 	}
 	let layers = layers__layers_at(surface, optics);
-	let weight = emitters__emission_weight(batch, surface, hit, emitters__Sender(path.origin, path.normal, path.pdf), ray.direction);
+	let weight = light_weight__emission_weight(batch, surface, contact.hit, light_weight__Sender(path.origin, path.normal, path.pdf), ray.direction);
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
 	let emission = coat * emitters__emitted(surface, optics, layers.glow);
 	path = path__gained(path, path.throughput * (weight * emission), path.bounces);
@@ -209,7 +209,8 @@ struct dispatch__Batch {
 	environment_width: u32,
 	environment_share: f32,
 	light_root: u32,
-	lights_share: f32
+	lights_share: f32,
+	emitter_group: u32
 }
 
 fn dispatch__load_batch() -> dispatch__Batch {
@@ -218,7 +219,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 		albedo__albedo_first = bindings__frame.albedo_first;
 	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
@@ -348,13 +349,17 @@ const types__KEY_ROWS: u32 = 4u;
 
 const types__LIGHT_ROWS: u32 = 6u;
 
-const types__CLUSTER_ROWS: u32 = 3u;
+const types__CLUSTER_ROWS: u32 = 2u;
 
 const types__LIGHT_LEAF: u32 = 2147483648u;
 
 const types__LIGHT_BY_POWER: u32 = 1073741824u;
 
-const types__LIGHT_INDEX_MASK: u32 = 1073741823u;
+const types__LIGHT_EMITTERS: u32 = 1073741824u;
+
+const types__LIGHT_TWO_SIDED: u32 = 536870912u;
+
+const types__LIGHT_INDEX_MASK: u32 = 536870911u;
 
 const types__CAMERA_ROWS: u32 = 4u;
 
@@ -650,17 +655,17 @@ struct types__PackedLight {
 struct types__PackedCluster {
 	center: vec3f,
 	power: f32,
-	extent: vec3f,
+	radius2: f32,
 	child: u32,
-	axis: vec3f,
+	axis: u32,
 	cones: u32
 }
 
 struct types__PackedEmitter {
 	primitive: u32,
 	instance: u32,
-	chance: f32,
-	end: f32
+	end: f32,
+	trail: u32
 }
 
 struct types__PackedCamera {
@@ -710,7 +715,7 @@ struct types__PackedFrame {
 	cluster_row: u32,
 	light_root: u32,
 	lights_share: f32,
-	_pad0: u32
+	emitter_group: u32
 }
 
 struct types__PackedDispatch {
@@ -927,19 +932,14 @@ fn fetch__load_light_end(index: u32) -> f32 {
 
 fn fetch__load_emitter(index: u32) -> types__PackedEmitter {
 	let r0 = fetch__node_row(bindings__frame.emitter_row + index);
-	return types__PackedEmitter(r0.x, r0.y, bitcast<f32>(r0.z), bitcast<f32>(r0.w));
+	return types__PackedEmitter(r0.x, r0.y, bitcast<f32>(r0.z), r0.w);
 }
 
 fn fetch__load_cluster(index: u32) -> types__PackedCluster {
 	let row = bindings__frame.cluster_row + types__CLUSTER_ROWS * index;
 	let r0 = fetch__node_row(row);
 	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	return types__PackedCluster(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
-}
-
-fn fetch__load_light_child(index: u32) -> u32 {
-	return fetch__node_row(bindings__frame.cluster_row + types__CLUSTER_ROWS * index + 1u).w;
+	return types__PackedCluster(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<f32>(r1.x), r1.y, r1.z, r1.w);
 }
 
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
@@ -3371,12 +3371,14 @@ const contact__VAGUE_EDGE: f32 = 0.0001;
 
 struct contact__Contact {
 	surface: types__Surface,
+	hit: types__Hit,
 	touching: u32,
 	enters_touching: bool
 }
 
 fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> contact__Contact {
 	var contact: contact__Contact;
+	contact.hit = hit;
 	contact.touching = types__NONE;
 	var current = hit;
 	var first = true;
@@ -3449,6 +3451,7 @@ fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_vol
 	}
 	else if (together) {
 		both.surface = second;
+		both.hit = primitive__runner_up;
 	}
 	return both;
 }
@@ -4530,12 +4533,6 @@ struct emitters__LightSample {
 	pdf: f32
 }
 
-struct emitters__Sender {
-	p: vec3f,
-	n: vec3f,
-	pdf: f32
-}
-
 fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
 	if (bindings__HAS_ENVIRONMENT && (!(bindings__HAS_LIGHTS || bindings__HAS_EMITTERS) || choice >= 1.0 - batch.environment_share)) {
 		let found = environment__sample_environment(batch, u);
@@ -4543,20 +4540,20 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f3
 		let radiance = background__background(batch, found.direction) / max(pdf, 1e-30);
 		return emitters__LightSample(types__Incident(found.direction, camera__T_FAR, radiance), pdf);
 	}
-	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || choice >= light_choice__end_of_lights(batch))) {
-		return emitters__sample_emitter(batch, p, choice, u);
+	let source = light_choice__choose_source(batch, p, n, choice);
+	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || source.is_emitter)) {
+		return emitters__sample_emitter(p, source, u);
 	}
-	let lamp = light_choice__lamp_for(batch, p, n, choice);
-	let light = shutter__shutter_light(lamp.index, batch.light_count);
+	let light = shutter__shutter_light(source.index, batch.light_count);
 	var arriving = light__incident(light, p);
 	var pdf = 0.0;
 	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
 		arriving = emitters__lamp_incident(light, p, u);
-		if (emitters__can_be_hit(light)) {
-			pdf = lamp.chance * spherical_rectangle__solid_density(light, p, arriving.direction, arriving.distance);
+		if (light_weight__can_be_hit(light)) {
+			pdf = source.chance * spherical_rectangle__solid_density(light, p, arriving.direction, arriving.distance);
 		}
 	}
-	arriving.radiance *= select(0.0, warp__PI / max(lamp.chance, 1e-30), lamp.chance > 0.0);
+	arriving.radiance *= select(0.0, warp__PI / max(source.chance, 1e-30), source.chance > 0.0);
 	return emitters__LightSample(arriving, pdf);
 }
 
@@ -4571,18 +4568,18 @@ fn emitters__lamp_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> typ
 	return types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), strength * light.color);
 }
 
-fn emitters__sample_emitter(batch: dispatch__Batch, p: vec3f, choice: f32, u: vec2f) -> emitters__LightSample {
-	let index = light_choice__chosen(choice, batch.emitter_count, true);
-	let emitter = fetch__load_emitter(index);
+fn emitters__sample_emitter(p: vec3f, source: light_choice__Source, u: vec2f) -> emitters__LightSample {
+	let emitter = fetch__load_emitter(source.index);
 	if (bindings__HAS_EMISSIVE_SHAPES && (emitter.primitive & types__SHAPE) != 0u) {
-		return emitters__sample_shape(batch, p, emitter, u);
+		return emitters__sample_shape(p, emitter, source, u);
 	}
 	var instance: types__PackedInstance;
 	let is_placed = bindings__HAS_INSTANCES && emitter.instance != types__NO_INSTANCE;
 	if (is_placed) {
 		instance = fetch__load_instance(emitter.instance);
 	}
-	let own = deforming__triangle_now(emitter.primitive, deforming__keys_of(instance));
+	let keys = deforming__keys_of(instance);
+	let own = deforming__triangle_now(emitter.primitive, keys);
 	let b = warp__triangle_from_square(u);
 	let weights = vec3f(1.0 - b.x - b.y, b);
 	var surface: types__Surface;
@@ -4613,21 +4610,27 @@ fn emitters__sample_emitter(batch: dispatch__Batch, p: vec3f, choice: f32, u: ve
 	let direction = numeric__normalize_or(to_point, vec3f(0.0, 0.0, 1.0));
 	let n = numeric__normalize_or(across, -direction);
 	let cosine = -dot(direction, n);
-	let normals = mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+	var normals = mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			normals = deforming__normals_now(emitter.primitive, keys);
+		}
+	}
 	var front = normals * weights;
 	if (is_placed) {
 		front = instance__placed_normal(instance__space_of(instance), front);
 	}
-	let shines = dot(front, direction) < 0.0 || (material__load_optics(material).flags & types__MATERIAL_TWO_SIDED) != 0u;
+	let is_outside = (dot(front, n) < 0.0) == (cosine < 0.0);
+	let shines = is_outside || (material__load_optics(material).flags & types__MATERIAL_TWO_SIDED) != 0u;
 	radiance *= coating__through_coat(surface, abs(cosine));
-	let facing = select(0.0, abs(cosine), shines);
-	let actual = emitter.chance / max(0.5 * length(across), 1e-30);
+	let facing = select(0.0, abs(cosine), shines && source.chance > 0.0);
+	let actual = source.chance / max(0.5 * length(across), 1e-30);
 	let fading = 1.0 / max(distance * distance, 1e-30);
 	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
-	return emitters__LightSample(types__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max(actual, 1e-30)) * radiance), glow.luminance / batch.emitter_power / max(abs(cosine) * fading, 1e-30));
+	return emitters__LightSample(types__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max(actual, 1e-30)) * radiance), glow.luminance * source.rate / max(abs(cosine) * fading, 1e-30));
 }
 
-fn emitters__sample_shape(batch: dispatch__Batch, p: vec3f, emitter: types__PackedEmitter, u: vec2f) -> emitters__LightSample {
+fn emitters__sample_shape(p: vec3f, emitter: types__PackedEmitter, source: light_choice__Source, u: vec2f) -> emitters__LightSample {
 	let shape = fetch__load_shape(emitter.primitive & ~types__SHAPE);
 	let light = emissive_shape__light_of(shape, emitter.instance);
 	let found = spherical_rectangle__solid_sample(light, p, u);
@@ -4643,41 +4646,9 @@ fn emitters__sample_shape(batch: dispatch__Batch, p: vec3f, emitter: types__Pack
 	}
 	let cosine = -dot(front, found.direction);
 	let shines = cosine > 0.0 || (material__load_optics(shape.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
-	radiance *= select(0.0, coating__through_coat(surface, abs(cosine)), shines);
+	radiance *= select(0.0, coating__through_coat(surface, abs(cosine)), shines && source.chance > 0.0);
 	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
-	return emitters__LightSample(types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max(emitter.chance * found.pdf, 1e-30)), glow.luminance / batch.emitter_power * emissive_shape__area_of(light) * found.pdf);
-}
-
-fn emitters__emission_weight(batch: dispatch__Batch, surface: types__Surface, hit: types__Hit, sender: emitters__Sender, direction: vec3f) -> f32 {
-	let origin = sender.p;
-	let pdf = sender.pdf;
-	let distance = distance(origin, surface.p);
-	if (!(bindings__HAS_AREA_LIGHTS || bindings__HAS_EMITTERS) || pdf <= 0.0) {
-		return 1.0;
-	}
-	let glow = material__load_glow(surface.material);
-	if (bindings__HAS_AREA_LIGHTS && glow.light != types__NONE) {
-		let light = shutter__shutter_light(glow.light, batch.light_count);
-		var density = light.chance * spherical_rectangle__solid_density(light, origin, direction, distance);
-		if (bindings__HAS_LIGHT_TREE && density > 0.0) {
-			density *= light_tree__lamp_chance(batch, light.place, origin, sender.n);
-		}
-		return select(0.0, mis__power_heuristic(pdf, density), emitters__can_be_hit(light));
-	}
-	if (!bindings__HAS_EMITTERS) {
-		return 1.0;
-	}
-	let cosine = abs(dot(direction, surface.ng));
-	var density = distance * distance / max(cosine, 1e-30);
-	if ((hit.primitive & types__SHAPE) != 0u) {
-		density = emissive_shape__shape_density(hit, origin, direction, distance);
-	}
-	density *= glow.luminance / batch.emitter_power;
-	return mis__power_heuristic(pdf, density);
-}
-
-fn emitters__can_be_hit(light: types__PackedLight) -> bool {
-	return light.visible != 0u && light.attenuation == types__ATTENUATION_INVERSE_SQUARE;
+	return emitters__LightSample(types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max(source.chance * found.pdf, 1e-30)), glow.luminance * source.rate * emissive_shape__area_of(light) * found.pdf);
 }
 
 fn emitters__emitted(surface: types__Surface, optics: types__Optics, glow: vec3f) -> vec3f {
@@ -4724,35 +4695,56 @@ fn quad_warp__half_of(chance: f32, u: f32) -> quad_warp__Half {
 	return quad_warp__Half(select(0u, 1u, is_second), clamp((u - start) / max(size, 1e-9), 0.0, 0.99999994));
 }
 
-fn light_choice__end_of_lights(batch: dispatch__Batch) -> f32 {
-	if (bindings__HAS_LIGHT_TREE) {
-		return batch.lights_share;
-	}
-	return fetch__load_light_end(batch.light_count - 1u);
+struct light_choice__Source {
+	is_emitter: bool,
+	index: u32,
+	chance: f32,
+	rate: f32
 }
 
-fn light_choice__lamp_for(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32) -> light_tree__ChosenLamp {
+fn light_choice__choose_source(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32) -> light_choice__Source {
+	let share = 1.0 - batch.environment_share;
 	if (bindings__HAS_LIGHT_TREE) {
-		let lamp = light_tree__choose_lamp(batch, p, n, choice / batch.lights_share);
-		return light_tree__ChosenLamp(lamp.index, batch.lights_share * lamp.chance);
+		let leaf = light_tree__choose_leaf(batch, p, n, min(choice / share, 0.99999994));
+		let index = select(0u, leaf.reference & types__LIGHT_INDEX_MASK, leaf.chance > 0.0);
+		if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || (leaf.reference & types__LIGHT_EMITTERS) != 0u)) {
+			let rate = share * light_choice__emitter_rate(leaf.chance, leaf.power);
+			return light_choice__emitter_in(batch, index * batch.emitter_group, share * leaf.chance, rate, leaf.rest);
+		}
+		return light_choice__Source(false, index, share * leaf.chance, 0.0);
 	}
-	let index = light_choice__chosen(choice, batch.light_count, false);
-	return light_tree__ChosenLamp(index, fetch__load_light(index).chance);
+	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || choice >= batch.lights_share)) {
+		let own = share - batch.lights_share;
+		return light_choice__emitter_in(batch, 0u, own, 1.0 / batch.emitter_power, (choice - batch.lights_share) / own);
+	}
+	let index = light_choice__chosen(choice, 0u, batch.light_count, false);
+	return light_choice__Source(false, index, fetch__load_light(index).chance, 0.0);
 }
 
-fn light_choice__chosen(choice: f32, count: u32, among_emitters: bool) -> u32 {
-	var low = 0u;
-	var high = count - 1u;
+fn light_choice__emitter_rate(chance: f32, power: f32) -> f32 {
+	return chance / max(warp__PI * power, 1e-30);
+}
+
+fn light_choice__emitter_in(batch: dispatch__Batch, first: u32, chance: f32, rate: f32, choice: f32) -> light_choice__Source {
+	let end = min(first + batch.emitter_group, batch.emitter_count);
+	let index = light_choice__chosen(choice, first, end, true);
+	let start = select(0.0, fetch__load_emitter(max(index, 1u) - 1u).end, index > first);
+	return light_choice__Source(true, index, chance * (fetch__load_emitter(index).end - start), rate);
+}
+
+fn light_choice__chosen(choice: f32, first: u32, end: u32, among_emitters: bool) -> u32 {
+	var low = first;
+	var high = end - 1u;
 	loop {
 		let middle = (low + high) / 2u;
-		var end = 0.0;
+		var sum = 0.0;
 		if (among_emitters) {
-			end = fetch__load_emitter(middle).end;
+			sum = fetch__load_emitter(middle).end;
 		}
 		else {
-			end = fetch__load_light_end(middle);
+			sum = fetch__load_light_end(middle);
 		}
-		let is_below = choice < end;
+		let is_below = choice < sum;
 		low = select(min(middle + 1u, high), low, is_below);
 		high = select(high, middle, is_below);
 		continuing {
@@ -4762,6 +4754,111 @@ fn light_choice__chosen(choice: f32, count: u32, among_emitters: bool) -> u32 {
 	}
 	loops__cut_off |= low < high;
 	return low;
+}
+
+struct light_tree__LightLeaf {
+	reference: u32,
+	chance: f32,
+	power: f32,
+	rest: f32
+}
+
+struct light_tree__Fork {
+	chances: vec2f,
+	powers: vec2f,
+	children: vec2u
+}
+
+fn light_tree__fork_at(reference: u32, p: vec3f, n: vec3f) -> light_tree__Fork {
+	let first = fetch__load_cluster(reference & types__LIGHT_INDEX_MASK);
+	let second = fetch__load_cluster((reference & types__LIGHT_INDEX_MASK) + 1u);
+	let powers = vec2f(first.power, second.power);
+	var weights = powers;
+	if ((reference & types__LIGHT_BY_POWER) == 0u) {
+		weights = vec2f(light_cluster__cluster_importance(first, p, n), light_cluster__cluster_importance(second, p, n));
+	}
+	let total = weights.x + weights.y;
+	let chances = select(vec2f(0.0), weights / max(total, 1e-37), total > 0.0);
+	return light_tree__Fork(chances, powers, vec2u(first.child, second.child));
+}
+
+fn light_tree__child_of(node: light_tree__LightLeaf, fork: light_tree__Fork, is_second: bool) -> light_tree__LightLeaf {
+	let chance = select(fork.chances.x, fork.chances.y, is_second);
+	let rest = (node.rest - select(0.0, fork.chances.x, is_second)) / max(chance, 1e-30);
+	return light_tree__LightLeaf(select(fork.children.x, fork.children.y, is_second), node.chance * chance, select(fork.powers.x, fork.powers.y, is_second), clamp(rest, 0.0, 0.99999994));
+}
+
+fn light_tree__is_on_the_way(node: light_tree__LightLeaf) -> bool {
+	return (node.reference & types__LIGHT_LEAF) == 0u && node.chance > 0.0;
+}
+
+fn light_tree__choose_leaf(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32) -> light_tree__LightLeaf {
+	var node = light_tree__LightLeaf(batch.light_root, 1.0, 0.0, choice);
+	loop {
+		let fork = light_tree__fork_at(node.reference, p, n);
+		node = light_tree__child_of(node, fork, node.rest >= fork.chances.x);
+		continuing {
+		
+			break if !light_tree__is_on_the_way(node);
+		}
+	}
+	loops__cut_off |= light_tree__is_on_the_way(node);
+	return node;
+}
+
+fn light_tree__leaf_at(batch: dispatch__Batch, trail: u32, p: vec3f, n: vec3f) -> light_tree__LightLeaf {
+	var node = light_tree__LightLeaf(batch.light_root, 1.0, 0.0, 0.0);
+	var left = trail;
+	loop {
+		node = light_tree__child_of(node, light_tree__fork_at(node.reference, p, n), (left & 1u) != 0u);
+		left >>= 1u;
+		continuing {
+		
+			break if !light_tree__is_on_the_way(node);
+		}
+	}
+	loops__cut_off |= light_tree__is_on_the_way(node);
+	return node;
+}
+
+const light_cluster__SLACK: f32 = 0.001;
+
+fn light_cluster__cos_of_rest(a: vec2f, b: vec2f) -> f32 {
+	return select(a.y * b.y + a.x * b.x, 1.0, a.y > b.y);
+}
+
+fn light_cluster__sine_of(cosine: f32) -> f32 {
+	return sqrt(max(1.0 - cosine * cosine, 0.0));
+}
+
+fn light_cluster__octahedral_vector(word: u32) -> vec3f {
+	let at = unpack2x16snorm(word);
+	let z = 1.0 - abs(at.x) - abs(at.y);
+	let fold = max(-z, 0.0);
+	return normalize(vec3f(at - select(vec2f(-fold), vec2f(fold), at >= vec2f(0.0)), z));
+}
+
+fn light_cluster__cluster_importance(cluster: types__PackedCluster, p: vec3f, n: vec3f) -> f32 {
+	let offset = p - cluster.center;
+	let d2 = dot(offset, offset);
+	let r2 = cluster.radius2;
+	let nearest2 = max(max(d2, r2), 1e-30);
+	let w = offset / sqrt(max(d2, 1e-30));
+	let is_inside = d2 <= r2;
+	let sin2_b = r2 / nearest2;
+	let b = select(vec2f(sqrt(sin2_b), sqrt(max(1.0 - sin2_b, 0.0))), vec2f(0.0, -1.0), is_inside);
+	let cones = unpack2x16snorm(cluster.cones);
+	let along = clamp(dot(light_cluster__octahedral_vector(cluster.axis), w), -1.0, 1.0);
+	let cos_w = select(along, abs(along), (cluster.child & types__LIGHT_TWO_SIDED) != 0u);
+	let cos_x = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_w), cos_w), vec2f(light_cluster__sine_of(cones.x), cones.x));
+	let cos_p = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_x), cos_x), b);
+	var importance = select(max(cos_p, light_cluster__SLACK), 0.0, cos_p + light_cluster__SLACK <= cones.y);
+	if (any(n != vec3f(0.0))) {
+		let cos_n = clamp(-dot(n, w), -1.0, 1.0);
+		let cos_i = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_n), cos_n), b);
+		importance *= select(max(cos_i, light_cluster__SLACK), 0.0, cos_i + light_cluster__SLACK <= 0.0);
+	}
+	return min(importance * cluster.power / nearest2, 1e30);
 }
 
 fn emissive_shape__is_sampled(shape: types__PackedShape, instance: u32) -> bool {
@@ -5125,98 +5222,6 @@ fn albedo__multiple_scattering(f0: vec3f, albedo: vec2f) -> vec3f {
 	return 1.0 + f0 * ((1.0 - single) / single);
 }
 
-struct light_tree__ChosenLamp {
-	index: u32,
-	chance: f32
-}
-
-fn light_tree__child_chances(reference: u32, p: vec3f, n: vec3f) -> vec2f {
-	let first = fetch__load_cluster(reference & types__LIGHT_INDEX_MASK);
-	let second = fetch__load_cluster((reference & types__LIGHT_INDEX_MASK) + 1u);
-	var weights = vec2f(first.power, second.power);
-	if ((reference & types__LIGHT_BY_POWER) == 0u) {
-		weights = vec2f(light_cluster__cluster_importance(first, p, n), light_cluster__cluster_importance(second, p, n));
-	}
-	let total = weights.x + weights.y;
-	return select(vec2f(0.0), weights / max(total, 1e-37), total > 0.0);
-}
-
-fn light_tree__child_of(reference: u32, is_second: bool) -> u32 {
-	return fetch__load_light_child((reference & types__LIGHT_INDEX_MASK) + select(0u, 1u, is_second));
-}
-
-fn light_tree__choose_lamp(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32) -> light_tree__ChosenLamp {
-	var reference = batch.light_root;
-	var chance = 1.0;
-	var u = choice;
-	loop {
-		let chances = light_tree__child_chances(reference, p, n);
-		let is_second = u >= chances.x;
-		let own = select(chances.x, chances.y, is_second);
-		u = clamp((u - select(0.0, chances.x, is_second)) / max(own, 1e-30), 0.0, 0.99999994);
-		chance *= own;
-		reference = light_tree__child_of(reference, is_second);
-		continuing {
-		
-			break if (reference & types__LIGHT_LEAF) != 0u || chance <= 0.0;
-		}
-	}
-	let is_leaf = (reference & types__LIGHT_LEAF) != 0u;
-	loops__cut_off |= !is_leaf && chance > 0.0;
-	return light_tree__ChosenLamp(select(0u, reference & types__LIGHT_INDEX_MASK, is_leaf), select(0.0, chance, is_leaf));
-}
-
-fn light_tree__lamp_chance(batch: dispatch__Batch, trail: u32, p: vec3f, n: vec3f) -> f32 {
-	var reference = batch.light_root;
-	var left = trail;
-	var chance = 1.0;
-	loop {
-		let chances = light_tree__child_chances(reference, p, n);
-		let is_second = (left & 1u) != 0u;
-		chance *= select(chances.x, chances.y, is_second);
-		left >>= 1u;
-		reference = light_tree__child_of(reference, is_second);
-		continuing {
-		
-			break if (reference & types__LIGHT_LEAF) != 0u || chance <= 0.0;
-		}
-	}
-	loops__cut_off |= (reference & types__LIGHT_LEAF) == 0u && chance > 0.0;
-	return chance;
-}
-
-const light_cluster__SLACK: f32 = 0.001;
-
-fn light_cluster__cos_of_rest(a: vec2f, b: vec2f) -> f32 {
-	return select(a.y * b.y + a.x * b.x, 1.0, a.y > b.y);
-}
-
-fn light_cluster__sine_of(cosine: f32) -> f32 {
-	return sqrt(max(1.0 - cosine * cosine, 0.0));
-}
-
-fn light_cluster__cluster_importance(cluster: types__PackedCluster, p: vec3f, n: vec3f) -> f32 {
-	let offset = p - cluster.center;
-	let d2 = dot(offset, offset);
-	let r2 = dot(cluster.extent, cluster.extent);
-	let nearest2 = max(max(d2, r2), 1e-30);
-	let w = offset / sqrt(max(d2, 1e-30));
-	let is_inside = d2 <= r2;
-	let sin2_b = r2 / nearest2;
-	let b = select(vec2f(sqrt(sin2_b), sqrt(max(1.0 - sin2_b, 0.0))), vec2f(0.0, -1.0), is_inside);
-	let cones = unpack2x16snorm(cluster.cones);
-	let cos_w = clamp(dot(cluster.axis, w), -1.0, 1.0);
-	let cos_x = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_w), cos_w), vec2f(light_cluster__sine_of(cones.x), cones.x));
-	let cos_p = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_x), cos_x), b);
-	var importance = select(max(cos_p, light_cluster__SLACK), 0.0, cos_p + light_cluster__SLACK <= cones.y);
-	if (any(n != vec3f(0.0))) {
-		let cos_n = clamp(-dot(n, w), -1.0, 1.0);
-		let cos_i = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_n), cos_n), b);
-		importance *= select(max(cos_i, light_cluster__SLACK), 0.0, cos_i + light_cluster__SLACK <= 0.0);
-	}
-	return min(importance * cluster.power / nearest2, 1e30);
-}
-
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
 	let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
 	return x * x * (3.0 - 2.0 * x);
@@ -5235,6 +5240,78 @@ fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
 		strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
 	}
 	return types__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
+}
+
+struct light_weight__Sender {
+	p: vec3f,
+	n: vec3f,
+	pdf: f32
+}
+
+fn light_weight__emission_weight(batch: dispatch__Batch, surface: types__Surface, hit: types__Hit, sender: light_weight__Sender, direction: vec3f) -> f32 {
+	if (!(bindings__HAS_AREA_LIGHTS || bindings__HAS_EMITTERS) || sender.pdf <= 0.0) {
+		return 1.0;
+	}
+	let distance = distance(sender.p, surface.p);
+	let glow = material__load_glow(surface.material);
+	let is_lamp = bindings__HAS_AREA_LIGHTS && glow.light != types__NONE;
+	var density = 0.0;
+	var chance = 0.0;
+	var trail = 0u;
+	var counts = true;
+	if (is_lamp) {
+		let light = shutter__shutter_light(glow.light, batch.light_count);
+		density = spherical_rectangle__solid_density(light, sender.p, direction, distance);
+		chance = light.chance;
+		trail = light.place;
+		counts = light_weight__can_be_hit(light);
+	}
+	else if (bindings__HAS_EMITTERS) {
+		density = glow.luminance * light_weight__emitter_density(surface, hit, sender.p, direction, distance);
+		chance = 1.0 / batch.emitter_power;
+		if (bindings__HAS_LIGHT_TREE) {
+			let emitter = light_weight__emitter_of(batch, hit.primitive, hit.instance);
+			trail = emitter.trail;
+			density = select(density, 0.0, emitter.primitive == types__NONE);
+		}
+	}
+	if (bindings__HAS_LIGHT_TREE && density > 0.0) {
+		let leaf = light_tree__leaf_at(batch, trail, sender.p, sender.n);
+		chance = (1.0 - batch.environment_share) * select(light_choice__emitter_rate(leaf.chance, leaf.power), leaf.chance, is_lamp);
+	}
+	density = select(0.0, density * chance, counts);
+	return select(0.0, mis__power_heuristic(sender.pdf, density), counts);
+}
+
+fn light_weight__emitter_density(surface: types__Surface, hit: types__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
+	if ((hit.primitive & types__SHAPE) != 0u) {
+		return emissive_shape__shape_density(hit, origin, direction, distance);
+	}
+	return distance * distance / max(abs(dot(direction, surface.ng)), 1e-30);
+}
+
+fn light_weight__can_be_hit(light: types__PackedLight) -> bool {
+	return light.visible != 0u && light.attenuation == types__ATTENUATION_INVERSE_SQUARE;
+}
+
+fn light_weight__emitter_of(batch: dispatch__Batch, primitive: u32, instance: u32) -> types__PackedEmitter {
+	var low = 0u;
+	var high = batch.emitter_count - 1u;
+	loop {
+		let middle = (low + high) / 2u;
+		let emitter = fetch__load_emitter(middle);
+		let is_below = emitter.instance < instance || (emitter.instance == instance && emitter.primitive < primitive);
+		low = select(low, min(middle + 1u, high), is_below);
+		high = select(middle, high, is_below);
+		continuing {
+		
+			break if low >= high;
+		}
+	}
+	loops__cut_off |= low < high;
+	let found = fetch__load_emitter(low);
+	let is_it = found.instance == instance && found.primitive == primitive;
+	return types__PackedEmitter(select(types__NONE, primitive, is_it), instance, found.end, found.trail);
 }
 
 fn bsdf_diffuse__diffuse_eval(wi: vec3f) -> f32 {

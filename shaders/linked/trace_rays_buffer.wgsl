@@ -323,7 +323,7 @@ struct types__PackedFrame {
 	cluster_row: u32,
 	light_root: u32,
 	lights_share: f32,
-	_pad0: u32
+	emitter_group: u32
 }
 
 struct types__PackedDispatch {

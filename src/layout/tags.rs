@@ -33,13 +33,17 @@ pub const CAMERA_ROWS: u32 = 4;
 /// Rows of 16 bytes of a [`super::PackedLight`].
 pub const LIGHT_ROWS: u32 = 6;
 /// Rows of 16 bytes of a [`super::PackedCluster`].
-pub const CLUSTER_ROWS: u32 = 3;
-/// [`super::PackedCluster::child`]: the rest is the index of a light.
+pub const CLUSTER_ROWS: u32 = 2;
+/// [`super::PackedCluster::child`]: the rest is the index of a light, or of a group of emitters.
 pub const LIGHT_LEAF: u32 = 0x8000_0000;
-/// [`super::PackedCluster::child`]: the children are chosen by their power, wherever the point is.
+/// [`super::PackedCluster::child`] without [`LIGHT_LEAF`]: the children are chosen by their power, wherever the point is.
 pub const LIGHT_BY_POWER: u32 = 0x4000_0000;
+/// [`super::PackedCluster::child`] with [`LIGHT_LEAF`]: a group of emitters.
+pub const LIGHT_EMITTERS: u32 = 0x4000_0000;
+/// [`super::PackedCluster::child`]: some light in the cluster also shines against its direction.
+pub const LIGHT_TWO_SIDED: u32 = 0x2000_0000;
 /// The index in [`super::PackedCluster::child`].
-pub const LIGHT_INDEX_MASK: u32 = 0x3fff_ffff;
+pub const LIGHT_INDEX_MASK: u32 = 0x1fff_ffff;
 /// Rows of 16 bytes of a [`super::PackedShape`].
 pub const SHAPE_ROWS: u32 = 5;
 /// Size of the traversal stack in entries.

@@ -17,7 +17,7 @@ use crate::{
     scene::{Deformation, Frame, Pose, Scene},
 };
 use bytemuck::cast_slice;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 /// A BLAS is rebuilt if its cost exceeds that of the mesh at rest by this factor.
@@ -308,16 +308,22 @@ impl DeformedTree {
         ]
     }
 
-    /// Its triangles with their index and their material.
-    pub fn triangles(&self) -> impl Iterator<Item = (u32, &PackedTriangle, u32)> {
+    /// Its triangles with their index and their vertices.
+    pub fn triangles(&self) -> impl Iterator<Item = (u32, &PackedTriangle, [&PackedVertex; 3])> {
         let Offsets {
             triangle, vertex, ..
         } = self.blas.offsets;
         let triangles = (triangle..).zip(&*self.blas.triangles);
-        triangles.map(move |(index, triangle)| {
-            let first = &self.blas.vertices[(triangle.i0 - vertex) as usize];
-            (index, triangle, first.material)
-        })
+        let vertex = move |index: u32| &self.blas.vertices[(index - vertex) as usize];
+        triangles.map(move |(index, own)| (index, own, [own.i0, own.i1, own.i2].map(vertex)))
+    }
+
+    /// The corners of a triangle at all later keys.
+    pub fn later_corners(&self, index: u32) -> Vec<DVec3> {
+        let place = (index - self.blas.offsets.triangle) as usize;
+        let own = self.key_triangles.iter().map(|key| &key[place]);
+        own.flat_map(|own| [own.v0, own.v1, own.v2].map(|corner| Vec3::from(corner).as_dvec3()))
+            .collect()
     }
 
     fn new(

@@ -1,16 +1,24 @@
-//! Emissive triangles and shapes, which paths sample as lights: each with a chance in proportion to its power.
+//! Emissive triangles and shapes, which paths sample as lights: each with a chance in proportion to its power, or from
+//! the light tree.
 
-use super::{PackedScene, deform::Deformed};
+use super::{
+    PackedScene,
+    deform::Deformed,
+    emitter_places::Places,
+    light_cluster::{Cluster, LUMINANCE},
+    light_tree::Leaf,
+    tlas::Tlas,
+};
 use crate::layout::{
-    NO_INSTANCE, PackedEmitter, PackedInstance, PackedMaterial, PackedShape, PackedTriangle, SHAPE,
-    SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_SPHERE,
+    MATERIAL_TWO_SIDED, NO_INSTANCE, PackedEmitter, PackedMaterial, PackedShape, PackedTriangle,
+    PackedVertex, SHAPE, SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_SPHERE,
 };
 use crate::scene::{Pattern, Scene, Texture};
-use glam::{Mat3, Vec3};
+use glam::{DVec3, Mat3, Vec3};
 use std::f32::consts::PI;
 
-/// The luminance of linear Rec. 709 colours is the dot product with this.
-pub(super) const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
+/// Groups of emitters that the light tree has room for: for more emitters the groups become larger.
+const MAX_GROUPS: usize = 1 << 16;
 
 /// A triangle or a shape whose material emits at some time.
 #[derive(Clone, Copy, Debug)]
@@ -18,11 +26,15 @@ pub struct Emissive {
     /// Its index in the triangles array, or in the shapes array with [`SHAPE`].
     primitive: u32,
     material: u32,
-    /// Two edges, in render space or in the space of its BLAS: its area is that of their parallelogram times `share`.
+    /// A corner and two edges, in render space or in the space of its BLAS. Its area is that of their parallelogram times
+    /// `share`. The centre of a sphere, and two radii.
+    corner: Vec3,
     edges: [Vec3; 2],
     share: f32,
-    /// Whether an instance may stretch it: a stretched sphere is none.
-    stretches: bool,
+    /// Three normals on its front.
+    normals: [Vec3; 3],
+    /// Whether it is a sphere, which no instance may stretch.
+    is_sphere: bool,
 }
 
 /// The emitters of a view, and their share of its light.
@@ -30,12 +42,21 @@ pub struct Emissive {
 pub struct Emitters {
     /// Their chances follow those of the lights and reach 1.
     pub rows: Vec<PackedEmitter>,
-    /// The sum of radiance times area, in luminance, divided by the chance of all emitters together: radiance divided
-    /// by it is a chance per area. 0 if there are none.
+    /// The sum of radiance times area, in luminance. 0 if there are none.
     pub power: f64,
-    /// The chance of all of them together.
-    pub share: f64,
+    /// The number of emitters in a group.
+    pub group: usize,
+    /// Whether lights of this view are to be chosen from the light tree.
+    pub in_tree: bool,
+    /// What the light tree must know of each.
+    clusters: Vec<Cluster>,
 }
+
+/// Emitters that point one way and cover this part of a disc around them are as good as one light without a tree.
+const DENSE: f64 = 0.4;
+
+/// The cosine of the angle up to which they point one way.
+const SAME_WAY: f64 = 0.99;
 
 /// The mean luminance of the texture of each material's emission; 1 without one.
 pub fn mean_glow(scene: &Scene) -> Vec<f32> {
@@ -65,50 +86,117 @@ fn mean_luminance(scene: &Scene, texture: &Texture) -> f32 {
 
 /// A shape that paths sample; `None` for other kinds.
 fn emissive_shape(primitive: u32, shape: &PackedShape) -> Option<Emissive> {
-    let rows = [shape.row_x, shape.row_y, shape.row_z];
-    let inverse = || Mat3::from_cols_array_2d(&rows).transpose().inverse();
-    let flat = |share| {
-        let inverse = inverse();
-        ([inverse.x_axis, inverse.z_axis], share, true)
-    };
-    let (edges, share, stretches) = match shape.kind {
-        SHAPE_RECTANGLE => flat(4.0),
-        SHAPE_DISC if shape.size0 == 0.0 => flat(PI),
-        SHAPE_SPHERE => {
-            let edges = [shape.size0 * Vec3::X, shape.size0 * Vec3::Y];
-            (edges, 4.0 * PI, false)
-        }
-        _ => return None,
-    };
-    Some(Emissive {
+    let center = Vec3::from(shape.position);
+    let own = Emissive {
         primitive,
         material: shape.material,
-        edges,
-        share,
-        stretches,
-    })
+        corner: center,
+        edges: [shape.size0 * Vec3::X, shape.size0 * Vec3::Y],
+        share: 4.0 * PI,
+        normals: [shape.row_y.into(); 3],
+        is_sphere: true,
+    };
+    let flat = |share| {
+        let rows = [shape.row_x, shape.row_y, shape.row_z];
+        let inverse = Mat3::from_cols_array_2d(&rows).transpose().inverse();
+        let halves = [inverse.x_axis, inverse.z_axis];
+        Some(Emissive {
+            corner: center - halves[0] - halves[1],
+            edges: halves.map(|half| 2.0 * half),
+            share,
+            is_sphere: false,
+            ..own
+        })
+    };
+    match shape.kind {
+        SHAPE_RECTANGLE => flat(1.0),
+        SHAPE_DISC if shape.size0 == 0.0 => flat(PI / 4.0),
+        SHAPE_SPHERE => Some(own),
+        _ => None,
+    }
 }
 
-fn emissive_triangle(primitive: u32, triangle: &PackedTriangle, material: u32) -> Emissive {
+fn emissive_triangle(
+    primitive: u32,
+    triangle: &PackedTriangle,
+    vertices: [&PackedVertex; 3],
+) -> Emissive {
     let [v0, v1, v2] = [triangle.v0, triangle.v1, triangle.v2].map(Vec3::from);
     Emissive {
         primitive,
-        material,
+        material: vertices[0].material,
+        corner: v0,
         edges: [v1 - v0, v2 - v0],
         share: 0.5,
-        stretches: true,
+        normals: vertices.map(|vertex| vertex.normal.into()),
+        is_sphere: false,
+    }
+}
+
+impl Emissive {
+    /// The corners of what it lies in, in its own space.
+    fn corners(&self) -> Vec<DVec3> {
+        let [corner, u, v] = [self.corner, self.edges[0], self.edges[1]].map(|v| v.as_dvec3());
+        let mut corners = vec![corner, corner + u, corner + v];
+        if self.primitive & SHAPE != 0 {
+            corners.push(corner + u + v);
+        }
+        corners
+    }
+
+    /// Its cluster, for its intensity `power`, where it is while the shutter is open. `later` are its corners at later keys.
+    fn cluster(&self, power: f64, places: &Places, later: &[DVec3]) -> Cluster {
+        if self.is_sphere {
+            let (center, radius) = (self.corner.as_dvec3(), f64::from(self.edges[0].x));
+            return Cluster::of_surface((center - radius, center + radius), power, None);
+        }
+        let corners = [&self.corners(), later].concat();
+        let normal = match later.is_empty() {
+            true => places.front(self.edges, self.normals),
+            false => None,
+        };
+        Cluster::of_surface(places.bounds(&corners), power, normal)
     }
 }
 
 impl Emitters {
-    /// Leaves the last `share` of all chances, 0 to 1, to other lights.
-    pub fn leave(&mut self, share: f64) {
-        let rest = 1.0 - share;
-        self.power /= rest.max(f64::MIN_POSITIVE);
-        for row in &mut self.rows {
-            row.chance *= rest as f32;
-            row.end *= rest as f32;
+    /// The part of all light that is theirs, beside lamps of the given power.
+    pub fn share(&self, lamps: f64) -> f64 {
+        // A surface of radiance 1 and area 1 sends as much as a light of strength 1/π per steradian.
+        let own = self.power / std::f64::consts::PI;
+        if own > 0.0 { own / (own + lamps) } else { 0.0 }
+    }
+
+    /// Puts them into groups for the light tree, or all into one.
+    fn grouped(mut self, weights: &[f64], count: usize) -> Self {
+        self.group = self.rows.len().div_ceil(count.max(1)).max(1);
+        for (rows, weights) in (self.rows.chunks_mut(self.group)).zip(weights.chunks(self.group)) {
+            let total: f64 = weights.iter().sum();
+            let mut end = 0.0;
+            for (row, weight) in rows.iter_mut().zip(weights) {
+                end += weight;
+                row.end = (end / total) as f32;
+            }
         }
+        self
+    }
+
+    /// Whether all of them together are a flat patch of this area.
+    fn is_patch(&self, area: f64) -> bool {
+        let all = self.clusters.iter().copied().reduce(Cluster::union);
+        all.is_some_and(|all| {
+            let disc = (all.max - all.min).length_squared() * std::f64::consts::PI / 4.0;
+            all.spread.cos() > SAME_WAY && area > DENSE * disc
+        })
+    }
+
+    /// The leaves of the light tree.
+    pub fn leaves(&self) -> impl Iterator<Item = Leaf> {
+        let groups = self.clusters.chunks(self.group.max(1));
+        groups.enumerate().filter_map(|(index, group)| {
+            let all = group.iter().copied().reduce(Cluster::union)?;
+            Some(Leaf::of_group(index, all))
+        })
     }
 }
 
@@ -118,14 +206,12 @@ impl PackedScene {
         if !emits.contains(&true) {
             return Vec::new();
         }
-        let materials: Vec<u32> = (self.vertices.iter())
-            .map(|vertex| vertex.material)
-            .collect();
+        let vertices: Vec<&PackedVertex> = self.vertices.iter().collect();
         let mut found = Vec::new();
         for (index, triangle) in self.triangles.iter().enumerate() {
-            let material = materials[triangle.i0 as usize];
-            if emits.get(material as usize) == Some(&true) {
-                found.push(emissive_triangle(index as u32, triangle, material));
+            let own = [triangle.i0, triangle.i1, triangle.i2].map(|i| vertices[i as usize]);
+            if emits.get(own[0].material as usize) == Some(&true) {
+                found.push(emissive_triangle(index as u32, triangle, own));
             }
         }
         for (index, shape) in self.shapes.iter().enumerate() {
@@ -136,73 +222,66 @@ impl PackedScene {
         found
     }
 
-    /// The emitters of a view with these instances and materials, beside lights of the given power.
+    /// The emitters of a view with these instances and materials, beside so many lamps.
     pub(super) fn emitters(
         &self,
-        instances: &[PackedInstance],
+        tlas: &Tlas,
         deformed: &Deformed,
         materials: &[PackedMaterial],
-        lights: f64,
+        lamp_count: usize,
     ) -> Emitters {
         let within = |from: u32, to: u32| {
             let start = self.emissive.partition_point(|one| one.primitive < from);
             let end = self.emissive.partition_point(|one| one.primitive < to);
             &self.emissive[start..end]
         };
-        let strength = |one: &Emissive| {
-            let material = &materials[one.material as usize];
-            f64::from(LUMINANCE.dot(material.emission.into()) * material.layers.glow)
-        };
-        let mut weighted = Vec::new();
-        let mut add = |instance: u32, linear: Mat3, list: &[Emissive]| {
-            for one in list {
-                let [a, b] = one.edges.map(|edge| linear * edge);
-                let weight = strength(one) * f64::from(a.cross(b).length() * one.share);
-                if weight > 0.0 && (one.stretches || instance == NO_INSTANCE) {
-                    weighted.push((one.primitive, instance, weight));
+        let mut all = Emitters::default();
+        let (mut weights, mut area) = (Vec::new(), 0.0);
+        let no_keys: &dyn Fn() -> Vec<DVec3> = &Vec::new;
+        let mut add =
+            |instance: u32, places: &Places, one: &Emissive, later: &dyn Fn() -> Vec<DVec3>| {
+                let material = &materials[one.material as usize];
+                let radiance = LUMINANCE.dot(material.emission.into()) * material.layers.glow;
+                let [a, b] = one.edges.map(|edge| places.linear() * edge);
+                let own_area = f64::from(a.cross(b).length() * one.share);
+                let weight = f64::from(radiance) * own_area;
+                if weight > 0.0 && (instance == NO_INSTANCE || !one.is_sphere) {
+                    let power = weight / std::f64::consts::PI;
+                    let mut cluster = one.cluster(power, places, &later());
+                    cluster.two_sided = material.flags & MATERIAL_TWO_SIDED != 0;
+                    all.clusters.push(cluster);
+                    all.rows.push(PackedEmitter {
+                        primitive: one.primitive,
+                        instance,
+                        ..PackedEmitter::default()
+                    });
+                    weights.push(weight);
+                    area += own_area;
                 }
-            }
-        };
-        // Baked triangles, then baked shapes; planes and instanced shapes follow those.
-        let baked = within(self.first_baked_triangle, SHAPE | self.baked_shape_count);
-        add(NO_INSTANCE, Mat3::IDENTITY, baked);
-        for (index, instance) in instances.iter().enumerate() {
-            let rows = [instance.linear_x, instance.linear_y, instance.linear_z];
-            let linear = Mat3::from_cols_array_2d(&rows).transpose();
+            };
+        for (index, instance) in tlas.instances.iter().enumerate() {
             let list = within(instance.first, instance.first + instance.count);
+            if list.is_empty() {
+                continue;
+            }
+            let places = Places::of(instance, &tlas.keys);
             match deformed.starting_at(instance.first) {
                 // Their order may differ from that at rest.
-                Some(tree) if !list.is_empty() => {
-                    let posed = tree.triangles().map(|(index, triangle, material)| {
-                        emissive_triangle(index, triangle, material)
-                    });
-                    add(index as u32, linear, &posed.collect::<Vec<_>>());
-                }
-                _ => add(index as u32, linear, list),
+                Some(tree) => tree.triangles().for_each(|(own, triangle, vertices)| {
+                    let one = emissive_triangle(own, triangle, vertices);
+                    add(index as u32, &places, &one, &|| tree.later_corners(own));
+                }),
+                _ => (list.iter()).for_each(|one| add(index as u32, &places, one, no_keys)),
             }
         }
-        let total: f64 = weighted.iter().map(|(.., weight)| weight).sum();
-        if total <= 0.0 {
-            return Emitters::default();
-        }
-        // A surface of radiance 1 and area 1 sends as much as a light of strength 1/π per steradian.
-        let own = total / std::f64::consts::PI;
-        let share = own / (own + lights);
-        let power = total / share;
-        let mut end = 1.0 - share;
-        let rows = weighted.into_iter().map(|(primitive, instance, weight)| {
-            end += weight / power;
-            PackedEmitter {
-                primitive,
-                instance,
-                chance: (weight / power) as f32,
-                end: end as f32,
-            }
-        });
-        Emitters {
-            rows: rows.collect(),
-            power,
-            share,
-        }
+        // Baked triangles, then baked shapes; planes and instanced shapes follow those.
+        let baked = within(self.first_baked_triangle, SHAPE | self.baked_shape_count);
+        let here = Places::default();
+        (baked.iter()).for_each(|one| add(NO_INSTANCE, &here, one, no_keys));
+        all.power = weights.iter().sum();
+        all.in_tree = all.rows.len() + lamp_count >= self.tree_from
+            && (lamp_count > 0 || !all.is_patch(area));
+        let groups = if all.in_tree { MAX_GROUPS } else { 1 };
+        all.grouped(&weights, groups)
     }
 }

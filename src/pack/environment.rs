@@ -3,7 +3,7 @@
 //! It is a tree of sums over a grid of directions, see `shaders/lib/quad_warp.wesl`: the word of the root, the words of
 //! each level row by row from the lowest elevation on, and then the density of each cell as a float.
 
-use super::{PackedScene, emitters::LUMINANCE};
+use super::{PackedScene, light_cluster::LUMINANCE};
 use crate::scene::{Background, Picture, Scene};
 use glam::Vec3;
 use half::f16;

@@ -5,7 +5,7 @@ use super::{
     deform::Deformed,
     geometry::{in_range, render_point},
     light,
-    light_tree::LightTree,
+    light_tree::{Leaf, LightTree},
     material, media,
     tlas::Tlas,
 };
@@ -42,9 +42,9 @@ pub struct PackedView {
     pub materials: Arc<[PackedMaterial]>,
     /// Replaces the textures of the scene if any moves; otherwise empty. They lie as when the shutter opens.
     pub textures: Arc<[PackedTexture]>,
-    /// Emissive triangles.
+    /// Emissive triangles and shapes, by instance and primitive.
     pub emitters: Vec<PackedEmitter>,
-    /// The tree over many lamps, shared as long as they are the same.
+    /// The tree over many lamps and emitters, shared as long as they are the same.
     pub(super) light_tree: Arc<LightTree>,
     /// Whether the camera is orthographic.
     pub orthographic: bool,
@@ -120,7 +120,8 @@ impl PackedScene {
             false => &materials,
         };
         let powers = light::powers(frames, self.radius);
-        let mut emitters = self.emitters(&tlas.instances, &deformed, lit, powers.iter().sum());
+        let lamp_count = powers.iter().filter(|power| **power > 0.0).count();
+        let mut emitters = self.emitters(&tlas, &deformed, lit, lamp_count);
         let has_lights = lights.iter().any(|light| light.color != [0.0; 3]);
         let has_others = has_lights || !emitters.rows.is_empty();
         let environment = self.environment_of(&first.background);
@@ -129,15 +130,25 @@ impl PackedScene {
             Some(_) if has_others => 0.5,
             Some(_) => 1.0,
         };
-        emitters.leave(environment_share);
-        let lights_share = (1.0 - environment_share) * (1.0 - emitters.share);
+        let share = emitters.share(powers.iter().sum());
+        let lights_share = (1.0 - environment_share) * (1.0 - share);
+        let emitters_share = (1.0 - environment_share) * share;
+        let leaves = match emitters.in_tree {
+            true => (Leaf::of_lamps(&lights, &powers).into_iter())
+                .chain(emitters.leaves())
+                .collect(),
+            false => Vec::new(),
+        };
         let light_tree = match previous {
-            Some(previous) if previous.light_tree.is_of(&lights) => previous.light_tree.clone(),
-            _ => Arc::new(LightTree::new(&lights, &powers)),
+            Some(previous) if previous.light_tree.is_of(&leaves) => previous.light_tree.clone(),
+            _ => Arc::new(LightTree::new(leaves)),
         };
         match light_tree.nodes.is_empty() {
             true => light::set_chances(&mut lights, &powers, lights_share),
-            false => light_tree.set_trails(&mut lights, &powers, lights_share),
+            false => light_tree.set_trails(
+                (&mut lights, light_count as usize),
+                (&mut emitters.rows, emitters.group),
+            ),
         }
         let moving = if tlas.moves { MOVING } else { 0 };
         let instance_row = NODE_ROWS * (tlas.first_node + tlas.nodes.len() as u32);
@@ -177,7 +188,8 @@ impl PackedScene {
                 deformation_key_count: deformed.key_count,
                 emitter_row,
                 emitter_count: emitters.rows.len() as u32,
-                emitter_power: emitters.power as f32,
+                emitter_power: (emitters.power / emitters_share.max(f64::MIN_POSITIVE)) as f32,
+                emitter_group: emitters.group as u32,
                 environment_first: environment.map_or(0, |(first, _)| first),
                 environment_width: environment.map_or(0, |(_, width)| width),
                 environment_share: environment_share as f32,
@@ -341,7 +353,7 @@ impl PackedView {
         Some(instance.id as usize - 1)
     }
 
-    /// Whether paths choose lamps from a tree.
+    /// Whether paths choose lamps and emitters from a tree.
     pub fn has_light_tree(&self) -> bool {
         !self.light_tree.nodes.is_empty()
     }

@@ -1,7 +1,7 @@
 //! Decomposes transforms into parts that can be interpolated.
 
 use crate::layout::PackedKey;
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3, Quat, Vec3};
 
 /// A transform as stretch, then rotation, then translation. Any affine transform can be written that way
 /// (Shoemake and Duff, Matrix Animation and Polar Decomposition, 1992).
@@ -41,6 +41,21 @@ impl Placement {
         DAffine3 {
             matrix3: DMat3::from_quat(self.rotation) * self.stretch,
             translation: self.translation,
+        }
+    }
+
+    /// The inverse of [`Self::packed`].
+    pub fn unpacked(key: &PackedKey) -> Self {
+        let wide = |v: [f32; 3]| Vec3::from(v).as_dvec3();
+        let (d, s) = (wide(key.stretch), wide(key.shear));
+        Self {
+            translation: wide(key.translation),
+            rotation: Quat::from_array(key.rotation).as_dquat(),
+            stretch: DMat3::from_cols_array_2d(&[
+                [d.x, s.z, s.y],
+                [s.z, d.y, s.x],
+                [s.y, s.x, d.z],
+            ]),
         }
     }
 

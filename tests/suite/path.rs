@@ -1,9 +1,11 @@
 //! The path tracer against closed forms and against the classical integrator.
 
 mod backdrop;
+mod emitter_tree;
 mod emitters;
 mod explained;
 mod layers;
+mod light_chances;
 pub mod lobes;
 mod many_lights;
 mod materials;

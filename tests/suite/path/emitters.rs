@@ -146,7 +146,7 @@ fn small_emissive_shapes_are_found_by_few_samples() {
 }
 
 /// A triangle for each center, of which every fourth glows, and the corners of all of them.
-fn dust(scene: &mut Scene, centers: &[Vec3]) -> Mesh {
+pub fn dust(scene: &mut Scene, centers: &[Vec3]) -> Mesh {
     let glowing = scene.add_material(Material {
         emission: Vec3::splat(20.0),
         ..matte(0.0)
@@ -252,7 +252,7 @@ fn lamps_that_are_lit_while_the_shutter_is_open_are_sampled() {
 }
 
 /// A ball of triangles around the origin: `rows` bands of twice as many quads.
-fn globe(radius: f32, rows: u32, material: u32) -> Mesh {
+pub fn globe(radius: f32, rows: u32, material: u32) -> Mesh {
     let columns = 2 * rows;
     let mut mesh = Mesh::default();
     for y in 0..=rows {
@@ -280,7 +280,7 @@ fn globe(radius: f32, rows: u32, material: u32) -> Mesh {
 }
 
 /// A closed room with matte walls, seen from inside.
-fn room() -> Scene {
+pub fn room() -> Scene {
     let mut scene = Scene {
         cameras: vec![looking(dvec3(0.0, 1.0, 1.9), dvec3(0.0, 0.9, 0.0), 0.9)],
         materials: vec![matte(0.6)],

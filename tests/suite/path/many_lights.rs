@@ -1,23 +1,19 @@
 //! Many lamps, which paths choose from a tree: their chances are those of a reference in f64, and their light is that of
 //! the classical integrator, which adds up all lamps.
 
+use super::light_chances::{chances, mean_from, wide};
 use super::{lit_floor, matte, mean, near, paths};
 use crate::explain::{finish, random_pixels, renderer};
 use crate::support::random::Random;
 use crate::support::verdict::Verdict;
-use bytemuck::cast_slice;
 use glam::{DVec3, Vec3, dvec3};
-use glimray::layout::{
-    LIGHT_BY_POWER, LIGHT_DISC, LIGHT_INDEX_MASK, LIGHT_LEAF, LIGHT_RECTANGLE, LIGHT_SPOT,
-    PackedCluster, PackedLight,
-};
-use glimray::pack::{self, PackedView};
+use glimray::layout::{LIGHT_DISC, LIGHT_RECTANGLE, LIGHT_SPOT, PackedLight};
+use glimray::pack;
 use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{Attenuation, Geometry, Light, LightKind, Material, Scene, Shape};
-use std::f64::consts::PI;
 
 /// A floor under this many lamps of a kind for each number.
-fn floor_under(
+pub fn floor_under(
     material: Material,
     count: usize,
     kind: impl Fn(usize, DVec3) -> LightKind,
@@ -44,7 +40,7 @@ fn floor_under(
 }
 
 /// Lamps of every kind, some of which point away from the floor.
-fn any_kind(index: usize, position: DVec3) -> LightKind {
+pub fn any_kind(index: usize, position: DVec3) -> LightKind {
     let mut random = Random::new(index as u64);
     let direction = random.direction();
     let (edge_u, edge_v) = direction.any_orthonormal_pair();
@@ -76,67 +72,8 @@ fn any_kind(index: usize, position: DVec3) -> LightKind {
     }
 }
 
-fn wide(v: [f32; 3]) -> DVec3 {
-    Vec3::from(v).as_dvec3()
-}
-
-/// The most light that a cluster may send to a point of a surface, by angles.
-fn importance(cluster: &PackedCluster, p: DVec3, n: DVec3) -> f64 {
-    let offset = p - wide(cluster.center);
-    let radius = wide(cluster.extent).length();
-    let distance = offset.length();
-    let seen = match distance <= radius {
-        true => PI,
-        false => (radius / distance).asin(),
-    };
-    let cone = |word: u32| (f64::from(word as u16 as i16) / 32767.0).max(-1.0).acos();
-    let (spread, falloff) = (cone(cluster.cones), cone(cluster.cones >> 16));
-    let w = offset / distance;
-    let off = (wide(cluster.axis).angle_between(w) - spread - seen).max(0.0);
-    let below = (n.angle_between(-w) - seen).max(0.0);
-    // Cosines this little below the end of the light may be rounding errors.
-    let slack = 1e-3;
-    if off.cos() + slack <= falloff.cos() || below.cos() + slack <= 0.0 {
-        return 0.0;
-    }
-    let cosines = off.cos().max(slack) * below.cos().max(slack);
-    f64::from(cluster.power) * cosines / distance.max(radius).powi(2)
-}
-
-/// The chance of each lamp at a point with the trail that leads to it, and that of clusters in which no lamp may reach it.
-fn chances(view: &PackedView, p: DVec3, n: DVec3) -> (Vec<(f64, u32)>, f64) {
-    let clusters: &[PackedCluster] = cast_slice(view.node_parts()[6]);
-    let mut found = vec![(0.0, 0); view.lights.len()];
-    let mut missed = 0.0;
-    let mut open = vec![(view.frame.light_root, 1.0, 0, 0)];
-    while let Some((reference, chance, depth, trail)) = open.pop() {
-        let index = (reference & LIGHT_INDEX_MASK) as usize;
-        if reference & LIGHT_LEAF != 0 {
-            found[index] = (chance, trail);
-            continue;
-        }
-        let pair = &clusters[index..index + 2];
-        let weights = [0, 1].map(|k| match reference & LIGHT_BY_POWER {
-            0 => importance(&pair[k], p, n),
-            _ => pair[k].power.into(),
-        });
-        let total: f64 = weights.iter().sum();
-        missed += if total > 0.0 { 0.0 } else { chance };
-        for k in 0..2 {
-            let own = if total > 0.0 {
-                chance * weights[k] / total
-            } else {
-                0.0
-            };
-            let trail = trail | (k as u32) << depth;
-            open.push((pair[k].child, own, depth + 1, trail));
-        }
-    }
-    (found, missed)
-}
-
 /// Whether some light of a lamp that fades arrives at p, which is not inside of it.
-fn reaches(light: &PackedLight, p: DVec3, n: DVec3) -> bool {
+pub fn reaches(light: &PackedLight, p: DVec3, n: DVec3) -> bool {
     let to_light = (wide(light.position) - p).normalize();
     let cos = -to_light.dot(wide(light.direction));
     let is_ahead = match light.kind {
@@ -158,10 +95,11 @@ fn chances_of_a_light_tree_are_those_of_a_reference_and_no_lamp_that_is_seen_has
     for _ in 0..200 {
         let p = 3.0 * random.in_cube();
         let n = random.direction();
-        let (all, missed) = chances(&view, p, n);
-        let sum: f64 = all.iter().map(|(chance, _)| chance).sum();
-        near(&mut verdict, format!("sum at {p}"), sum + missed, 1.0, 1e-9);
-        for (light, &(chance, trail)) in view.lights.iter().zip(&all) {
+        let all = chances(&view, p, n);
+        let sum: f64 = all.lamps.iter().map(|(chance, _)| chance).sum();
+        let what = format!("sum at {p}");
+        near(&mut verdict, what, sum + all.missed, 1.0, 1e-9);
+        for (light, &(chance, trail)) in view.lights.iter().zip(&all.lamps) {
             verdict.that("trail", light.place == trail, || {
                 format!("{light:?}, {trail}")
             });
@@ -188,13 +126,13 @@ fn chances_of_a_light_tree_are_those_of_a_reference_and_no_lamp_that_is_seen_has
             let light = shadow.light.expect("a lamp");
             let found = f64::from(shadow.sample.as_ref().expect("a light sample").chance);
             let p = DVec3::from(ray.origin) - packed.origin;
-            let (all, none) = chances(&view, p, DVec3::Y);
-            let expected = if found > 0.0 { all[light].0 } else { 0.0 };
+            let all = chances(&view, p, DVec3::Y);
+            let expected = if found > 0.0 { all.lamps[light].0 } else { 0.0 };
             let what = format!("lamp {light} at {p}");
             near(&mut verdict, what, found, expected, 0.02 * expected);
             samples += 1;
             misses += f64::from(u8::from(found == 0.0));
-            missed += none;
+            missed += all.missed;
         }
     }
     verdict.that("count", samples > 500, || samples);
@@ -225,7 +163,7 @@ fn many_lamps_light_a_floor_as_all_of_them_do_one_by_one() {
     verdict.close();
 }
 
-/// Lamps that paths can hit shine like emissive balls, which are in no tree: both ways to find them know their chances.
+/// Lamps that paths can hit shine like emissive balls without a tree: both ways to find them know their chances.
 #[test]
 fn many_lamps_that_paths_can_hit_shine_like_balls_of_the_same_radiance() {
     let glossy = Material {
@@ -261,7 +199,9 @@ fn many_lamps_that_paths_can_hit_shine_like_balls_of_the_same_radiance() {
             node: None,
         });
     }
-    let [expected, found] = [&balls, &lamps].map(|scene| mean(scene, &paths(1024, (24, 16), 0)));
+    let settings = paths(1024, (24, 16), 0);
+    let expected = mean_from(&balls, &settings, usize::MAX);
+    let found = mean(&lamps, &settings);
     assert!(
         (found / expected - 1.0).abs() < 0.01,
         "{found}, expected {expected}"
