@@ -1057,14 +1057,19 @@ override bindings__OPACITY_ROW: u32 = 1u;
 
 var<private> albedo__albedo_first: u32;
 
-fn albedo__albedo_of(table: u32, cos_o: f32, alpha: f32) -> vec2f {
-	return albedo__blended(albedo__albedo_lookup(table, cos_o, alpha));
+fn albedo__ggx_albedo(cos_o: f32, alpha: f32) -> vec2f {
+	return albedo__ggx_factors(albedo__blended(albedo__ggx_lookup(cos_o, alpha)), cos_o);
+}
+
+fn albedo__sheen_albedo(cos_o: f32, alpha: f32) -> vec2f {
+	return albedo__blended(albedo__sheen_lookup(cos_o, alpha));
 }
 
 fn albedo__glass_albedo(cos_o: f32, alpha: f32, eta: f32) -> vec2f {
 	let place = albedo__glass_slice(eta);
 	let slice = min(u32(place), albedo__GLASS_SLICES - 2u);
-	return mix(albedo__blended(albedo__glass_lookup(slice, cos_o, alpha)), albedo__blended(albedo__glass_lookup(slice + 1u, cos_o, alpha)), place - f32(slice));
+	let entry = mix(albedo__blended(albedo__glass_lookup(slice, cos_o, alpha)), albedo__blended(albedo__glass_lookup(slice + 1u, cos_o, alpha)), place - f32(slice));
+	return albedo__glass_factors(entry, cos_o, eta);
 }
 
 fn albedo__blended(place: albedo__AlbedoLookup) -> vec2f {
@@ -3096,7 +3101,7 @@ fn mis__power_heuristic(own: f32, other: f32) -> f32 {
 }
 
 fn mis__survival_chance(throughput: vec3f) -> f32 {
-	return min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
+	return min(max(throughput.x, max(throughput.y, throughput.z)), 1.0);
 }
 
 fn backdrop__is_seen(path: path__Path) -> bool {
@@ -4740,19 +4745,22 @@ fn coating__coating_at(layers: layers__Layers, wo: vec3f, coat_axis: vec3f) -> c
 	let coat_cos = dot(wo, coat_axis);
 	let coat_alpha = max(layers.coat_roughness * layers.coat_roughness, layers__SMOOTH);
 	let sheen_alpha = max(layers.sheen_roughness * layers.sheen_roughness, 0.001);
-	let of_sheen = albedo__albedo_of(albedo__SHEEN_ALBEDO, wo.z, sheen_alpha);
-	let fresnel = mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(coat_cos));
+	let of_sheen = albedo__sheen_albedo(wo.z, sheen_alpha);
 	let coat_albedo = layers.coat * coating__coat_reflectance(coat_cos, coat_alpha);
 	let below_coat = 1.0 - coat_albedo;
 	let sheen = (below_coat * select(of_sheen.y, 1.0, bindings__BSDF_SPEC)) * layers.sheen;
-	return coating__Coating(layers.coat, coat_axis, coat_alpha, sheen, sheen_alpha, below_coat, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), fresnel, vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
+	return coating__Coating(layers.coat, coat_axis, coat_alpha, sheen, sheen_alpha, below_coat, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), coating__coat_fresnel(coat_cos), vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
+}
+
+fn coating__coat_fresnel(cosine: f32) -> f32 {
+	return mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cosine));
 }
 
 fn coating__coat_reflectance(cos_o: f32, alpha: f32) -> f32 {
 	if (bindings__BSDF_SPEC) {
-		return mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cos_o));
+		return coating__coat_fresnel(cos_o);
 	}
-	let albedo = albedo__albedo_of(albedo__GGX_ALBEDO, cos_o, alpha);
+	let albedo = albedo__ggx_albedo(cos_o, alpha);
 	return coating__COAT_F0 * albedo.x + albedo.y;
 }
 
@@ -4770,12 +4778,11 @@ fn coating__through_coat(surface: shading__Surface, cosine: f32) -> f32 {
 	return 1.0 - coat * coating__coat_reflectance(clamp(cosine, 0.0, 1.0), max(roughness * roughness, layers__SMOOTH));
 }
 
-fn coating__coating_eval(coating: coating__Coating, wo: vec3f, wi: vec3f, chances: vec2f) -> vec4f {
-	let cos_h = dot(wo, normalize(wo + wi));
-	let reflectance = coating.coat * select(mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cos_h)), coating.fresnel, bindings__BSDF_SPEC);
-	let coat = bsdf_ggx__ggx_eval(coating__to_coat(coating, wo), coating__to_coat(coating, wi), vec2f(coating.coat_alpha), bindings__BSDF_SPEC);
-	let sheen = bsdf_sheen__sheen_eval(wo, wi, coating.sheen_alpha);
-	return vec4f(reflectance * coat.x + sheen.x * coating.sheen, dot(chances, vec2f(coat.y, sheen.y)));
+fn coating__coat_eval(coating: coating__Coating, wo: vec3f, wi: vec3f) -> vec2f {
+	let cos_h = dot(wo, numeric__normalize_or(wo + wi, wo));
+	let reflectance = coating.coat * select(coating__coat_fresnel(cos_h), coating.fresnel, bindings__BSDF_SPEC);
+	let white = bsdf_ggx__ggx_eval(coating__to_coat(coating, wo), coating__to_coat(coating, wi), vec2f(coating.coat_alpha), bindings__BSDF_SPEC);
+	return vec2f(reflectance * white.x, white.y);
 }
 
 fn coating__coating_sample(coating: coating__Coating, wo: vec3f, u: vec2f, is_coat: bool) -> vec3f {
@@ -4847,23 +4854,42 @@ const albedo__GLASS_ALBEDO: u32 = 2048u;
 
 const albedo__GLASS_ROWS: u32 = 24u;
 
-const albedo__GLASS_SLICES: u32 = 24u;
+const albedo__GLASS_SLICES: u32 = 36u;
 
-const albedo__GLASS_CLEAR: f32 = 7.0;
+const albedo__GLASS_CLEAR: f32 = 12.0;
 
 struct albedo__AlbedoLookup {
 	words: vec4u,
 	weights: vec4f
 }
 
-fn albedo__albedo_lookup(table: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
-	let last = f32(albedo__ALBEDO_SIDE - 1u);
-	let place = last * sqrt(sqrt(clamp(vec2f(cos_o, alpha), vec2f(0.0), vec2f(1.0))));
-	let cell = min(floor(place), vec2f(last - 1.0));
-	let part = place - cell;
-	let first = table + u32(cell.y) * albedo__ALBEDO_SIDE + u32(cell.x);
-	let rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
-	return albedo__AlbedoLookup(vec4u(first, first + 1u, first + albedo__ALBEDO_SIDE, first + albedo__ALBEDO_SIDE + 1u), rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+fn albedo__entries_around(first: u32, rows: u32, place: vec2f) -> albedo__AlbedoLookup {
+	let last = vec2f(f32(albedo__ALBEDO_SIDE - 1u), f32(rows - 1u));
+	let cell = min(floor(last * place), last - 1.0);
+	let part = last * place - cell;
+	let corner = first + u32(cell.y) * albedo__ALBEDO_SIDE + u32(cell.x);
+	let of_rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
+	return albedo__AlbedoLookup(vec4u(corner, corner + 1u, corner + albedo__ALBEDO_SIDE, corner + albedo__ALBEDO_SIDE + 1u), of_rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+}
+
+fn albedo__facet_place(cos_o: f32, alpha: f32) -> vec2f {
+	let c = clamp(cos_o, 0.0, 1.0);
+	let wide = 4.0 * clamp(alpha, 0.0, 1.0);
+	return sqrt(vec2f(c * (1.0 + wide) / max(c + wide, 1e-9), 0.25 * wide));
+}
+
+fn albedo__ggx_lookup(cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
+	return albedo__entries_around(albedo__GGX_ALBEDO, albedo__ALBEDO_SIDE, albedo__facet_place(cos_o, alpha));
+}
+
+fn albedo__ggx_factors(entry: vec2f, cos_o: f32) -> vec2f {
+	let grazing = clamp(entry.x * fresnel__schlick_weight(cos_o) + 2.0 * entry.y - 1.0, 0.0, entry.x);
+	return vec2f(entry.x - grazing, grazing);
+}
+
+fn albedo__sheen_lookup(cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
+	let place = sqrt(sqrt(clamp(vec2f(cos_o, alpha), vec2f(0.0), vec2f(1.0))));
+	return albedo__entries_around(albedo__SHEEN_ALBEDO, albedo__ALBEDO_SIDE, place);
 }
 
 fn albedo__glass_slice(eta: f32) -> f32 {
@@ -4873,13 +4899,12 @@ fn albedo__glass_slice(eta: f32) -> f32 {
 }
 
 fn albedo__glass_lookup(slice: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
-	let last = vec2f(f32(albedo__ALBEDO_SIDE - 1u), f32(albedo__GLASS_ROWS - 1u));
-	let place = last * sqrt(vec2f(sqrt(clamp(cos_o, 0.0, 1.0)), clamp(alpha, 0.0, 1.0)));
-	let cell = min(floor(place), last - 1.0);
-	let part = place - cell;
-	let first = albedo__GLASS_ALBEDO + (slice * albedo__GLASS_ROWS + u32(cell.y)) * albedo__ALBEDO_SIDE + u32(cell.x);
-	let rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
-	return albedo__AlbedoLookup(vec4u(first, first + 1u, first + albedo__ALBEDO_SIDE, first + albedo__ALBEDO_SIDE + 1u), rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+	return albedo__entries_around(albedo__GLASS_ALBEDO + slice * albedo__GLASS_ROWS * albedo__ALBEDO_SIDE, albedo__GLASS_ROWS, albedo__facet_place(cos_o, alpha));
+}
+
+fn albedo__glass_factors(entry: vec2f, cos_o: f32, eta: f32) -> vec2f {
+	let mirror = fresnel__fresnel(clamp(cos_o, 0.0, 1.0), eta).reflectance;
+	return vec2f(entry.x, clamp(mirror + 2.0 * entry.y - 1.0, 0.0, 1.0));
 }
 
 fn albedo__blended_albedo(entries: vec4u, weights: vec4f) -> vec2f {
@@ -5275,15 +5300,14 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 		over = mix(over, film, layers.film * numeric__max_component(layers.over_f90));
 	}
 	let mean_alpha = sqrt(bsdf.alpha.x * bsdf.alpha.y);
-	let albedo = albedo__albedo_of(albedo__GGX_ALBEDO, bsdf.wo.z, mean_alpha);
+	let albedo = albedo__ggx_albedo(bsdf.wo.z, mean_alpha);
 	let boost = select(albedo__multiple_scattering(bsdf.f0, albedo), vec3f(1.0), bindings__BSDF_SPEC);
 	bsdf.boundary_gain = 1.0;
 	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && bsdf.boundary_alpha.x >= layers__SMOOTH) {
 		let glass = albedo__glass_albedo(bsdf.wo.z, mean_alpha, bsdf.eta);
-		let share = glass.y / max(glass.x, 0.001);
 		bsdf.boundary_gain = 1.0 / max(select(albedo.x + albedo.y, glass.x, bsdf.bends), 0.001);
 		if (bsdf.bends) {
-			seen = lobes__Split(share * bsdf.reflect, (1.0 - share) * bsdf.transmit);
+			seen = lobes__Split(glass.y * bsdf.reflect, (1.0 - glass.y) * bsdf.transmit);
 		}
 	}
 	let glossy = boost * (albedo.x * bsdf.f0 + albedo.y * bsdf.f90);
@@ -5444,7 +5468,8 @@ fn bsdf__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
 
 fn bsdf__receiving_normal(bsdf: lobes__Bsdf) -> vec3f {
 	let passes = (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) || (bindings__HAS_COATINGS && any(bsdf.through > vec3f(0.0)));
-	return select(bsdf.normal, vec3f(0.0), passes);
+	let normal = select(bsdf.normal, bsdf.ng, bindings__HAS_COAT_NORMALS && bsdf.coating.coat > 0.0);
+	return select(normal, vec3f(0.0), passes);
 }
 
 fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
@@ -5458,9 +5483,9 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 		value = (diffuse * lobes__below_glossy(bsdf, cos_h)) * bsdf.diffuse + glossy.x * (bsdf.gain * lobes__glossy_fresnel(bsdf, cos_h));
 		pdf = bsdf.chances.x * (1.0 - bsdf__through_share(bsdf)) * diffuse + bsdf.chances.y * glossy.y;
 		if (bindings__HAS_COATINGS) {
-			let coating = coating__coating_eval(bsdf.coating, bsdf.wo, wi, bsdf.coating_chances);
-			value += coating.xyz;
-			pdf += coating.w;
+			let sheen = bsdf_sheen__sheen_eval(bsdf.wo, wi, bsdf.coating.sheen_alpha);
+			value += sheen.x * bsdf.coating.sheen;
+			pdf += bsdf.coating_chances.y * sheen.y;
 		}
 		if (bsdf__has_rough_boundary(bsdf)) {
 			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, bindings__BSDF_SPEC);
@@ -5485,7 +5510,14 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 		value += through * bsdf.through;
 		pdf += bsdf.chances.x * bsdf__through_share(bsdf) * through;
 	}
-	return bsdf__BsdfValue(select(vec3f(0.0), value, (dot(direction, bsdf.ng) > 0.0) == (wi.z > 0.0)), pdf);
+	let is_outside = dot(direction, bsdf.ng) > 0.0;
+	value = select(vec3f(0.0), value, is_outside == (wi.z > 0.0));
+	if (bindings__HAS_COATINGS) {
+		let coat = coating__coat_eval(bsdf.coating, bsdf.wo, wi);
+		value += select(0.0, coat.x, is_outside);
+		pdf += bsdf.coating_chances.x * coat.y;
+	}
+	return bsdf__BsdfValue(value, pdf);
 }
 
 fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
@@ -5502,13 +5534,16 @@ fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSamp
 		if (!is_diffuse && !is_glossy) {
 			let is_coat = choice < chances.x + chances.y + bsdf.coating_chances.x;
 			wi = coating__coating_sample(bsdf.coating, bsdf.wo, u, is_coat);
+			if (is_coat) {
+				return bsdf__rough_sample(bsdf, wi, coating__to_coat(bsdf.coating, wi).z > 0.0);
+			}
 		}
 		let passes = is_diffuse && choice < chances.x * bsdf__through_share(bsdf);
 		if (passes) {
-			return bsdf__rough_sample(bsdf, vec3f(wi.xy, -wi.z), false);
+			return bsdf__rough_sample(bsdf, vec3f(wi.xy, -wi.z), wi.z > 0.0);
 		}
 	}
-	return bsdf__rough_sample(bsdf, wi, true);
+	return bsdf__rough_sample(bsdf, wi, wi.z > 0.0);
 }
 
 fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
@@ -5519,62 +5554,71 @@ fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
 	return through / max(through + dot(bsdf.diffuse, tone__LUMINANCE_REC709), 1e-30);
 }
 
+struct bsdf__Facet {
+	wi: vec3f,
+	reflects: bool,
+	split: lobes__Split,
+	chance: f32
+}
+
+fn bsdf__facet_at(bsdf: lobes__Bsdf, h: vec3f, choice: f32) -> bsdf__Facet {
+	let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
+	let split = lobes__split_at(bsdf, cos_h);
+	let chance = bsdf__reflection_chance(split);
+	let reflects = choice < chance;
+	let mirrored = bsdf__reflected_at(bsdf.wo, h);
+	var wi = select(vec3f(mirrored.xy, -mirrored.z), mirrored, reflects);
+	if (!reflects && bsdf.bends) {
+		wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
+	}
+	return bsdf__Facet(wi, reflects, split, chance);
+}
+
+fn bsdf__unshadowed(bsdf: lobes__Bsdf, facet: bsdf__Facet, alpha: vec2f) -> f32 {
+	let seen = 1.0 + bsdf_ggx__ggx_lambda(bsdf.wo, alpha);
+	let lit = bsdf_ggx__ggx_lambda(facet.wi, alpha);
+	let part = select(seen / (seen + lit), 1.0 / (1.0 + lit), !facet.reflects && bsdf.bends);
+	return select(0.0, part, (facet.wi.z > 0.0) == facet.reflects);
+}
+
 fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
 	let is_smooth = bsdf.boundary_alpha.x < layers__SMOOTH;
-	let width = max(bsdf.boundary_alpha, vec2f(layers__SMOOTH));
-	let seen = 1.0 + bsdf_ggx__ggx_lambda(bsdf.wo, width);
+	let alpha = max(bsdf.boundary_alpha, vec2f(layers__SMOOTH));
 	var numbers = vec3f(choice, u);
 	var key = rng__hash_combine(bitcast<u32>(choice), rng__hash_combine(bitcast<u32>(u.x), bitcast<u32>(u.y)));
-	var left = select(0u, bsdf__MOST_REDRAWS, bsdf__draws_again() && !is_smooth);
-	var wi: vec3f;
-	var split: lobes__Split;
-	var chance: f32;
-	var reflects: bool;
+	var draws = select(1u, 1u + bsdf__MOST_REDRAWS, bsdf__draws_again() && !is_smooth);
+	var facet: bsdf__Facet;
 	loop {
-		let h = select(bsdf_ggx__ggx_normal(bsdf.wo, width, numbers.yz), vec3f(0.0, 0.0, 1.0), is_smooth);
-		let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
-		split = lobes__split_at(bsdf, cos_h);
-		chance = bsdf__reflection_chance(split);
-		reflects = numbers.x < chance;
-		wi = bsdf__reflected_at(bsdf.wo, h);
-		let bends = !reflects && bsdf.bends;
-		if (!reflects) {
-			wi = vec3f(wi.xy, -wi.z);
-			if (bends) {
-				wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
-			}
-		}
-		if (left > 0u) {
-			let lit = 1.0 + bsdf_ggx__ggx_lambda(wi, width);
-			let part = select(seen / (seen + lit - 1.0), 1.0 / lit, bends);
-			let is_found = (wi.z > 0.0) == reflects && rng__unit_float(key) < part;
-			let fresh = vec3u(rng__hash(key ^ 1757159915u), rng__hash(key ^ 48610963u), rng__hash(key ^ 2524612763u));
-			numbers = vec3f(rng__unit_float(fresh.x), rng__unit_float(fresh.y), rng__unit_float(fresh.z));
-			key = rng__hash_combine(key, fresh.x);
-			left = select(left - 1u, 0u, is_found);
-		}
+		let h = select(bsdf_ggx__ggx_normal(bsdf.wo, alpha, numbers.yz), vec3f(0.0, 0.0, 1.0), is_smooth);
+		facet = bsdf__facet_at(bsdf, h, numbers.x);
+		let is_found = rng__unit_float(key) < bsdf__unshadowed(bsdf, facet, alpha);
+		draws = select(draws - 1u, 0u, is_found);
+		let fresh = vec3u(rng__hash(key ^ 1757159915u), rng__hash(key ^ 48610963u), rng__hash(key ^ 2524612763u));
+		numbers = vec3f(rng__unit_float(fresh.x), rng__unit_float(fresh.y), rng__unit_float(fresh.z));
+		key = rng__hash_combine(key, fresh.x);
 		continuing {
 		
-			break if left == 0u;
+			break if draws == 0u;
 		}
 	}
-	if (is_smooth) {
-		let fraction = select(split.transmit / max(1.0 - chance, 1e-6), split.reflect / max(chance, 1e-6), reflects);
-		let direction = lobes__from_frame(bsdf, wi);
-		let stays = (dot(direction, bsdf.ng) > 0.0) == reflects;
-		return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
+	if (!is_smooth) {
+		return bsdf__rough_sample(bsdf, facet.wi, (facet.wi.z > 0.0) == facet.reflects);
 	}
-	return bsdf__rough_sample(bsdf, wi, reflects);
+	let transmitted = facet.split.transmit / max(1.0 - facet.chance, 1e-6);
+	let fraction = select(transmitted, facet.split.reflect / max(facet.chance, 1e-6), facet.reflects);
+	let direction = lobes__from_frame(bsdf, facet.wi);
+	let stays = (dot(direction, bsdf.ng) > 0.0) == facet.reflects;
+	return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
 }
 
 fn bsdf__boundary_density(bsdf: lobes__Bsdf, boundary: vec2f) -> f32 {
 	return select(boundary.y, boundary.x * bsdf.boundary_gain, bsdf__draws_again());
 }
 
-fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f, above: bool) -> bsdf__BsdfSample {
+fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f, is_on_side: bool) -> bsdf__BsdfSample {
 	let direction = lobes__from_frame(bsdf, wi);
 	let found = bsdf__bsdf_eval(bsdf, direction);
-	let weight = select(vec3f(0.0), found.value / max(found.pdf, 1e-30), (wi.z > 0.0) == above);
+	let weight = select(vec3f(0.0), found.value / max(found.pdf, 1e-30), is_on_side);
 	return bsdf__BsdfSample(direction, weight, found.pdf);
 }
 
