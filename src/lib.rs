@@ -103,9 +103,10 @@
 //! | [`cli`] | the commands | `app` and everything above |
 //! | [`viewer`] | the window of `glimray view` | `app` and everything above |
 //!
-//! The shaders are in `shaders/`: `types.wesl` (shared structs), `bindings.wesl` (all bindings and
-//! overrides), `lib/` (pure functions), `scene/` (functions that read bindings), `kernels/` (entry
-//! points). The binary embeds them linked to plain WGSL (`shaders/linked`), which `make shaders` updates.
+//! The shaders are in `shaders/`: `types.wesl` (shared structs), `types/` (those of shaders alone),
+//! `bindings.wesl` (all bindings and overrides), `lib/` (pure functions), `scene/` (functions that read
+//! bindings), `kernels/` (entry points). The binary embeds them linked to plain WGSL (`shaders/linked`),
+//! which `make shaders` updates.
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]

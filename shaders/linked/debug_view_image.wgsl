@@ -20,7 +20,7 @@ fn debug_view(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 	dispatch__add_counts(lane);
 }
 
-fn view(batch: dispatch__Batch, ray: types__Ray) -> vec3f {
+fn view(batch: dispatch__Batch, ray: tracing__Ray) -> vec3f {
 	let before = loops__nodes_visited + loops__primitives_tested;
 	let hit = traverse__closest_hit(ray);
 	if (bindings__VIEW == types__VIEW_HEAT) {
@@ -129,7 +129,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group);
 }
 
-fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
+fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> tracing__Ray {
 	var within = vec2f(0.5);
 	if (bindings__STRATIFIED) {
 		within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
@@ -533,80 +533,6 @@ struct types__PackedCounters {
 	refraction_hits: atomic<u32>
 }
 
-struct types__Ray {
-	origin: vec3f,
-	t_max: f32,
-	direction: vec3f,
-	leaving: u32,
-	leaving_instance: u32
-}
-
-struct types__Candidate {
-	hit: bool,
-	t: f32,
-	b1: f32,
-	b2: f32
-}
-
-struct types__Hit {
-	t: f32,
-	primitive: u32,
-	b1: f32,
-	b2: f32,
-	instance: u32
-}
-
-struct types__Node {
-	lo: vec3f,
-	scale: vec3f,
-	min_x: vec4f,
-	max_x: vec4f,
-	min_y: vec4f,
-	max_y: vec4f,
-	min_z: vec4f,
-	max_z: vec4f,
-	children: vec4u
-}
-
-struct types__Phong {
-	diffuse: vec3f,
-	specular: vec3f,
-	shininess: f32,
-	ambient: vec3f,
-	reflect: vec3f
-}
-
-struct types__Surface {
-	p: vec3f,
-	n: vec3f,
-	ng: vec3f,
-	error: vec3f,
-	leaving: u32,
-	outside: bool,
-	uv: vec2f,
-	second_uv: vec2f,
-	material: u32,
-	phong: types__Phong,
-	id: u32,
-	place: vec3f,
-	instance: u32,
-	footprint: types__Footprint,
-	curvature: f32,
-	tangent: vec4f,
-	coat_n: vec3f
-}
-
-struct types__Cone {
-	width: f32,
-	spread: f32
-}
-
-struct types__Footprint {
-	uv: mat2x2f,
-	second_uv: mat2x2f,
-	place: mat2x3f
-}
-
 var<private> fetch__root: u32;
 
 var<private> fetch__shape_row: u32;
@@ -637,12 +563,12 @@ fn fetch__load_starts() {
 	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
-fn fetch__load_node(index: u32) -> types__Node {
+fn fetch__load_node(index: u32) -> tracing__Node {
 	let row = types__NODE_ROWS * index;
 	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
 }
 
-fn fetch__load_moving_node(reference: u32, moment: motion__Moment) -> types__Node {
+fn fetch__load_moving_node(reference: u32, moment: motion__Moment) -> tracing__Node {
 	let moves = (reference & types__MOVING) != 0u;
 	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
 	return node__node_between(fetch__load_node(first), fetch__load_node(first + select(0u, 1u, moves)), moment.fraction);
@@ -916,6 +842,46 @@ fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__
 	return next;
 }
 
+struct tracing__Ray {
+	origin: vec3f,
+	t_max: f32,
+	direction: vec3f,
+	leaving: u32,
+	leaving_instance: u32
+}
+
+struct tracing__Candidate {
+	hit: bool,
+	t: f32,
+	b1: f32,
+	b2: f32
+}
+
+struct tracing__Hit {
+	t: f32,
+	primitive: u32,
+	b1: f32,
+	b2: f32,
+	instance: u32
+}
+
+struct tracing__Node {
+	lo: vec3f,
+	scale: vec3f,
+	min_x: vec4f,
+	max_x: vec4f,
+	min_y: vec4f,
+	max_y: vec4f,
+	min_z: vec4f,
+	max_z: vec4f,
+	children: vec4u
+}
+
+struct tracing__Cone {
+	width: f32,
+	spread: f32
+}
+
 var<private> loops__nodes_visited: u32 = 0u;
 
 var<private> loops__primitives_tested: u32 = 0u;
@@ -927,33 +893,33 @@ const traverse__RETURN: u32 = 4294967294u;
 const traverse__CONTACT_RANGE: f32 = 0.0001;
 
 struct traverse__Walk {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	shear: triangle_watertight__Shear,
 	any: bool,
 	at: primitive__TraversalRay,
-	hit: types__Hit,
+	hit: tracing__Hit,
 	current: u32
 }
 
 const traverse__NO_LIMIT: u32 = 4294967295u;
 
-fn traverse__closest_hit(ray: types__Ray) -> types__Hit {
+fn traverse__closest_hit(ray: tracing__Ray) -> tracing__Hit {
 	return traverse__walked(traverse__walk_of(ray, false), traverse__NO_LIMIT).hit;
 }
 
-fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
+fn traverse__search_limit(ray: tracing__Ray, hit: tracing__Hit) -> f32 {
 	if (bindings__HAS_CONTACT) {
 		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
 	}
 	return hit.t;
 }
 
-fn traverse__walk_of(ray: types__Ray, any: bool) -> traverse__Walk {
+fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 	if (bindings__HAS_CONTACT) {
-		primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+		primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	}
 	let shear = triangle_watertight__shear_of(ray.direction);
-	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
 	if (bindings__HAS_PLANES) {
 		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
@@ -1053,7 +1019,7 @@ fn traverse__hit_count(keys: vec4u) -> i32 {
 	return hits.x + hits.y + hits.z + hits.w;
 }
 
-fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> types__Node {
+fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> tracing__Node {
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
 		return deforming__node_now(reference, keys);
 	}
@@ -1077,7 +1043,7 @@ fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear
 	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
 }
 
-fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let a = v0 - origin;
 	let b = v1 - origin;
 	let c = v2 - origin;
@@ -1096,28 +1062,28 @@ fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: tria
 	let inv_det = 1.0 / select(1.0, det, usable);
 	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
 	let t = dot(edges, depths) * inv_det;
-	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+	return tracing__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
 }
 
-var<private> primitive__runner_up: types__Hit;
+var<private> primitive__runner_up: tracing__Hit;
 
 struct primitive__TraversalRay {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	inv: vec3f,
 	shear: triangle_watertight__Shear,
 	instance: u32,
 	keys: deforming__Keys
 }
 
-fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
+fn primitive__traversal_ray(ray: tracing__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
 	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
 }
 
-fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
+fn primitive__closer(at: primitive__TraversalRay, hit: tracing__Hit, primitive: u32) -> tracing__Hit {
 	return primitive__closer_of(at, hit, primitive__test_primitive(at, primitive), primitive);
 }
 
-fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
+fn primitive__closer_of(at: primitive__TraversalRay, hit: tracing__Hit, candidate: tracing__Candidate, primitive: u32) -> tracing__Hit {
 	var is_lower = primitive < hit.primitive;
 	var is_left = primitive == at.ray.leaving;
 	if (bindings__HAS_INSTANCES) {
@@ -1128,13 +1094,13 @@ fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate:
 	let counts = candidate.hit & !is_left;
 	let wins = counts & ((candidate.t < hit.t) | ties);
 	if (bindings__HAS_CONTACT) {
-		let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
+		let found = tracing__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
 		primitive__keep_runner_up(hit, found, counts, wins);
 	}
-	return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+	return tracing__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
 }
 
-fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, wins: bool) {
+fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: bool, wins: bool) {
 	let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
 	if (wins) {
 		primitive__runner_up = hit;
@@ -1144,8 +1110,8 @@ fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, w
 	}
 }
 
-fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> types__Candidate {
-	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> tracing__Candidate {
+	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
 	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
 		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
 	}
@@ -1155,7 +1121,7 @@ fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> typ
 	return candidate;
 }
 
-fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> types__Candidate {
+fn primitive__test_triangle(ray: tracing__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> tracing__Candidate {
 	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
 		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
 	}
@@ -1179,7 +1145,7 @@ fn deforming__keys_of(instance: types__PackedInstance) -> deforming__Keys {
 	return deforming__NO_KEYS;
 }
 
-fn deforming__node_now(reference: u32, keys: deforming__Keys) -> types__Node {
+fn deforming__node_now(reference: u32, keys: deforming__Keys) -> tracing__Node {
 	var key_count = 2u;
 	if (bindings__HAS_DEFORMATION) {
 		key_count = select(2u, bindings__frame.deformation_key_count, keys.next != 0u);
@@ -1414,8 +1380,8 @@ fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
 	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
 }
 
-fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
-	return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+fn instance__object_ray(ray: tracing__Ray, space: motion__Space) -> tracing__Ray {
+	return tracing__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
 }
 
 fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
@@ -1501,19 +1467,19 @@ fn node__bytes(word: u32) -> vec4f {
 	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
 }
 
-fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
-	return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
+fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> tracing__Node {
+	return tracing__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
 }
 
-fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
+fn node__node_between(a: tracing__Node, b: tracing__Node, fraction: f32) -> tracing__Node {
 	let lo = mix(a.lo, b.lo, vec3f(fraction));
 	let shift_a = a.lo - lo;
 	let shift_b = b.lo - lo;
 	let s = vec4f(fraction);
-	return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+	return tracing__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
 }
 
-fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
+fn node__child_keys(node: tracing__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
 	let base = (node.lo - origin) * inv;
 	let step = node.scale * inv;
 	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
@@ -1539,7 +1505,7 @@ fn node__sort4(keys: vec4u) -> vec4u {
 	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
-fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let e1 = v1 - v0;
 	let e2 = v2 - v0;
 	let n = cross(e1, e2);
@@ -1551,10 +1517,10 @@ fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3
 	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
 	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
-fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let e1 = v1 - v0;
 	let e2 = v2 - v0;
 	let p = cross(ray.direction, e2);
@@ -1567,7 +1533,7 @@ fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray,
 	let b2 = inv_det * dot(ray.direction, q);
 	let t = inv_det * dot(e2, q);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
 const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
@@ -1586,11 +1552,11 @@ const shape__ELLIPSOIDS: u32 = 1u << types__SHAPE_ELLIPSOID;
 
 const shape__GLOBES: u32 = 1u << types__SHAPE_GLOBE;
 
-fn shape__test_shape(ray: types__Ray, shape: types__PackedShape) -> types__Candidate {
+fn shape__test_shape(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Candidate {
 	if (bindings__SHAPE_KINDS == shape__SPHERES) {
 		return sphere__intersect_sphere(ray, shape.position, shape.size0);
 	}
-	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
 	if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
 		candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
 	}
@@ -1658,14 +1624,14 @@ fn shape__is_flat(kind: u32) -> bool {
 	return (bindings__SHAPE_KINDS & (shape__DISCS | shape__RECTANGLES)) != 0u && (kind == types__SHAPE_DISC || kind == types__SHAPE_RECTANGLE);
 }
 
-fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> types__Candidate {
+fn sphere__intersect_sphere(ray: tracing__Ray, center: vec3f, radius: f32) -> tracing__Candidate {
 	let f = ray.origin - center;
 	let a = dot(ray.direction, ray.direction);
 	let b = -dot(f, ray.direction);
 	let nearest = f + (b / a) * ray.direction;
 	let discriminant = radius * radius - dot(nearest, nearest);
 	if (discriminant < 0.0) {
-		return types__Candidate(false, 0.0, 0.0, 0.0);
+		return tracing__Candidate(false, 0.0, 0.0, 0.0);
 	}
 	let c = dot(f, f) - radius * radius;
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
@@ -1673,10 +1639,10 @@ fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> type
 	let t1 = q / a;
 	let near = min(t0, t1);
 	let t = select(max(t0, t1), near, near > 0.0);
-	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
-fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> types__Candidate {
+fn globe__intersect_globe(ray: tracing__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> tracing__Candidate {
 	let w = ray.origin - anchor;
 	let f = n + curvature * w;
 	let c = curvature * dot(w, w) + 2.0 * dot(n, w);
@@ -1687,14 +1653,14 @@ fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f
 	let is_near = abs(curvature * c) < 1.0;
 	let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
 	if (discriminant < 0.0) {
-		return types__Candidate(false, 0.0, 0.0, 0.0);
+		return tracing__Candidate(false, 0.0, 0.0, 0.0);
 	}
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
 	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
 	let t1 = q / a;
 	let near = min(t0, t1);
 	let t = select(max(t0, t1), near, near > 0.0);
-	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
 fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__PlacedPoint {
@@ -1732,11 +1698,11 @@ fn canonical__canonical_vector(shape: types__PackedShape, v: vec3f) -> vec3f {
 	return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
 }
 
-fn canonical__canonical_ray(ray: types__Ray, shape: types__PackedShape) -> types__Ray {
-	return types__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
+fn canonical__canonical_ray(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Ray {
+	return tracing__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
 }
 
-fn canonical__approach(ray: types__Ray, center: vec3f, reach: f32) -> canonical__Approach {
+fn canonical__approach(ray: tracing__Ray, center: vec3f, reach: f32) -> canonical__Approach {
 	let size = abs(ray.direction);
 	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
 	let scaled = ray.direction / largest;
@@ -1791,32 +1757,32 @@ fn canonical__outwards(v: vec2f) -> vec2f {
 	return select(vec2f(1.0, 0.0), v / select(1.0, size, usable), usable);
 }
 
-fn disc__intersect_disc(ray: types__Ray, hole: f32) -> types__Candidate {
+fn disc__intersect_disc(ray: tracing__Ray, hole: f32) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
 	let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
 	let distance = dot(p, p);
-	return types__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
 fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
-fn rectangle__intersect_rectangle(ray: types__Ray) -> types__Candidate {
+fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
 	let way = t * ray.direction.xz;
 	let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
 	let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
-	return types__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
 }
 
 fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
-fn box__intersect_box(ray: types__Ray) -> types__Candidate {
+fn box__intersect_box(ray: tracing__Ray) -> tracing__Candidate {
 	let size = abs(ray.direction);
 	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
 	let inv = numeric__safe_reciprocal(ray.direction / largest);
@@ -1834,7 +1800,7 @@ fn box__intersect_box(ray: types__Ray) -> types__Candidate {
 	let positive = (inv[axis] < 0.0) == from_outside;
 	let side = f32(axis) + select(0.0, 3.0, positive);
 	let hit = (enter <= leave) & (s > 0.0);
-	return types__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
+	return tracing__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
 }
 
 fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
@@ -1857,7 +1823,7 @@ const cone__BOTTOM: f32 = 1.0;
 
 const cone__TOP: f32 = 2.0;
 
-fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) -> types__Candidate {
+fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) -> tracing__Candidate {
 	let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
 	let o = near.origin;
 	let d = near.direction;
@@ -1901,7 +1867,7 @@ fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) ->
 	let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
 	let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
 	let t = canonical__approached_t(near, s);
-	return types__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
+	return tracing__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
 }
 
 fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
@@ -1963,7 +1929,7 @@ fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
 	return select(three, vec3f(one), discriminant > 0.0);
 }
 
-fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
+fn torus__intersect_torus(ray: tracing__Ray, minor: f32) -> tracing__Candidate {
 	let outer = 1.0 + minor;
 	let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
 	let o = near.origin;
@@ -1984,7 +1950,7 @@ fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
 	let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
 	let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
 	let t = canonical__approached_t(near, s);
-	return types__Candidate(found & (t > 0.0), t, 0.0, 0.0);
+	return tracing__Candidate(found & (t > 0.0), t, 0.0, 0.0);
 }
 
 fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
@@ -2028,10 +1994,10 @@ fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
 }
 
-fn ellipsoid__intersect_ellipsoid(ray: types__Ray) -> types__Candidate {
+fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
 	let near = canonical__approach(ray, vec3f(0.0), 1.5);
-	let found = sphere__intersect_sphere(types__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
-	return types__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
+	let found = sphere__intersect_sphere(tracing__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
+	return tracing__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
 }
 
 fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
@@ -2041,8 +2007,8 @@ fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
 
 const camera__T_FAR: f32 = 3e38;
 
-fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
-	return types__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
+fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
+	return tracing__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
@@ -2051,9 +2017,9 @@ fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) ->
 	return camera.forward + x * camera.right + y * camera.up;
 }
 
-fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
+fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
 	let origin = camera.origin + camera__across(camera, position, size);
-	return types__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
+	return tracing__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
@@ -2062,17 +2028,17 @@ fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> 
 	return x * camera.right + y * camera.up;
 }
 
-fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
 	let off_axis = camera__aperture_point(camera, u);
 	let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
-	return types__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+	return tracing__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
-fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
 	let off_axis = camera__aperture_point(camera, u);
 	let origin = camera.origin + camera__across(camera, position, size) + off_axis;
 	let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
-	return types__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+	return tracing__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
@@ -2084,7 +2050,7 @@ fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
 	return p.x * normalize(camera.right) + p.y * normalize(camera.up);
 }
 
-fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
+fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
 	var hit = start;
 	var index = fetch__first_plane;
 	loop {
@@ -2093,7 +2059,7 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
 		let primitive = types__SHAPE | index;
 		let counts = candidate.hit & (primitive != ray.leaving);
 		let wins = counts & (candidate.t < hit.t);
-		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+		let found = tracing__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
 		if (bindings__HAS_CONTACT) {
 			primitive__keep_runner_up(hit, found, counts, wins);
 		}
@@ -2109,7 +2075,7 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
 	return hit;
 }
 
-fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
+fn exhaustive__hit_everything(ray: tracing__Ray, shear: triangle_watertight__Shear, start: tracing__Hit) -> tracing__Hit {
 	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
 	var hit = start;
 	if (bindings__HAS_TRIANGLES) {
@@ -2131,7 +2097,7 @@ fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear
 	return hit;
 }
 
-fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
+fn exhaustive__hit_run(at: primitive__TraversalRay, start: tracing__Hit, first: u32, count: u32) -> tracing__Hit {
 	var hit = start;
 	var index = 0u;
 	for (; index < count; index += 1u) {
@@ -2141,14 +2107,14 @@ fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u3
 	return hit;
 }
 
-fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
+fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing__Candidate {
 	let slope = dot(n, ray.direction);
 	let steep = abs(slope) > 1e-12;
 	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
-fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
+fn surface__surface_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone) -> shading__Surface {
 	var instance: types__PackedInstance;
 	var space: motion__Space;
 	var local = ray;
@@ -2158,7 +2124,7 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 		space = instance__space_of(instance);
 		local = instance__object_ray(ray, space);
 	}
-	var surface: types__Surface;
+	var surface: shading__Surface;
 	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
 		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
 	}
@@ -2186,13 +2152,47 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 	return surface;
 }
 
-fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__Space) -> types__Surface {
+fn surface__placed_surface(ray: tracing__Ray, own: shading__Surface, space: motion__Space) -> shading__Surface {
 	var surface = own;
 	surface.p = space.linear * own.p + space.translation;
 	surface.ng = numeric__normalize_or(instance__placed_normal(space, own.ng), -ray.direction);
 	surface.n = numeric__normalize_or(instance__placed_normal(space, own.n), surface.ng);
 	surface.error = instance__abs_times(space.linear, own.error);
 	return surface;
+}
+
+struct shading__Phong {
+	diffuse: vec3f,
+	specular: vec3f,
+	shininess: f32,
+	ambient: vec3f,
+	reflect: vec3f
+}
+
+struct shading__Surface {
+	p: vec3f,
+	n: vec3f,
+	ng: vec3f,
+	error: vec3f,
+	leaving: u32,
+	outside: bool,
+	uv: vec2f,
+	second_uv: vec2f,
+	material: u32,
+	phong: shading__Phong,
+	id: u32,
+	place: vec3f,
+	instance: u32,
+	footprint: shading__Footprint,
+	curvature: f32,
+	tangent: vec4f,
+	coat_n: vec3f
+}
+
+struct shading__Footprint {
+	uv: mat2x2f,
+	second_uv: mat2x2f,
+	place: mat2x3f
 }
 
 var<private> triangle_surface__met_vertices: vec3u;
@@ -2203,7 +2203,7 @@ struct triangle_surface__Placing {
 	keys: deforming__Keys
 }
 
-fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: triangle_surface__Placing, cone: types__Cone) -> types__Surface {
+fn triangle_surface__triangle_surface(ray: tracing__Ray, hit: tracing__Hit, placing: triangle_surface__Placing, cone: tracing__Cone) -> shading__Surface {
 	let space = placing.space;
 	let keys = placing.keys;
 	let own = deforming__triangle_now(hit.primitive, keys);
@@ -2276,11 +2276,11 @@ fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing:
 		}
 	}
 	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
+	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
 }
 
-fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
-	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+fn triangle_surface__mix_phong(p0: shading__Phong, p1: shading__Phong, p2: shading__Phong, b0: f32, b1: f32, b2: f32) -> shading__Phong {
+	return shading__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
 }
 
 fn tangent_space__placed_tangents(space: motion__Space, own: mat3x4f) -> mat3x4f {
@@ -2310,7 +2310,7 @@ fn tangent_space__surface_tangent(frame: mat3x3f, n: vec3f, flips: bool) -> vec4
 }
 
 struct material__PhongMaterial {
-	phong: types__Phong,
+	phong: shading__Phong,
 	flags: u32
 }
 
@@ -2323,7 +2323,7 @@ fn material__load_material(index: u32) -> material__PhongMaterial {
 	if (bindings__HAS_REFLECTION) {
 		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
 	}
-	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+	let phong = shading__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
 	return material__PhongMaterial(phong, r1.w);
 }
 
@@ -2361,16 +2361,16 @@ fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool
 	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
 }
 
-const footprint__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
+const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
 
-fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
+fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> tracing__Cone {
 	let camera = batch.camera;
 	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
 	let side = batch.footprint * max(sides.x, sides.y);
 	if (bindings__ORTHOGRAPHIC) {
-		return types__Cone(side, 0.0);
+		return tracing__Cone(side, 0.0);
 	}
-	return types__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
+	return tracing__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
 }
 
 fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
@@ -2418,7 +2418,7 @@ fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) 
 	return mat2x3f(rows * own[0], rows * own[1]);
 }
 
-fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: types__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
+fn footprint__with_shape_footprint(own: shading__Surface, ray: tracing__Ray, hit: tracing__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: tracing__Cone) -> shading__Surface {
 	var surface = own;
 	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
 	var local = axes;
@@ -2429,7 +2429,7 @@ fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: ty
 	}
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
 	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
-	surface.footprint = types__Footprint(in_uv, in_uv, axes);
+	surface.footprint = shading__Footprint(in_uv, in_uv, axes);
 	if (shape__is_round(shape.kind)) {
 		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
 		surface.curvature = select(-curvature, curvature, own.outside);
@@ -2455,8 +2455,8 @@ struct ray_cone__Filtering {
 	way: vec2f
 }
 
-fn ray_cone__cone_at(cone: types__Cone, distance: f32) -> types__Cone {
-	return types__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
+fn ray_cone__cone_at(cone: tracing__Cone, distance: f32) -> tracing__Cone {
+	return tracing__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
 }
 
 fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
@@ -2504,7 +2504,7 @@ fn normal_map__coat_map_of(material: u32) -> normal_map__NormalMap {
 	return normal_map__NormalMap(layers__texture_in(layers, types__SLOT_COAT_NORMAL), layers.coat_normal_scale);
 }
 
-fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: shading__Footprint) -> vec3f {
 	if (map.index == types__NO_TEXTURE) {
 		return n;
 	}
@@ -2546,7 +2546,7 @@ fn texture__uses_second_uv(texture: types__PackedTexture) -> bool {
 	return bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
 }
 
-fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footprint) -> mat2x2f {
+fn texture__footprint_in(texture: types__PackedTexture, footprint: shading__Footprint) -> mat2x2f {
 	if (!bindings__HAS_FOOTPRINTS) {
 		return mat2x2f();
 	}
@@ -2705,7 +2705,7 @@ fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
 	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
 }
 
-fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
+fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
 	let reached = ray.origin + hit.t * ray.direction;
 	let material = material__load_material(shape.material);
@@ -2717,13 +2717,13 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -2732,7 +2732,7 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 }
 
 fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {

@@ -29,7 +29,7 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 	dispatch__add_counts(lane);
 }
 
-fn arrived(batch: dispatch__Batch, path: path__Path, hit: types__Hit) -> path__Path {
+fn arrived(batch: dispatch__Batch, path: path__Path, hit: tracing__Hit) -> path__Path {
 	if (path__is_to_lamp(path)) {
 		return path__lit(path, hit);
 	}
@@ -39,7 +39,7 @@ fn arrived(batch: dispatch__Batch, path: path__Path, hit: types__Hit) -> path__P
 	return path;
 }
 
-fn traced(batch: dispatch__Batch, before: path__Path, hit: types__Hit) -> path__Path {
+fn traced(batch: dispatch__Batch, before: path__Path, hit: tracing__Hit) -> path__Path {
 	var path = before;
 	let ray = path.ray;
 	dispatch__count_hit(path.kind, hit);
@@ -90,7 +90,7 @@ fn traced(batch: dispatch__Batch, before: path__Path, hit: types__Hit) -> path__
 	return scattered(batch, path, surface, bsdf, met);
 }
 
-fn toward_lamp(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
+fn toward_lamp(batch: dispatch__Batch, before: path__Path, surface: shading__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
 	var path = before;
 	let light = emitters__sample_light(batch, surface.p, bsdf__receiving_normal(bsdf), path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
 	let found = bsdf__bsdf_eval(bsdf, light.incident.direction);
@@ -106,7 +106,7 @@ fn toward_lamp(batch: dispatch__Batch, before: path__Path, surface: types__Surfa
 	return path;
 }
 
-fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
+fn scattered(batch: dispatch__Batch, before: path__Path, surface: shading__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
 	var path = before;
 	let next = bsdf__bsdf_sample(bsdf, path__random_1d(path, dimensions__SCATTER_CHOICE), path__random_2d(path, dimensions__SCATTER_DIRECTION));
 	path.throughput *= next.weight;
@@ -820,106 +820,13 @@ struct types__PackedRay {
 	step: u32
 }
 
-struct types__Ray {
-	origin: vec3f,
-	t_max: f32,
-	direction: vec3f,
-	leaving: u32,
-	leaving_instance: u32
-}
-
-struct types__Candidate {
-	hit: bool,
-	t: f32,
-	b1: f32,
-	b2: f32
-}
-
-struct types__Hit {
-	t: f32,
-	primitive: u32,
-	b1: f32,
-	b2: f32,
-	instance: u32
-}
-
-struct types__Node {
-	lo: vec3f,
-	scale: vec3f,
-	min_x: vec4f,
-	max_x: vec4f,
-	min_y: vec4f,
-	max_y: vec4f,
-	min_z: vec4f,
-	max_z: vec4f,
-	children: vec4u
-}
-
-struct types__Phong {
-	diffuse: vec3f,
-	specular: vec3f,
-	shininess: f32,
-	ambient: vec3f,
-	reflect: vec3f
-}
-
-struct types__Medium {
-	absorption: vec3f,
-	ior: f32,
-	priority: i32
-}
-
-struct types__Surface {
-	p: vec3f,
-	n: vec3f,
-	ng: vec3f,
-	error: vec3f,
-	leaving: u32,
-	outside: bool,
-	uv: vec2f,
-	second_uv: vec2f,
-	material: u32,
-	phong: types__Phong,
-	id: u32,
-	place: vec3f,
-	instance: u32,
-	footprint: types__Footprint,
-	curvature: f32,
-	tangent: vec4f,
-	coat_n: vec3f
-}
-
-struct types__Cone {
-	width: f32,
-	spread: f32
-}
-
-struct types__Footprint {
-	uv: mat2x2f,
-	second_uv: mat2x2f,
-	place: mat2x3f
-}
-
-struct types__Optics {
-	transmit: vec3f,
-	opacity: f32,
-	ior: f32,
-	flags: u32
-}
-
-struct types__Incident {
-	direction: vec3f,
-	distance: f32,
-	radiance: vec3f
-}
-
 var<private> record__traced: types__PackedRay;
 
 var<private> record__traced_index: u32;
 
 var<private> record__sender: u32;
 
-var<private> record__seen: types__Hit;
+var<private> record__seen: tracing__Hit;
 
 var<private> record__ray_count: u32;
 
@@ -927,7 +834,7 @@ var<private> record__ray_limit: u32;
 
 var<private> record__first_row: u32;
 
-var<private> record__met: types__Hit;
+var<private> record__met: tracing__Hit;
 
 var<private> record__met_count: u32;
 
@@ -959,7 +866,7 @@ fn record__start_record(probe: types__PackedProbe) {
 	record__sender = types__NONE;
 }
 
-fn record__open_ray(ray: types__Ray, hit: types__Hit, kind: u32, throughput: vec3f, media: vec4u) {
+fn record__open_ray(ray: tracing__Ray, hit: tracing__Hit, kind: u32, throughput: vec3f, media: vec4u) {
 	record__traced = types__PackedRay();
 	record__traced.origin = ray.origin;
 	record__traced.kind = kind;
@@ -980,7 +887,7 @@ fn record__open_ray(ray: types__Ray, hit: types__Hit, kind: u32, throughput: vec
 	record__ray_count += 1u;
 }
 
-fn record__record_surface(surface: types__Surface) {
+fn record__record_surface(surface: shading__Surface) {
 	record__traced.primitive = record__seen.primitive;
 	record__traced.instance = record__seen.instance;
 	record__traced.p = surface.p;
@@ -1010,12 +917,12 @@ fn record__record_arriving(arriving: vec3f) {
 }
 
 fn record__open_shadow(t_max: f32) {
-	record__met = types__Hit(t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+	record__met = tracing__Hit(t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	record__met_count = 0u;
 	record__shadow_length = t_max;
 }
 
-fn record__record_met(hit: types__Hit, rest: f32) {
+fn record__record_met(hit: tracing__Hit, rest: f32) {
 	if (hit.primitive != types__NONE) {
 		record__met = hit;
 		record__met.t = record__shadow_length - rest + hit.t;
@@ -1107,7 +1014,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group);
 }
 
-fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
+fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> tracing__Ray {
 	var within = vec2f(0.5);
 	if (bindings__STRATIFIED) {
 		within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
@@ -1146,7 +1053,7 @@ fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
 	return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, key));
 }
 
-fn dispatch__count_hit(kind: u32, hit: types__Hit) {
+fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
 	if (bindings__COUNT_RAYS) {
 		let hits = select(0u, 1u, hit.primitive != types__NONE);
 		if (kind == ray_states__KIND_PRIMARY) {
@@ -1236,12 +1143,12 @@ fn fetch__load_starts() {
 	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
-fn fetch__load_node(index: u32) -> types__Node {
+fn fetch__load_node(index: u32) -> tracing__Node {
 	let row = types__NODE_ROWS * index;
 	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
 }
 
-fn fetch__load_moving_node(reference: u32, moment: motion__Moment) -> types__Node {
+fn fetch__load_moving_node(reference: u32, moment: motion__Moment) -> tracing__Node {
 	let moves = (reference & types__MOVING) != 0u;
 	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
 	return node__node_between(fetch__load_node(first), fetch__load_node(first + select(0u, 1u, moves)), moment.fraction);
@@ -1361,14 +1268,19 @@ fn fetch__material_row(row: u32) -> vec4u {
 
 var<private> albedo__albedo_first: u32;
 
-fn albedo__albedo_of(table: u32, cos_o: f32, alpha: f32) -> vec2f {
-	return albedo__blended(albedo__albedo_lookup(table, cos_o, alpha));
+fn albedo__ggx_albedo(cos_o: f32, alpha: f32) -> vec2f {
+	return albedo__ggx_factors(albedo__blended(albedo__ggx_lookup(cos_o, alpha)), cos_o);
+}
+
+fn albedo__sheen_albedo(cos_o: f32, alpha: f32) -> vec2f {
+	return albedo__blended(albedo__sheen_lookup(cos_o, alpha));
 }
 
 fn albedo__glass_albedo(cos_o: f32, alpha: f32, eta: f32) -> vec2f {
 	let place = albedo__glass_slice(eta);
 	let slice = min(u32(place), albedo__GLASS_SLICES - 2u);
-	return mix(albedo__blended(albedo__glass_lookup(slice, cos_o, alpha)), albedo__blended(albedo__glass_lookup(slice + 1u, cos_o, alpha)), place - f32(slice));
+	let entry = mix(albedo__blended(albedo__glass_lookup(slice, cos_o, alpha)), albedo__blended(albedo__glass_lookup(slice + 1u, cos_o, alpha)), place - f32(slice));
+	return albedo__glass_factors(entry, cos_o, eta);
 }
 
 fn albedo__blended(place: albedo__AlbedoLookup) -> vec2f {
@@ -1401,7 +1313,7 @@ fn rng__unit_float(x: u32) -> f32 {
 const path__MAX_PASSES: u32 = 64u;
 
 struct path__Path {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	radiance: vec3f,
 	throughput: vec3f,
 	media: vec4u,
@@ -1411,7 +1323,7 @@ struct path__Path {
 	origin: vec3f,
 	normal: vec3f,
 	pdf: f32,
-	cone: types__Cone,
+	cone: tracing__Cone,
 	key: u32,
 	sample: u32,
 	channel: u32,
@@ -1424,8 +1336,8 @@ const path__ALL_CHANNELS: u32 = 3u;
 
 const path__CAUGHT: u32 = 4294967295u;
 
-fn path__path_along(batch: dispatch__Batch, ray: types__Ray, key: u32, sample: u32) -> path__Path {
-	var cone = types__Cone(0.0, 0.0);
+fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, key: u32, sample: u32) -> path__Path {
+	var cone = tracing__Cone(0.0, 0.0);
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
@@ -1449,7 +1361,7 @@ fn path__next_walk(path: path__Path) -> traverse__Walk {
 	return traverse__walk_of(ray, any);
 }
 
-fn path__lit(before: path__Path, hit: types__Hit) -> path__Path {
+fn path__lit(before: path__Path, hit: tracing__Hit) -> path__Path {
 	var path = before;
 	path.lamp = shadow__crossed(path.lamp, hit);
 	if (path__is_to_lamp(path)) {
@@ -1488,7 +1400,7 @@ fn path__ended(path: path__Path) -> path__Path {
 	return last;
 }
 
-fn path__passed(path: path__Path, surface: types__Surface) -> path__Path {
+fn path__passed(path: path__Path, surface: shading__Surface) -> path__Path {
 	var next = path;
 	next.ray = leaving__leaving_ray(surface, path.ray.direction, camera__T_FAR);
 	next.passes += 1u;
@@ -1504,16 +1416,56 @@ fn path__random_2d(path: path__Path, purpose: u32) -> vec2f {
 	return sampling__stratified_2d(path.sample, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
 }
 
+struct tracing__Ray {
+	origin: vec3f,
+	t_max: f32,
+	direction: vec3f,
+	leaving: u32,
+	leaving_instance: u32
+}
+
+struct tracing__Candidate {
+	hit: bool,
+	t: f32,
+	b1: f32,
+	b2: f32
+}
+
+struct tracing__Hit {
+	t: f32,
+	primitive: u32,
+	b1: f32,
+	b2: f32,
+	instance: u32
+}
+
+struct tracing__Node {
+	lo: vec3f,
+	scale: vec3f,
+	min_x: vec4f,
+	max_x: vec4f,
+	min_y: vec4f,
+	max_y: vec4f,
+	min_z: vec4f,
+	max_z: vec4f,
+	children: vec4u
+}
+
+struct tracing__Cone {
+	width: f32,
+	spread: f32
+}
+
 const shadow__MAX_CROSSINGS: u32 = 64u;
 
 struct shadow__Passage {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	media: vec4u,
 	through: vec3f,
 	crossings: u32
 }
 
-fn shadow__passage_of(ray: types__Ray, media: vec4u) -> shadow__Passage {
+fn shadow__passage_of(ray: tracing__Ray, media: vec4u) -> shadow__Passage {
 	record__open_shadow(ray.t_max);
 	return shadow__Passage(ray, media, vec3f(1.0), 0u);
 }
@@ -1522,7 +1474,7 @@ fn shadow__sees_through() -> bool {
 	return bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS);
 }
 
-fn shadow__crossed(before: shadow__Passage, hit: types__Hit) -> shadow__Passage {
+fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
 	var passage = before;
 	passage.ray = rays__DEAD;
 	if (hit.primitive == types__NONE) {
@@ -1536,7 +1488,7 @@ fn shadow__crossed(before: shadow__Passage, hit: types__Hit) -> shadow__Passage 
 		passage.through = vec3f(0.0);
 		return passage;
 	}
-	let contact = contact__contact_at(before.ray, hit, types__Cone(0.0, 0.0));
+	let contact = contact__contact_at(before.ray, hit, tracing__Cone(0.0, 0.0));
 	record__record_met(record__seen, before.ray.t_max);
 	let surface = contact.surface;
 	var through = vec3f(0.0);
@@ -1565,7 +1517,7 @@ fn shadow__count_shadow(through: vec3f) {
 	}
 }
 
-fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, around: vec4u, behind: u32) -> vec3f {
+fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, around: vec4u, behind: u32) -> vec3f {
 	let optics = material__load_optics(surface.material);
 	let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
 	if (bindings__SOLID_GLASS) {
@@ -1592,16 +1544,16 @@ fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, arou
 	return through;
 }
 
-const footprint__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
+const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
 
-fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
+fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> tracing__Cone {
 	let camera = batch.camera;
 	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
 	let side = batch.footprint * max(sides.x, sides.y);
 	if (bindings__ORTHOGRAPHIC) {
-		return types__Cone(side, 0.0);
+		return tracing__Cone(side, 0.0);
 	}
-	return types__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
+	return tracing__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
 }
 
 fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
@@ -1649,7 +1601,7 @@ fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) 
 	return mat2x3f(rows * own[0], rows * own[1]);
 }
 
-fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: types__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
+fn footprint__with_shape_footprint(own: shading__Surface, ray: tracing__Ray, hit: tracing__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: tracing__Cone) -> shading__Surface {
 	var surface = own;
 	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
 	var local = axes;
@@ -1660,7 +1612,7 @@ fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: ty
 	}
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
 	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
-	surface.footprint = types__Footprint(in_uv, in_uv, axes);
+	surface.footprint = shading__Footprint(in_uv, in_uv, axes);
 	if (shape__is_round(shape.kind)) {
 		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
 		surface.curvature = select(-curvature, curvature, own.outside);
@@ -1682,7 +1634,7 @@ const ray_states__KIND_REFLECTED: u32 = 1u;
 
 const ray_states__KIND_REFRACTED: u32 = 2u;
 
-const rays__DEAD: types__Ray = types__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
+const rays__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
 
 const filter__PI: f32 = 3.14159265;
 
@@ -1842,7 +1794,7 @@ var<private> features__features: features__Features;
 
 var<private> features__off_centre: f32;
 
-fn features__see_first(surface: types__Surface, hit: types__Hit, depth: f32) {
+fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32) {
 	if (bindings__HAS_FEATURES && features__features.material == 0u) {
 		features__features.position = surface.p;
 		features__features.depth = depth;
@@ -1940,8 +1892,8 @@ fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction:
 
 const camera__T_FAR: f32 = 3e38;
 
-fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
-	return types__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
+fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
+	return tracing__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
@@ -1950,9 +1902,9 @@ fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) ->
 	return camera.forward + x * camera.right + y * camera.up;
 }
 
-fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
+fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
 	let origin = camera.origin + camera__across(camera, position, size);
-	return types__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
+	return tracing__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
@@ -1961,17 +1913,17 @@ fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> 
 	return x * camera.right + y * camera.up;
 }
 
-fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
 	let off_axis = camera__aperture_point(camera, u);
 	let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
-	return types__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+	return tracing__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
-fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
 	let off_axis = camera__aperture_point(camera, u);
 	let origin = camera.origin + camera__across(camera, position, size) + off_axis;
 	let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
-	return types__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+	return tracing__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
@@ -2022,7 +1974,7 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	return direction.x * x + direction.y * y + direction.z * n;
 }
 
-const medium__VACUUM: types__Medium = types__Medium(vec3f(0.0), 1.0, 0);
+const medium__VACUUM: shading__Medium = shading__Medium(vec3f(0.0), 1.0, 0);
 
 fn medium__dominant(media: vec4u) -> u32 {
 	if (!bindings__HAS_CONTACT) {
@@ -2045,14 +1997,14 @@ fn medium__higher(best: u32, next: u32) -> u32 {
 	return select(best, next, material__load_medium(next).priority >= material__load_medium(best).priority);
 }
 
-fn medium__medium_of(material: u32) -> types__Medium {
+fn medium__medium_of(material: u32) -> shading__Medium {
 	if (material == types__NONE) {
 		return medium__VACUUM;
 	}
 	return material__load_medium(material);
 }
 
-fn medium__transmittance(medium: types__Medium, distance: f32) -> vec3f {
+fn medium__transmittance(medium: shading__Medium, distance: f32) -> vec3f {
 	return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
 }
 
@@ -2065,8 +2017,61 @@ fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
 	return select(medium__dominant(media), material, started_inside);
 }
 
+struct shading__Phong {
+	diffuse: vec3f,
+	specular: vec3f,
+	shininess: f32,
+	ambient: vec3f,
+	reflect: vec3f
+}
+
+struct shading__Medium {
+	absorption: vec3f,
+	ior: f32,
+	priority: i32
+}
+
+struct shading__Surface {
+	p: vec3f,
+	n: vec3f,
+	ng: vec3f,
+	error: vec3f,
+	leaving: u32,
+	outside: bool,
+	uv: vec2f,
+	second_uv: vec2f,
+	material: u32,
+	phong: shading__Phong,
+	id: u32,
+	place: vec3f,
+	instance: u32,
+	footprint: shading__Footprint,
+	curvature: f32,
+	tangent: vec4f,
+	coat_n: vec3f
+}
+
+struct shading__Footprint {
+	uv: mat2x2f,
+	second_uv: mat2x2f,
+	place: mat2x3f
+}
+
+struct shading__Optics {
+	transmit: vec3f,
+	opacity: f32,
+	ior: f32,
+	flags: u32
+}
+
+struct shading__Incident {
+	direction: vec3f,
+	distance: f32,
+	radiance: vec3f
+}
+
 struct material__PhongMaterial {
-	phong: types__Phong,
+	phong: shading__Phong,
 	flags: u32
 }
 
@@ -2079,23 +2084,23 @@ fn material__load_material(index: u32) -> material__PhongMaterial {
 	if (bindings__HAS_REFLECTION) {
 		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
 	}
-	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+	let phong = shading__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
 	return material__PhongMaterial(phong, r1.w);
 }
 
-fn material__load_optics(index: u32) -> types__Optics {
+fn material__load_optics(index: u32) -> shading__Optics {
 	let row = types__MATERIAL_ROWS * index;
 	let r1 = fetch__material_row(row + 1u);
 	let r2 = fetch__material_row(row + 2u);
 	let r3 = fetch__material_row(row + 3u);
 	let r4 = fetch__material_row(row + 4u);
-	return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
+	return shading__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
 }
 
-fn material__load_medium(index: u32) -> types__Medium {
+fn material__load_medium(index: u32) -> shading__Medium {
 	let row = types__MATERIAL_ROWS * index;
 	let r5 = fetch__material_row(row + 5u);
-	return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
+	return shading__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
 }
 
 fn material__load_emission(index: u32) -> vec3f {
@@ -2166,14 +2171,16 @@ const contact__EDGE: f32 = 1e-6;
 const contact__VAGUE_EDGE: f32 = 0.0001;
 
 struct contact__Contact {
-	surface: types__Surface,
+	surface: shading__Surface,
+	hit: tracing__Hit,
 	touching: u32,
 	enters_touching: bool
 }
 
-fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> contact__Contact {
+fn contact__contact_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone) -> contact__Contact {
 	var contact: contact__Contact;
 	record__seen = hit;
+	contact.hit = hit;
 	contact.touching = types__NONE;
 	var current = hit;
 	var first = true;
@@ -2218,21 +2225,21 @@ fn contact__media_behind(media: vec4u, contact: contact__Contact) -> vec4u {
 	return behind;
 }
 
-fn contact__is_near(ray: types__Ray, hit: types__Hit, surface: types__Surface) -> bool {
+fn contact__is_near(ray: tracing__Ray, hit: tracing__Hit, surface: shading__Surface) -> bool {
 	let gap = (primitive__runner_up.t - hit.t) * abs(dot(surface.ng, ray.direction));
 	let reach = numeric__max_component(abs(surface.p)) + hit.t;
 	return primitive__runner_up.primitive != types__NONE && gap <= contact__NEAR * reach && contact__is_transparent(surface);
 }
 
-fn contact__is_transparent(surface: types__Surface) -> bool {
+fn contact__is_transparent(surface: shading__Surface) -> bool {
 	return any(material__load_optics(surface.material).transmit > vec3f(0.0));
 }
 
-fn contact__is_thin(surface: types__Surface) -> bool {
+fn contact__is_thin(surface: shading__Surface) -> bool {
 	return (material__load_optics(surface.material).flags & types__MATERIAL_THIN) != 0u;
 }
 
-fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_volume: bool) -> contact__Contact {
+fn contact__merge(contact: contact__Contact, second: shading__Surface, is_same_volume: bool) -> contact__Contact {
 	let is_alike = (second.material == contact.surface.material) & (second.outside == contact.surface.outside);
 	let is_other = !(is_alike & is_same_volume);
 	let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
@@ -2246,12 +2253,13 @@ fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_vol
 	}
 	else if (together) {
 		both.surface = second;
+		both.hit = primitive__runner_up;
 		record__seen = primitive__runner_up;
 	}
 	return both;
 }
 
-fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3u) -> bool {
+fn contact__is_same_volume(first: tracing__Hit, second: tracing__Hit, vertices: vec3u) -> bool {
 	let are_triangles = bindings__HAS_TRIANGLES && ((first.primitive | second.primitive) & types__SHAPE) == 0u;
 	if (!are_triangles || first.instance != second.instance) {
 		return false;
@@ -2259,7 +2267,7 @@ fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3
 	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, triangle_surface__met_vertices);
 }
 
-fn contact__is_at_edge(hit: types__Hit) -> bool {
+fn contact__is_at_edge(hit: tracing__Hit) -> bool {
 	let nearest = min(min(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
 	return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
 }
@@ -2268,7 +2276,7 @@ fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
 	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
 }
 
-fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
+fn surface__surface_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone) -> shading__Surface {
 	var instance: types__PackedInstance;
 	var space: motion__Space;
 	var local = ray;
@@ -2278,7 +2286,7 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 		space = instance__space_of(instance);
 		local = instance__object_ray(ray, space);
 	}
-	var surface: types__Surface;
+	var surface: shading__Surface;
 	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
 		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
 	}
@@ -2306,7 +2314,7 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 	return surface;
 }
 
-fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__Space) -> types__Surface {
+fn surface__placed_surface(ray: tracing__Ray, own: shading__Surface, space: motion__Space) -> shading__Surface {
 	var surface = own;
 	surface.p = space.linear * own.p + space.translation;
 	surface.ng = numeric__normalize_or(instance__placed_normal(space, own.ng), -ray.direction);
@@ -2326,8 +2334,8 @@ fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
 	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
 }
 
-fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
-	return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+fn instance__object_ray(ray: tracing__Ray, space: motion__Space) -> tracing__Ray {
+	return tracing__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
 }
 
 fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
@@ -2356,7 +2364,7 @@ struct triangle_surface__Placing {
 	keys: deforming__Keys
 }
 
-fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: triangle_surface__Placing, cone: types__Cone) -> types__Surface {
+fn triangle_surface__triangle_surface(ray: tracing__Ray, hit: tracing__Hit, placing: triangle_surface__Placing, cone: tracing__Cone) -> shading__Surface {
 	let space = placing.space;
 	let keys = placing.keys;
 	let own = deforming__triangle_now(hit.primitive, keys);
@@ -2429,11 +2437,11 @@ fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing:
 		}
 	}
 	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
+	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
 }
 
-fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
-	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+fn triangle_surface__mix_phong(p0: shading__Phong, p1: shading__Phong, p2: shading__Phong, b0: f32, b1: f32, b2: f32) -> shading__Phong {
+	return shading__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
 }
 
 struct deforming__Keys {
@@ -2450,7 +2458,7 @@ fn deforming__keys_of(instance: types__PackedInstance) -> deforming__Keys {
 	return deforming__NO_KEYS;
 }
 
-fn deforming__node_now(reference: u32, keys: deforming__Keys) -> types__Node {
+fn deforming__node_now(reference: u32, keys: deforming__Keys) -> tracing__Node {
 	var key_count = 2u;
 	if (bindings__HAS_DEFORMATION) {
 		key_count = select(2u, bindings__frame.deformation_key_count, keys.next != 0u);
@@ -2569,8 +2577,8 @@ struct ray_cone__Filtering {
 	way: vec2f
 }
 
-fn ray_cone__cone_at(cone: types__Cone, distance: f32) -> types__Cone {
-	return types__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
+fn ray_cone__cone_at(cone: tracing__Cone, distance: f32) -> tracing__Cone {
+	return tracing__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
 }
 
 fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
@@ -2618,7 +2626,7 @@ fn normal_map__coat_map_of(material: u32) -> normal_map__NormalMap {
 	return normal_map__NormalMap(layers__texture_in(layers, types__SLOT_COAT_NORMAL), layers.coat_normal_scale);
 }
 
-fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: shading__Footprint) -> vec3f {
 	if (map.index == types__NO_TEXTURE) {
 		return n;
 	}
@@ -2646,7 +2654,7 @@ fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
 	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
 }
 
-fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
+fn texture__texture_optics(surface: shading__Surface) -> mat3x3f {
 	if (!(bindings__HAS_TEXTURES && bindings__HAS_OPTICS_TEXTURES)) {
 		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
 	}
@@ -2654,7 +2662,7 @@ fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
 	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
 }
 
-fn texture__texture_factors(wanted: vec3u, surface: types__Surface) -> mat3x3f {
+fn texture__texture_factors(wanted: vec3u, surface: shading__Surface) -> mat3x3f {
 	var factors = mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
 	var open = wanted != vec3u(types__NO_TEXTURE);
 	loop {
@@ -2688,7 +2696,7 @@ fn texture__uses_second_uv(texture: types__PackedTexture) -> bool {
 	return bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
 }
 
-fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footprint) -> mat2x2f {
+fn texture__footprint_in(texture: types__PackedTexture, footprint: shading__Footprint) -> mat2x2f {
 	if (!bindings__HAS_FOOTPRINTS) {
 		return mat2x2f();
 	}
@@ -2702,13 +2710,13 @@ fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footpr
 	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
 }
 
-fn texture__place_in_pattern(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+fn texture__place_in_pattern(texture: types__PackedTexture, surface: shading__Surface) -> vec3f {
 	let uv = select(surface.uv, surface.second_uv, texture__uses_second_uv(texture));
 	let at = select(vec4f(surface.place, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
 	return clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
 }
 
-fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface, is_mask: bool) -> f32 {
+fn texture__texture_alpha(texture: types__PackedTexture, surface: shading__Surface, is_mask: bool) -> f32 {
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
 		let axes = texture__footprint_in(texture, surface.footprint);
 		let size = select(1.0, 0.0, is_mask);
@@ -2717,11 +2725,11 @@ fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface
 	return 1.0;
 }
 
-fn texture__texture_color(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+fn texture__texture_color(texture: types__PackedTexture, surface: shading__Surface) -> vec3f {
 	return texture__texture_value(texture, surface).xyz;
 }
 
-fn texture__texture_value(texture: types__PackedTexture, surface: types__Surface) -> vec4f {
+fn texture__texture_value(texture: types__PackedTexture, surface: shading__Surface) -> vec4f {
 	let q = texture__place_in_pattern(texture, surface);
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
 		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint));
@@ -2904,7 +2912,7 @@ struct layers__Layers {
 	diffuse_transmission_color: vec3f
 }
 
-fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
+fn layers__layers_at(surface: shading__Surface, optics: shading__Optics) -> layers__Layers {
 	var own = material__load_layers(surface.material);
 	own.base = surface.phong.diffuse;
 	var reflect = surface.phong.reflect;
@@ -3008,7 +3016,7 @@ fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
 	return layers;
 }
 
-fn layers__textured(own: types__PackedLayers, slot: u32, surface: types__Surface) -> vec4f {
+fn layers__textured(own: types__PackedLayers, slot: u32, surface: shading__Surface) -> vec4f {
 	if ((own.slots & (1u << slot)) == 0u) {
 		return vec4f(1.0);
 	}
@@ -3053,7 +3061,7 @@ fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) ->
 	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
 }
 
-fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
+fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
 	let reached = ray.origin + hit.t * ray.direction;
 	let material = material__load_material(shape.material);
@@ -3065,13 +3073,13 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -3080,7 +3088,7 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 }
 
 fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
@@ -3107,11 +3115,11 @@ const shape__ELLIPSOIDS: u32 = 1u << types__SHAPE_ELLIPSOID;
 
 const shape__GLOBES: u32 = 1u << types__SHAPE_GLOBE;
 
-fn shape__test_shape(ray: types__Ray, shape: types__PackedShape) -> types__Candidate {
+fn shape__test_shape(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Candidate {
 	if (bindings__SHAPE_KINDS == shape__SPHERES) {
 		return sphere__intersect_sphere(ray, shape.position, shape.size0);
 	}
-	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
 	if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
 		candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
 	}
@@ -3205,11 +3213,11 @@ fn canonical__canonical_vector(shape: types__PackedShape, v: vec3f) -> vec3f {
 	return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
 }
 
-fn canonical__canonical_ray(ray: types__Ray, shape: types__PackedShape) -> types__Ray {
-	return types__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
+fn canonical__canonical_ray(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Ray {
+	return tracing__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
 }
 
-fn canonical__approach(ray: types__Ray, center: vec3f, reach: f32) -> canonical__Approach {
+fn canonical__approach(ray: tracing__Ray, center: vec3f, reach: f32) -> canonical__Approach {
 	let size = abs(ray.direction);
 	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
 	let scaled = ray.direction / largest;
@@ -3264,32 +3272,32 @@ fn canonical__outwards(v: vec2f) -> vec2f {
 	return select(vec2f(1.0, 0.0), v / select(1.0, size, usable), usable);
 }
 
-fn disc__intersect_disc(ray: types__Ray, hole: f32) -> types__Candidate {
+fn disc__intersect_disc(ray: tracing__Ray, hole: f32) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
 	let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
 	let distance = dot(p, p);
-	return types__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
 fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
-fn rectangle__intersect_rectangle(ray: types__Ray) -> types__Candidate {
+fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
 	let way = t * ray.direction.xz;
 	let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
 	let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
-	return types__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
 }
 
 fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
-fn box__intersect_box(ray: types__Ray) -> types__Candidate {
+fn box__intersect_box(ray: tracing__Ray) -> tracing__Candidate {
 	let size = abs(ray.direction);
 	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
 	let inv = numeric__safe_reciprocal(ray.direction / largest);
@@ -3307,7 +3315,7 @@ fn box__intersect_box(ray: types__Ray) -> types__Candidate {
 	let positive = (inv[axis] < 0.0) == from_outside;
 	let side = f32(axis) + select(0.0, 3.0, positive);
 	let hit = (enter <= leave) & (s > 0.0);
-	return types__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
+	return tracing__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
 }
 
 fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
@@ -3330,7 +3338,7 @@ const cone__BOTTOM: f32 = 1.0;
 
 const cone__TOP: f32 = 2.0;
 
-fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) -> types__Candidate {
+fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) -> tracing__Candidate {
 	let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
 	let o = near.origin;
 	let d = near.direction;
@@ -3374,7 +3382,7 @@ fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) ->
 	let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
 	let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
 	let t = canonical__approached_t(near, s);
-	return types__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
+	return tracing__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
 }
 
 fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
@@ -3436,7 +3444,7 @@ fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
 	return select(three, vec3f(one), discriminant > 0.0);
 }
 
-fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
+fn torus__intersect_torus(ray: tracing__Ray, minor: f32) -> tracing__Candidate {
 	let outer = 1.0 + minor;
 	let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
 	let o = near.origin;
@@ -3457,7 +3465,7 @@ fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
 	let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
 	let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
 	let t = canonical__approached_t(near, s);
-	return types__Candidate(found & (t > 0.0), t, 0.0, 0.0);
+	return tracing__Candidate(found & (t > 0.0), t, 0.0, 0.0);
 }
 
 fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
@@ -3501,10 +3509,10 @@ fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
 }
 
-fn ellipsoid__intersect_ellipsoid(ray: types__Ray) -> types__Candidate {
+fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
 	let near = canonical__approach(ray, vec3f(0.0), 1.5);
-	let found = sphere__intersect_sphere(types__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
-	return types__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
+	let found = sphere__intersect_sphere(tracing__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
+	return tracing__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
 }
 
 fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
@@ -3512,7 +3520,7 @@ fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
 }
 
-fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> types__Candidate {
+fn globe__intersect_globe(ray: tracing__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> tracing__Candidate {
 	let w = ray.origin - anchor;
 	let f = n + curvature * w;
 	let c = curvature * dot(w, w) + 2.0 * dot(n, w);
@@ -3523,14 +3531,14 @@ fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f
 	let is_near = abs(curvature * c) < 1.0;
 	let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
 	if (discriminant < 0.0) {
-		return types__Candidate(false, 0.0, 0.0, 0.0);
+		return tracing__Candidate(false, 0.0, 0.0, 0.0);
 	}
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
 	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
 	let t1 = q / a;
 	let near = min(t0, t1);
 	let t = select(max(t0, t1), near, near > 0.0);
-	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
 fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__PlacedPoint {
@@ -3542,25 +3550,25 @@ fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__P
 	return canonical__PlacedPoint(p, ng, 16.0 * numeric__ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
 }
 
-var<private> primitive__runner_up: types__Hit;
+var<private> primitive__runner_up: tracing__Hit;
 
 struct primitive__TraversalRay {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	inv: vec3f,
 	shear: triangle_watertight__Shear,
 	instance: u32,
 	keys: deforming__Keys
 }
 
-fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
+fn primitive__traversal_ray(ray: tracing__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
 	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
 }
 
-fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
+fn primitive__closer(at: primitive__TraversalRay, hit: tracing__Hit, primitive: u32) -> tracing__Hit {
 	return primitive__closer_of(at, hit, primitive__test_primitive(at, primitive), primitive);
 }
 
-fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
+fn primitive__closer_of(at: primitive__TraversalRay, hit: tracing__Hit, candidate: tracing__Candidate, primitive: u32) -> tracing__Hit {
 	var is_lower = primitive < hit.primitive;
 	var is_left = primitive == at.ray.leaving;
 	if (bindings__HAS_INSTANCES) {
@@ -3571,13 +3579,13 @@ fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate:
 	let counts = candidate.hit & !is_left;
 	let wins = counts & ((candidate.t < hit.t) | ties);
 	if (bindings__HAS_CONTACT) {
-		let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
+		let found = tracing__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
 		primitive__keep_runner_up(hit, found, counts, wins);
 	}
-	return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+	return tracing__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
 }
 
-fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, wins: bool) {
+fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: bool, wins: bool) {
 	let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
 	if (wins) {
 		primitive__runner_up = hit;
@@ -3587,8 +3595,8 @@ fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, w
 	}
 }
 
-fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> types__Candidate {
-	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> tracing__Candidate {
+	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
 	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
 		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
 	}
@@ -3598,7 +3606,7 @@ fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> typ
 	return candidate;
 }
 
-fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> types__Candidate {
+fn primitive__test_triangle(ray: tracing__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> tracing__Candidate {
 	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
 		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
 	}
@@ -3791,7 +3799,7 @@ fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f
 	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
-fn coverage__coverage_at(surface: types__Surface) -> f32 {
+fn coverage__coverage_at(surface: shading__Surface) -> f32 {
 	if (!bindings__HAS_COVERAGE) {
 		return 1.0;
 	}
@@ -3810,13 +3818,13 @@ fn coverage__coverage_at(surface: types__Surface) -> f32 {
 	return select(clamp(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
 }
 
-fn leaving__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -> types__Ray {
+fn leaving__leaving_ray(surface: shading__Surface, direction: vec3f, t_max: f32) -> tracing__Ray {
 	if (bindings__FIXED_OFFSET > 0.0) {
 		let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
-		return types__Ray(origin, t_max, direction, types__NONE, surface.instance);
+		return tracing__Ray(origin, t_max, direction, types__NONE, surface.instance);
 	}
 	let origin = offset__offset_origin(surface.p, surface.error, surface.ng, direction);
-	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
+	return tracing__Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
 struct opacity__Clearness {
@@ -3866,7 +3874,7 @@ fn record_path__record_source(source: u32, index: u32, chance: f32) {
 	record_path__sampled.chance = chance;
 }
 
-fn record_path__record_light_sample(surface: types__Surface, ray: types__Ray, light: emitters__LightSample, found: bsdf__BsdfValue, weight: f32, unshadowed: vec3f) {
+fn record_path__record_light_sample(surface: shading__Surface, ray: tracing__Ray, light: emitters__LightSample, found: bsdf__BsdfValue, weight: f32, unshadowed: vec3f) {
 	let is_traced = ray.t_max >= 0.0;
 	record_path__sampled.origin = select(surface.p, ray.origin, is_traced);
 	record_path__sampled.kind = types__RAY_SHADOW;
@@ -3999,7 +4007,7 @@ fn mis__power_heuristic(own: f32, other: f32) -> f32 {
 }
 
 fn mis__survival_chance(throughput: vec3f) -> f32 {
-	return min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
+	return min(max(throughput.x, max(throughput.y, throughput.z)), 1.0);
 }
 
 fn backdrop__is_seen(path: path__Path) -> bool {
@@ -4030,833 +4038,6 @@ fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
 	return batch.background;
 }
 
-<<<<<<< HEAD
-=======
-struct opacity__Clearness {
-	nothing: f32,
-	catchers: f32,
-	light: f32,
-	unshadowed: f32
-}
-
-var<private> opacity__clearness: opacity__Clearness;
-
-const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
-
-const contact__NEAR: f32 = 1e-5;
-
-const contact__EDGE: f32 = 1e-6;
-
-const contact__VAGUE_EDGE: f32 = 0.0001;
-
-struct contact__Contact {
-	surface: types__Surface,
-	hit: types__Hit,
-	touching: u32,
-	enters_touching: bool
-}
-
-fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> contact__Contact {
-	var contact: contact__Contact;
-	record__seen = hit;
-	contact.hit = hit;
-	contact.touching = types__NONE;
-	var current = hit;
-	var first = true;
-	var second_wanted = false;
-	var vertices = vec3u(0u);
-	loop {
-		let surface = surface__surface_at(ray, current, cone);
-		if (first) {
-			contact.surface = surface;
-			vertices = triangle_surface__met_vertices;
-			second_wanted = bindings__HAS_REFRACTION && bindings__HAS_CONTACT && contact__is_near(ray, hit, surface);
-		}
-		else {
-			contact = contact__merge(contact, surface, contact__is_same_volume(hit, primitive__runner_up, vertices));
-			second_wanted = false;
-		}
-		first = false;
-		current = primitive__runner_up;
-		continuing {
-		
-			break if !second_wanted;
-		}
-	}
-	loops__cut_off |= second_wanted;
-	return contact;
-}
-
-fn contact__media_behind(media: vec4u, contact: contact__Contact) -> vec4u {
-	var behind = media;
-	if (!contact__is_thin(contact.surface)) {
-		if (contact.surface.outside && !media__has_room(behind)) {
-			ray_stack__cut_tree();
-		}
-		behind = medium__cross_surface(behind, contact.surface.material, contact.surface.outside);
-	}
-	if (bindings__HAS_CONTACT && contact.touching != types__NONE) {
-		if (contact.enters_touching && !media__has_room(behind)) {
-			ray_stack__cut_tree();
-		}
-		behind = medium__cross_surface(behind, contact.touching, contact.enters_touching);
-	}
-	return behind;
-}
-
-fn contact__is_near(ray: types__Ray, hit: types__Hit, surface: types__Surface) -> bool {
-	let gap = (primitive__runner_up.t - hit.t) * abs(dot(surface.ng, ray.direction));
-	let reach = numeric__max_component(abs(surface.p)) + hit.t;
-	return primitive__runner_up.primitive != types__NONE && gap <= contact__NEAR * reach && contact__is_transparent(surface);
-}
-
-fn contact__is_transparent(surface: types__Surface) -> bool {
-	return any(material__load_optics(surface.material).transmit > vec3f(0.0));
-}
-
-fn contact__is_thin(surface: types__Surface) -> bool {
-	return (material__load_optics(surface.material).flags & types__MATERIAL_THIN) != 0u;
-}
-
-fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_volume: bool) -> contact__Contact {
-	let is_alike = (second.material == contact.surface.material) & (second.outside == contact.surface.outside);
-	let is_other = !(is_alike & is_same_volume);
-	let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
-	var both = contact;
-	if (together && contact__is_transparent(second)) {
-		if (contact__is_thin(second)) {
-			return both;
-		}
-		both.touching = second.material;
-		both.enters_touching = second.outside;
-	}
-	else if (together) {
-		both.surface = second;
-		both.hit = primitive__runner_up;
-		record__seen = primitive__runner_up;
-	}
-	return both;
-}
-
-fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3u) -> bool {
-	let are_triangles = bindings__HAS_TRIANGLES && ((first.primitive | second.primitive) & types__SHAPE) == 0u;
-	if (!are_triangles || first.instance != second.instance) {
-		return false;
-	}
-	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, triangle_surface__met_vertices);
-}
-
-fn contact__is_at_edge(hit: types__Hit) -> bool {
-	let nearest = min(min(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
-	return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
-}
-
-fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
-	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
-}
-
-fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
-	var instance: types__PackedInstance;
-	var space: motion__Space;
-	var local = ray;
-	let is_placed = bindings__HAS_INSTANCES && hit.instance != types__NO_INSTANCE;
-	if (is_placed) {
-		instance = fetch__load_instance(hit.instance);
-		space = instance__space_of(instance);
-		local = instance__object_ray(ray, space);
-	}
-	var surface: types__Surface;
-	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
-		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
-	}
-	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
-		surface = shape_surface__shape_surface(local, hit);
-		let p = surface.p;
-		if (is_placed) {
-			surface = surface__placed_surface(ray, surface, space);
-		}
-		if (bindings__HAS_FOOTPRINTS) {
-			surface = footprint__with_shape_footprint(surface, ray, hit, p, space, is_placed, cone);
-		}
-	}
-	if (is_placed) {
-		let q = surface.place;
-		surface.error += instance__placement_error(space, surface.p, q);
-		surface.id += 2654435761u * instance.id;
-		surface.place = instance__pattern_place(instance, q);
-		surface.instance = hit.instance;
-		if (bindings__HAS_FOOTPRINTS) {
-			let own = mat2x3f(space.inverse * surface.footprint.place[0], space.inverse * surface.footprint.place[1]);
-			surface.footprint.place = footprint__instance_footprint(instance, own);
-		}
-	}
-	return surface;
-}
-
-fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__Space) -> types__Surface {
-	var surface = own;
-	surface.p = space.linear * own.p + space.translation;
-	surface.ng = numeric__normalize_or(instance__placed_normal(space, own.ng), -ray.direction);
-	surface.n = numeric__normalize_or(instance__placed_normal(space, own.n), surface.ng);
-	surface.error = instance__abs_times(space.linear, own.error);
-	return surface;
-}
-
-var<private> triangle_surface__met_vertices: vec3u;
-
-struct triangle_surface__Placing {
-	space: motion__Space,
-	is_placed: bool,
-	keys: deforming__Keys
-}
-
-fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: triangle_surface__Placing, cone: types__Cone) -> types__Surface {
-	let space = placing.space;
-	let keys = placing.keys;
-	let own = deforming__triangle_now(hit.primitive, keys);
-	triangle_surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
-	let v0 = fetch__load_vertex(own.i0);
-	let v1 = fetch__load_vertex(own.i1);
-	let v2 = fetch__load_vertex(own.i2);
-	let b1 = hit.b1;
-	let b2 = hit.b2;
-	let b0 = 1.0 - b1 - b2;
-	var corners = mat3x3f(own.v0, own.v1, own.v2);
-	var normals = mat3x3f(v0.normal, v1.normal, v2.normal);
-	if (bindings__HAS_DEFORMATION) {
-		if (keys.next != 0u) {
-			normals = deforming__normals_now(hit.primitive, keys);
-		}
-	}
-	let place = corners * vec3f(b0, b1, b2);
-	if (bindings__HAS_INSTANCES && placing.is_placed) {
-		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
-		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, normals[0]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[1]), -ray.direction), numeric__normalize_or(instance__placed_normal(space, normals[2]), -ray.direction));
-	}
-	let weights = vec3f(b0, b1, b2);
-	var frame = mat3x3f();
-	if (bindings__HAS_TANGENTS) {
-		var tangents = deforming__tangents_now(hit.primitive, keys);
-		if (bindings__HAS_INSTANCES && placing.is_placed) {
-			tangents = tangent_space__placed_tangents(space, tangents);
-		}
-		frame = tangent_space__vertex_frame(tangents, normals, weights);
-	}
-	let material = material__load_material(v0.material);
-	var phong = material.phong;
-	if (bindings__MIXED_MATERIALS) {
-		phong = triangle_surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
-	}
-	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
-	let n = numeric__normalize_or(normals * weights, ng);
-	var shading_normal = n;
-	var coat_normal = vec3f(0.0);
-	if (bindings__HAS_COAT_NORMALS) {
-		coat_normal = n;
-	}
-	var uv = vec2f(b1, b2);
-	if (bindings__HAS_TEXTURES) {
-		uv = vec2f(0.0);
-	}
-	var second_uv = uv;
-	var footprint = footprint__NO_FOOTPRINT;
-	if (bindings__HAS_FOOTPRINTS) {
-		footprint.place = ray_cone__footprint_axes(ray.direction, ng, ray_cone__cone_at(cone, hit.t).width);
-	}
-	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
-		let rows = mat3x4f(fetch__load_uvs(own.i0), fetch__load_uvs(own.i1), fetch__load_uvs(own.i2));
-		let uvs = mat3x2f(rows[0].xy, rows[1].xy, rows[2].xy);
-		let second_uvs = mat3x2f(rows[0].zw, rows[1].zw, rows[2].zw);
-		uv = uvs * weights;
-		second_uv = select(uv, second_uvs * weights, bindings__HAS_SECOND_UVS);
-		if (bindings__HAS_FOOTPRINTS) {
-			footprint.uv = footprint__triangle_uv_footprint(footprint.place, corners, uvs);
-			if (bindings__HAS_SECOND_UVS) {
-				footprint.second_uv = footprint__triangle_uv_footprint(footprint.place, corners, second_uvs);
-			}
-		}
-		if (bindings__HAS_NORMAL_MAPS) {
-			shading_normal = normal_map__mapped_normal(normal_map__normal_map_of(v0.material), frame, n, corners, rows, weights, footprint);
-		}
-		if (bindings__HAS_COAT_NORMALS) {
-			coat_normal = normal_map__mapped_normal(normal_map__coat_map_of(v0.material), frame, n, corners, rows, weights, footprint);
-		}
-	}
-	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
-}
-
-fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
-	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
-}
-
-fn tangent_space__placed_tangents(space: motion__Space, own: mat3x4f) -> mat3x4f {
-	let mirrors = select(1.0, -1.0, determinant(space.linear) < 0.0);
-	return mat3x4f(tangent_space__placed_tangent(space, own[0], mirrors), tangent_space__placed_tangent(space, own[1], mirrors), tangent_space__placed_tangent(space, own[2], mirrors));
-}
-
-fn tangent_space__placed_tangent(space: motion__Space, own: vec4f, mirrors: f32) -> vec4f {
-	return vec4f(numeric__normalize_or(space.linear * own.xyz, vec3f(0.0)), mirrors * own.w);
-}
-
-fn tangent_space__vertex_frame(tangents: mat3x4f, normals: mat3x3f, weights: vec3f) -> mat3x3f {
-	let is_whole = tangents[0].w * tangents[1].w * tangents[2].w != 0.0;
-	let tangent = tangents * weights;
-	let n = normals * weights;
-	let frame = mat3x3f(tangent.xyz, sign(tangent.w) * cross(n, tangent.xyz), n);
-	return frame * select(0.0, 1.0, is_whole);
-}
-
-fn tangent_space__surface_tangent(frame: mat3x3f, n: vec3f, flips: bool) -> vec4f {
-	if (!bindings__HAS_ANISOTROPY) {
-		return vec4f(0.0);
-	}
-	let along = numeric__normalize_or(frame[0] - dot(frame[0], n) * n, vec3f(0.0));
-	let hand = select(-1.0, 1.0, (dot(cross(n, along), frame[1]) >= 0.0) != flips);
-	return vec4f(along, select(hand, 0.0, dot(along, along) == 0.0));
-}
-
-struct material__PhongMaterial {
-	phong: types__Phong,
-	flags: u32
-}
-
-fn material__load_material(index: u32) -> material__PhongMaterial {
-	let row = types__MATERIAL_ROWS * index;
-	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	var reflect = vec3f(0.0);
-	if (bindings__HAS_REFLECTION) {
-		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
-	}
-	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
-	return material__PhongMaterial(phong, r1.w);
-}
-
-fn material__load_optics(index: u32) -> types__Optics {
-	let row = types__MATERIAL_ROWS * index;
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = fetch__material_row(row + 4u);
-	return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
-}
-
-fn material__load_medium(index: u32) -> types__Medium {
-	let row = types__MATERIAL_ROWS * index;
-	let r5 = fetch__material_row(row + 5u);
-	return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
-}
-
-fn material__load_emission(index: u32) -> vec3f {
-	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
-}
-
-fn material__load_texture_indices(index: u32) -> vec4u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
-}
-
-struct material__CoverageMaterial {
-	alpha: f32,
-	flags: u32
-}
-
-fn material__load_coverage(index: u32) -> material__CoverageMaterial {
-	let row = types__MATERIAL_ROWS * index;
-	return material__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
-}
-
-fn material__load_normal_scale(index: u32) -> f32 {
-	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
-}
-
-fn material__load_texture(index: u32) -> types__PackedTexture {
-	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r5 = fetch__material_row(row + 5u);
-	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
-}
-
-fn material__load_layers(index: u32) -> types__PackedLayers {
-	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
-	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
-	let r6 = fetch__material_row(row + 6u);
-	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
-}
-
-struct material__Glow {
-	light: u32,
-	luminance: f32,
-	texture: u32
-}
-
-fn material__load_glow(index: u32) -> material__Glow {
-	let row = types__MATERIAL_ROWS * index;
-	let own = fetch__material_row(row + types__LAYERS_ROW + 7u);
-	let luminance = bitcast<f32>(own.y) * dot(material__load_emission(index), tone__LUMINANCE_REC709);
-	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
-}
-
-fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
-	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
-	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
-}
-
-const ray_cone__MOST_TAPS: f32 = 8.0;
-
-const ray_cone__WIDEST: f32 = 1000000000000000.0;
-
-struct ray_cone__Filtering {
-	level: f32,
-	tap_count: u32,
-	way: vec2f
-}
-
-fn ray_cone__cone_at(cone: types__Cone, distance: f32) -> types__Cone {
-	return types__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
-}
-
-fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
-	let cosine = dot(n, direction);
-	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
-	let other = numeric__normalize_or(cross(n, axis), vec3f(0.0, 0.0, 1.0));
-	let slope = direction - cosine * n;
-	let along = select(other, numeric__normalize_or(slope, other), dot(slope, slope) > 1e-8);
-	let size = abs(width);
-	return mat2x3f((size / max(abs(cosine), 0.001)) * along, size * cross(n, along));
-}
-
-fn ray_cone__uv_along(v: vec3f, e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f) -> vec2f {
-	let normal = cross(e1, e2);
-	let n = numeric__normalize_or(normal, vec3f(0.0));
-	let area = max(dot(normal, n), 1e-30);
-	return (dot(cross(v, e2), n) / area) * d1 + (dot(cross(e1, v), n) / area) * d2;
-}
-
-fn ray_cone__curvature_along(edge: vec3f, bend: vec3f) -> f32 {
-	return dot(edge, bend) / max(dot(edge, edge), 1e-30);
-}
-
-fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
-	let is_first = dot(a, a) >= dot(b, b);
-	let way = select(b, a, is_first);
-	let long = length(way);
-	let short = length(select(a, b, is_first));
-	let count = clamp(round(long / max(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
-	let width = max(max(short, long / count), 1e-9);
-	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
-}
-
-struct normal_map__NormalMap {
-	index: u32,
-	scale: f32
-}
-
-fn normal_map__normal_map_of(material: u32) -> normal_map__NormalMap {
-	return normal_map__NormalMap(material__load_texture_indices(material).w & 65535u, material__load_normal_scale(material));
-}
-
-fn normal_map__coat_map_of(material: u32) -> normal_map__NormalMap {
-	let layers = material__load_layers(material);
-	return normal_map__NormalMap(layers__texture_in(layers, types__SLOT_COAT_NORMAL), layers.coat_normal_scale);
-}
-
-fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
-	if (map.index == types__NO_TEXTURE) {
-		return n;
-	}
-	let texture = material__load_texture(map.index);
-	let q0 = normal_map__in_picture(texture, uvs[0]);
-	let q1 = normal_map__in_picture(texture, uvs[1]);
-	let q2 = normal_map__in_picture(texture, uvs[2]);
-	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
-	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
-	let tilt = map.scale * (2.0 * code.xy - vec2f(1.0));
-	let up = max(2.0 * code.z - 1.0, 0.0);
-	if (bindings__HAS_TANGENTS) {
-		if (dot(frame[2], frame[2]) > 0.0) {
-			return numeric__normalize_or(frame * vec3f(tilt, up), n);
-		}
-	}
-	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
-	let bitangent = tangent.w * cross(n, tangent.xyz);
-	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + up * n, n);
-}
-
-fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
-	let is_second = bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
-	let at = vec4f(select(uvs.xy, uvs.zw, is_second), 0.0, 1.0);
-	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
-}
-
-fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
-	if (!(bindings__HAS_TEXTURES && bindings__HAS_OPTICS_TEXTURES)) {
-		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
-	}
-	let indices = material__load_texture_indices(surface.material);
-	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
-}
-
-fn texture__texture_factors(wanted: vec3u, surface: types__Surface) -> mat3x3f {
-	var factors = mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
-	var open = wanted != vec3u(types__NO_TEXTURE);
-	loop {
-		let index = select(select(select(0u, wanted.z, open.z), wanted.y, open.y), wanted.x, open.x);
-		let color = texture__texture_color(material__load_texture(index), surface);
-		let found = open & (wanted == vec3u(index));
-		factors[0] = select(factors[0], color, found.x);
-		factors[1] = select(factors[1], color, found.y);
-		factors[2] = select(factors[2], color, found.z);
-		open = open & !found;
-		continuing {
-		
-			break if !any(open);
-		}
-	}
-	loops__cut_off |= any(open);
-	return factors;
-}
-
-fn texture__picture_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
-	if (bindings__HAS_FOOTPRINTS) {
-		return mipmap__mipmap_color(texture, q, axes);
-	}
-	let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
-	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
-	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
-	return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v));
-}
-
-fn texture__uses_second_uv(texture: types__PackedTexture) -> bool {
-	return bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
-}
-
-fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footprint) -> mat2x2f {
-	if (!bindings__HAS_FOOTPRINTS) {
-		return mat2x2f();
-	}
-	let is_uv = (texture.flags & types__TEXTURE_UV) != 0u;
-	var in_uv = footprint.uv;
-	if (texture__uses_second_uv(texture)) {
-		in_uv = footprint.second_uv;
-	}
-	let a = select(footprint.place[0], vec3f(in_uv[0], 0.0), is_uv);
-	let b = select(footprint.place[1], vec3f(in_uv[1], 0.0), is_uv);
-	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
-}
-
-fn texture__place_in_pattern(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
-	let uv = select(surface.uv, surface.second_uv, texture__uses_second_uv(texture));
-	let at = select(vec4f(surface.place, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
-	return clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
-}
-
-fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface, is_mask: bool) -> f32 {
-	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
-		let axes = texture__footprint_in(texture, surface.footprint);
-		let size = select(1.0, 0.0, is_mask);
-		return texture__picture_color(texture, texture__place_in_pattern(texture, surface).xy, size * axes).w;
-	}
-	return 1.0;
-}
-
-fn texture__texture_color(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
-	return texture__texture_value(texture, surface).xyz;
-}
-
-fn texture__texture_value(texture: types__PackedTexture, surface: types__Surface) -> vec4f {
-	let q = texture__place_in_pattern(texture, surface);
-	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
-		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint));
-	}
-	var weight = pattern__checker(q);
-	if (bindings__HAS_NOISE && texture.kind == types__PATTERN_NOISE) {
-		let octaves = noise__noise_octaves(q, texture.octaves);
-		loops__cut_off |= octaves.count < texture.octaves;
-		weight = pattern__clouds(octaves.sum);
-	}
-	weight = select(weight, pattern__stripes(q), texture.kind == types__PATTERN_STRIPES);
-	weight = select(weight, pattern__gradient(q), texture.kind == types__PATTERN_GRADIENT);
-	return vec4f(mix(texture.color_a, texture.color_b, weight), 1.0);
-}
-
-fn mipmap__mipmap_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
-	let size = vec2f(vec2u(texture.width, texture.height));
-	let plan = ray_cone__filtering(size * axes[0], size * axes[1]);
-	let has_levels = (texture.flags & types__TEXTURE_LEVELS) != 0u;
-	let last = select(0.0, f32(31u - countLeadingZeros(max(texture.width, texture.height))), has_levels);
-	let exact = clamp(plan.level, 0.0, last);
-	let level = select(round(exact), exact, (texture.flags & types__TEXTURE_BETWEEN_LEVELS) != 0u);
-	let tap_count = select(1u, plan.tap_count, has_levels);
-	let way = select(vec2f(0.0), plan.way / size, has_levels);
-	let nearest_bit = select(types__TEXTURE_NEAREST, types__TEXTURE_MINIFY_NEAREST, plan.level > 0.0);
-	let nearest = (texture.flags & nearest_bit) != 0u;
-	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
-	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
-	let below = u32(level);
-	let weight = fract(level);
-	let end = select(tap_count, 2u * tap_count, weight > 0.0);
-	var color = vec4f(0.0);
-	var k = 0u;
-	loop {
-		let is_above = k >= tap_count;
-		let tap = f32(k - select(0u, tap_count, is_above));
-		let at = q + ((tap + 0.5) / f32(tap_count) - 0.5) * way;
-		let own = below + select(0u, 1u, is_above);
-		let width = max(texture.width >> own, 1u);
-		let height = max(texture.height >> own, 1u);
-		let sample = picture__blend_texels(mipmap__level_of(texture.picture, own), width, height, picture__neighbours(at.x, width, nearest, wrap_u), picture__neighbours(at.y, height, nearest, wrap_v));
-		color += select(1.0 - weight, weight, is_above) * sample;
-		continuing {
-			k += 1u;
-			break if k >= end;
-		}
-	}
-	loops__cut_off |= k < end;
-	return color / f32(tap_count);
-}
-
-fn mipmap__level_of(picture: u32, level: u32) -> u32 {
-	if (level == 0u) {
-		return picture;
-	}
-	return picture + picture__load_texel_word((picture & types__PICTURE_FIRST_MASK) - level);
-}
-
-fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) -> vec4f {
-	let area = d1.x * d2.y - d1.y * d2.x;
-	let hand = select(1.0, -1.0, area < 0.0);
-	let along = hand * (d2.y * e1 - d1.y * e2);
-	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
-	let other = numeric__normalize_or(cross(n, axis), vec3f(1.0, 0.0, 0.0));
-	let within = numeric__normalize_or(along, other);
-	return vec4f(numeric__normalize_or(within - dot(within, n) * n, other), hand);
-}
-
-const layers__SMOOTH: f32 = 0.0001;
-
-struct layers__Layers {
-	diffuse: vec3f,
-	f0: vec3f,
-	f90: vec3f,
-	over_f0: vec3f,
-	over_f90: vec3f,
-	alpha: f32,
-	reflect: vec3f,
-	transmit: vec3f,
-	boundary_alpha: f32,
-	fresnel: u32,
-	ior: f32,
-	glow: vec3f,
-	coat: f32,
-	coat_roughness: f32,
-	sheen: vec3f,
-	sheen_roughness: f32,
-	anisotropy: f32,
-	along: vec2f,
-	film: f32,
-	film_ior: f32,
-	film_thickness: f32,
-	diffuse_transmission: f32,
-	diffuse_transmission_color: vec3f
-}
-
-fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
-	var own = material__load_layers(surface.material);
-	own.base = surface.phong.diffuse;
-	var reflect = surface.phong.reflect;
-	var transmit = optics.transmit;
-	var glow = vec3f(1.0);
-	var thickness = 1.0;
-	var along = vec2f(1.0, 0.0);
-	if (bindings__HAS_TEXTURES) {
-		var rest = own.slots;
-		loop {
-			let slot = firstTrailingBit(rest | 2147483648u);
-			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
-			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
-			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
-			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
-			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
-			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
-			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
-			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
-			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
-			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
-			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
-			if (bindings__HAS_ANISOTROPY) {
-				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
-				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
-			}
-			if (bindings__HAS_COATINGS) {
-				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
-				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
-				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
-				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
-				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
-				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
-				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
-				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
-			}
-			rest &= rest - 1u;
-			continuing {
-			
-				break if rest == 0u;
-			}
-		}
-		loops__cut_off |= rest != 0u;
-	}
-	var layers: layers__Layers;
-	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
-		layers = layers__metallic_roughness(own);
-	}
-	else {
-		layers.diffuse = own.base;
-		layers.f0 = own.f0;
-		layers.f90 = own.f0;
-		layers.over_f0 = own.f0;
-		layers.over_f90 = own.f0;
-		layers.alpha = own.roughness * own.roughness;
-		layers.reflect = reflect;
-		layers.transmit = transmit;
-		layers.fresnel = optics.flags & (types__MATERIAL_FRESNEL | types__MATERIAL_SCHLICK);
-		layers.ior = own.ior;
-	}
-	layers.glow = glow;
-	if (bindings__HAS_ANISOTROPY) {
-		layers.anisotropy = own.anisotropy;
-		layers.along = dispersion__anisotropy_tangent(own.anisotropy_rotation, along);
-	}
-	if (bindings__HAS_COATINGS) {
-		layers.coat = own.coat;
-		layers.coat_roughness = own.coat_roughness;
-		layers.sheen = own.sheen;
-		layers.sheen_roughness = own.sheen_roughness;
-		layers.film = own.iridescence;
-		layers.film_ior = own.iridescence_ior;
-		layers.film_thickness = mix(own.film_thinnest, own.film_thickest, thickness);
-		layers.diffuse_transmission = own.diffuse_transmission;
-		layers.diffuse_transmission_color = own.diffuse_transmission_color;
-	}
-	return layers;
-}
-
-fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
-	var layers: layers__Layers;
-	layers.alpha = own.roughness * own.roughness;
-	layers.ior = own.ior;
-	let body = 1.0 - own.metallic;
-	layers.diffuse = body * own.base;
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
-		let ratio = (own.ior - 1.0) / (own.ior + 1.0);
-		layers.diffuse *= 1.0 - own.transmission;
-		layers.f0 = own.metallic * own.base;
-		layers.f90 = vec3f(own.metallic);
-		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
-		layers.transmit = (body * own.transmission) * own.base;
-		layers.boundary_alpha = layers.alpha;
-		layers.fresnel = types__MATERIAL_FRESNEL;
-		return layers;
-	}
-	layers.f0 = mix(own.f0, own.base, own.metallic);
-	layers.f90 = vec3f(mix(own.f90, 1.0, own.metallic));
-	layers.over_f0 = own.f0;
-	layers.over_f90 = vec3f(own.f90);
-	return layers;
-}
-
-fn layers__textured(own: types__PackedLayers, slot: u32, surface: types__Surface) -> vec4f {
-	if ((own.slots & (1u << slot)) == 0u) {
-		return vec4f(1.0);
-	}
-	return texture__texture_value(material__load_texture(layers__texture_in(own, slot)), surface);
-}
-
-fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
-	let late = select(own.more_textures, own.last_textures, vec4<bool>(slot >= 16u));
-	let four = select(own.textures, late, vec4<bool>(slot >= 8u));
-	let word = (slot >> 1u) & 3u;
-	let low = select(four.x, four.y, word == 1u);
-	let high = select(four.z, four.w, word == 3u);
-	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
-}
-
-fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
-	let b0 = abs(1.0 - b1 - b2);
-	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
-}
-
-fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
-}
-
-fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
-}
-
-fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
-}
-
-fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
-	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
-}
-
-fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
-	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
-}
-
-fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
-	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
-}
-
-fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
-	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	let reached = ray.origin + hit.t * ray.direction;
-	let material = material__load_material(shape.material);
-	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
-		let ng = shape.row_y;
-		let p = reached - dot(reached - shape.position, ng) * ng;
-		let outside = dot(ng, ray.direction) <= 0.0;
-		var plane_uv = vec2f(0.0);
-		if (bindings__HAS_TEXTURES) {
-			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
-		}
-		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
-	}
-	if (!shape__is_round(shape.kind)) {
-		let point = shape__canonical_point(shape, reached, hit.b1);
-		let placed = canonical__placed_point(shape, reached, point);
-		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
-	}
-	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
-	let ng = placed.ng;
-	let outside = dot(ng, ray.direction) <= 0.0;
-	var uv = vec2f(0.0);
-	if (bindings__HAS_TEXTURES) {
-		uv = canonical__sphere_uv(ng);
-	}
-	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
-}
-
-fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
-	if (shape__is_globe(shape.kind)) {
-		return globe__globe_point(shape, reached);
-	}
-	let ng = numeric__normalize_or(reached - shape.position, -direction);
-	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
-}
-
->>>>>>> refs/lanes/tree
 struct interface__Interface {
 	here: u32,
 	media: vec4u,
@@ -4867,7 +4048,7 @@ struct interface__Interface {
 	encloses: bool
 }
 
-fn interface__interface_at(around: vec4u, contact: contact__Contact, optics: types__Optics) -> interface__Interface {
+fn interface__interface_at(around: vec4u, contact: contact__Contact, optics: shading__Optics) -> interface__Interface {
 	let surface = contact.surface;
 	let transparent = bindings__HAS_REFRACTION && any(optics.transmit > vec3f(0.0));
 	let encloses = transparent && (optics.flags & types__MATERIAL_THIN) == 0u;
@@ -4907,7 +4088,7 @@ fn dimensions__dimension_key(pixel_key: u32, segment: u32, purpose: u32) -> u32 
 	return rng__hash_combine(pixel_key, dimensions__DIMENSIONS * (segment + 1u) + purpose);
 }
 
-fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: types__Surface) -> path__Path {
+fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: shading__Surface) -> path__Path {
 	var path = path__ended(before);
 	let n = select(surface.n, -surface.n, dot(surface.n, before.ray.direction) > 0.0);
 	let arriving = shadow_catcher__light_on(batch, path, surface.p, n);
@@ -4922,8 +4103,8 @@ fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: t
 	return path;
 }
 
-fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, n: vec3f) -> types__Incident {
-	var arriving = types__Incident(n, camera__T_FAR, vec3f(0.0));
+fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, n: vec3f) -> shading__Incident {
+	var arriving = shading__Incident(n, camera__T_FAR, vec3f(0.0));
 	let has_lamps = bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT;
 	var chance = 0.0;
 	if (!bindings__HAS_ENVIRONMENT && (bindings__BACKGROUND != types__BACKGROUND_COLOR || any(batch.background > vec3f(0.0)))) {
@@ -4935,13 +4116,13 @@ fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, 
 	}
 	if (path__random_1d(path, dimensions__SCATTER_CHOICE) < chance) {
 		let direction = warp__turn_to(n, bsdf_diffuse__diffuse_sample(path__random_2d(path, dimensions__SCATTER_DIRECTION)));
-		arriving = types__Incident(direction, camera__T_FAR, background__background(batch, direction) / chance);
+		arriving = shading__Incident(direction, camera__T_FAR, background__background(batch, direction) / chance);
 	}
 	return arriving;
 }
 
 struct emitters__LightSample {
-	incident: types__Incident,
+	incident: shading__Incident,
 	pdf: f32
 }
 
@@ -4951,7 +4132,7 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f3
 		let pdf = batch.environment_share * found.pdf;
 		record_path__record_source(types__SOURCE_ENVIRONMENT, types__NONE, batch.environment_share);
 		let radiance = background__background(batch, found.direction) / max(pdf, 1e-30);
-		return emitters__LightSample(types__Incident(found.direction, camera__T_FAR, radiance), pdf);
+		return emitters__LightSample(shading__Incident(found.direction, camera__T_FAR, radiance), pdf);
 	}
 	let source = light_choice__choose_source(batch, p, n, choice);
 	record_path__record_source(select(types__SOURCE_LIGHT, types__SOURCE_EMITTER, source.is_emitter), source.index, source.chance);
@@ -4971,7 +4152,7 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f3
 	return emitters__LightSample(arriving, pdf);
 }
 
-fn emitters__lamp_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+fn emitters__lamp_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> shading__Incident {
 	if (light.kind != types__LIGHT_RECTANGLE || light.attenuation != types__ATTENUATION_INVERSE_SQUARE) {
 		return area_light__area_incident(light, p, u);
 	}
@@ -4979,7 +4160,7 @@ fn emitters__lamp_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> typ
 	let cosine = -dot(found.direction, light.direction);
 	let strength = select(0.0, 1.0 / max(emissive_shape__area_of(light) * found.pdf, 1e-30), cosine > 0.0);
 	let reach = numeric__max_component(abs(light.position)) + numeric__max_component(abs(p));
-	return types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), strength * light.color);
+	return shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), strength * light.color);
 }
 
 fn emitters__sample_emitter(p: vec3f, source: light_choice__Source, u: vec2f) -> emitters__LightSample {
@@ -4996,7 +4177,7 @@ fn emitters__sample_emitter(p: vec3f, source: light_choice__Source, u: vec2f) ->
 	let own = deforming__triangle_now(emitter.primitive, keys);
 	let b = warp__triangle_from_square(u);
 	let weights = vec3f(1.0 - b.x - b.y, b);
-	var surface: types__Surface;
+	var surface: shading__Surface;
 	surface.material = fetch__load_vertex(own.i0).material;
 	surface.place = mat3x3f(own.v0, own.v1, own.v2) * weights;
 	var corners = mat3x3f(own.v0 - surface.place, own.v1 - surface.place, own.v2 - surface.place);
@@ -5041,7 +4222,7 @@ fn emitters__sample_emitter(p: vec3f, source: light_choice__Source, u: vec2f) ->
 	let actual = source.chance / max(0.5 * length(across), 1e-30);
 	let fading = 1.0 / max(distance * distance, 1e-30);
 	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
-	return emitters__LightSample(types__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max(actual, 1e-30)) * radiance), glow.luminance * source.rate / max(abs(cosine) * fading, 1e-30));
+	return emitters__LightSample(shading__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max(actual, 1e-30)) * radiance), glow.luminance * source.rate / max(abs(cosine) * fading, 1e-30));
 }
 
 fn emitters__sample_shape(p: vec3f, emitter: types__PackedEmitter, source: light_choice__Source, u: vec2f) -> emitters__LightSample {
@@ -5062,10 +4243,10 @@ fn emitters__sample_shape(p: vec3f, emitter: types__PackedEmitter, source: light
 	let shines = cosine > 0.0 || (material__load_optics(shape.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
 	radiance *= select(0.0, coating__through_coat(surface, abs(cosine)), shines && source.chance > 0.0);
 	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
-	return emitters__LightSample(types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max(source.chance * found.pdf, 1e-30)), glow.luminance * source.rate * emissive_shape__area_of(light) * found.pdf);
+	return emitters__LightSample(shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max(source.chance * found.pdf, 1e-30)), glow.luminance * source.rate * emissive_shape__area_of(light) * found.pdf);
 }
 
-fn emitters__emitted(surface: types__Surface, optics: types__Optics, glow: vec3f) -> vec3f {
+fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: vec3f) -> vec3f {
 	if (!bindings__HAS_EMISSION) {
 		return vec3f(0.0);
 	}
@@ -5312,7 +4493,7 @@ fn emissive_shape__area_of(light: types__PackedLight) -> f32 {
 	return select(warp__PI, 4.0, light.kind == types__LIGHT_RECTANGLE) * length(cross(light.edge_u, light.edge_v));
 }
 
-fn emissive_shape__shape_density(hit: types__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
+fn emissive_shape__shape_density(hit: tracing__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
 	if (!bindings__HAS_EMISSIVE_SHAPES) {
 		return 0.0;
 	}
@@ -5324,8 +4505,8 @@ fn emissive_shape__shape_density(hit: types__Hit, origin: vec3f, direction: vec3
 	return emissive_shape__area_of(light) * spherical_rectangle__solid_density(light, origin, direction, distance);
 }
 
-fn emissive_shape__shape_place(shape: types__PackedShape, instance: u32, p: vec3f) -> types__Surface {
-	var surface: types__Surface;
+fn emissive_shape__shape_place(shape: types__PackedShape, instance: u32, p: vec3f) -> shading__Surface {
+	var surface: shading__Surface;
 	surface.p = p;
 	surface.place = p;
 	surface.material = shape.material;
@@ -5445,7 +4626,7 @@ fn spherical_rectangle__solid_density(light: types__PackedLight, p: vec3f, direc
 	return area_light__area_density(light, p, direction, distance);
 }
 
-fn area_light__area_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+fn area_light__area_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> shading__Incident {
 	if (light.kind == types__LIGHT_SPHERE) {
 		return area_light__sphere_incident(light, p, u);
 	}
@@ -5465,7 +4646,7 @@ fn area_light__area_density(light: types__PackedLight, p: vec3f, direction: vec3
 	return distance * distance / max(area * abs(dot(direction, light.direction)), 1e-30);
 }
 
-fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> shading__Incident {
 	let within = select(warp__disc_from_square(u), 2.0 * u - 1.0, light.kind == types__LIGHT_RECTANGLE);
 	let center = light.position - p;
 	let to_light = center + within.x * light.edge_u + within.y * light.edge_v;
@@ -5476,10 +4657,10 @@ fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> t
 	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
 	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + area_light__max_abs(light.edge_u) + area_light__max_abs(light.edge_v);
 	let usable = distance > 1e-30;
-	return types__Incident(direction, area_light__short_of(distance, reach, abs(cos_light)), select(0.0, strength, usable) * light.color);
+	return shading__Incident(direction, area_light__short_of(distance, reach, abs(cos_light)), select(0.0, strength, usable) * light.color);
 }
 
-fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> shading__Incident {
 	let to_center = light.position - p;
 	let d2 = dot(to_center, to_center);
 	let radius2 = light.radius * light.radius;
@@ -5496,7 +4677,7 @@ fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) ->
 	let fading = select(outside, 4.0 / max(radius2, 1e-30), is_inside);
 	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
 	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + light.radius;
-	return types__Incident(direction, area_light__short_of(distance, reach, chord / max(light.radius, 1e-30)), strength * light.color);
+	return shading__Incident(direction, area_light__short_of(distance, reach, chord / max(light.radius, 1e-30)), strength * light.color);
 }
 
 fn area_light__short_of(distance: f32, reach: f32, cosine: f32) -> f32 {
@@ -5526,23 +4707,26 @@ fn coating__coating_at(layers: layers__Layers, wo: vec3f, coat_axis: vec3f) -> c
 	let coat_cos = dot(wo, coat_axis);
 	let coat_alpha = max(layers.coat_roughness * layers.coat_roughness, layers__SMOOTH);
 	let sheen_alpha = max(layers.sheen_roughness * layers.sheen_roughness, 0.001);
-	let of_sheen = albedo__albedo_of(albedo__SHEEN_ALBEDO, wo.z, sheen_alpha);
-	let fresnel = mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(coat_cos));
+	let of_sheen = albedo__sheen_albedo(wo.z, sheen_alpha);
 	let coat_albedo = layers.coat * coating__coat_reflectance(coat_cos, coat_alpha);
 	let below_coat = 1.0 - coat_albedo;
 	let sheen = (below_coat * select(of_sheen.y, 1.0, bindings__BSDF_SPEC)) * layers.sheen;
-	return coating__Coating(layers.coat, coat_axis, coat_alpha, sheen, sheen_alpha, below_coat, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), fresnel, vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
+	return coating__Coating(layers.coat, coat_axis, coat_alpha, sheen, sheen_alpha, below_coat, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), coating__coat_fresnel(coat_cos), vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
+}
+
+fn coating__coat_fresnel(cosine: f32) -> f32 {
+	return mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cosine));
 }
 
 fn coating__coat_reflectance(cos_o: f32, alpha: f32) -> f32 {
 	if (bindings__BSDF_SPEC) {
-		return mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cos_o));
+		return coating__coat_fresnel(cos_o);
 	}
-	let albedo = albedo__albedo_of(albedo__GGX_ALBEDO, cos_o, alpha);
+	let albedo = albedo__ggx_albedo(cos_o, alpha);
 	return coating__COAT_F0 * albedo.x + albedo.y;
 }
 
-fn coating__through_coat(surface: types__Surface, cosine: f32) -> f32 {
+fn coating__through_coat(surface: shading__Surface, cosine: f32) -> f32 {
 	if (!bindings__HAS_COATED_EMISSION) {
 		return 1.0;
 	}
@@ -5556,12 +4740,11 @@ fn coating__through_coat(surface: types__Surface, cosine: f32) -> f32 {
 	return 1.0 - coat * coating__coat_reflectance(clamp(cosine, 0.0, 1.0), max(roughness * roughness, layers__SMOOTH));
 }
 
-fn coating__coating_eval(coating: coating__Coating, wo: vec3f, wi: vec3f, chances: vec2f) -> vec4f {
-	let cos_h = dot(wo, normalize(wo + wi));
-	let reflectance = coating.coat * select(mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cos_h)), coating.fresnel, bindings__BSDF_SPEC);
-	let coat = bsdf_ggx__ggx_eval(coating__to_coat(coating, wo), coating__to_coat(coating, wi), vec2f(coating.coat_alpha), bindings__BSDF_SPEC);
-	let sheen = bsdf_sheen__sheen_eval(wo, wi, coating.sheen_alpha);
-	return vec4f(reflectance * coat.x + sheen.x * coating.sheen, dot(chances, vec2f(coat.y, sheen.y)));
+fn coating__coat_eval(coating: coating__Coating, wo: vec3f, wi: vec3f) -> vec2f {
+	let cos_h = dot(wo, numeric__normalize_or(wo + wi, wo));
+	let reflectance = coating.coat * select(coating__coat_fresnel(cos_h), coating.fresnel, bindings__BSDF_SPEC);
+	let white = bsdf_ggx__ggx_eval(coating__to_coat(coating, wo), coating__to_coat(coating, wi), vec2f(coating.coat_alpha), bindings__BSDF_SPEC);
+	return vec2f(reflectance * white.x, white.y);
 }
 
 fn coating__coating_sample(coating: coating__Coating, wo: vec3f, u: vec2f, is_coat: bool) -> vec3f {
@@ -5592,23 +4775,42 @@ const albedo__GLASS_ALBEDO: u32 = 2048u;
 
 const albedo__GLASS_ROWS: u32 = 24u;
 
-const albedo__GLASS_SLICES: u32 = 24u;
+const albedo__GLASS_SLICES: u32 = 36u;
 
-const albedo__GLASS_CLEAR: f32 = 7.0;
+const albedo__GLASS_CLEAR: f32 = 12.0;
 
 struct albedo__AlbedoLookup {
 	words: vec4u,
 	weights: vec4f
 }
 
-fn albedo__albedo_lookup(table: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
-	let last = f32(albedo__ALBEDO_SIDE - 1u);
-	let place = last * sqrt(sqrt(clamp(vec2f(cos_o, alpha), vec2f(0.0), vec2f(1.0))));
-	let cell = min(floor(place), vec2f(last - 1.0));
-	let part = place - cell;
-	let first = table + u32(cell.y) * albedo__ALBEDO_SIDE + u32(cell.x);
-	let rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
-	return albedo__AlbedoLookup(vec4u(first, first + 1u, first + albedo__ALBEDO_SIDE, first + albedo__ALBEDO_SIDE + 1u), rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+fn albedo__entries_around(first: u32, rows: u32, place: vec2f) -> albedo__AlbedoLookup {
+	let last = vec2f(f32(albedo__ALBEDO_SIDE - 1u), f32(rows - 1u));
+	let cell = min(floor(last * place), last - 1.0);
+	let part = last * place - cell;
+	let corner = first + u32(cell.y) * albedo__ALBEDO_SIDE + u32(cell.x);
+	let of_rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
+	return albedo__AlbedoLookup(vec4u(corner, corner + 1u, corner + albedo__ALBEDO_SIDE, corner + albedo__ALBEDO_SIDE + 1u), of_rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+}
+
+fn albedo__facet_place(cos_o: f32, alpha: f32) -> vec2f {
+	let c = clamp(cos_o, 0.0, 1.0);
+	let wide = 4.0 * clamp(alpha, 0.0, 1.0);
+	return sqrt(vec2f(c * (1.0 + wide) / max(c + wide, 1e-9), 0.25 * wide));
+}
+
+fn albedo__ggx_lookup(cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
+	return albedo__entries_around(albedo__GGX_ALBEDO, albedo__ALBEDO_SIDE, albedo__facet_place(cos_o, alpha));
+}
+
+fn albedo__ggx_factors(entry: vec2f, cos_o: f32) -> vec2f {
+	let grazing = clamp(entry.x * fresnel__schlick_weight(cos_o) + 2.0 * entry.y - 1.0, 0.0, entry.x);
+	return vec2f(entry.x - grazing, grazing);
+}
+
+fn albedo__sheen_lookup(cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
+	let place = sqrt(sqrt(clamp(vec2f(cos_o, alpha), vec2f(0.0), vec2f(1.0))));
+	return albedo__entries_around(albedo__SHEEN_ALBEDO, albedo__ALBEDO_SIDE, place);
 }
 
 fn albedo__glass_slice(eta: f32) -> f32 {
@@ -5618,13 +4820,12 @@ fn albedo__glass_slice(eta: f32) -> f32 {
 }
 
 fn albedo__glass_lookup(slice: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
-	let last = vec2f(f32(albedo__ALBEDO_SIDE - 1u), f32(albedo__GLASS_ROWS - 1u));
-	let place = last * sqrt(vec2f(sqrt(clamp(cos_o, 0.0, 1.0)), clamp(alpha, 0.0, 1.0)));
-	let cell = min(floor(place), last - 1.0);
-	let part = place - cell;
-	let first = albedo__GLASS_ALBEDO + (slice * albedo__GLASS_ROWS + u32(cell.y)) * albedo__ALBEDO_SIDE + u32(cell.x);
-	let rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
-	return albedo__AlbedoLookup(vec4u(first, first + 1u, first + albedo__ALBEDO_SIDE, first + albedo__ALBEDO_SIDE + 1u), rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+	return albedo__entries_around(albedo__GLASS_ALBEDO + slice * albedo__GLASS_ROWS * albedo__ALBEDO_SIDE, albedo__GLASS_ROWS, albedo__facet_place(cos_o, alpha));
+}
+
+fn albedo__glass_factors(entry: vec2f, cos_o: f32, eta: f32) -> vec2f {
+	let mirror = fresnel__fresnel(clamp(cos_o, 0.0, 1.0), eta).reflectance;
+	return vec2f(entry.x, clamp(mirror + 2.0 * entry.y - 1.0, 0.0, 1.0));
 }
 
 fn albedo__blended_albedo(entries: vec4u, weights: vec4f) -> vec2f {
@@ -5641,7 +4842,7 @@ fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
 	return x * x * (3.0 - 2.0 * x);
 }
 
-fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
+fn light__incident(light: types__PackedLight, p: vec3f) -> shading__Incident {
 	let to_light = light.position - p;
 	let distance = length(to_light);
 	let is_directional = light.kind == types__LIGHT_DIRECTIONAL;
@@ -5653,7 +4854,7 @@ fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
 	if (light.kind == types__LIGHT_SPOT) {
 		strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
 	}
-	return types__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
+	return shading__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
 }
 
 struct light_weight__Sender {
@@ -5662,7 +4863,7 @@ struct light_weight__Sender {
 	pdf: f32
 }
 
-fn light_weight__emission_weight(batch: dispatch__Batch, surface: types__Surface, hit: types__Hit, sender: light_weight__Sender, direction: vec3f) -> f32 {
+fn light_weight__emission_weight(batch: dispatch__Batch, surface: shading__Surface, hit: tracing__Hit, sender: light_weight__Sender, direction: vec3f) -> f32 {
 	if (!(bindings__HAS_AREA_LIGHTS || bindings__HAS_EMITTERS) || sender.pdf <= 0.0) {
 		return 1.0;
 	}
@@ -5698,7 +4899,7 @@ fn light_weight__emission_weight(batch: dispatch__Batch, surface: types__Surface
 	return select(0.0, mis__power_heuristic(sender.pdf, density), counts);
 }
 
-fn light_weight__emitter_density(surface: types__Surface, hit: types__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
+fn light_weight__emitter_density(surface: shading__Surface, hit: tracing__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
 	if ((hit.primitive & types__SHAPE) != 0u) {
 		return emissive_shape__shape_density(hit, origin, direction, distance);
 	}
@@ -5738,7 +4939,7 @@ fn bsdf_diffuse__diffuse_sample(u: vec2f) -> vec3f {
 	return vec3f(p, sqrt(max(1.0 - dot(p, p), 0.0)));
 }
 
-fn direct__shadow_ray(surface: types__Surface, arriving: types__Incident) -> types__Ray {
+fn direct__shadow_ray(surface: shading__Surface, arriving: shading__Incident) -> tracing__Ray {
 	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
 	ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
 	return ray;
@@ -5808,7 +5009,7 @@ struct lobes__Split {
 	transmit: vec3f
 }
 
-fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers__Layers, met: interface__Interface, direction: vec3f) -> lobes__Bsdf {
+fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: layers__Layers, met: interface__Interface, direction: vec3f) -> lobes__Bsdf {
 	var bsdf: lobes__Bsdf;
 	bsdf.ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
 	let n = select(surface.n, -surface.n, dot(surface.n, bsdf.ng) < 0.0);
@@ -5857,15 +5058,14 @@ fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers
 		over = mix(over, film, layers.film * numeric__max_component(layers.over_f90));
 	}
 	let mean_alpha = sqrt(bsdf.alpha.x * bsdf.alpha.y);
-	let albedo = albedo__albedo_of(albedo__GGX_ALBEDO, bsdf.wo.z, mean_alpha);
+	let albedo = albedo__ggx_albedo(bsdf.wo.z, mean_alpha);
 	let boost = select(albedo__multiple_scattering(bsdf.f0, albedo), vec3f(1.0), bindings__BSDF_SPEC);
 	bsdf.boundary_gain = 1.0;
 	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && bsdf.boundary_alpha.x >= layers__SMOOTH) {
 		let glass = albedo__glass_albedo(bsdf.wo.z, mean_alpha, bsdf.eta);
-		let share = glass.y / max(glass.x, 0.001);
 		bsdf.boundary_gain = 1.0 / max(select(albedo.x + albedo.y, glass.x, bsdf.bends), 0.001);
 		if (bsdf.bends) {
-			seen = lobes__Split(share * bsdf.reflect, (1.0 - share) * bsdf.transmit);
+			seen = lobes__Split(glass.y * bsdf.reflect, (1.0 - glass.y) * bsdf.transmit);
 		}
 	}
 	let glossy = boost * (albedo.x * bsdf.f0 + albedo.y * bsdf.f90);
@@ -5897,7 +5097,7 @@ fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers
 	return bsdf;
 }
 
-fn lobes__coat_axis(bsdf: lobes__Bsdf, surface: types__Surface) -> vec3f {
+fn lobes__coat_axis(bsdf: lobes__Bsdf, surface: shading__Surface) -> vec3f {
 	let up = vec3f(0.0, 0.0, 1.0);
 	if (!bindings__HAS_COAT_NORMALS) {
 		return up;
@@ -6026,7 +5226,8 @@ fn bsdf__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
 
 fn bsdf__receiving_normal(bsdf: lobes__Bsdf) -> vec3f {
 	let passes = (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) || (bindings__HAS_COATINGS && any(bsdf.through > vec3f(0.0)));
-	return select(bsdf.normal, vec3f(0.0), passes);
+	let normal = select(bsdf.normal, bsdf.ng, bindings__HAS_COAT_NORMALS && bsdf.coating.coat > 0.0);
+	return select(normal, vec3f(0.0), passes);
 }
 
 fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
@@ -6040,9 +5241,9 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 		value = (diffuse * lobes__below_glossy(bsdf, cos_h)) * bsdf.diffuse + glossy.x * (bsdf.gain * lobes__glossy_fresnel(bsdf, cos_h));
 		pdf = bsdf.chances.x * (1.0 - bsdf__through_share(bsdf)) * diffuse + bsdf.chances.y * glossy.y;
 		if (bindings__HAS_COATINGS) {
-			let coating = coating__coating_eval(bsdf.coating, bsdf.wo, wi, bsdf.coating_chances);
-			value += coating.xyz;
-			pdf += coating.w;
+			let sheen = bsdf_sheen__sheen_eval(bsdf.wo, wi, bsdf.coating.sheen_alpha);
+			value += sheen.x * bsdf.coating.sheen;
+			pdf += bsdf.coating_chances.y * sheen.y;
 		}
 		if (bsdf__has_rough_boundary(bsdf)) {
 			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, bindings__BSDF_SPEC);
@@ -6067,7 +5268,14 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 		value += through * bsdf.through;
 		pdf += bsdf.chances.x * bsdf__through_share(bsdf) * through;
 	}
-	return bsdf__BsdfValue(select(vec3f(0.0), value, (dot(direction, bsdf.ng) > 0.0) == (wi.z > 0.0)), pdf);
+	let is_outside = dot(direction, bsdf.ng) > 0.0;
+	value = select(vec3f(0.0), value, is_outside == (wi.z > 0.0));
+	if (bindings__HAS_COATINGS) {
+		let coat = coating__coat_eval(bsdf.coating, bsdf.wo, wi);
+		value += select(0.0, coat.x, is_outside);
+		pdf += bsdf.coating_chances.x * coat.y;
+	}
+	return bsdf__BsdfValue(value, pdf);
 }
 
 fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
@@ -6087,13 +5295,16 @@ fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSamp
 			let is_coat = choice < chances.x + chances.y + bsdf.coating_chances.x;
 			wi = coating__coating_sample(bsdf.coating, bsdf.wo, u, is_coat);
 			record_path__record_lobe(select(types__LOBE_SHEEN, types__LOBE_COAT, is_coat));
+			if (is_coat) {
+				return bsdf__rough_sample(bsdf, wi, coating__to_coat(bsdf.coating, wi).z > 0.0);
+			}
 		}
 		let passes = is_diffuse && choice < chances.x * bsdf__through_share(bsdf);
 		if (passes) {
-			return bsdf__rough_sample(bsdf, vec3f(wi.xy, -wi.z), false);
+			return bsdf__rough_sample(bsdf, vec3f(wi.xy, -wi.z), wi.z > 0.0);
 		}
 	}
-	return bsdf__rough_sample(bsdf, wi, true);
+	return bsdf__rough_sample(bsdf, wi, wi.z > 0.0);
 }
 
 fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
@@ -6104,62 +5315,71 @@ fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
 	return through / max(through + dot(bsdf.diffuse, tone__LUMINANCE_REC709), 1e-30);
 }
 
+struct bsdf__Facet {
+	wi: vec3f,
+	reflects: bool,
+	split: lobes__Split,
+	chance: f32
+}
+
+fn bsdf__facet_at(bsdf: lobes__Bsdf, h: vec3f, choice: f32) -> bsdf__Facet {
+	let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
+	let split = lobes__split_at(bsdf, cos_h);
+	let chance = bsdf__reflection_chance(split);
+	let reflects = choice < chance;
+	let mirrored = bsdf__reflected_at(bsdf.wo, h);
+	var wi = select(vec3f(mirrored.xy, -mirrored.z), mirrored, reflects);
+	if (!reflects && bsdf.bends) {
+		wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
+	}
+	return bsdf__Facet(wi, reflects, split, chance);
+}
+
+fn bsdf__unshadowed(bsdf: lobes__Bsdf, facet: bsdf__Facet, alpha: vec2f) -> f32 {
+	let seen = 1.0 + bsdf_ggx__ggx_lambda(bsdf.wo, alpha);
+	let lit = bsdf_ggx__ggx_lambda(facet.wi, alpha);
+	let part = select(seen / (seen + lit), 1.0 / (1.0 + lit), !facet.reflects && bsdf.bends);
+	return select(0.0, part, (facet.wi.z > 0.0) == facet.reflects);
+}
+
 fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
 	let is_smooth = bsdf.boundary_alpha.x < layers__SMOOTH;
-	let width = max(bsdf.boundary_alpha, vec2f(layers__SMOOTH));
-	let seen = 1.0 + bsdf_ggx__ggx_lambda(bsdf.wo, width);
+	let alpha = max(bsdf.boundary_alpha, vec2f(layers__SMOOTH));
 	var numbers = vec3f(choice, u);
 	var key = rng__hash_combine(bitcast<u32>(choice), rng__hash_combine(bitcast<u32>(u.x), bitcast<u32>(u.y)));
-	var left = select(0u, bsdf__MOST_REDRAWS, bsdf__draws_again() && !is_smooth);
-	var wi: vec3f;
-	var split: lobes__Split;
-	var chance: f32;
-	var reflects: bool;
+	var draws = select(1u, 1u + bsdf__MOST_REDRAWS, bsdf__draws_again() && !is_smooth);
+	var facet: bsdf__Facet;
 	loop {
-		let h = select(bsdf_ggx__ggx_normal(bsdf.wo, width, numbers.yz), vec3f(0.0, 0.0, 1.0), is_smooth);
-		let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
-		split = lobes__split_at(bsdf, cos_h);
-		chance = bsdf__reflection_chance(split);
-		reflects = numbers.x < chance;
-		wi = bsdf__reflected_at(bsdf.wo, h);
-		let bends = !reflects && bsdf.bends;
-		if (!reflects) {
-			wi = vec3f(wi.xy, -wi.z);
-			if (bends) {
-				wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
-			}
-		}
-		if (left > 0u) {
-			let lit = 1.0 + bsdf_ggx__ggx_lambda(wi, width);
-			let part = select(seen / (seen + lit - 1.0), 1.0 / lit, bends);
-			let is_found = (wi.z > 0.0) == reflects && rng__unit_float(key) < part;
-			let fresh = vec3u(rng__hash(key ^ 1757159915u), rng__hash(key ^ 48610963u), rng__hash(key ^ 2524612763u));
-			numbers = vec3f(rng__unit_float(fresh.x), rng__unit_float(fresh.y), rng__unit_float(fresh.z));
-			key = rng__hash_combine(key, fresh.x);
-			left = select(left - 1u, 0u, is_found);
-		}
+		let h = select(bsdf_ggx__ggx_normal(bsdf.wo, alpha, numbers.yz), vec3f(0.0, 0.0, 1.0), is_smooth);
+		facet = bsdf__facet_at(bsdf, h, numbers.x);
+		let is_found = rng__unit_float(key) < bsdf__unshadowed(bsdf, facet, alpha);
+		draws = select(draws - 1u, 0u, is_found);
+		let fresh = vec3u(rng__hash(key ^ 1757159915u), rng__hash(key ^ 48610963u), rng__hash(key ^ 2524612763u));
+		numbers = vec3f(rng__unit_float(fresh.x), rng__unit_float(fresh.y), rng__unit_float(fresh.z));
+		key = rng__hash_combine(key, fresh.x);
 		continuing {
 		
-			break if left == 0u;
+			break if draws == 0u;
 		}
 	}
-	if (is_smooth) {
-		let fraction = select(split.transmit / max(1.0 - chance, 1e-6), split.reflect / max(chance, 1e-6), reflects);
-		let direction = lobes__from_frame(bsdf, wi);
-		let stays = (dot(direction, bsdf.ng) > 0.0) == reflects;
-		return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
+	if (!is_smooth) {
+		return bsdf__rough_sample(bsdf, facet.wi, (facet.wi.z > 0.0) == facet.reflects);
 	}
-	return bsdf__rough_sample(bsdf, wi, reflects);
+	let transmitted = facet.split.transmit / max(1.0 - facet.chance, 1e-6);
+	let fraction = select(transmitted, facet.split.reflect / max(facet.chance, 1e-6), facet.reflects);
+	let direction = lobes__from_frame(bsdf, facet.wi);
+	let stays = (dot(direction, bsdf.ng) > 0.0) == facet.reflects;
+	return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
 }
 
 fn bsdf__boundary_density(bsdf: lobes__Bsdf, boundary: vec2f) -> f32 {
 	return select(boundary.y, boundary.x * bsdf.boundary_gain, bsdf__draws_again());
 }
 
-fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f, above: bool) -> bsdf__BsdfSample {
+fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f, is_on_side: bool) -> bsdf__BsdfSample {
 	let direction = lobes__from_frame(bsdf, wi);
 	let found = bsdf__bsdf_eval(bsdf, direction);
-	let weight = select(vec3f(0.0), found.value / max(found.pdf, 1e-30), (wi.z > 0.0) == above);
+	let weight = select(vec3f(0.0), found.value / max(found.pdf, 1e-30), is_on_side);
 	return bsdf__BsdfSample(direction, weight, found.pdf);
 }
 
@@ -6258,29 +5478,29 @@ const traverse__RETURN: u32 = 4294967294u;
 const traverse__CONTACT_RANGE: f32 = 0.0001;
 
 struct traverse__Walk {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	shear: triangle_watertight__Shear,
 	any: bool,
 	at: primitive__TraversalRay,
-	hit: types__Hit,
+	hit: tracing__Hit,
 	current: u32
 }
 
 const traverse__NO_LIMIT: u32 = 4294967295u;
 
-fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
+fn traverse__search_limit(ray: tracing__Ray, hit: tracing__Hit) -> f32 {
 	if (bindings__HAS_CONTACT) {
 		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
 	}
 	return hit.t;
 }
 
-fn traverse__walk_of(ray: types__Ray, any: bool) -> traverse__Walk {
+fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 	if (bindings__HAS_CONTACT) {
-		primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+		primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	}
 	let shear = triangle_watertight__shear_of(ray.direction);
-	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
 	if (bindings__HAS_PLANES) {
 		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
@@ -6380,7 +5600,7 @@ fn traverse__hit_count(keys: vec4u) -> i32 {
 	return hits.x + hits.y + hits.z + hits.w;
 }
 
-fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> types__Node {
+fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> tracing__Node {
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
 		return deforming__node_now(reference, keys);
 	}
@@ -6404,7 +5624,7 @@ fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear
 	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
 }
 
-fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let a = v0 - origin;
 	let b = v1 - origin;
 	let c = v2 - origin;
@@ -6423,7 +5643,7 @@ fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: tria
 	let inv_det = 1.0 / select(1.0, det, usable);
 	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
 	let t = dot(edges, depths) * inv_det;
-	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+	return tracing__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
 }
 
 const stack__EMPTY: u32 = 4294967295u;
@@ -6570,19 +5790,19 @@ fn node__bytes(word: u32) -> vec4f {
 	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
 }
 
-fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
-	return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
+fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> tracing__Node {
+	return tracing__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
 }
 
-fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
+fn node__node_between(a: tracing__Node, b: tracing__Node, fraction: f32) -> tracing__Node {
 	let lo = mix(a.lo, b.lo, vec3f(fraction));
 	let shift_a = a.lo - lo;
 	let shift_b = b.lo - lo;
 	let s = vec4f(fraction);
-	return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+	return tracing__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
 }
 
-fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
+fn node__child_keys(node: tracing__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
 	let base = (node.lo - origin) * inv;
 	let step = node.scale * inv;
 	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
@@ -6608,7 +5828,7 @@ fn node__sort4(keys: vec4u) -> vec4u {
 	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
-fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let e1 = v1 - v0;
 	let e2 = v2 - v0;
 	let n = cross(e1, e2);
@@ -6620,10 +5840,10 @@ fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3
 	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
 	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
-fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let e1 = v1 - v0;
 	let e2 = v2 - v0;
 	let p = cross(ray.direction, e2);
@@ -6636,17 +5856,17 @@ fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray,
 	let b2 = inv_det * dot(ray.direction, q);
 	let t = inv_det * dot(e2, q);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
-fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> types__Candidate {
+fn sphere__intersect_sphere(ray: tracing__Ray, center: vec3f, radius: f32) -> tracing__Candidate {
 	let f = ray.origin - center;
 	let a = dot(ray.direction, ray.direction);
 	let b = -dot(f, ray.direction);
 	let nearest = f + (b / a) * ray.direction;
 	let discriminant = radius * radius - dot(nearest, nearest);
 	if (discriminant < 0.0) {
-		return types__Candidate(false, 0.0, 0.0, 0.0);
+		return tracing__Candidate(false, 0.0, 0.0, 0.0);
 	}
 	let c = dot(f, f) - radius * radius;
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
@@ -6654,10 +5874,10 @@ fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> type
 	let t1 = q / a;
 	let near = min(t0, t1);
 	let t = select(max(t0, t1), near, near > 0.0);
-	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
-fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
+fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
 	var hit = start;
 	var index = fetch__first_plane;
 	loop {
@@ -6666,7 +5886,7 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
 		let primitive = types__SHAPE | index;
 		let counts = candidate.hit & (primitive != ray.leaving);
 		let wins = counts & (candidate.t < hit.t);
-		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+		let found = tracing__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
 		if (bindings__HAS_CONTACT) {
 			primitive__keep_runner_up(hit, found, counts, wins);
 		}
@@ -6682,7 +5902,7 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
 	return hit;
 }
 
-fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
+fn exhaustive__hit_everything(ray: tracing__Ray, shear: triangle_watertight__Shear, start: tracing__Hit) -> tracing__Hit {
 	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
 	var hit = start;
 	if (bindings__HAS_TRIANGLES) {
@@ -6704,7 +5924,7 @@ fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear
 	return hit;
 }
 
-fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
+fn exhaustive__hit_run(at: primitive__TraversalRay, start: tracing__Hit, first: u32, count: u32) -> tracing__Hit {
 	var hit = start;
 	var index = 0u;
 	for (; index < count; index += 1u) {
@@ -6714,9 +5934,9 @@ fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u3
 	return hit;
 }
 
-fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
+fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing__Candidate {
 	let slope = dot(n, ray.direction);
 	let steep = abs(slope) > 1e-12;
 	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }

@@ -30,7 +30,7 @@ fn path_trace(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 	dispatch__add_counts(lane);
 }
 
-fn arrived(batch: dispatch__Batch, path: path__Path, hit: types__Hit) -> path__Path {
+fn arrived(batch: dispatch__Batch, path: path__Path, hit: tracing__Hit) -> path__Path {
 	if (path__is_to_lamp(path)) {
 		return path__lit(path, hit);
 	}
@@ -40,7 +40,7 @@ fn arrived(batch: dispatch__Batch, path: path__Path, hit: types__Hit) -> path__P
 	return path;
 }
 
-fn traced(batch: dispatch__Batch, before: path__Path, hit: types__Hit) -> path__Path {
+fn traced(batch: dispatch__Batch, before: path__Path, hit: tracing__Hit) -> path__Path {
 	var path = before;
 	let ray = path.ray;
 	dispatch__count_hit(path.kind, hit);
@@ -83,7 +83,7 @@ fn traced(batch: dispatch__Batch, before: path__Path, hit: types__Hit) -> path__
 	return scattered(batch, path, surface, bsdf, met);
 }
 
-fn toward_lamp(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
+fn toward_lamp(batch: dispatch__Batch, before: path__Path, surface: shading__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
 	var path = before;
 	let light = emitters__sample_light(batch, surface.p, bsdf__receiving_normal(bsdf), path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
 	let found = bsdf__bsdf_eval(bsdf, light.incident.direction);
@@ -98,7 +98,7 @@ fn toward_lamp(batch: dispatch__Batch, before: path__Path, surface: types__Surfa
 	return path;
 }
 
-fn scattered(batch: dispatch__Batch, before: path__Path, surface: types__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
+fn scattered(batch: dispatch__Batch, before: path__Path, surface: shading__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
 	var path = before;
 	let next = bsdf__bsdf_sample(bsdf, path__random_1d(path, dimensions__SCATTER_CHOICE), path__random_2d(path, dimensions__SCATTER_DIRECTION));
 	path.throughput *= next.weight;
@@ -222,7 +222,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group);
 }
 
-fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
+fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> tracing__Ray {
 	var within = vec2f(0.5);
 	if (bindings__STRATIFIED) {
 		within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
@@ -261,7 +261,7 @@ fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
 	return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, key));
 }
 
-fn dispatch__count_hit(kind: u32, hit: types__Hit) {
+fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
 	if (bindings__COUNT_RAYS) {
 		let hits = select(0u, 1u, hit.primitive != types__NONE);
 		if (kind == ray_states__KIND_PRIMARY) {
@@ -763,99 +763,6 @@ struct types__PackedCounters {
 	refraction_hits: atomic<u32>
 }
 
-struct types__Ray {
-	origin: vec3f,
-	t_max: f32,
-	direction: vec3f,
-	leaving: u32,
-	leaving_instance: u32
-}
-
-struct types__Candidate {
-	hit: bool,
-	t: f32,
-	b1: f32,
-	b2: f32
-}
-
-struct types__Hit {
-	t: f32,
-	primitive: u32,
-	b1: f32,
-	b2: f32,
-	instance: u32
-}
-
-struct types__Node {
-	lo: vec3f,
-	scale: vec3f,
-	min_x: vec4f,
-	max_x: vec4f,
-	min_y: vec4f,
-	max_y: vec4f,
-	min_z: vec4f,
-	max_z: vec4f,
-	children: vec4u
-}
-
-struct types__Phong {
-	diffuse: vec3f,
-	specular: vec3f,
-	shininess: f32,
-	ambient: vec3f,
-	reflect: vec3f
-}
-
-struct types__Medium {
-	absorption: vec3f,
-	ior: f32,
-	priority: i32
-}
-
-struct types__Surface {
-	p: vec3f,
-	n: vec3f,
-	ng: vec3f,
-	error: vec3f,
-	leaving: u32,
-	outside: bool,
-	uv: vec2f,
-	second_uv: vec2f,
-	material: u32,
-	phong: types__Phong,
-	id: u32,
-	place: vec3f,
-	instance: u32,
-	footprint: types__Footprint,
-	curvature: f32,
-	tangent: vec4f,
-	coat_n: vec3f
-}
-
-struct types__Cone {
-	width: f32,
-	spread: f32
-}
-
-struct types__Footprint {
-	uv: mat2x2f,
-	second_uv: mat2x2f,
-	place: mat2x3f
-}
-
-struct types__Optics {
-	transmit: vec3f,
-	opacity: f32,
-	ior: f32,
-	flags: u32
-}
-
-struct types__Incident {
-	direction: vec3f,
-	distance: f32,
-	radiance: vec3f
-}
-
 var<private> fetch__root: u32;
 
 var<private> fetch__shape_row: u32;
@@ -886,12 +793,12 @@ fn fetch__load_starts() {
 	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
-fn fetch__load_node(index: u32) -> types__Node {
+fn fetch__load_node(index: u32) -> tracing__Node {
 	let row = types__NODE_ROWS * index;
 	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
 }
 
-fn fetch__load_moving_node(reference: u32, moment: motion__Moment) -> types__Node {
+fn fetch__load_moving_node(reference: u32, moment: motion__Moment) -> tracing__Node {
 	let moves = (reference & types__MOVING) != 0u;
 	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
 	return node__node_between(fetch__load_node(first), fetch__load_node(first + select(0u, 1u, moves)), moment.fraction);
@@ -1159,14 +1066,19 @@ override bindings__OPACITY_ROW: u32 = 1u;
 
 var<private> albedo__albedo_first: u32;
 
-fn albedo__albedo_of(table: u32, cos_o: f32, alpha: f32) -> vec2f {
-	return albedo__blended(albedo__albedo_lookup(table, cos_o, alpha));
+fn albedo__ggx_albedo(cos_o: f32, alpha: f32) -> vec2f {
+	return albedo__ggx_factors(albedo__blended(albedo__ggx_lookup(cos_o, alpha)), cos_o);
+}
+
+fn albedo__sheen_albedo(cos_o: f32, alpha: f32) -> vec2f {
+	return albedo__blended(albedo__sheen_lookup(cos_o, alpha));
 }
 
 fn albedo__glass_albedo(cos_o: f32, alpha: f32, eta: f32) -> vec2f {
 	let place = albedo__glass_slice(eta);
 	let slice = min(u32(place), albedo__GLASS_SLICES - 2u);
-	return mix(albedo__blended(albedo__glass_lookup(slice, cos_o, alpha)), albedo__blended(albedo__glass_lookup(slice + 1u, cos_o, alpha)), place - f32(slice));
+	let entry = mix(albedo__blended(albedo__glass_lookup(slice, cos_o, alpha)), albedo__blended(albedo__glass_lookup(slice + 1u, cos_o, alpha)), place - f32(slice));
+	return albedo__glass_factors(entry, cos_o, eta);
 }
 
 fn albedo__blended(place: albedo__AlbedoLookup) -> vec2f {
@@ -1409,7 +1321,7 @@ var<private> loops__cut_off: bool = false;
 const path__MAX_PASSES: u32 = 64u;
 
 struct path__Path {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	radiance: vec3f,
 	throughput: vec3f,
 	media: vec4u,
@@ -1419,7 +1331,7 @@ struct path__Path {
 	origin: vec3f,
 	normal: vec3f,
 	pdf: f32,
-	cone: types__Cone,
+	cone: tracing__Cone,
 	key: u32,
 	sample: u32,
 	channel: u32,
@@ -1438,8 +1350,8 @@ fn path__camera_path(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32
 	return path__path_along(batch, rays__ray_at(pixels__sample_rays(batch, pixels, sample), 0u), wide__word_at(pixels.keys, 0u), sample);
 }
 
-fn path__path_along(batch: dispatch__Batch, ray: types__Ray, key: u32, sample: u32) -> path__Path {
-	var cone = types__Cone(0.0, 0.0);
+fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, key: u32, sample: u32) -> path__Path {
+	var cone = tracing__Cone(0.0, 0.0);
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
@@ -1464,7 +1376,7 @@ fn path__next_walk(path: path__Path) -> traverse__Walk {
 	return traverse__walk_of(ray, any);
 }
 
-fn path__lit(before: path__Path, hit: types__Hit) -> path__Path {
+fn path__lit(before: path__Path, hit: tracing__Hit) -> path__Path {
 	var path = before;
 	path.lamp = shadow__crossed(path.lamp, hit);
 	if (path__is_to_lamp(path)) {
@@ -1501,7 +1413,7 @@ fn path__ended(path: path__Path) -> path__Path {
 	return last;
 }
 
-fn path__passed(path: path__Path, surface: types__Surface) -> path__Path {
+fn path__passed(path: path__Path, surface: shading__Surface) -> path__Path {
 	var next = path;
 	next.ray = leaving__leaving_ray(surface, path.ray.direction, camera__T_FAR);
 	next.passes += 1u;
@@ -1517,16 +1429,56 @@ fn path__random_2d(path: path__Path, purpose: u32) -> vec2f {
 	return sampling__stratified_2d(path.sample, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
 }
 
+struct tracing__Ray {
+	origin: vec3f,
+	t_max: f32,
+	direction: vec3f,
+	leaving: u32,
+	leaving_instance: u32
+}
+
+struct tracing__Candidate {
+	hit: bool,
+	t: f32,
+	b1: f32,
+	b2: f32
+}
+
+struct tracing__Hit {
+	t: f32,
+	primitive: u32,
+	b1: f32,
+	b2: f32,
+	instance: u32
+}
+
+struct tracing__Node {
+	lo: vec3f,
+	scale: vec3f,
+	min_x: vec4f,
+	max_x: vec4f,
+	min_y: vec4f,
+	max_y: vec4f,
+	min_z: vec4f,
+	max_z: vec4f,
+	children: vec4u
+}
+
+struct tracing__Cone {
+	width: f32,
+	spread: f32
+}
+
 const shadow__MAX_CROSSINGS: u32 = 64u;
 
 struct shadow__Passage {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	media: vec4u,
 	through: vec3f,
 	crossings: u32
 }
 
-fn shadow__passage_of(ray: types__Ray, media: vec4u) -> shadow__Passage {
+fn shadow__passage_of(ray: tracing__Ray, media: vec4u) -> shadow__Passage {
 	return shadow__Passage(ray, media, vec3f(1.0), 0u);
 }
 
@@ -1534,7 +1486,7 @@ fn shadow__sees_through() -> bool {
 	return bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS);
 }
 
-fn shadow__crossed(before: shadow__Passage, hit: types__Hit) -> shadow__Passage {
+fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
 	var passage = before;
 	passage.ray = rays__DEAD;
 	if (hit.primitive == types__NONE) {
@@ -1547,7 +1499,7 @@ fn shadow__crossed(before: shadow__Passage, hit: types__Hit) -> shadow__Passage 
 		passage.through = vec3f(0.0);
 		return passage;
 	}
-	let contact = contact__contact_at(before.ray, hit, types__Cone(0.0, 0.0));
+	let contact = contact__contact_at(before.ray, hit, tracing__Cone(0.0, 0.0));
 	let surface = contact.surface;
 	var through = vec3f(0.0);
 	if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
@@ -1575,7 +1527,7 @@ fn shadow__count_shadow(through: vec3f) {
 	}
 }
 
-fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, around: vec4u, behind: u32) -> vec3f {
+fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, around: vec4u, behind: u32) -> vec3f {
 	let optics = material__load_optics(surface.material);
 	let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
 	if (bindings__SOLID_GLASS) {
@@ -1627,7 +1579,7 @@ fn features__start_features() {
 	}
 }
 
-fn features__see_first(surface: types__Surface, hit: types__Hit, depth: f32) {
+fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32) {
 	if (bindings__HAS_FEATURES && features__features.material == 0u) {
 		features__features.position = surface.p;
 		features__features.depth = depth;
@@ -1696,16 +1648,16 @@ fn opacity__add_opacity(first_row: u32, weight: f32) {
 	features__add_mean(row + 1u, vec3f(opacity__clearness.light, opacity__clearness.unshadowed, 0.0), weight);
 }
 
-const footprint__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
+const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
 
-fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
+fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> tracing__Cone {
 	let camera = batch.camera;
 	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
 	let side = batch.footprint * max(sides.x, sides.y);
 	if (bindings__ORTHOGRAPHIC) {
-		return types__Cone(side, 0.0);
+		return tracing__Cone(side, 0.0);
 	}
-	return types__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
+	return tracing__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
 }
 
 fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
@@ -1753,7 +1705,7 @@ fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) 
 	return mat2x3f(rows * own[0], rows * own[1]);
 }
 
-fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: types__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
+fn footprint__with_shape_footprint(own: shading__Surface, ray: tracing__Ray, hit: tracing__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: tracing__Cone) -> shading__Surface {
 	var surface = own;
 	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
 	var local = axes;
@@ -1764,7 +1716,7 @@ fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: ty
 	}
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
 	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
-	surface.footprint = types__Footprint(in_uv, in_uv, axes);
+	surface.footprint = shading__Footprint(in_uv, in_uv, axes);
 	if (shape__is_round(shape.kind)) {
 		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
 		surface.curvature = select(-curvature, curvature, own.outside);
@@ -1794,17 +1746,17 @@ struct rays__Rays {
 	leaving_instance: wide__Words
 }
 
-const rays__DEAD: types__Ray = types__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
+const rays__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
 
 fn rays__dead_rays() -> rays__Rays {
 	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
 }
 
-fn rays__ray_at(rays: rays__Rays, k: u32) -> types__Ray {
-	return types__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
+fn rays__ray_at(rays: rays__Rays, k: u32) -> tracing__Ray {
+	return tracing__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
 }
 
-fn rays__ray_set(rays: rays__Rays, k: u32, ray: types__Ray) -> rays__Rays {
+fn rays__ray_set(rays: rays__Rays, k: u32, ray: tracing__Ray) -> rays__Rays {
 	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
 }
 
@@ -2020,8 +1972,8 @@ fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction:
 
 const camera__T_FAR: f32 = 3e38;
 
-fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
-	return types__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
+fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
+	return tracing__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
@@ -2030,9 +1982,9 @@ fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) ->
 	return camera.forward + x * camera.right + y * camera.up;
 }
 
-fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
+fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
 	let origin = camera.origin + camera__across(camera, position, size);
-	return types__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
+	return tracing__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
@@ -2041,17 +1993,17 @@ fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> 
 	return x * camera.right + y * camera.up;
 }
 
-fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
 	let off_axis = camera__aperture_point(camera, u);
 	let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
-	return types__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+	return tracing__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
-fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
 	let off_axis = camera__aperture_point(camera, u);
 	let origin = camera.origin + camera__across(camera, position, size) + off_axis;
 	let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
-	return types__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+	return tracing__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
@@ -2107,29 +2059,29 @@ const traverse__RETURN: u32 = 4294967294u;
 const traverse__CONTACT_RANGE: f32 = 0.0001;
 
 struct traverse__Walk {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	shear: triangle_watertight__Shear,
 	any: bool,
 	at: primitive__TraversalRay,
-	hit: types__Hit,
+	hit: tracing__Hit,
 	current: u32
 }
 
 const traverse__NO_LIMIT: u32 = 4294967295u;
 
-fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
+fn traverse__search_limit(ray: tracing__Ray, hit: tracing__Hit) -> f32 {
 	if (bindings__HAS_CONTACT) {
 		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
 	}
 	return hit.t;
 }
 
-fn traverse__walk_of(ray: types__Ray, any: bool) -> traverse__Walk {
+fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 	if (bindings__HAS_CONTACT) {
-		primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+		primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	}
 	let shear = triangle_watertight__shear_of(ray.direction);
-	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
 	if (bindings__HAS_PLANES) {
 		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
@@ -2229,7 +2181,7 @@ fn traverse__hit_count(keys: vec4u) -> i32 {
 	return hits.x + hits.y + hits.z + hits.w;
 }
 
-fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> types__Node {
+fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> tracing__Node {
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
 		return deforming__node_now(reference, keys);
 	}
@@ -2253,7 +2205,7 @@ fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear
 	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
 }
 
-fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let a = v0 - origin;
 	let b = v1 - origin;
 	let c = v2 - origin;
@@ -2272,28 +2224,28 @@ fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: tria
 	let inv_det = 1.0 / select(1.0, det, usable);
 	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
 	let t = dot(edges, depths) * inv_det;
-	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+	return tracing__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
 }
 
-var<private> primitive__runner_up: types__Hit;
+var<private> primitive__runner_up: tracing__Hit;
 
 struct primitive__TraversalRay {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	inv: vec3f,
 	shear: triangle_watertight__Shear,
 	instance: u32,
 	keys: deforming__Keys
 }
 
-fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
+fn primitive__traversal_ray(ray: tracing__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
 	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
 }
 
-fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
+fn primitive__closer(at: primitive__TraversalRay, hit: tracing__Hit, primitive: u32) -> tracing__Hit {
 	return primitive__closer_of(at, hit, primitive__test_primitive(at, primitive), primitive);
 }
 
-fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
+fn primitive__closer_of(at: primitive__TraversalRay, hit: tracing__Hit, candidate: tracing__Candidate, primitive: u32) -> tracing__Hit {
 	var is_lower = primitive < hit.primitive;
 	var is_left = primitive == at.ray.leaving;
 	if (bindings__HAS_INSTANCES) {
@@ -2304,13 +2256,13 @@ fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate:
 	let counts = candidate.hit & !is_left;
 	let wins = counts & ((candidate.t < hit.t) | ties);
 	if (bindings__HAS_CONTACT) {
-		let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
+		let found = tracing__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
 		primitive__keep_runner_up(hit, found, counts, wins);
 	}
-	return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+	return tracing__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
 }
 
-fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, wins: bool) {
+fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: bool, wins: bool) {
 	let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
 	if (wins) {
 		primitive__runner_up = hit;
@@ -2320,8 +2272,8 @@ fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, w
 	}
 }
 
-fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> types__Candidate {
-	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> tracing__Candidate {
+	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
 	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
 		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
 	}
@@ -2331,7 +2283,7 @@ fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> typ
 	return candidate;
 }
 
-fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> types__Candidate {
+fn primitive__test_triangle(ray: tracing__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> tracing__Candidate {
 	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
 		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
 	}
@@ -2355,7 +2307,7 @@ fn deforming__keys_of(instance: types__PackedInstance) -> deforming__Keys {
 	return deforming__NO_KEYS;
 }
 
-fn deforming__node_now(reference: u32, keys: deforming__Keys) -> types__Node {
+fn deforming__node_now(reference: u32, keys: deforming__Keys) -> tracing__Node {
 	var key_count = 2u;
 	if (bindings__HAS_DEFORMATION) {
 		key_count = select(2u, bindings__frame.deformation_key_count, keys.next != 0u);
@@ -2476,7 +2428,7 @@ fn stack__move_stack(references: vec3u, count: i32) {
 	stack__top -= select(0u, 1u, (count < 0) & (stack__entries[stack__top] != stack__EMPTY));
 }
 
-fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
+fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
 	var hit = start;
 	var index = fetch__first_plane;
 	loop {
@@ -2485,7 +2437,7 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
 		let primitive = types__SHAPE | index;
 		let counts = candidate.hit & (primitive != ray.leaving);
 		let wins = counts & (candidate.t < hit.t);
-		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+		let found = tracing__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
 		if (bindings__HAS_CONTACT) {
 			primitive__keep_runner_up(hit, found, counts, wins);
 		}
@@ -2501,7 +2453,7 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
 	return hit;
 }
 
-fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
+fn exhaustive__hit_everything(ray: tracing__Ray, shear: triangle_watertight__Shear, start: tracing__Hit) -> tracing__Hit {
 	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
 	var hit = start;
 	if (bindings__HAS_TRIANGLES) {
@@ -2523,7 +2475,7 @@ fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear
 	return hit;
 }
 
-fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
+fn exhaustive__hit_run(at: primitive__TraversalRay, start: tracing__Hit, first: u32, count: u32) -> tracing__Hit {
 	var hit = start;
 	var index = 0u;
 	for (; index < count; index += 1u) {
@@ -2533,14 +2485,14 @@ fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u3
 	return hit;
 }
 
-fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
+fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing__Candidate {
 	let slope = dot(n, ray.direction);
 	let steep = abs(slope) > 1e-12;
 	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
-fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let e1 = v1 - v0;
 	let e2 = v2 - v0;
 	let n = cross(e1, e2);
@@ -2552,10 +2504,10 @@ fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3
 	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
 	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
-fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let e1 = v1 - v0;
 	let e2 = v2 - v0;
 	let p = cross(ray.direction, e2);
@@ -2568,7 +2520,7 @@ fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray,
 	let b2 = inv_det * dot(ray.direction, q);
 	let t = inv_det * dot(e2, q);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
 const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
@@ -2587,11 +2539,11 @@ const shape__ELLIPSOIDS: u32 = 1u << types__SHAPE_ELLIPSOID;
 
 const shape__GLOBES: u32 = 1u << types__SHAPE_GLOBE;
 
-fn shape__test_shape(ray: types__Ray, shape: types__PackedShape) -> types__Candidate {
+fn shape__test_shape(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Candidate {
 	if (bindings__SHAPE_KINDS == shape__SPHERES) {
 		return sphere__intersect_sphere(ray, shape.position, shape.size0);
 	}
-	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
 	if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
 		candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
 	}
@@ -2659,14 +2611,14 @@ fn shape__is_flat(kind: u32) -> bool {
 	return (bindings__SHAPE_KINDS & (shape__DISCS | shape__RECTANGLES)) != 0u && (kind == types__SHAPE_DISC || kind == types__SHAPE_RECTANGLE);
 }
 
-fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> types__Candidate {
+fn sphere__intersect_sphere(ray: tracing__Ray, center: vec3f, radius: f32) -> tracing__Candidate {
 	let f = ray.origin - center;
 	let a = dot(ray.direction, ray.direction);
 	let b = -dot(f, ray.direction);
 	let nearest = f + (b / a) * ray.direction;
 	let discriminant = radius * radius - dot(nearest, nearest);
 	if (discriminant < 0.0) {
-		return types__Candidate(false, 0.0, 0.0, 0.0);
+		return tracing__Candidate(false, 0.0, 0.0, 0.0);
 	}
 	let c = dot(f, f) - radius * radius;
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
@@ -2674,10 +2626,10 @@ fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> type
 	let t1 = q / a;
 	let near = min(t0, t1);
 	let t = select(max(t0, t1), near, near > 0.0);
-	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
-fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> types__Candidate {
+fn globe__intersect_globe(ray: tracing__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> tracing__Candidate {
 	let w = ray.origin - anchor;
 	let f = n + curvature * w;
 	let c = curvature * dot(w, w) + 2.0 * dot(n, w);
@@ -2688,14 +2640,14 @@ fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f
 	let is_near = abs(curvature * c) < 1.0;
 	let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
 	if (discriminant < 0.0) {
-		return types__Candidate(false, 0.0, 0.0, 0.0);
+		return tracing__Candidate(false, 0.0, 0.0, 0.0);
 	}
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
 	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
 	let t1 = q / a;
 	let near = min(t0, t1);
 	let t = select(max(t0, t1), near, near > 0.0);
-	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
 fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__PlacedPoint {
@@ -2733,11 +2685,11 @@ fn canonical__canonical_vector(shape: types__PackedShape, v: vec3f) -> vec3f {
 	return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
 }
 
-fn canonical__canonical_ray(ray: types__Ray, shape: types__PackedShape) -> types__Ray {
-	return types__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
+fn canonical__canonical_ray(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Ray {
+	return tracing__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
 }
 
-fn canonical__approach(ray: types__Ray, center: vec3f, reach: f32) -> canonical__Approach {
+fn canonical__approach(ray: tracing__Ray, center: vec3f, reach: f32) -> canonical__Approach {
 	let size = abs(ray.direction);
 	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
 	let scaled = ray.direction / largest;
@@ -2792,32 +2744,32 @@ fn canonical__outwards(v: vec2f) -> vec2f {
 	return select(vec2f(1.0, 0.0), v / select(1.0, size, usable), usable);
 }
 
-fn disc__intersect_disc(ray: types__Ray, hole: f32) -> types__Candidate {
+fn disc__intersect_disc(ray: tracing__Ray, hole: f32) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
 	let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
 	let distance = dot(p, p);
-	return types__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
 fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
-fn rectangle__intersect_rectangle(ray: types__Ray) -> types__Candidate {
+fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
 	let way = t * ray.direction.xz;
 	let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
 	let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
-	return types__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
 }
 
 fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
-fn box__intersect_box(ray: types__Ray) -> types__Candidate {
+fn box__intersect_box(ray: tracing__Ray) -> tracing__Candidate {
 	let size = abs(ray.direction);
 	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
 	let inv = numeric__safe_reciprocal(ray.direction / largest);
@@ -2835,7 +2787,7 @@ fn box__intersect_box(ray: types__Ray) -> types__Candidate {
 	let positive = (inv[axis] < 0.0) == from_outside;
 	let side = f32(axis) + select(0.0, 3.0, positive);
 	let hit = (enter <= leave) & (s > 0.0);
-	return types__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
+	return tracing__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
 }
 
 fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
@@ -2858,7 +2810,7 @@ const cone__BOTTOM: f32 = 1.0;
 
 const cone__TOP: f32 = 2.0;
 
-fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) -> types__Candidate {
+fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) -> tracing__Candidate {
 	let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
 	let o = near.origin;
 	let d = near.direction;
@@ -2902,7 +2854,7 @@ fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) ->
 	let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
 	let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
 	let t = canonical__approached_t(near, s);
-	return types__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
+	return tracing__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
 }
 
 fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
@@ -2964,7 +2916,7 @@ fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
 	return select(three, vec3f(one), discriminant > 0.0);
 }
 
-fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
+fn torus__intersect_torus(ray: tracing__Ray, minor: f32) -> tracing__Candidate {
 	let outer = 1.0 + minor;
 	let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
 	let o = near.origin;
@@ -2985,7 +2937,7 @@ fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
 	let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
 	let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
 	let t = canonical__approached_t(near, s);
-	return types__Candidate(found & (t > 0.0), t, 0.0, 0.0);
+	return tracing__Candidate(found & (t > 0.0), t, 0.0, 0.0);
 }
 
 fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
@@ -3029,10 +2981,10 @@ fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
 }
 
-fn ellipsoid__intersect_ellipsoid(ray: types__Ray) -> types__Candidate {
+fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
 	let near = canonical__approach(ray, vec3f(0.0), 1.5);
-	let found = sphere__intersect_sphere(types__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
-	return types__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
+	let found = sphere__intersect_sphere(tracing__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
+	return tracing__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
 }
 
 fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
@@ -3051,8 +3003,8 @@ fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
 	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
 }
 
-fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
-	return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+fn instance__object_ray(ray: tracing__Ray, space: motion__Space) -> tracing__Ray {
+	return tracing__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
 }
 
 fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
@@ -3081,19 +3033,19 @@ fn node__bytes(word: u32) -> vec4f {
 	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
 }
 
-fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
-	return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
+fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> tracing__Node {
+	return tracing__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
 }
 
-fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
+fn node__node_between(a: tracing__Node, b: tracing__Node, fraction: f32) -> tracing__Node {
 	let lo = mix(a.lo, b.lo, vec3f(fraction));
 	let shift_a = a.lo - lo;
 	let shift_b = b.lo - lo;
 	let s = vec4f(fraction);
-	return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+	return tracing__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
 }
 
-fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
+fn node__child_keys(node: tracing__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
 	let base = (node.lo - origin) * inv;
 	let step = node.scale * inv;
 	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
@@ -3119,7 +3071,7 @@ fn node__sort4(keys: vec4u) -> vec4u {
 	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
-const medium__VACUUM: types__Medium = types__Medium(vec3f(0.0), 1.0, 0);
+const medium__VACUUM: shading__Medium = shading__Medium(vec3f(0.0), 1.0, 0);
 
 fn medium__dominant(media: vec4u) -> u32 {
 	if (!bindings__HAS_CONTACT) {
@@ -3142,14 +3094,14 @@ fn medium__higher(best: u32, next: u32) -> u32 {
 	return select(best, next, material__load_medium(next).priority >= material__load_medium(best).priority);
 }
 
-fn medium__medium_of(material: u32) -> types__Medium {
+fn medium__medium_of(material: u32) -> shading__Medium {
 	if (material == types__NONE) {
 		return medium__VACUUM;
 	}
 	return material__load_medium(material);
 }
 
-fn medium__transmittance(medium: types__Medium, distance: f32) -> vec3f {
+fn medium__transmittance(medium: shading__Medium, distance: f32) -> vec3f {
 	return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
 }
 
@@ -3162,8 +3114,61 @@ fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
 	return select(medium__dominant(media), material, started_inside);
 }
 
+struct shading__Phong {
+	diffuse: vec3f,
+	specular: vec3f,
+	shininess: f32,
+	ambient: vec3f,
+	reflect: vec3f
+}
+
+struct shading__Medium {
+	absorption: vec3f,
+	ior: f32,
+	priority: i32
+}
+
+struct shading__Surface {
+	p: vec3f,
+	n: vec3f,
+	ng: vec3f,
+	error: vec3f,
+	leaving: u32,
+	outside: bool,
+	uv: vec2f,
+	second_uv: vec2f,
+	material: u32,
+	phong: shading__Phong,
+	id: u32,
+	place: vec3f,
+	instance: u32,
+	footprint: shading__Footprint,
+	curvature: f32,
+	tangent: vec4f,
+	coat_n: vec3f
+}
+
+struct shading__Footprint {
+	uv: mat2x2f,
+	second_uv: mat2x2f,
+	place: mat2x3f
+}
+
+struct shading__Optics {
+	transmit: vec3f,
+	opacity: f32,
+	ior: f32,
+	flags: u32
+}
+
+struct shading__Incident {
+	direction: vec3f,
+	distance: f32,
+	radiance: vec3f
+}
+
 struct material__PhongMaterial {
-	phong: types__Phong,
+	phong: shading__Phong,
 	flags: u32
 }
 
@@ -3176,23 +3181,23 @@ fn material__load_material(index: u32) -> material__PhongMaterial {
 	if (bindings__HAS_REFLECTION) {
 		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
 	}
-	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+	let phong = shading__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
 	return material__PhongMaterial(phong, r1.w);
 }
 
-fn material__load_optics(index: u32) -> types__Optics {
+fn material__load_optics(index: u32) -> shading__Optics {
 	let row = types__MATERIAL_ROWS * index;
 	let r1 = fetch__material_row(row + 1u);
 	let r2 = fetch__material_row(row + 2u);
 	let r3 = fetch__material_row(row + 3u);
 	let r4 = fetch__material_row(row + 4u);
-	return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
+	return shading__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
 }
 
-fn material__load_medium(index: u32) -> types__Medium {
+fn material__load_medium(index: u32) -> shading__Medium {
 	let row = types__MATERIAL_ROWS * index;
 	let r5 = fetch__material_row(row + 5u);
-	return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
+	return shading__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
 }
 
 fn material__load_emission(index: u32) -> vec3f {
@@ -3263,13 +3268,13 @@ const contact__EDGE: f32 = 1e-6;
 const contact__VAGUE_EDGE: f32 = 0.0001;
 
 struct contact__Contact {
-	surface: types__Surface,
-	hit: types__Hit,
+	surface: shading__Surface,
+	hit: tracing__Hit,
 	touching: u32,
 	enters_touching: bool
 }
 
-fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> contact__Contact {
+fn contact__contact_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone) -> contact__Contact {
 	var contact: contact__Contact;
 	contact.hit = hit;
 	contact.touching = types__NONE;
@@ -3316,21 +3321,21 @@ fn contact__media_behind(media: vec4u, contact: contact__Contact) -> vec4u {
 	return behind;
 }
 
-fn contact__is_near(ray: types__Ray, hit: types__Hit, surface: types__Surface) -> bool {
+fn contact__is_near(ray: tracing__Ray, hit: tracing__Hit, surface: shading__Surface) -> bool {
 	let gap = (primitive__runner_up.t - hit.t) * abs(dot(surface.ng, ray.direction));
 	let reach = numeric__max_component(abs(surface.p)) + hit.t;
 	return primitive__runner_up.primitive != types__NONE && gap <= contact__NEAR * reach && contact__is_transparent(surface);
 }
 
-fn contact__is_transparent(surface: types__Surface) -> bool {
+fn contact__is_transparent(surface: shading__Surface) -> bool {
 	return any(material__load_optics(surface.material).transmit > vec3f(0.0));
 }
 
-fn contact__is_thin(surface: types__Surface) -> bool {
+fn contact__is_thin(surface: shading__Surface) -> bool {
 	return (material__load_optics(surface.material).flags & types__MATERIAL_THIN) != 0u;
 }
 
-fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_volume: bool) -> contact__Contact {
+fn contact__merge(contact: contact__Contact, second: shading__Surface, is_same_volume: bool) -> contact__Contact {
 	let is_alike = (second.material == contact.surface.material) & (second.outside == contact.surface.outside);
 	let is_other = !(is_alike & is_same_volume);
 	let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
@@ -3349,7 +3354,7 @@ fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_vol
 	return both;
 }
 
-fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3u) -> bool {
+fn contact__is_same_volume(first: tracing__Hit, second: tracing__Hit, vertices: vec3u) -> bool {
 	let are_triangles = bindings__HAS_TRIANGLES && ((first.primitive | second.primitive) & types__SHAPE) == 0u;
 	if (!are_triangles || first.instance != second.instance) {
 		return false;
@@ -3357,7 +3362,7 @@ fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3
 	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, triangle_surface__met_vertices);
 }
 
-fn contact__is_at_edge(hit: types__Hit) -> bool {
+fn contact__is_at_edge(hit: tracing__Hit) -> bool {
 	let nearest = min(min(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
 	return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
 }
@@ -3366,7 +3371,7 @@ fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
 	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
 }
 
-fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
+fn surface__surface_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone) -> shading__Surface {
 	var instance: types__PackedInstance;
 	var space: motion__Space;
 	var local = ray;
@@ -3376,7 +3381,7 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 		space = instance__space_of(instance);
 		local = instance__object_ray(ray, space);
 	}
-	var surface: types__Surface;
+	var surface: shading__Surface;
 	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
 		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
 	}
@@ -3404,7 +3409,7 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 	return surface;
 }
 
-fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__Space) -> types__Surface {
+fn surface__placed_surface(ray: tracing__Ray, own: shading__Surface, space: motion__Space) -> shading__Surface {
 	var surface = own;
 	surface.p = space.linear * own.p + space.translation;
 	surface.ng = numeric__normalize_or(instance__placed_normal(space, own.ng), -ray.direction);
@@ -3421,7 +3426,7 @@ struct triangle_surface__Placing {
 	keys: deforming__Keys
 }
 
-fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: triangle_surface__Placing, cone: types__Cone) -> types__Surface {
+fn triangle_surface__triangle_surface(ray: tracing__Ray, hit: tracing__Hit, placing: triangle_surface__Placing, cone: tracing__Cone) -> shading__Surface {
 	let space = placing.space;
 	let keys = placing.keys;
 	let own = deforming__triangle_now(hit.primitive, keys);
@@ -3494,11 +3499,11 @@ fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing:
 		}
 	}
 	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
+	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
 }
 
-fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
-	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+fn triangle_surface__mix_phong(p0: shading__Phong, p1: shading__Phong, p2: shading__Phong, b0: f32, b1: f32, b2: f32) -> shading__Phong {
+	return shading__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
 }
 
 fn tangent_space__placed_tangents(space: motion__Space, own: mat3x4f) -> mat3x4f {
@@ -3537,8 +3542,8 @@ struct ray_cone__Filtering {
 	way: vec2f
 }
 
-fn ray_cone__cone_at(cone: types__Cone, distance: f32) -> types__Cone {
-	return types__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
+fn ray_cone__cone_at(cone: tracing__Cone, distance: f32) -> tracing__Cone {
+	return tracing__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
 }
 
 fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
@@ -3586,7 +3591,7 @@ fn normal_map__coat_map_of(material: u32) -> normal_map__NormalMap {
 	return normal_map__NormalMap(layers__texture_in(layers, types__SLOT_COAT_NORMAL), layers.coat_normal_scale);
 }
 
-fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: shading__Footprint) -> vec3f {
 	if (map.index == types__NO_TEXTURE) {
 		return n;
 	}
@@ -3614,7 +3619,7 @@ fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
 	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
 }
 
-fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
+fn texture__texture_optics(surface: shading__Surface) -> mat3x3f {
 	if (!(bindings__HAS_TEXTURES && bindings__HAS_OPTICS_TEXTURES)) {
 		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
 	}
@@ -3622,7 +3627,7 @@ fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
 	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
 }
 
-fn texture__texture_factors(wanted: vec3u, surface: types__Surface) -> mat3x3f {
+fn texture__texture_factors(wanted: vec3u, surface: shading__Surface) -> mat3x3f {
 	var factors = mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
 	var open = wanted != vec3u(types__NO_TEXTURE);
 	loop {
@@ -3656,7 +3661,7 @@ fn texture__uses_second_uv(texture: types__PackedTexture) -> bool {
 	return bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
 }
 
-fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footprint) -> mat2x2f {
+fn texture__footprint_in(texture: types__PackedTexture, footprint: shading__Footprint) -> mat2x2f {
 	if (!bindings__HAS_FOOTPRINTS) {
 		return mat2x2f();
 	}
@@ -3670,13 +3675,13 @@ fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footpr
 	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
 }
 
-fn texture__place_in_pattern(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+fn texture__place_in_pattern(texture: types__PackedTexture, surface: shading__Surface) -> vec3f {
 	let uv = select(surface.uv, surface.second_uv, texture__uses_second_uv(texture));
 	let at = select(vec4f(surface.place, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
 	return clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
 }
 
-fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface, is_mask: bool) -> f32 {
+fn texture__texture_alpha(texture: types__PackedTexture, surface: shading__Surface, is_mask: bool) -> f32 {
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
 		let axes = texture__footprint_in(texture, surface.footprint);
 		let size = select(1.0, 0.0, is_mask);
@@ -3685,11 +3690,11 @@ fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface
 	return 1.0;
 }
 
-fn texture__texture_color(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+fn texture__texture_color(texture: types__PackedTexture, surface: shading__Surface) -> vec3f {
 	return texture__texture_value(texture, surface).xyz;
 }
 
-fn texture__texture_value(texture: types__PackedTexture, surface: types__Surface) -> vec4f {
+fn texture__texture_value(texture: types__PackedTexture, surface: shading__Surface) -> vec4f {
 	let q = texture__place_in_pattern(texture, surface);
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
 		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint));
@@ -3866,7 +3871,7 @@ struct layers__Layers {
 	diffuse_transmission_color: vec3f
 }
 
-fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
+fn layers__layers_at(surface: shading__Surface, optics: shading__Optics) -> layers__Layers {
 	var own = material__load_layers(surface.material);
 	own.base = surface.phong.diffuse;
 	var reflect = surface.phong.reflect;
@@ -3970,7 +3975,7 @@ fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
 	return layers;
 }
 
-fn layers__textured(own: types__PackedLayers, slot: u32, surface: types__Surface) -> vec4f {
+fn layers__textured(own: types__PackedLayers, slot: u32, surface: shading__Surface) -> vec4f {
 	if ((own.slots & (1u << slot)) == 0u) {
 		return vec4f(1.0);
 	}
@@ -4015,7 +4020,7 @@ fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) ->
 	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
 }
 
-fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
+fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
 	let reached = ray.origin + hit.t * ray.direction;
 	let material = material__load_material(shape.material);
@@ -4027,13 +4032,13 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -4042,7 +4047,7 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 }
 
 fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
@@ -4224,7 +4229,7 @@ fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f
 	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
-fn coverage__coverage_at(surface: types__Surface) -> f32 {
+fn coverage__coverage_at(surface: shading__Surface) -> f32 {
 	if (!bindings__HAS_COVERAGE) {
 		return 1.0;
 	}
@@ -4243,13 +4248,13 @@ fn coverage__coverage_at(surface: types__Surface) -> f32 {
 	return select(clamp(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
 }
 
-fn leaving__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -> types__Ray {
+fn leaving__leaving_ray(surface: shading__Surface, direction: vec3f, t_max: f32) -> tracing__Ray {
 	if (bindings__FIXED_OFFSET > 0.0) {
 		let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
-		return types__Ray(origin, t_max, direction, types__NONE, surface.instance);
+		return tracing__Ray(origin, t_max, direction, types__NONE, surface.instance);
 	}
 	let origin = offset__offset_origin(surface.p, surface.error, surface.ng, direction);
-	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
+	return tracing__Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
@@ -4307,7 +4312,7 @@ fn mis__power_heuristic(own: f32, other: f32) -> f32 {
 }
 
 fn mis__survival_chance(throughput: vec3f) -> f32 {
-	return min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
+	return min(max(throughput.x, max(throughput.y, throughput.z)), 1.0);
 }
 
 fn backdrop__is_seen(path: path__Path) -> bool {
@@ -4348,7 +4353,7 @@ struct interface__Interface {
 	encloses: bool
 }
 
-fn interface__interface_at(around: vec4u, contact: contact__Contact, optics: types__Optics) -> interface__Interface {
+fn interface__interface_at(around: vec4u, contact: contact__Contact, optics: shading__Optics) -> interface__Interface {
 	let surface = contact.surface;
 	let transparent = bindings__HAS_REFRACTION && any(optics.transmit > vec3f(0.0));
 	let encloses = transparent && (optics.flags & types__MATERIAL_THIN) == 0u;
@@ -4388,7 +4393,7 @@ fn dimensions__dimension_key(pixel_key: u32, segment: u32, purpose: u32) -> u32 
 	return rng__hash_combine(pixel_key, dimensions__DIMENSIONS * (segment + 1u) + purpose);
 }
 
-fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: types__Surface) -> path__Path {
+fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: shading__Surface) -> path__Path {
 	var path = path__ended(before);
 	let n = select(surface.n, -surface.n, dot(surface.n, before.ray.direction) > 0.0);
 	let arriving = shadow_catcher__light_on(batch, path, surface.p, n);
@@ -4403,8 +4408,8 @@ fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: t
 	return path;
 }
 
-fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, n: vec3f) -> types__Incident {
-	var arriving = types__Incident(n, camera__T_FAR, vec3f(0.0));
+fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, n: vec3f) -> shading__Incident {
+	var arriving = shading__Incident(n, camera__T_FAR, vec3f(0.0));
 	let has_lamps = bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT;
 	var chance = 0.0;
 	if (!bindings__HAS_ENVIRONMENT && (bindings__BACKGROUND != types__BACKGROUND_COLOR || any(batch.background > vec3f(0.0)))) {
@@ -4416,13 +4421,13 @@ fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, 
 	}
 	if (path__random_1d(path, dimensions__SCATTER_CHOICE) < chance) {
 		let direction = warp__turn_to(n, bsdf_diffuse__diffuse_sample(path__random_2d(path, dimensions__SCATTER_DIRECTION)));
-		arriving = types__Incident(direction, camera__T_FAR, background__background(batch, direction) / chance);
+		arriving = shading__Incident(direction, camera__T_FAR, background__background(batch, direction) / chance);
 	}
 	return arriving;
 }
 
 struct emitters__LightSample {
-	incident: types__Incident,
+	incident: shading__Incident,
 	pdf: f32
 }
 
@@ -4431,7 +4436,7 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f3
 		let found = environment__sample_environment(batch, u);
 		let pdf = batch.environment_share * found.pdf;
 		let radiance = background__background(batch, found.direction) / max(pdf, 1e-30);
-		return emitters__LightSample(types__Incident(found.direction, camera__T_FAR, radiance), pdf);
+		return emitters__LightSample(shading__Incident(found.direction, camera__T_FAR, radiance), pdf);
 	}
 	let source = light_choice__choose_source(batch, p, n, choice);
 	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || source.is_emitter)) {
@@ -4450,7 +4455,7 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f3
 	return emitters__LightSample(arriving, pdf);
 }
 
-fn emitters__lamp_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+fn emitters__lamp_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> shading__Incident {
 	if (light.kind != types__LIGHT_RECTANGLE || light.attenuation != types__ATTENUATION_INVERSE_SQUARE) {
 		return area_light__area_incident(light, p, u);
 	}
@@ -4458,7 +4463,7 @@ fn emitters__lamp_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> typ
 	let cosine = -dot(found.direction, light.direction);
 	let strength = select(0.0, 1.0 / max(emissive_shape__area_of(light) * found.pdf, 1e-30), cosine > 0.0);
 	let reach = numeric__max_component(abs(light.position)) + numeric__max_component(abs(p));
-	return types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), strength * light.color);
+	return shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), strength * light.color);
 }
 
 fn emitters__sample_emitter(p: vec3f, source: light_choice__Source, u: vec2f) -> emitters__LightSample {
@@ -4475,7 +4480,7 @@ fn emitters__sample_emitter(p: vec3f, source: light_choice__Source, u: vec2f) ->
 	let own = deforming__triangle_now(emitter.primitive, keys);
 	let b = warp__triangle_from_square(u);
 	let weights = vec3f(1.0 - b.x - b.y, b);
-	var surface: types__Surface;
+	var surface: shading__Surface;
 	surface.material = fetch__load_vertex(own.i0).material;
 	surface.place = mat3x3f(own.v0, own.v1, own.v2) * weights;
 	var corners = mat3x3f(own.v0 - surface.place, own.v1 - surface.place, own.v2 - surface.place);
@@ -4520,7 +4525,7 @@ fn emitters__sample_emitter(p: vec3f, source: light_choice__Source, u: vec2f) ->
 	let actual = source.chance / max(0.5 * length(across), 1e-30);
 	let fading = 1.0 / max(distance * distance, 1e-30);
 	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
-	return emitters__LightSample(types__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max(actual, 1e-30)) * radiance), glow.luminance * source.rate / max(abs(cosine) * fading, 1e-30));
+	return emitters__LightSample(shading__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max(actual, 1e-30)) * radiance), glow.luminance * source.rate / max(abs(cosine) * fading, 1e-30));
 }
 
 fn emitters__sample_shape(p: vec3f, emitter: types__PackedEmitter, source: light_choice__Source, u: vec2f) -> emitters__LightSample {
@@ -4541,10 +4546,10 @@ fn emitters__sample_shape(p: vec3f, emitter: types__PackedEmitter, source: light
 	let shines = cosine > 0.0 || (material__load_optics(shape.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
 	radiance *= select(0.0, coating__through_coat(surface, abs(cosine)), shines && source.chance > 0.0);
 	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
-	return emitters__LightSample(types__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max(source.chance * found.pdf, 1e-30)), glow.luminance * source.rate * emissive_shape__area_of(light) * found.pdf);
+	return emitters__LightSample(shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max(source.chance * found.pdf, 1e-30)), glow.luminance * source.rate * emissive_shape__area_of(light) * found.pdf);
 }
 
-fn emitters__emitted(surface: types__Surface, optics: types__Optics, glow: vec3f) -> vec3f {
+fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: vec3f) -> vec3f {
 	if (!bindings__HAS_EMISSION) {
 		return vec3f(0.0);
 	}
@@ -4791,7 +4796,7 @@ fn emissive_shape__area_of(light: types__PackedLight) -> f32 {
 	return select(warp__PI, 4.0, light.kind == types__LIGHT_RECTANGLE) * length(cross(light.edge_u, light.edge_v));
 }
 
-fn emissive_shape__shape_density(hit: types__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
+fn emissive_shape__shape_density(hit: tracing__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
 	if (!bindings__HAS_EMISSIVE_SHAPES) {
 		return 0.0;
 	}
@@ -4803,8 +4808,8 @@ fn emissive_shape__shape_density(hit: types__Hit, origin: vec3f, direction: vec3
 	return emissive_shape__area_of(light) * spherical_rectangle__solid_density(light, origin, direction, distance);
 }
 
-fn emissive_shape__shape_place(shape: types__PackedShape, instance: u32, p: vec3f) -> types__Surface {
-	var surface: types__Surface;
+fn emissive_shape__shape_place(shape: types__PackedShape, instance: u32, p: vec3f) -> shading__Surface {
+	var surface: shading__Surface;
 	surface.p = p;
 	surface.place = p;
 	surface.material = shape.material;
@@ -4924,7 +4929,7 @@ fn spherical_rectangle__solid_density(light: types__PackedLight, p: vec3f, direc
 	return area_light__area_density(light, p, direction, distance);
 }
 
-fn area_light__area_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+fn area_light__area_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> shading__Incident {
 	if (light.kind == types__LIGHT_SPHERE) {
 		return area_light__sphere_incident(light, p, u);
 	}
@@ -4944,7 +4949,7 @@ fn area_light__area_density(light: types__PackedLight, p: vec3f, direction: vec3
 	return distance * distance / max(area * abs(dot(direction, light.direction)), 1e-30);
 }
 
-fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> shading__Incident {
 	let within = select(warp__disc_from_square(u), 2.0 * u - 1.0, light.kind == types__LIGHT_RECTANGLE);
 	let center = light.position - p;
 	let to_light = center + within.x * light.edge_u + within.y * light.edge_v;
@@ -4955,10 +4960,10 @@ fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> t
 	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
 	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + area_light__max_abs(light.edge_u) + area_light__max_abs(light.edge_v);
 	let usable = distance > 1e-30;
-	return types__Incident(direction, area_light__short_of(distance, reach, abs(cos_light)), select(0.0, strength, usable) * light.color);
+	return shading__Incident(direction, area_light__short_of(distance, reach, abs(cos_light)), select(0.0, strength, usable) * light.color);
 }
 
-fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> shading__Incident {
 	let to_center = light.position - p;
 	let d2 = dot(to_center, to_center);
 	let radius2 = light.radius * light.radius;
@@ -4975,7 +4980,7 @@ fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) ->
 	let fading = select(outside, 4.0 / max(radius2, 1e-30), is_inside);
 	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
 	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + light.radius;
-	return types__Incident(direction, area_light__short_of(distance, reach, chord / max(light.radius, 1e-30)), strength * light.color);
+	return shading__Incident(direction, area_light__short_of(distance, reach, chord / max(light.radius, 1e-30)), strength * light.color);
 }
 
 fn area_light__short_of(distance: f32, reach: f32, cosine: f32) -> f32 {
@@ -5005,23 +5010,26 @@ fn coating__coating_at(layers: layers__Layers, wo: vec3f, coat_axis: vec3f) -> c
 	let coat_cos = dot(wo, coat_axis);
 	let coat_alpha = max(layers.coat_roughness * layers.coat_roughness, layers__SMOOTH);
 	let sheen_alpha = max(layers.sheen_roughness * layers.sheen_roughness, 0.001);
-	let of_sheen = albedo__albedo_of(albedo__SHEEN_ALBEDO, wo.z, sheen_alpha);
-	let fresnel = mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(coat_cos));
+	let of_sheen = albedo__sheen_albedo(wo.z, sheen_alpha);
 	let coat_albedo = layers.coat * coating__coat_reflectance(coat_cos, coat_alpha);
 	let below_coat = 1.0 - coat_albedo;
 	let sheen = (below_coat * select(of_sheen.y, 1.0, bindings__BSDF_SPEC)) * layers.sheen;
-	return coating__Coating(layers.coat, coat_axis, coat_alpha, sheen, sheen_alpha, below_coat, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), fresnel, vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
+	return coating__Coating(layers.coat, coat_axis, coat_alpha, sheen, sheen_alpha, below_coat, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), coating__coat_fresnel(coat_cos), vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
+}
+
+fn coating__coat_fresnel(cosine: f32) -> f32 {
+	return mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cosine));
 }
 
 fn coating__coat_reflectance(cos_o: f32, alpha: f32) -> f32 {
 	if (bindings__BSDF_SPEC) {
-		return mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cos_o));
+		return coating__coat_fresnel(cos_o);
 	}
-	let albedo = albedo__albedo_of(albedo__GGX_ALBEDO, cos_o, alpha);
+	let albedo = albedo__ggx_albedo(cos_o, alpha);
 	return coating__COAT_F0 * albedo.x + albedo.y;
 }
 
-fn coating__through_coat(surface: types__Surface, cosine: f32) -> f32 {
+fn coating__through_coat(surface: shading__Surface, cosine: f32) -> f32 {
 	if (!bindings__HAS_COATED_EMISSION) {
 		return 1.0;
 	}
@@ -5035,12 +5043,11 @@ fn coating__through_coat(surface: types__Surface, cosine: f32) -> f32 {
 	return 1.0 - coat * coating__coat_reflectance(clamp(cosine, 0.0, 1.0), max(roughness * roughness, layers__SMOOTH));
 }
 
-fn coating__coating_eval(coating: coating__Coating, wo: vec3f, wi: vec3f, chances: vec2f) -> vec4f {
-	let cos_h = dot(wo, normalize(wo + wi));
-	let reflectance = coating.coat * select(mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cos_h)), coating.fresnel, bindings__BSDF_SPEC);
-	let coat = bsdf_ggx__ggx_eval(coating__to_coat(coating, wo), coating__to_coat(coating, wi), vec2f(coating.coat_alpha), bindings__BSDF_SPEC);
-	let sheen = bsdf_sheen__sheen_eval(wo, wi, coating.sheen_alpha);
-	return vec4f(reflectance * coat.x + sheen.x * coating.sheen, dot(chances, vec2f(coat.y, sheen.y)));
+fn coating__coat_eval(coating: coating__Coating, wo: vec3f, wi: vec3f) -> vec2f {
+	let cos_h = dot(wo, numeric__normalize_or(wo + wi, wo));
+	let reflectance = coating.coat * select(coating__coat_fresnel(cos_h), coating.fresnel, bindings__BSDF_SPEC);
+	let white = bsdf_ggx__ggx_eval(coating__to_coat(coating, wo), coating__to_coat(coating, wi), vec2f(coating.coat_alpha), bindings__BSDF_SPEC);
+	return vec2f(reflectance * white.x, white.y);
 }
 
 fn coating__coating_sample(coating: coating__Coating, wo: vec3f, u: vec2f, is_coat: bool) -> vec3f {
@@ -5071,23 +5078,42 @@ const albedo__GLASS_ALBEDO: u32 = 2048u;
 
 const albedo__GLASS_ROWS: u32 = 24u;
 
-const albedo__GLASS_SLICES: u32 = 24u;
+const albedo__GLASS_SLICES: u32 = 36u;
 
-const albedo__GLASS_CLEAR: f32 = 7.0;
+const albedo__GLASS_CLEAR: f32 = 12.0;
 
 struct albedo__AlbedoLookup {
 	words: vec4u,
 	weights: vec4f
 }
 
-fn albedo__albedo_lookup(table: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
-	let last = f32(albedo__ALBEDO_SIDE - 1u);
-	let place = last * sqrt(sqrt(clamp(vec2f(cos_o, alpha), vec2f(0.0), vec2f(1.0))));
-	let cell = min(floor(place), vec2f(last - 1.0));
-	let part = place - cell;
-	let first = table + u32(cell.y) * albedo__ALBEDO_SIDE + u32(cell.x);
-	let rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
-	return albedo__AlbedoLookup(vec4u(first, first + 1u, first + albedo__ALBEDO_SIDE, first + albedo__ALBEDO_SIDE + 1u), rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+fn albedo__entries_around(first: u32, rows: u32, place: vec2f) -> albedo__AlbedoLookup {
+	let last = vec2f(f32(albedo__ALBEDO_SIDE - 1u), f32(rows - 1u));
+	let cell = min(floor(last * place), last - 1.0);
+	let part = last * place - cell;
+	let corner = first + u32(cell.y) * albedo__ALBEDO_SIDE + u32(cell.x);
+	let of_rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
+	return albedo__AlbedoLookup(vec4u(corner, corner + 1u, corner + albedo__ALBEDO_SIDE, corner + albedo__ALBEDO_SIDE + 1u), of_rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+}
+
+fn albedo__facet_place(cos_o: f32, alpha: f32) -> vec2f {
+	let c = clamp(cos_o, 0.0, 1.0);
+	let wide = 4.0 * clamp(alpha, 0.0, 1.0);
+	return sqrt(vec2f(c * (1.0 + wide) / max(c + wide, 1e-9), 0.25 * wide));
+}
+
+fn albedo__ggx_lookup(cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
+	return albedo__entries_around(albedo__GGX_ALBEDO, albedo__ALBEDO_SIDE, albedo__facet_place(cos_o, alpha));
+}
+
+fn albedo__ggx_factors(entry: vec2f, cos_o: f32) -> vec2f {
+	let grazing = clamp(entry.x * fresnel__schlick_weight(cos_o) + 2.0 * entry.y - 1.0, 0.0, entry.x);
+	return vec2f(entry.x - grazing, grazing);
+}
+
+fn albedo__sheen_lookup(cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
+	let place = sqrt(sqrt(clamp(vec2f(cos_o, alpha), vec2f(0.0), vec2f(1.0))));
+	return albedo__entries_around(albedo__SHEEN_ALBEDO, albedo__ALBEDO_SIDE, place);
 }
 
 fn albedo__glass_slice(eta: f32) -> f32 {
@@ -5097,13 +5123,12 @@ fn albedo__glass_slice(eta: f32) -> f32 {
 }
 
 fn albedo__glass_lookup(slice: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
-	let last = vec2f(f32(albedo__ALBEDO_SIDE - 1u), f32(albedo__GLASS_ROWS - 1u));
-	let place = last * sqrt(vec2f(sqrt(clamp(cos_o, 0.0, 1.0)), clamp(alpha, 0.0, 1.0)));
-	let cell = min(floor(place), last - 1.0);
-	let part = place - cell;
-	let first = albedo__GLASS_ALBEDO + (slice * albedo__GLASS_ROWS + u32(cell.y)) * albedo__ALBEDO_SIDE + u32(cell.x);
-	let rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
-	return albedo__AlbedoLookup(vec4u(first, first + 1u, first + albedo__ALBEDO_SIDE, first + albedo__ALBEDO_SIDE + 1u), rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+	return albedo__entries_around(albedo__GLASS_ALBEDO + slice * albedo__GLASS_ROWS * albedo__ALBEDO_SIDE, albedo__GLASS_ROWS, albedo__facet_place(cos_o, alpha));
+}
+
+fn albedo__glass_factors(entry: vec2f, cos_o: f32, eta: f32) -> vec2f {
+	let mirror = fresnel__fresnel(clamp(cos_o, 0.0, 1.0), eta).reflectance;
+	return vec2f(entry.x, clamp(mirror + 2.0 * entry.y - 1.0, 0.0, 1.0));
 }
 
 fn albedo__blended_albedo(entries: vec4u, weights: vec4f) -> vec2f {
@@ -5120,7 +5145,7 @@ fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
 	return x * x * (3.0 - 2.0 * x);
 }
 
-fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
+fn light__incident(light: types__PackedLight, p: vec3f) -> shading__Incident {
 	let to_light = light.position - p;
 	let distance = length(to_light);
 	let is_directional = light.kind == types__LIGHT_DIRECTIONAL;
@@ -5132,7 +5157,7 @@ fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
 	if (light.kind == types__LIGHT_SPOT) {
 		strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
 	}
-	return types__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
+	return shading__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
 }
 
 struct light_weight__Sender {
@@ -5141,7 +5166,7 @@ struct light_weight__Sender {
 	pdf: f32
 }
 
-fn light_weight__emission_weight(batch: dispatch__Batch, surface: types__Surface, hit: types__Hit, sender: light_weight__Sender, direction: vec3f) -> f32 {
+fn light_weight__emission_weight(batch: dispatch__Batch, surface: shading__Surface, hit: tracing__Hit, sender: light_weight__Sender, direction: vec3f) -> f32 {
 	if (!(bindings__HAS_AREA_LIGHTS || bindings__HAS_EMITTERS) || sender.pdf <= 0.0) {
 		return 1.0;
 	}
@@ -5176,7 +5201,7 @@ fn light_weight__emission_weight(batch: dispatch__Batch, surface: types__Surface
 	return select(0.0, mis__power_heuristic(sender.pdf, density), counts);
 }
 
-fn light_weight__emitter_density(surface: types__Surface, hit: types__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
+fn light_weight__emitter_density(surface: shading__Surface, hit: tracing__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
 	if ((hit.primitive & types__SHAPE) != 0u) {
 		return emissive_shape__shape_density(hit, origin, direction, distance);
 	}
@@ -5216,7 +5241,7 @@ fn bsdf_diffuse__diffuse_sample(u: vec2f) -> vec3f {
 	return vec3f(p, sqrt(max(1.0 - dot(p, p), 0.0)));
 }
 
-fn direct__shadow_ray(surface: types__Surface, arriving: types__Incident) -> types__Ray {
+fn direct__shadow_ray(surface: shading__Surface, arriving: shading__Incident) -> tracing__Ray {
 	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
 	ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
 	return ray;
@@ -5286,7 +5311,7 @@ struct lobes__Split {
 	transmit: vec3f
 }
 
-fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers__Layers, met: interface__Interface, direction: vec3f) -> lobes__Bsdf {
+fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: layers__Layers, met: interface__Interface, direction: vec3f) -> lobes__Bsdf {
 	var bsdf: lobes__Bsdf;
 	bsdf.ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
 	let n = select(surface.n, -surface.n, dot(surface.n, bsdf.ng) < 0.0);
@@ -5335,15 +5360,14 @@ fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers
 		over = mix(over, film, layers.film * numeric__max_component(layers.over_f90));
 	}
 	let mean_alpha = sqrt(bsdf.alpha.x * bsdf.alpha.y);
-	let albedo = albedo__albedo_of(albedo__GGX_ALBEDO, bsdf.wo.z, mean_alpha);
+	let albedo = albedo__ggx_albedo(bsdf.wo.z, mean_alpha);
 	let boost = select(albedo__multiple_scattering(bsdf.f0, albedo), vec3f(1.0), bindings__BSDF_SPEC);
 	bsdf.boundary_gain = 1.0;
 	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && bsdf.boundary_alpha.x >= layers__SMOOTH) {
 		let glass = albedo__glass_albedo(bsdf.wo.z, mean_alpha, bsdf.eta);
-		let share = glass.y / max(glass.x, 0.001);
 		bsdf.boundary_gain = 1.0 / max(select(albedo.x + albedo.y, glass.x, bsdf.bends), 0.001);
 		if (bsdf.bends) {
-			seen = lobes__Split(share * bsdf.reflect, (1.0 - share) * bsdf.transmit);
+			seen = lobes__Split(glass.y * bsdf.reflect, (1.0 - glass.y) * bsdf.transmit);
 		}
 	}
 	let glossy = boost * (albedo.x * bsdf.f0 + albedo.y * bsdf.f90);
@@ -5375,7 +5399,7 @@ fn lobes__bsdf_at(surface: types__Surface, optics: types__Optics, layers: layers
 	return bsdf;
 }
 
-fn lobes__coat_axis(bsdf: lobes__Bsdf, surface: types__Surface) -> vec3f {
+fn lobes__coat_axis(bsdf: lobes__Bsdf, surface: shading__Surface) -> vec3f {
 	let up = vec3f(0.0, 0.0, 1.0);
 	if (!bindings__HAS_COAT_NORMALS) {
 		return up;
@@ -5504,7 +5528,8 @@ fn bsdf__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
 
 fn bsdf__receiving_normal(bsdf: lobes__Bsdf) -> vec3f {
 	let passes = (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) || (bindings__HAS_COATINGS && any(bsdf.through > vec3f(0.0)));
-	return select(bsdf.normal, vec3f(0.0), passes);
+	let normal = select(bsdf.normal, bsdf.ng, bindings__HAS_COAT_NORMALS && bsdf.coating.coat > 0.0);
+	return select(normal, vec3f(0.0), passes);
 }
 
 fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
@@ -5518,9 +5543,9 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 		value = (diffuse * lobes__below_glossy(bsdf, cos_h)) * bsdf.diffuse + glossy.x * (bsdf.gain * lobes__glossy_fresnel(bsdf, cos_h));
 		pdf = bsdf.chances.x * (1.0 - bsdf__through_share(bsdf)) * diffuse + bsdf.chances.y * glossy.y;
 		if (bindings__HAS_COATINGS) {
-			let coating = coating__coating_eval(bsdf.coating, bsdf.wo, wi, bsdf.coating_chances);
-			value += coating.xyz;
-			pdf += coating.w;
+			let sheen = bsdf_sheen__sheen_eval(bsdf.wo, wi, bsdf.coating.sheen_alpha);
+			value += sheen.x * bsdf.coating.sheen;
+			pdf += bsdf.coating_chances.y * sheen.y;
 		}
 		if (bsdf__has_rough_boundary(bsdf)) {
 			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, bindings__BSDF_SPEC);
@@ -5545,7 +5570,14 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 		value += through * bsdf.through;
 		pdf += bsdf.chances.x * bsdf__through_share(bsdf) * through;
 	}
-	return bsdf__BsdfValue(select(vec3f(0.0), value, (dot(direction, bsdf.ng) > 0.0) == (wi.z > 0.0)), pdf);
+	let is_outside = dot(direction, bsdf.ng) > 0.0;
+	value = select(vec3f(0.0), value, is_outside == (wi.z > 0.0));
+	if (bindings__HAS_COATINGS) {
+		let coat = coating__coat_eval(bsdf.coating, bsdf.wo, wi);
+		value += select(0.0, coat.x, is_outside);
+		pdf += bsdf.coating_chances.x * coat.y;
+	}
+	return bsdf__BsdfValue(value, pdf);
 }
 
 fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
@@ -5562,13 +5594,16 @@ fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSamp
 		if (!is_diffuse && !is_glossy) {
 			let is_coat = choice < chances.x + chances.y + bsdf.coating_chances.x;
 			wi = coating__coating_sample(bsdf.coating, bsdf.wo, u, is_coat);
+			if (is_coat) {
+				return bsdf__rough_sample(bsdf, wi, coating__to_coat(bsdf.coating, wi).z > 0.0);
+			}
 		}
 		let passes = is_diffuse && choice < chances.x * bsdf__through_share(bsdf);
 		if (passes) {
-			return bsdf__rough_sample(bsdf, vec3f(wi.xy, -wi.z), false);
+			return bsdf__rough_sample(bsdf, vec3f(wi.xy, -wi.z), wi.z > 0.0);
 		}
 	}
-	return bsdf__rough_sample(bsdf, wi, true);
+	return bsdf__rough_sample(bsdf, wi, wi.z > 0.0);
 }
 
 fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
@@ -5579,62 +5614,71 @@ fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
 	return through / max(through + dot(bsdf.diffuse, tone__LUMINANCE_REC709), 1e-30);
 }
 
+struct bsdf__Facet {
+	wi: vec3f,
+	reflects: bool,
+	split: lobes__Split,
+	chance: f32
+}
+
+fn bsdf__facet_at(bsdf: lobes__Bsdf, h: vec3f, choice: f32) -> bsdf__Facet {
+	let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
+	let split = lobes__split_at(bsdf, cos_h);
+	let chance = bsdf__reflection_chance(split);
+	let reflects = choice < chance;
+	let mirrored = bsdf__reflected_at(bsdf.wo, h);
+	var wi = select(vec3f(mirrored.xy, -mirrored.z), mirrored, reflects);
+	if (!reflects && bsdf.bends) {
+		wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
+	}
+	return bsdf__Facet(wi, reflects, split, chance);
+}
+
+fn bsdf__unshadowed(bsdf: lobes__Bsdf, facet: bsdf__Facet, alpha: vec2f) -> f32 {
+	let seen = 1.0 + bsdf_ggx__ggx_lambda(bsdf.wo, alpha);
+	let lit = bsdf_ggx__ggx_lambda(facet.wi, alpha);
+	let part = select(seen / (seen + lit), 1.0 / (1.0 + lit), !facet.reflects && bsdf.bends);
+	return select(0.0, part, (facet.wi.z > 0.0) == facet.reflects);
+}
+
 fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
 	let is_smooth = bsdf.boundary_alpha.x < layers__SMOOTH;
-	let width = max(bsdf.boundary_alpha, vec2f(layers__SMOOTH));
-	let seen = 1.0 + bsdf_ggx__ggx_lambda(bsdf.wo, width);
+	let alpha = max(bsdf.boundary_alpha, vec2f(layers__SMOOTH));
 	var numbers = vec3f(choice, u);
 	var key = rng__hash_combine(bitcast<u32>(choice), rng__hash_combine(bitcast<u32>(u.x), bitcast<u32>(u.y)));
-	var left = select(0u, bsdf__MOST_REDRAWS, bsdf__draws_again() && !is_smooth);
-	var wi: vec3f;
-	var split: lobes__Split;
-	var chance: f32;
-	var reflects: bool;
+	var draws = select(1u, 1u + bsdf__MOST_REDRAWS, bsdf__draws_again() && !is_smooth);
+	var facet: bsdf__Facet;
 	loop {
-		let h = select(bsdf_ggx__ggx_normal(bsdf.wo, width, numbers.yz), vec3f(0.0, 0.0, 1.0), is_smooth);
-		let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
-		split = lobes__split_at(bsdf, cos_h);
-		chance = bsdf__reflection_chance(split);
-		reflects = numbers.x < chance;
-		wi = bsdf__reflected_at(bsdf.wo, h);
-		let bends = !reflects && bsdf.bends;
-		if (!reflects) {
-			wi = vec3f(wi.xy, -wi.z);
-			if (bends) {
-				wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
-			}
-		}
-		if (left > 0u) {
-			let lit = 1.0 + bsdf_ggx__ggx_lambda(wi, width);
-			let part = select(seen / (seen + lit - 1.0), 1.0 / lit, bends);
-			let is_found = (wi.z > 0.0) == reflects && rng__unit_float(key) < part;
-			let fresh = vec3u(rng__hash(key ^ 1757159915u), rng__hash(key ^ 48610963u), rng__hash(key ^ 2524612763u));
-			numbers = vec3f(rng__unit_float(fresh.x), rng__unit_float(fresh.y), rng__unit_float(fresh.z));
-			key = rng__hash_combine(key, fresh.x);
-			left = select(left - 1u, 0u, is_found);
-		}
+		let h = select(bsdf_ggx__ggx_normal(bsdf.wo, alpha, numbers.yz), vec3f(0.0, 0.0, 1.0), is_smooth);
+		facet = bsdf__facet_at(bsdf, h, numbers.x);
+		let is_found = rng__unit_float(key) < bsdf__unshadowed(bsdf, facet, alpha);
+		draws = select(draws - 1u, 0u, is_found);
+		let fresh = vec3u(rng__hash(key ^ 1757159915u), rng__hash(key ^ 48610963u), rng__hash(key ^ 2524612763u));
+		numbers = vec3f(rng__unit_float(fresh.x), rng__unit_float(fresh.y), rng__unit_float(fresh.z));
+		key = rng__hash_combine(key, fresh.x);
 		continuing {
 		
-			break if left == 0u;
+			break if draws == 0u;
 		}
 	}
-	if (is_smooth) {
-		let fraction = select(split.transmit / max(1.0 - chance, 1e-6), split.reflect / max(chance, 1e-6), reflects);
-		let direction = lobes__from_frame(bsdf, wi);
-		let stays = (dot(direction, bsdf.ng) > 0.0) == reflects;
-		return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
+	if (!is_smooth) {
+		return bsdf__rough_sample(bsdf, facet.wi, (facet.wi.z > 0.0) == facet.reflects);
 	}
-	return bsdf__rough_sample(bsdf, wi, reflects);
+	let transmitted = facet.split.transmit / max(1.0 - facet.chance, 1e-6);
+	let fraction = select(transmitted, facet.split.reflect / max(facet.chance, 1e-6), facet.reflects);
+	let direction = lobes__from_frame(bsdf, facet.wi);
+	let stays = (dot(direction, bsdf.ng) > 0.0) == facet.reflects;
+	return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
 }
 
 fn bsdf__boundary_density(bsdf: lobes__Bsdf, boundary: vec2f) -> f32 {
 	return select(boundary.y, boundary.x * bsdf.boundary_gain, bsdf__draws_again());
 }
 
-fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f, above: bool) -> bsdf__BsdfSample {
+fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f, is_on_side: bool) -> bsdf__BsdfSample {
 	let direction = lobes__from_frame(bsdf, wi);
 	let found = bsdf__bsdf_eval(bsdf, direction);
-	let weight = select(vec3f(0.0), found.value / max(found.pdf, 1e-30), (wi.z > 0.0) == above);
+	let weight = select(vec3f(0.0), found.value / max(found.pdf, 1e-30), is_on_side);
 	return bsdf__BsdfSample(direction, weight, found.pdf);
 }
 

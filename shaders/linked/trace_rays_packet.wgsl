@@ -54,8 +54,8 @@ struct lanes__FourRays {
 }
 
 struct lanes__TwoHits {
-	hit: types__Hit,
-	second: types__Hit
+	hit: tracing__Hit,
+	second: tracing__Hit
 }
 
 struct lanes__FourHits {
@@ -84,7 +84,7 @@ fn lanes__or_of_packet(bits: u32) -> u32 {
 	return all;
 }
 
-fn lanes__closer_two(at: primitive__TraversalRay, before: lanes__TwoHits, candidate: types__Candidate, primitive: u32) -> lanes__TwoHits {
+fn lanes__closer_two(at: primitive__TraversalRay, before: lanes__TwoHits, candidate: tracing__Candidate, primitive: u32) -> lanes__TwoHits {
 	primitive__runner_up = before.second;
 	let hit = primitive__closer_of(at, before.hit, candidate, primitive);
 	return lanes__TwoHits(hit, primitive__runner_up);
@@ -399,29 +399,6 @@ struct types__PackedCounters {
 	refraction_hits: atomic<u32>
 }
 
-struct types__Ray {
-	origin: vec3f,
-	t_max: f32,
-	direction: vec3f,
-	leaving: u32,
-	leaving_instance: u32
-}
-
-struct types__Candidate {
-	hit: bool,
-	t: f32,
-	b1: f32,
-	b2: f32
-}
-
-struct types__Hit {
-	t: f32,
-	primitive: u32,
-	b1: f32,
-	b2: f32,
-	instance: u32
-}
-
 fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
 	return (index * stride) % group_count;
 }
@@ -446,16 +423,16 @@ fn rays__dead_rays() -> rays__Rays {
 	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
 }
 
-fn rays__ray_at(rays: rays__Rays, k: u32) -> types__Ray {
-	return types__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
+fn rays__ray_at(rays: rays__Rays, k: u32) -> tracing__Ray {
+	return tracing__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
 }
 
-fn rays__ray_set(rays: rays__Rays, k: u32, ray: types__Ray) -> rays__Rays {
+fn rays__ray_set(rays: rays__Rays, k: u32, ray: tracing__Ray) -> rays__Rays {
 	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
 }
 
-fn rays__hit_at(hits: rays__Hits, k: u32) -> types__Hit {
-	return types__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
+fn rays__hit_at(hits: rays__Hits, k: u32) -> tracing__Hit {
+	return tracing__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
 }
 
 fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
@@ -513,18 +490,18 @@ fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
 }
 
 struct query__QueryRay {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	time: f32
 }
 
 fn query__load_query_ray(index: u32) -> query__QueryRay {
 	let r0 = query__ray_row(2u * index);
 	let r1 = query__ray_row(2u * index + 1u);
-	let ray = types__Ray(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), types__NONE, types__NO_INSTANCE);
+	let ray = tracing__Ray(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), types__NONE, types__NO_INSTANCE);
 	return query__QueryRay(ray, bitcast<f32>(r1.w));
 }
 
-fn query__store_hit(index: u32, hit: types__Hit) {
+fn query__store_hit(index: u32, hit: tracing__Hit) {
 	var rest = vec2u(hit.instance, pack2x16unorm(vec2f(hit.b1, hit.b2)));
 	if (bindings__COUNT_STEPS) {
 		rest = vec2u(loops__nodes_visited, loops__primitives_tested);
@@ -534,6 +511,29 @@ fn query__store_hit(index: u32, hit: types__Hit) {
 
 fn query__ray_row(row: u32) -> vec4u {
 	return textureLoad(bindings__rays, fetch__texel(row));
+}
+
+struct tracing__Ray {
+	origin: vec3f,
+	t_max: f32,
+	direction: vec3f,
+	leaving: u32,
+	leaving_instance: u32
+}
+
+struct tracing__Candidate {
+	hit: bool,
+	t: f32,
+	b1: f32,
+	b2: f32
+}
+
+struct tracing__Hit {
+	t: f32,
+	primitive: u32,
+	b1: f32,
+	b2: f32,
+	instance: u32
 }
 
 fn dispatch__place_of(lane: u32, k: u32) -> u32 {
@@ -559,24 +559,24 @@ fn walk__packet_hits(rays: rays__Rays, any: bool) -> rays__Hits {
 	return rays__Hits(wide__Floats(found.h0.hit.t, found.h1.hit.t, found.h2.hit.t, found.h3.hit.t), wide__Words(found.h0.hit.primitive, found.h1.hit.primitive, found.h2.hit.primitive, found.h3.hit.primitive), wide__Floats(found.h0.hit.b1, found.h1.hit.b1, found.h2.hit.b1, found.h3.hit.b1), wide__Floats(found.h0.hit.b2, found.h1.hit.b2, found.h2.hit.b2, found.h3.hit.b2), wide__Words(found.h0.hit.instance, found.h1.hit.instance, found.h2.hit.instance, found.h3.hit.instance));
 }
 
-fn walk__first_hit(ray: types__Ray) -> lanes__TwoHits {
-	var hit = types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
-	primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+fn walk__first_hit(ray: tracing__Ray) -> lanes__TwoHits {
+	var hit = tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+	primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	if (bindings__HAS_PLANES) {
 		hit = exhaustive__hit_planes(ray, hit);
 	}
 	return lanes__TwoHits(hit, primitive__runner_up);
 }
 
-fn walk__world_ray(ray: types__Ray) -> primitive__TraversalRay {
+fn walk__world_ray(ray: tracing__Ray) -> primitive__TraversalRay {
 	return primitive__traversal_ray(ray, triangle_watertight__shear_of(ray.direction), types__NO_INSTANCE, deforming__NO_KEYS);
 }
 
-fn walk__placed_ray(ray: types__Ray, instance: u32) -> primitive__TraversalRay {
+fn walk__placed_ray(ray: tracing__Ray, instance: u32) -> primitive__TraversalRay {
 	return primitive__traversal_ray(ray, triangle_watertight__shear_of(ray.direction), instance, deforming__NO_KEYS);
 }
 
-fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types__Ray, any: bool) -> lanes__FourHits {
+fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: tracing__Ray, any: bool) -> lanes__FourHits {
 	var hits = lanes__FourHits(walk__first_hit(ray0), walk__first_hit(ray1), walk__first_hit(ray2), walk__first_hit(ray3));
 	if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES)) {
 		return hits;
@@ -665,34 +665,34 @@ fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types_
 	return hits;
 }
 
-fn walk__is_open(hits: lanes__FourHits, ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types__Ray) -> bool {
+fn walk__is_open(hits: lanes__FourHits, ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: tracing__Ray) -> bool {
 	return lanes__any_lane_of_packet(walk__is_unoccluded(ray0, hits.h0.hit) | walk__is_unoccluded(ray1, hits.h1.hit) | walk__is_unoccluded(ray2, hits.h2.hit) | walk__is_unoccluded(ray3, hits.h3.hit));
 }
 
-fn walk__is_unoccluded(ray: types__Ray, hit: types__Hit) -> bool {
+fn walk__is_unoccluded(ray: tracing__Ray, hit: tracing__Hit) -> bool {
 	return (hit.primitive == types__NONE) & (ray.t_max >= 0.0);
 }
 
-fn walk__limit_of(ray: types__Ray, hit: types__Hit, any: bool) -> i32 {
+fn walk__limit_of(ray: tracing__Ray, hit: tracing__Hit, any: bool) -> i32 {
 	let limit = bitcast<i32>(traverse__search_limit(ray, hit)) + node__WIDENING;
 	return select(limit, -1, any & (hit.primitive != types__NONE));
 }
 
-var<private> primitive__runner_up: types__Hit;
+var<private> primitive__runner_up: tracing__Hit;
 
 struct primitive__TraversalRay {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	inv: vec3f,
 	shear: triangle_watertight__Shear,
 	instance: u32,
 	keys: deforming__Keys
 }
 
-fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
+fn primitive__traversal_ray(ray: tracing__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
 	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
 }
 
-fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
+fn primitive__closer_of(at: primitive__TraversalRay, hit: tracing__Hit, candidate: tracing__Candidate, primitive: u32) -> tracing__Hit {
 	var is_lower = primitive < hit.primitive;
 	var is_left = primitive == at.ray.leaving;
 	if (bindings__HAS_INSTANCES) {
@@ -703,13 +703,13 @@ fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate:
 	let counts = candidate.hit & !is_left;
 	let wins = counts & ((candidate.t < hit.t) | ties);
 	if (bindings__HAS_CONTACT) {
-		let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
+		let found = tracing__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
 		primitive__keep_runner_up(hit, found, counts, wins);
 	}
-	return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+	return tracing__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
 }
 
-fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, wins: bool) {
+fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: bool, wins: bool) {
 	let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
 	if (wins) {
 		primitive__runner_up = hit;
@@ -719,7 +719,7 @@ fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, w
 	}
 }
 
-fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> types__Candidate {
+fn primitive__test_triangle(ray: tracing__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> tracing__Candidate {
 	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
 		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
 	}
@@ -731,7 +731,7 @@ fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, she
 
 const camera__T_FAR: f32 = 3e38;
 
-fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
+fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
 	var hit = start;
 	var index = fetch__first_plane;
 	loop {
@@ -740,7 +740,7 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
 		let primitive = types__SHAPE | index;
 		let counts = candidate.hit & (primitive != ray.leaving);
 		let wins = counts & (candidate.t < hit.t);
-		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+		let found = tracing__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
 		if (bindings__HAS_CONTACT) {
 			primitive__keep_runner_up(hit, found, counts, wins);
 		}
@@ -756,11 +756,11 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
 	return hit;
 }
 
-fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
+fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing__Candidate {
 	let slope = dot(n, ray.direction);
 	let steep = abs(slope) > 1e-12;
 	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
 struct triangle_watertight__Shear {
@@ -780,7 +780,7 @@ fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear
 	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
 }
 
-fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let a = v0 - origin;
 	let b = v1 - origin;
 	let c = v2 - origin;
@@ -799,7 +799,7 @@ fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: tria
 	let inv_det = 1.0 / select(1.0, det, usable);
 	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
 	let t = dot(edges, depths) * inv_det;
-	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+	return tracing__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
 }
 
 struct deforming__Keys {
@@ -895,7 +895,7 @@ const traverse__RETURN: u32 = 4294967294u;
 
 const traverse__CONTACT_RANGE: f32 = 0.0001;
 
-fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
+fn traverse__search_limit(ray: tracing__Ray, hit: tracing__Hit) -> f32 {
 	if (bindings__HAS_CONTACT) {
 		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
 	}
@@ -913,8 +913,8 @@ fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
 	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
 }
 
-fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
-	return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+fn instance__object_ray(ray: tracing__Ray, space: motion__Space) -> tracing__Ray {
+	return tracing__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
 }
 
 struct motion__Moment {
@@ -1155,11 +1155,11 @@ const shape__ELLIPSOIDS: u32 = 1u << types__SHAPE_ELLIPSOID;
 
 const shape__GLOBES: u32 = 1u << types__SHAPE_GLOBE;
 
-fn shape__test_shape(ray: types__Ray, shape: types__PackedShape) -> types__Candidate {
+fn shape__test_shape(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Candidate {
 	if (bindings__SHAPE_KINDS == shape__SPHERES) {
 		return sphere__intersect_sphere(ray, shape.position, shape.size0);
 	}
-	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
 	if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
 		candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
 	}
@@ -1188,14 +1188,14 @@ fn shape__test_shape(ray: types__Ray, shape: types__PackedShape) -> types__Candi
 	return candidate;
 }
 
-fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> types__Candidate {
+fn sphere__intersect_sphere(ray: tracing__Ray, center: vec3f, radius: f32) -> tracing__Candidate {
 	let f = ray.origin - center;
 	let a = dot(ray.direction, ray.direction);
 	let b = -dot(f, ray.direction);
 	let nearest = f + (b / a) * ray.direction;
 	let discriminant = radius * radius - dot(nearest, nearest);
 	if (discriminant < 0.0) {
-		return types__Candidate(false, 0.0, 0.0, 0.0);
+		return tracing__Candidate(false, 0.0, 0.0, 0.0);
 	}
 	let c = dot(f, f) - radius * radius;
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
@@ -1203,10 +1203,10 @@ fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> type
 	let t1 = q / a;
 	let near = min(t0, t1);
 	let t = select(max(t0, t1), near, near > 0.0);
-	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
-fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> types__Candidate {
+fn globe__intersect_globe(ray: tracing__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> tracing__Candidate {
 	let w = ray.origin - anchor;
 	let f = n + curvature * w;
 	let c = curvature * dot(w, w) + 2.0 * dot(n, w);
@@ -1217,14 +1217,14 @@ fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f
 	let is_near = abs(curvature * c) < 1.0;
 	let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
 	if (discriminant < 0.0) {
-		return types__Candidate(false, 0.0, 0.0, 0.0);
+		return tracing__Candidate(false, 0.0, 0.0, 0.0);
 	}
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
 	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
 	let t1 = q / a;
 	let near = min(t0, t1);
 	let t = select(max(t0, t1), near, near > 0.0);
-	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
 const canonical__TWO_PI: f32 = 6.2831855;
@@ -1241,11 +1241,11 @@ fn canonical__canonical_vector(shape: types__PackedShape, v: vec3f) -> vec3f {
 	return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
 }
 
-fn canonical__canonical_ray(ray: types__Ray, shape: types__PackedShape) -> types__Ray {
-	return types__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
+fn canonical__canonical_ray(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Ray {
+	return tracing__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
 }
 
-fn canonical__approach(ray: types__Ray, center: vec3f, reach: f32) -> canonical__Approach {
+fn canonical__approach(ray: tracing__Ray, center: vec3f, reach: f32) -> canonical__Approach {
 	let size = abs(ray.direction);
 	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
 	let scaled = ray.direction / largest;
@@ -1262,24 +1262,24 @@ fn canonical__approached_t(near: canonical__Approach, s: f32) -> f32 {
 	return (near.start + s) * near.t_per_length;
 }
 
-fn disc__intersect_disc(ray: types__Ray, hole: f32) -> types__Candidate {
+fn disc__intersect_disc(ray: tracing__Ray, hole: f32) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
 	let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
 	let distance = dot(p, p);
-	return types__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
-fn rectangle__intersect_rectangle(ray: types__Ray) -> types__Candidate {
+fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
 	let way = t * ray.direction.xz;
 	let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
 	let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
-	return types__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
 }
 
-fn box__intersect_box(ray: types__Ray) -> types__Candidate {
+fn box__intersect_box(ray: tracing__Ray) -> tracing__Candidate {
 	let size = abs(ray.direction);
 	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
 	let inv = numeric__safe_reciprocal(ray.direction / largest);
@@ -1297,7 +1297,7 @@ fn box__intersect_box(ray: types__Ray) -> types__Candidate {
 	let positive = (inv[axis] < 0.0) == from_outside;
 	let side = f32(axis) + select(0.0, 3.0, positive);
 	let hit = (enter <= leave) & (s > 0.0);
-	return types__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
+	return tracing__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
 }
 
 const cone__FAR: f32 = 1e30;
@@ -1308,7 +1308,7 @@ const cone__BOTTOM: f32 = 1.0;
 
 const cone__TOP: f32 = 2.0;
 
-fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) -> types__Candidate {
+fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) -> tracing__Candidate {
 	let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
 	let o = near.origin;
 	let d = near.direction;
@@ -1352,7 +1352,7 @@ fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) ->
 	let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
 	let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
 	let t = canonical__approached_t(near, s);
-	return types__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
+	return tracing__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
 }
 
 fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
@@ -1397,7 +1397,7 @@ fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
 	return select(three, vec3f(one), discriminant > 0.0);
 }
 
-fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
+fn torus__intersect_torus(ray: tracing__Ray, minor: f32) -> tracing__Candidate {
 	let outer = 1.0 + minor;
 	let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
 	let o = near.origin;
@@ -1418,7 +1418,7 @@ fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
 	let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
 	let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
 	let t = canonical__approached_t(near, s);
-	return types__Candidate(found & (t > 0.0), t, 0.0, 0.0);
+	return tracing__Candidate(found & (t > 0.0), t, 0.0, 0.0);
 }
 
 fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
@@ -1453,13 +1453,13 @@ fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, ou
 	return s;
 }
 
-fn ellipsoid__intersect_ellipsoid(ray: types__Ray) -> types__Candidate {
+fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
 	let near = canonical__approach(ray, vec3f(0.0), 1.5);
-	let found = sphere__intersect_sphere(types__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
-	return types__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
+	let found = sphere__intersect_sphere(tracing__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
+	return tracing__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
 }
 
-fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let e1 = v1 - v0;
 	let e2 = v2 - v0;
 	let n = cross(e1, e2);
@@ -1471,10 +1471,10 @@ fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3
 	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
 	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
-fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let e1 = v1 - v0;
 	let e2 = v2 - v0;
 	let p = cross(ray.direction, e2);
@@ -1487,5 +1487,5 @@ fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray,
 	let b2 = inv_det * dot(ray.direction, q);
 	let t = inv_det * dot(e2, q);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }

@@ -64,7 +64,7 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 						surface.phong.ambient *= event.diffuse;
 						surface.phong.specular *= event.highlight;
 					}
-					var key = types__SampleKey(wide__word_at(keys, k), sample, 1.0);
+					var key = shading__SampleKey(wide__word_at(keys, k), sample, 1.0);
 					if (state.node > 1u) {
 						key.hash = rng__hash_combine(key.hash, state.node);
 						key.weight = numeric__max_component(event.arriving);
@@ -117,7 +117,7 @@ fn escaping_throughput(state: ray_states__RayState) -> vec3f {
 	return throughput;
 }
 
-fn own_light(batch: dispatch__Batch, surface: types__Surface, glow: vec3f) -> vec3f {
+fn own_light(batch: dispatch__Batch, surface: shading__Surface, glow: vec3f) -> vec3f {
 	var color = batch.ambient * surface.phong.ambient;
 	if (bindings__HAS_EMISSION) {
 		let emission = emitters__emitted(surface, material__load_optics(surface.material), glow);
@@ -219,7 +219,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group);
 }
 
-fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
+fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> tracing__Ray {
 	var within = vec2f(0.5);
 	if (bindings__STRATIFIED) {
 		within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
@@ -258,7 +258,7 @@ fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
 	return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, key));
 }
 
-fn dispatch__count_hit(kind: u32, hit: types__Hit) {
+fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
 	if (bindings__COUNT_RAYS) {
 		let hits = select(0u, 1u, hit.primitive != types__NONE);
 		if (kind == ray_states__KIND_PRIMARY) {
@@ -726,105 +726,6 @@ struct types__PackedCounters {
 	refraction_hits: atomic<u32>
 }
 
-struct types__Ray {
-	origin: vec3f,
-	t_max: f32,
-	direction: vec3f,
-	leaving: u32,
-	leaving_instance: u32
-}
-
-struct types__Candidate {
-	hit: bool,
-	t: f32,
-	b1: f32,
-	b2: f32
-}
-
-struct types__Hit {
-	t: f32,
-	primitive: u32,
-	b1: f32,
-	b2: f32,
-	instance: u32
-}
-
-struct types__Node {
-	lo: vec3f,
-	scale: vec3f,
-	min_x: vec4f,
-	max_x: vec4f,
-	min_y: vec4f,
-	max_y: vec4f,
-	min_z: vec4f,
-	max_z: vec4f,
-	children: vec4u
-}
-
-struct types__Phong {
-	diffuse: vec3f,
-	specular: vec3f,
-	shininess: f32,
-	ambient: vec3f,
-	reflect: vec3f
-}
-
-struct types__Medium {
-	absorption: vec3f,
-	ior: f32,
-	priority: i32
-}
-
-struct types__Surface {
-	p: vec3f,
-	n: vec3f,
-	ng: vec3f,
-	error: vec3f,
-	leaving: u32,
-	outside: bool,
-	uv: vec2f,
-	second_uv: vec2f,
-	material: u32,
-	phong: types__Phong,
-	id: u32,
-	place: vec3f,
-	instance: u32,
-	footprint: types__Footprint,
-	curvature: f32,
-	tangent: vec4f,
-	coat_n: vec3f
-}
-
-struct types__Cone {
-	width: f32,
-	spread: f32
-}
-
-struct types__Footprint {
-	uv: mat2x2f,
-	second_uv: mat2x2f,
-	place: mat2x3f
-}
-
-struct types__Optics {
-	transmit: vec3f,
-	opacity: f32,
-	ior: f32,
-	flags: u32
-}
-
-struct types__Incident {
-	direction: vec3f,
-	distance: f32,
-	radiance: vec3f
-}
-
-struct types__SampleKey {
-	hash: u32,
-	index: u32,
-	weight: f32
-}
-
 var<private> fetch__root: u32;
 
 var<private> fetch__shape_row: u32;
@@ -855,12 +756,12 @@ fn fetch__load_starts() {
 	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
-fn fetch__load_node(index: u32) -> types__Node {
+fn fetch__load_node(index: u32) -> tracing__Node {
 	let row = types__NODE_ROWS * index;
 	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
 }
 
-fn fetch__load_moving_node(reference: u32, moment: motion__Moment) -> types__Node {
+fn fetch__load_moving_node(reference: u32, moment: motion__Moment) -> tracing__Node {
 	let moves = (reference & types__MOVING) != 0u;
 	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
 	return node__node_between(fetch__load_node(first), fetch__load_node(first + select(0u, 1u, moves)), moment.fraction);
@@ -1355,25 +1256,25 @@ fn rays__later_rows(rows: u32) -> u32 {
 	return rows & (rows - 1u);
 }
 
-const rays__DEAD: types__Ray = types__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
+const rays__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
 
 fn rays__dead_rays() -> rays__Rays {
 	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
 }
 
-fn rays__ray_at(rays: rays__Rays, k: u32) -> types__Ray {
-	return types__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
+fn rays__ray_at(rays: rays__Rays, k: u32) -> tracing__Ray {
+	return tracing__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
 }
 
-fn rays__ray_set(rays: rays__Rays, k: u32, ray: types__Ray) -> rays__Rays {
+fn rays__ray_set(rays: rays__Rays, k: u32, ray: tracing__Ray) -> rays__Rays {
 	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
 }
 
-fn rays__hit_at(hits: rays__Hits, k: u32) -> types__Hit {
-	return types__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
+fn rays__hit_at(hits: rays__Hits, k: u32) -> tracing__Hit {
+	return tracing__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
 }
 
-fn rays__hits_of(hit: types__Hit) -> rays__Hits {
+fn rays__hits_of(hit: tracing__Hit) -> rays__Hits {
 	return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
 }
 
@@ -1499,21 +1400,21 @@ fn ray_stack__step_and_instance(state: ray_states__RayState) -> u32 {
 	return (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind;
 }
 
-fn ray_stack__stored(origin: vec3f, leaving: u32, direction: vec3f, place: u32, throughput: vec3f, node: u32, media: vec4u, cone: types__Cone) -> ray_states__RayState {
-	return ray_states__RayState(types__Ray(origin, camera__T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node, cone);
+fn ray_stack__stored(origin: vec3f, leaving: u32, direction: vec3f, place: u32, throughput: vec3f, node: u32, media: vec4u, cone: tracing__Cone) -> ray_states__RayState {
+	return ray_states__RayState(tracing__Ray(origin, camera__T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node, cone);
 }
 
-fn ray_stack__keep_cone(index: u32, cone: types__Cone) {
+fn ray_stack__keep_cone(index: u32, cone: tracing__Cone) {
 	if (bindings__HAS_FOOTPRINTS) {
 		ray_stack__cone_stack[index] = vec2f(cone.width, cone.spread);
 	}
 }
 
-fn ray_stack__kept_cone(index: u32) -> types__Cone {
+fn ray_stack__kept_cone(index: u32) -> tracing__Cone {
 	if (bindings__HAS_FOOTPRINTS) {
-		return types__Cone(ray_stack__cone_stack[index].x, ray_stack__cone_stack[index].y);
+		return tracing__Cone(ray_stack__cone_stack[index].x, ray_stack__cone_stack[index].y);
 	}
-	return types__Cone(0.0, 0.0);
+	return tracing__Cone(0.0, 0.0);
 }
 
 const ray_states__KIND_PRIMARY: u32 = 0u;
@@ -1523,13 +1424,13 @@ const ray_states__KIND_REFLECTED: u32 = 1u;
 const ray_states__KIND_REFRACTED: u32 = 2u;
 
 struct ray_states__RayState {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	throughput: vec3f,
 	media: vec4u,
 	depth: u32,
 	kind: u32,
 	node: u32,
-	cone: types__Cone
+	cone: tracing__Cone
 }
 
 struct ray_states__Media {
@@ -1571,7 +1472,7 @@ fn ray_states__with_cones(batch: dispatch__Batch, states: ray_states__RayStates)
 
 fn ray_states__state_at(states: ray_states__RayStates, k: u32) -> ray_states__RayState {
 	let step = wide__word_at(states.step, k);
-	return ray_states__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_states__media_at(states.media, k), step >> 2u, step & 3u, wide__word_at(states.node, k), types__Cone(wide__float_at(states.cone_width, k), wide__float_at(states.cone_spread, k)));
+	return ray_states__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_states__media_at(states.media, k), step >> 2u, step & 3u, wide__word_at(states.node, k), tracing__Cone(wide__float_at(states.cone_width, k), wide__float_at(states.cone_spread, k)));
 }
 
 fn ray_states__state_set(states: ray_states__RayStates, k: u32, state: ray_states__RayState) -> ray_states__RayStates {
@@ -1587,19 +1488,19 @@ fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_st
 }
 
 fn ray_states__no_ray() -> ray_states__RayState {
-	return ray_states__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, types__Cone(0.0, 0.0));
+	return ray_states__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, tracing__Cone(0.0, 0.0));
 }
 
-const footprint__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
+const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
 
-fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
+fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> tracing__Cone {
 	let camera = batch.camera;
 	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
 	let side = batch.footprint * max(sides.x, sides.y);
 	if (bindings__ORTHOGRAPHIC) {
-		return types__Cone(side, 0.0);
+		return tracing__Cone(side, 0.0);
 	}
-	return types__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
+	return tracing__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
 }
 
 fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
@@ -1647,7 +1548,7 @@ fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) 
 	return mat2x3f(rows * own[0], rows * own[1]);
 }
 
-fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: types__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
+fn footprint__with_shape_footprint(own: shading__Surface, ray: tracing__Ray, hit: tracing__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: tracing__Cone) -> shading__Surface {
 	var surface = own;
 	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
 	var local = axes;
@@ -1658,7 +1559,7 @@ fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: ty
 	}
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
 	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
-	surface.footprint = types__Footprint(in_uv, in_uv, axes);
+	surface.footprint = shading__Footprint(in_uv, in_uv, axes);
 	if (shape__is_round(shape.kind)) {
 		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
 		surface.curvature = select(-curvature, curvature, own.outside);
@@ -1672,6 +1573,46 @@ fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) 
 	}
 	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
 	return select(-bend, bend, side < 0.0) / 3.0;
+}
+
+struct tracing__Ray {
+	origin: vec3f,
+	t_max: f32,
+	direction: vec3f,
+	leaving: u32,
+	leaving_instance: u32
+}
+
+struct tracing__Candidate {
+	hit: bool,
+	t: f32,
+	b1: f32,
+	b2: f32
+}
+
+struct tracing__Hit {
+	t: f32,
+	primitive: u32,
+	b1: f32,
+	b2: f32,
+	instance: u32
+}
+
+struct tracing__Node {
+	lo: vec3f,
+	scale: vec3f,
+	min_x: vec4f,
+	max_x: vec4f,
+	min_y: vec4f,
+	max_y: vec4f,
+	min_z: vec4f,
+	max_z: vec4f,
+	children: vec4u
+}
+
+struct tracing__Cone {
+	width: f32,
+	spread: f32
 }
 
 struct features__Features {
@@ -1699,7 +1640,7 @@ fn features__start_features() {
 	}
 }
 
-fn features__see_first(surface: types__Surface, hit: types__Hit, depth: f32) {
+fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32) {
 	if (bindings__HAS_FEATURES && features__features.material == 0u) {
 		features__features.position = surface.p;
 		features__features.depth = depth;
@@ -1752,37 +1693,37 @@ const traverse__RETURN: u32 = 4294967294u;
 const traverse__CONTACT_RANGE: f32 = 0.0001;
 
 struct traverse__Walk {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	shear: triangle_watertight__Shear,
 	any: bool,
 	at: primitive__TraversalRay,
-	hit: types__Hit,
+	hit: tracing__Hit,
 	current: u32
 }
 
 const traverse__NO_LIMIT: u32 = 4294967295u;
 
-fn traverse__closest_hit(ray: types__Ray) -> types__Hit {
+fn traverse__closest_hit(ray: tracing__Ray) -> tracing__Hit {
 	return traverse__walked(traverse__walk_of(ray, false), traverse__NO_LIMIT).hit;
 }
 
-fn traverse__any_hit(ray: types__Ray) -> types__Hit {
+fn traverse__any_hit(ray: tracing__Ray) -> tracing__Hit {
 	return traverse__walked(traverse__walk_of(ray, true), traverse__NO_LIMIT).hit;
 }
 
-fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
+fn traverse__search_limit(ray: tracing__Ray, hit: tracing__Hit) -> f32 {
 	if (bindings__HAS_CONTACT) {
 		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
 	}
 	return hit.t;
 }
 
-fn traverse__walk_of(ray: types__Ray, any: bool) -> traverse__Walk {
+fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 	if (bindings__HAS_CONTACT) {
-		primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+		primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	}
 	let shear = triangle_watertight__shear_of(ray.direction);
-	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
 	if (bindings__HAS_PLANES) {
 		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
@@ -1882,7 +1823,7 @@ fn traverse__hit_count(keys: vec4u) -> i32 {
 	return hits.x + hits.y + hits.z + hits.w;
 }
 
-fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> types__Node {
+fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> tracing__Node {
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
 		return deforming__node_now(reference, keys);
 	}
@@ -1906,7 +1847,7 @@ fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear
 	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
 }
 
-fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let a = v0 - origin;
 	let b = v1 - origin;
 	let c = v2 - origin;
@@ -1925,28 +1866,28 @@ fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: tria
 	let inv_det = 1.0 / select(1.0, det, usable);
 	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
 	let t = dot(edges, depths) * inv_det;
-	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+	return tracing__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
 }
 
-var<private> primitive__runner_up: types__Hit;
+var<private> primitive__runner_up: tracing__Hit;
 
 struct primitive__TraversalRay {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	inv: vec3f,
 	shear: triangle_watertight__Shear,
 	instance: u32,
 	keys: deforming__Keys
 }
 
-fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
+fn primitive__traversal_ray(ray: tracing__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
 	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
 }
 
-fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
+fn primitive__closer(at: primitive__TraversalRay, hit: tracing__Hit, primitive: u32) -> tracing__Hit {
 	return primitive__closer_of(at, hit, primitive__test_primitive(at, primitive), primitive);
 }
 
-fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
+fn primitive__closer_of(at: primitive__TraversalRay, hit: tracing__Hit, candidate: tracing__Candidate, primitive: u32) -> tracing__Hit {
 	var is_lower = primitive < hit.primitive;
 	var is_left = primitive == at.ray.leaving;
 	if (bindings__HAS_INSTANCES) {
@@ -1957,13 +1898,13 @@ fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate:
 	let counts = candidate.hit & !is_left;
 	let wins = counts & ((candidate.t < hit.t) | ties);
 	if (bindings__HAS_CONTACT) {
-		let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
+		let found = tracing__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
 		primitive__keep_runner_up(hit, found, counts, wins);
 	}
-	return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+	return tracing__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
 }
 
-fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, wins: bool) {
+fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: bool, wins: bool) {
 	let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
 	if (wins) {
 		primitive__runner_up = hit;
@@ -1973,8 +1914,8 @@ fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, w
 	}
 }
 
-fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> types__Candidate {
-	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> tracing__Candidate {
+	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
 	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
 		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
 	}
@@ -1984,7 +1925,7 @@ fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> typ
 	return candidate;
 }
 
-fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> types__Candidate {
+fn primitive__test_triangle(ray: tracing__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> tracing__Candidate {
 	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
 		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
 	}
@@ -2008,7 +1949,7 @@ fn deforming__keys_of(instance: types__PackedInstance) -> deforming__Keys {
 	return deforming__NO_KEYS;
 }
 
-fn deforming__node_now(reference: u32, keys: deforming__Keys) -> types__Node {
+fn deforming__node_now(reference: u32, keys: deforming__Keys) -> tracing__Node {
 	var key_count = 2u;
 	if (bindings__HAS_DEFORMATION) {
 		key_count = select(2u, bindings__frame.deformation_key_count, keys.next != 0u);
@@ -2140,8 +2081,8 @@ fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
 	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
 }
 
-fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
-	return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+fn instance__object_ray(ray: tracing__Ray, space: motion__Space) -> tracing__Ray {
+	return tracing__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
 }
 
 fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
@@ -2240,19 +2181,19 @@ fn node__bytes(word: u32) -> vec4f {
 	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
 }
 
-fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
-	return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
+fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> tracing__Node {
+	return tracing__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
 }
 
-fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
+fn node__node_between(a: tracing__Node, b: tracing__Node, fraction: f32) -> tracing__Node {
 	let lo = mix(a.lo, b.lo, vec3f(fraction));
 	let shift_a = a.lo - lo;
 	let shift_b = b.lo - lo;
 	let s = vec4f(fraction);
-	return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+	return tracing__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
 }
 
-fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
+fn node__child_keys(node: tracing__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
 	let base = (node.lo - origin) * inv;
 	let step = node.scale * inv;
 	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
@@ -2278,7 +2219,7 @@ fn node__sort4(keys: vec4u) -> vec4u {
 	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
-fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let e1 = v1 - v0;
 	let e2 = v2 - v0;
 	let n = cross(e1, e2);
@@ -2290,10 +2231,10 @@ fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3
 	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
 	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
-fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
+fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let e1 = v1 - v0;
 	let e2 = v2 - v0;
 	let p = cross(ray.direction, e2);
@@ -2306,7 +2247,7 @@ fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray,
 	let b2 = inv_det * dot(ray.direction, q);
 	let t = inv_det * dot(e2, q);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
 const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
@@ -2325,11 +2266,11 @@ const shape__ELLIPSOIDS: u32 = 1u << types__SHAPE_ELLIPSOID;
 
 const shape__GLOBES: u32 = 1u << types__SHAPE_GLOBE;
 
-fn shape__test_shape(ray: types__Ray, shape: types__PackedShape) -> types__Candidate {
+fn shape__test_shape(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Candidate {
 	if (bindings__SHAPE_KINDS == shape__SPHERES) {
 		return sphere__intersect_sphere(ray, shape.position, shape.size0);
 	}
-	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
 	if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
 		candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
 	}
@@ -2397,14 +2338,14 @@ fn shape__is_flat(kind: u32) -> bool {
 	return (bindings__SHAPE_KINDS & (shape__DISCS | shape__RECTANGLES)) != 0u && (kind == types__SHAPE_DISC || kind == types__SHAPE_RECTANGLE);
 }
 
-fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> types__Candidate {
+fn sphere__intersect_sphere(ray: tracing__Ray, center: vec3f, radius: f32) -> tracing__Candidate {
 	let f = ray.origin - center;
 	let a = dot(ray.direction, ray.direction);
 	let b = -dot(f, ray.direction);
 	let nearest = f + (b / a) * ray.direction;
 	let discriminant = radius * radius - dot(nearest, nearest);
 	if (discriminant < 0.0) {
-		return types__Candidate(false, 0.0, 0.0, 0.0);
+		return tracing__Candidate(false, 0.0, 0.0, 0.0);
 	}
 	let c = dot(f, f) - radius * radius;
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
@@ -2412,10 +2353,10 @@ fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> type
 	let t1 = q / a;
 	let near = min(t0, t1);
 	let t = select(max(t0, t1), near, near > 0.0);
-	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
-fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> types__Candidate {
+fn globe__intersect_globe(ray: tracing__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> tracing__Candidate {
 	let w = ray.origin - anchor;
 	let f = n + curvature * w;
 	let c = curvature * dot(w, w) + 2.0 * dot(n, w);
@@ -2426,14 +2367,14 @@ fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f
 	let is_near = abs(curvature * c) < 1.0;
 	let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
 	if (discriminant < 0.0) {
-		return types__Candidate(false, 0.0, 0.0, 0.0);
+		return tracing__Candidate(false, 0.0, 0.0, 0.0);
 	}
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
 	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
 	let t1 = q / a;
 	let near = min(t0, t1);
 	let t = select(max(t0, t1), near, near > 0.0);
-	return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
 fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__PlacedPoint {
@@ -2471,11 +2412,11 @@ fn canonical__canonical_vector(shape: types__PackedShape, v: vec3f) -> vec3f {
 	return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
 }
 
-fn canonical__canonical_ray(ray: types__Ray, shape: types__PackedShape) -> types__Ray {
-	return types__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
+fn canonical__canonical_ray(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Ray {
+	return tracing__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
 }
 
-fn canonical__approach(ray: types__Ray, center: vec3f, reach: f32) -> canonical__Approach {
+fn canonical__approach(ray: tracing__Ray, center: vec3f, reach: f32) -> canonical__Approach {
 	let size = abs(ray.direction);
 	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
 	let scaled = ray.direction / largest;
@@ -2530,32 +2471,32 @@ fn canonical__outwards(v: vec2f) -> vec2f {
 	return select(vec2f(1.0, 0.0), v / select(1.0, size, usable), usable);
 }
 
-fn disc__intersect_disc(ray: types__Ray, hole: f32) -> types__Candidate {
+fn disc__intersect_disc(ray: tracing__Ray, hole: f32) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
 	let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
 	let distance = dot(p, p);
-	return types__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
 fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
-fn rectangle__intersect_rectangle(ray: types__Ray) -> types__Candidate {
+fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
 	let way = t * ray.direction.xz;
 	let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
 	let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
-	return types__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
 }
 
 fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
-fn box__intersect_box(ray: types__Ray) -> types__Candidate {
+fn box__intersect_box(ray: tracing__Ray) -> tracing__Candidate {
 	let size = abs(ray.direction);
 	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
 	let inv = numeric__safe_reciprocal(ray.direction / largest);
@@ -2573,7 +2514,7 @@ fn box__intersect_box(ray: types__Ray) -> types__Candidate {
 	let positive = (inv[axis] < 0.0) == from_outside;
 	let side = f32(axis) + select(0.0, 3.0, positive);
 	let hit = (enter <= leave) & (s > 0.0);
-	return types__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
+	return tracing__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
 }
 
 fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
@@ -2596,7 +2537,7 @@ const cone__BOTTOM: f32 = 1.0;
 
 const cone__TOP: f32 = 2.0;
 
-fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) -> types__Candidate {
+fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) -> tracing__Candidate {
 	let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
 	let o = near.origin;
 	let d = near.direction;
@@ -2640,7 +2581,7 @@ fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) ->
 	let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
 	let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
 	let t = canonical__approached_t(near, s);
-	return types__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
+	return tracing__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
 }
 
 fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
@@ -2702,7 +2643,7 @@ fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
 	return select(three, vec3f(one), discriminant > 0.0);
 }
 
-fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
+fn torus__intersect_torus(ray: tracing__Ray, minor: f32) -> tracing__Candidate {
 	let outer = 1.0 + minor;
 	let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
 	let o = near.origin;
@@ -2723,7 +2664,7 @@ fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
 	let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
 	let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
 	let t = canonical__approached_t(near, s);
-	return types__Candidate(found & (t > 0.0), t, 0.0, 0.0);
+	return tracing__Candidate(found & (t > 0.0), t, 0.0, 0.0);
 }
 
 fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
@@ -2767,10 +2708,10 @@ fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
 }
 
-fn ellipsoid__intersect_ellipsoid(ray: types__Ray) -> types__Candidate {
+fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
 	let near = canonical__approach(ray, vec3f(0.0), 1.5);
-	let found = sphere__intersect_sphere(types__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
-	return types__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
+	let found = sphere__intersect_sphere(tracing__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
+	return tracing__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
 }
 
 fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
@@ -2780,8 +2721,8 @@ fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
 
 const camera__T_FAR: f32 = 3e38;
 
-fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
-	return types__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
+fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
+	return tracing__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
@@ -2790,9 +2731,9 @@ fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) ->
 	return camera.forward + x * camera.right + y * camera.up;
 }
 
-fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
+fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
 	let origin = camera.origin + camera__across(camera, position, size);
-	return types__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
+	return tracing__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
@@ -2801,17 +2742,17 @@ fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> 
 	return x * camera.right + y * camera.up;
 }
 
-fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
 	let off_axis = camera__aperture_point(camera, u);
 	let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
-	return types__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+	return tracing__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
-fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
 	let off_axis = camera__aperture_point(camera, u);
 	let origin = camera.origin + camera__across(camera, position, size) + off_axis;
 	let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
-	return types__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+	return tracing__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
@@ -2823,7 +2764,7 @@ fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
 	return p.x * normalize(camera.right) + p.y * normalize(camera.up);
 }
 
-fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
+fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
 	var hit = start;
 	var index = fetch__first_plane;
 	loop {
@@ -2832,7 +2773,7 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
 		let primitive = types__SHAPE | index;
 		let counts = candidate.hit & (primitive != ray.leaving);
 		let wins = counts & (candidate.t < hit.t);
-		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+		let found = tracing__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
 		if (bindings__HAS_CONTACT) {
 			primitive__keep_runner_up(hit, found, counts, wins);
 		}
@@ -2848,7 +2789,7 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
 	return hit;
 }
 
-fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
+fn exhaustive__hit_everything(ray: tracing__Ray, shear: triangle_watertight__Shear, start: tracing__Hit) -> tracing__Hit {
 	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
 	var hit = start;
 	if (bindings__HAS_TRIANGLES) {
@@ -2870,7 +2811,7 @@ fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear
 	return hit;
 }
 
-fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
+fn exhaustive__hit_run(at: primitive__TraversalRay, start: tracing__Hit, first: u32, count: u32) -> tracing__Hit {
 	var hit = start;
 	var index = 0u;
 	for (; index < count; index += 1u) {
@@ -2880,17 +2821,17 @@ fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u3
 	return hit;
 }
 
-fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
+fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing__Candidate {
 	let slope = dot(n, ray.direction);
 	let steep = abs(slope) > 1e-12;
 	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
 struct direct__Receiver {
-	surface: types__Surface,
+	surface: shading__Surface,
 	v: vec3f,
-	key: types__SampleKey
+	key: shading__SampleKey
 }
 
 struct direct__Receivers {
@@ -2914,12 +2855,12 @@ fn direct__no_receivers() -> direct__Receivers {
 	return direct__Receivers(none, none, none, none, none, none, none, wide__Floats(0.0), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__Floats(0.0), wide__Words(0u));
 }
 
-fn direct__receiver_set(all: direct__Receivers, k: u32, surface: types__Surface, v: vec3f, key: types__SampleKey) -> direct__Receivers {
+fn direct__receiver_set(all: direct__Receivers, k: u32, surface: shading__Surface, v: vec3f, key: shading__SampleKey) -> direct__Receivers {
 	return direct__Receivers(wide__vector_set(all.p, k, surface.p), wide__vector_set(all.error, k, surface.error), wide__vector_set(all.ng, k, surface.ng), wide__vector_set(all.n, k, surface.n), wide__vector_set(all.v, k, v), wide__vector_set(all.diffuse, k, surface.phong.diffuse), wide__vector_set(all.specular, k, surface.phong.specular), wide__float_set(all.shininess, k, surface.phong.shininess), wide__word_set(all.leaving, k, surface.leaving), wide__word_set(all.instance, k, surface.instance), wide__word_set(all.hash, k, key.hash), wide__float_set(all.weight, k, key.weight), wide__word_set(all.is_lit, k, 1u));
 }
 
 fn direct__receiver_at(all: direct__Receivers, k: u32) -> direct__Receiver {
-	var surface: types__Surface;
+	var surface: shading__Surface;
 	surface.p = wide__vector_at(all.p, k);
 	surface.error = wide__vector_at(all.error, k);
 	surface.ng = wide__vector_at(all.ng, k);
@@ -2929,7 +2870,7 @@ fn direct__receiver_at(all: direct__Receivers, k: u32) -> direct__Receiver {
 	surface.phong.diffuse = wide__vector_at(all.diffuse, k);
 	surface.phong.specular = wide__vector_at(all.specular, k);
 	surface.phong.shininess = wide__float_at(all.shininess, k);
-	return direct__Receiver(surface, wide__vector_at(all.v, k), types__SampleKey(wide__word_at(all.hash, k), 0u, wide__float_at(all.weight, k)));
+	return direct__Receiver(surface, wide__vector_at(all.v, k), shading__SampleKey(wide__word_at(all.hash, k), 0u, wide__float_at(all.weight, k)));
 }
 
 fn direct__direct_light(batch: dispatch__Batch, receivers: direct__Receivers, media: ray_states__Media, sample: u32) -> wide__Vectors {
@@ -3007,7 +2948,7 @@ fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: 
 	return wide__Vectors(before.x + sum.x / counts, before.y + sum.y / counts, before.z + sum.z / counts);
 }
 
-fn direct__shadow_ray(surface: types__Surface, arriving: types__Incident) -> types__Ray {
+fn direct__shadow_ray(surface: shading__Surface, arriving: shading__Incident) -> tracing__Ray {
 	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
 	ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
 	return ray;
@@ -3064,7 +3005,7 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 		reflect = vec3f(0.0);
 		transmit = vec3f(1.0);
 	}
-	var cone = types__Cone(0.0, 0.0);
+	var cone = tracing__Cone(0.0, 0.0);
 	var mirrored_way = cone;
 	var refracted_way = cone;
 	if (bindings__HAS_FOOTPRINTS) {
@@ -3104,7 +3045,7 @@ fn optics__is_worth_tracing(batch: dispatch__Batch, throughput: vec3f) -> bool {
 	return (mean > 0.0) & (mean >= batch.min_throughput);
 }
 
-fn optics__local_weights(optics: types__Optics, reflect: vec3f, sends: bool) -> optics__Weights {
+fn optics__local_weights(optics: shading__Optics, reflect: vec3f, sends: bool) -> optics__Weights {
 	let left = max(1.0 - reflect, vec3f(0.0));
 	if ((optics.flags & types__MATERIAL_SUM) != 0u) {
 		return optics__Weights(vec3f(1.0), vec3f(1.0));
@@ -3116,7 +3057,7 @@ fn optics__local_weights(optics: types__Optics, reflect: vec3f, sends: bool) -> 
 	return optics__Weights(optics.opacity * left, vec3f(1.0));
 }
 
-const medium__VACUUM: types__Medium = types__Medium(vec3f(0.0), 1.0, 0);
+const medium__VACUUM: shading__Medium = shading__Medium(vec3f(0.0), 1.0, 0);
 
 fn medium__dominant(media: vec4u) -> u32 {
 	if (!bindings__HAS_CONTACT) {
@@ -3139,14 +3080,14 @@ fn medium__higher(best: u32, next: u32) -> u32 {
 	return select(best, next, material__load_medium(next).priority >= material__load_medium(best).priority);
 }
 
-fn medium__medium_of(material: u32) -> types__Medium {
+fn medium__medium_of(material: u32) -> shading__Medium {
 	if (material == types__NONE) {
 		return medium__VACUUM;
 	}
 	return material__load_medium(material);
 }
 
-fn medium__transmittance(medium: types__Medium, distance: f32) -> vec3f {
+fn medium__transmittance(medium: shading__Medium, distance: f32) -> vec3f {
 	return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
 }
 
@@ -3159,8 +3100,67 @@ fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
 	return select(medium__dominant(media), material, started_inside);
 }
 
+struct shading__Phong {
+	diffuse: vec3f,
+	specular: vec3f,
+	shininess: f32,
+	ambient: vec3f,
+	reflect: vec3f
+}
+
+struct shading__Medium {
+	absorption: vec3f,
+	ior: f32,
+	priority: i32
+}
+
+struct shading__Surface {
+	p: vec3f,
+	n: vec3f,
+	ng: vec3f,
+	error: vec3f,
+	leaving: u32,
+	outside: bool,
+	uv: vec2f,
+	second_uv: vec2f,
+	material: u32,
+	phong: shading__Phong,
+	id: u32,
+	place: vec3f,
+	instance: u32,
+	footprint: shading__Footprint,
+	curvature: f32,
+	tangent: vec4f,
+	coat_n: vec3f
+}
+
+struct shading__Footprint {
+	uv: mat2x2f,
+	second_uv: mat2x2f,
+	place: mat2x3f
+}
+
+struct shading__Optics {
+	transmit: vec3f,
+	opacity: f32,
+	ior: f32,
+	flags: u32
+}
+
+struct shading__Incident {
+	direction: vec3f,
+	distance: f32,
+	radiance: vec3f
+}
+
+struct shading__SampleKey {
+	hash: u32,
+	index: u32,
+	weight: f32
+}
+
 struct material__PhongMaterial {
-	phong: types__Phong,
+	phong: shading__Phong,
 	flags: u32
 }
 
@@ -3173,23 +3173,23 @@ fn material__load_material(index: u32) -> material__PhongMaterial {
 	if (bindings__HAS_REFLECTION) {
 		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
 	}
-	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+	let phong = shading__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
 	return material__PhongMaterial(phong, r1.w);
 }
 
-fn material__load_optics(index: u32) -> types__Optics {
+fn material__load_optics(index: u32) -> shading__Optics {
 	let row = types__MATERIAL_ROWS * index;
 	let r1 = fetch__material_row(row + 1u);
 	let r2 = fetch__material_row(row + 2u);
 	let r3 = fetch__material_row(row + 3u);
 	let r4 = fetch__material_row(row + 4u);
-	return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
+	return shading__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
 }
 
-fn material__load_medium(index: u32) -> types__Medium {
+fn material__load_medium(index: u32) -> shading__Medium {
 	let row = types__MATERIAL_ROWS * index;
 	let r5 = fetch__material_row(row + 5u);
-	return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
+	return shading__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
 }
 
 fn material__load_emission(index: u32) -> vec3f {
@@ -3338,13 +3338,13 @@ const contact__EDGE: f32 = 1e-6;
 const contact__VAGUE_EDGE: f32 = 0.0001;
 
 struct contact__Contact {
-	surface: types__Surface,
-	hit: types__Hit,
+	surface: shading__Surface,
+	hit: tracing__Hit,
 	touching: u32,
 	enters_touching: bool
 }
 
-fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> contact__Contact {
+fn contact__contact_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone) -> contact__Contact {
 	var contact: contact__Contact;
 	contact.hit = hit;
 	contact.touching = types__NONE;
@@ -3391,21 +3391,21 @@ fn contact__media_behind(media: vec4u, contact: contact__Contact) -> vec4u {
 	return behind;
 }
 
-fn contact__is_near(ray: types__Ray, hit: types__Hit, surface: types__Surface) -> bool {
+fn contact__is_near(ray: tracing__Ray, hit: tracing__Hit, surface: shading__Surface) -> bool {
 	let gap = (primitive__runner_up.t - hit.t) * abs(dot(surface.ng, ray.direction));
 	let reach = numeric__max_component(abs(surface.p)) + hit.t;
 	return primitive__runner_up.primitive != types__NONE && gap <= contact__NEAR * reach && contact__is_transparent(surface);
 }
 
-fn contact__is_transparent(surface: types__Surface) -> bool {
+fn contact__is_transparent(surface: shading__Surface) -> bool {
 	return any(material__load_optics(surface.material).transmit > vec3f(0.0));
 }
 
-fn contact__is_thin(surface: types__Surface) -> bool {
+fn contact__is_thin(surface: shading__Surface) -> bool {
 	return (material__load_optics(surface.material).flags & types__MATERIAL_THIN) != 0u;
 }
 
-fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_volume: bool) -> contact__Contact {
+fn contact__merge(contact: contact__Contact, second: shading__Surface, is_same_volume: bool) -> contact__Contact {
 	let is_alike = (second.material == contact.surface.material) & (second.outside == contact.surface.outside);
 	let is_other = !(is_alike & is_same_volume);
 	let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
@@ -3424,7 +3424,7 @@ fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_vol
 	return both;
 }
 
-fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3u) -> bool {
+fn contact__is_same_volume(first: tracing__Hit, second: tracing__Hit, vertices: vec3u) -> bool {
 	let are_triangles = bindings__HAS_TRIANGLES && ((first.primitive | second.primitive) & types__SHAPE) == 0u;
 	if (!are_triangles || first.instance != second.instance) {
 		return false;
@@ -3432,7 +3432,7 @@ fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3
 	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, triangle_surface__met_vertices);
 }
 
-fn contact__is_at_edge(hit: types__Hit) -> bool {
+fn contact__is_at_edge(hit: tracing__Hit) -> bool {
 	let nearest = min(min(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
 	return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
 }
@@ -3441,7 +3441,7 @@ fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
 	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
 }
 
-fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
+fn surface__surface_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone) -> shading__Surface {
 	var instance: types__PackedInstance;
 	var space: motion__Space;
 	var local = ray;
@@ -3451,7 +3451,7 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 		space = instance__space_of(instance);
 		local = instance__object_ray(ray, space);
 	}
-	var surface: types__Surface;
+	var surface: shading__Surface;
 	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
 		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
 	}
@@ -3479,7 +3479,7 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> t
 	return surface;
 }
 
-fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__Space) -> types__Surface {
+fn surface__placed_surface(ray: tracing__Ray, own: shading__Surface, space: motion__Space) -> shading__Surface {
 	var surface = own;
 	surface.p = space.linear * own.p + space.translation;
 	surface.ng = numeric__normalize_or(instance__placed_normal(space, own.ng), -ray.direction);
@@ -3496,7 +3496,7 @@ struct triangle_surface__Placing {
 	keys: deforming__Keys
 }
 
-fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing: triangle_surface__Placing, cone: types__Cone) -> types__Surface {
+fn triangle_surface__triangle_surface(ray: tracing__Ray, hit: tracing__Hit, placing: triangle_surface__Placing, cone: tracing__Cone) -> shading__Surface {
 	let space = placing.space;
 	let keys = placing.keys;
 	let own = deforming__triangle_now(hit.primitive, keys);
@@ -3569,11 +3569,11 @@ fn triangle_surface__triangle_surface(ray: types__Ray, hit: types__Hit, placing:
 		}
 	}
 	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return types__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
+	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
 }
 
-fn triangle_surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
-	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+fn triangle_surface__mix_phong(p0: shading__Phong, p1: shading__Phong, p2: shading__Phong, b0: f32, b1: f32, b2: f32) -> shading__Phong {
+	return shading__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
 }
 
 fn tangent_space__placed_tangents(space: motion__Space, own: mat3x4f) -> mat3x4f {
@@ -3612,17 +3612,17 @@ struct ray_cone__Filtering {
 	way: vec2f
 }
 
-fn ray_cone__cone_at(cone: types__Cone, distance: f32) -> types__Cone {
-	return types__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
+fn ray_cone__cone_at(cone: tracing__Cone, distance: f32) -> tracing__Cone {
+	return tracing__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
 }
 
-fn ray_cone__mirrored_cone(cone: types__Cone, curvature: f32) -> types__Cone {
-	return types__Cone(cone.width, clamp(cone.spread + 2.0 * curvature * cone.width, -ray_cone__WIDEST, ray_cone__WIDEST));
+fn ray_cone__mirrored_cone(cone: tracing__Cone, curvature: f32) -> tracing__Cone {
+	return tracing__Cone(cone.width, clamp(cone.spread + 2.0 * curvature * cone.width, -ray_cone__WIDEST, ray_cone__WIDEST));
 }
 
-fn ray_cone__refracted_cone(cone: types__Cone, curvature: f32, eta: f32) -> types__Cone {
+fn ray_cone__refracted_cone(cone: tracing__Cone, curvature: f32, eta: f32) -> tracing__Cone {
 	let spread = eta * cone.spread + (eta - 1.0) * curvature * cone.width;
-	return types__Cone(cone.width, clamp(spread, -ray_cone__WIDEST, ray_cone__WIDEST));
+	return tracing__Cone(cone.width, clamp(spread, -ray_cone__WIDEST, ray_cone__WIDEST));
 }
 
 fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
@@ -3670,7 +3670,7 @@ fn normal_map__coat_map_of(material: u32) -> normal_map__NormalMap {
 	return normal_map__NormalMap(layers__texture_in(layers, types__SLOT_COAT_NORMAL), layers.coat_normal_scale);
 }
 
-fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: types__Footprint) -> vec3f {
+fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3f, corners: mat3x3f, uvs: mat3x4f, weights: vec3f, footprint: shading__Footprint) -> vec3f {
 	if (map.index == types__NO_TEXTURE) {
 		return n;
 	}
@@ -3698,14 +3698,14 @@ fn normal_map__in_picture(texture: types__PackedTexture, uvs: vec4f) -> vec2f {
 	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
 }
 
-fn texture__textured_phong(surface: types__Surface) -> types__Phong {
+fn texture__textured_phong(surface: shading__Surface) -> shading__Phong {
 	let phong = surface.phong;
 	let indices = material__load_texture_indices(surface.material);
 	let factors = texture__texture_factors(vec3u(indices.x & 65535u, indices.x >> 16u, indices.z & 65535u), surface);
-	return types__Phong(factors[0] * phong.diffuse, factors[1] * phong.specular, phong.shininess, (texture__unoccluded(surface) * factors[2]) * phong.ambient, phong.reflect);
+	return shading__Phong(factors[0] * phong.diffuse, factors[1] * phong.specular, phong.shininess, (texture__unoccluded(surface) * factors[2]) * phong.ambient, phong.reflect);
 }
 
-fn texture__unoccluded(surface: types__Surface) -> f32 {
+fn texture__unoccluded(surface: shading__Surface) -> f32 {
 	if (!bindings__HAS_OCCLUSION) {
 		return 1.0;
 	}
@@ -3717,7 +3717,7 @@ fn texture__unoccluded(surface: types__Surface) -> f32 {
 	return 1.0 + bitcast<f32>(map.y) * (texture__texture_color(material__load_texture(index), surface).x - 1.0);
 }
 
-fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
+fn texture__texture_optics(surface: shading__Surface) -> mat3x3f {
 	if (!(bindings__HAS_TEXTURES && bindings__HAS_OPTICS_TEXTURES)) {
 		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
 	}
@@ -3725,7 +3725,7 @@ fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
 	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
 }
 
-fn texture__texture_factors(wanted: vec3u, surface: types__Surface) -> mat3x3f {
+fn texture__texture_factors(wanted: vec3u, surface: shading__Surface) -> mat3x3f {
 	var factors = mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
 	var open = wanted != vec3u(types__NO_TEXTURE);
 	loop {
@@ -3759,7 +3759,7 @@ fn texture__uses_second_uv(texture: types__PackedTexture) -> bool {
 	return bindings__HAS_SECOND_UVS && (texture.flags & types__TEXTURE_SECOND_UV) != 0u;
 }
 
-fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footprint) -> mat2x2f {
+fn texture__footprint_in(texture: types__PackedTexture, footprint: shading__Footprint) -> mat2x2f {
 	if (!bindings__HAS_FOOTPRINTS) {
 		return mat2x2f();
 	}
@@ -3773,13 +3773,13 @@ fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footpr
 	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
 }
 
-fn texture__place_in_pattern(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+fn texture__place_in_pattern(texture: types__PackedTexture, surface: shading__Surface) -> vec3f {
 	let uv = select(surface.uv, surface.second_uv, texture__uses_second_uv(texture));
 	let at = select(vec4f(surface.place, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
 	return clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
 }
 
-fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface, is_mask: bool) -> f32 {
+fn texture__texture_alpha(texture: types__PackedTexture, surface: shading__Surface, is_mask: bool) -> f32 {
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
 		let axes = texture__footprint_in(texture, surface.footprint);
 		let size = select(1.0, 0.0, is_mask);
@@ -3788,11 +3788,11 @@ fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface
 	return 1.0;
 }
 
-fn texture__texture_color(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+fn texture__texture_color(texture: types__PackedTexture, surface: shading__Surface) -> vec3f {
 	return texture__texture_value(texture, surface).xyz;
 }
 
-fn texture__texture_value(texture: types__PackedTexture, surface: types__Surface) -> vec4f {
+fn texture__texture_value(texture: types__PackedTexture, surface: shading__Surface) -> vec4f {
 	let q = texture__place_in_pattern(texture, surface);
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
 		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint));
@@ -3889,7 +3889,7 @@ struct layers__Layers {
 	diffuse_transmission_color: vec3f
 }
 
-fn layers__layers_at(surface: types__Surface, optics: types__Optics) -> layers__Layers {
+fn layers__layers_at(surface: shading__Surface, optics: shading__Optics) -> layers__Layers {
 	var own = material__load_layers(surface.material);
 	own.base = surface.phong.diffuse;
 	var reflect = surface.phong.reflect;
@@ -4031,7 +4031,7 @@ fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) ->
 	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
 }
 
-fn offset__mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriving: types__Ray, distance: f32, is_flat: bool) -> vec3f {
+fn offset__mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriving: tracing__Ray, distance: f32, is_flat: bool) -> vec3f {
 	let height = offset__clearance(p, error, ng);
 	let slope = dot(ng, arriving.direction);
 	let back = height / max(abs(slope), 1e-6);
@@ -4040,7 +4040,7 @@ fn offset__mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriving: types__R
 	return select(p - back * arriving.direction, at_most, back > 0.5 * distance);
 }
 
-fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
+fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
 	let reached = ray.origin + hit.t * ray.direction;
 	let material = material__load_material(shape.material);
@@ -4052,13 +4052,13 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return types__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 	}
 	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -4067,7 +4067,7 @@ fn shape_surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surf
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return types__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
 }
 
 fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
@@ -4158,7 +4158,7 @@ struct interface__Interface {
 	encloses: bool
 }
 
-fn interface__interface_at(around: vec4u, contact: contact__Contact, optics: types__Optics) -> interface__Interface {
+fn interface__interface_at(around: vec4u, contact: contact__Contact, optics: shading__Optics) -> interface__Interface {
 	let surface = contact.surface;
 	let transparent = bindings__HAS_REFRACTION && any(optics.transmit > vec3f(0.0));
 	let encloses = transparent && (optics.flags & types__MATERIAL_THIN) == 0u;
@@ -4251,25 +4251,25 @@ fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary 
 	return fresnel__fresnel(cos_i, eta);
 }
 
-fn leaving__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -> types__Ray {
+fn leaving__leaving_ray(surface: shading__Surface, direction: vec3f, t_max: f32) -> tracing__Ray {
 	if (bindings__FIXED_OFFSET > 0.0) {
 		let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
-		return types__Ray(origin, t_max, direction, types__NONE, surface.instance);
+		return tracing__Ray(origin, t_max, direction, types__NONE, surface.instance);
 	}
 	let origin = offset__offset_origin(surface.p, surface.error, surface.ng, direction);
-	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
+	return tracing__Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
-fn leaving__mirrored_ray(surface: types__Surface, direction: vec3f, t_max: f32, arriving: types__Ray, distance: f32) -> types__Ray {
+fn leaving__mirrored_ray(surface: shading__Surface, direction: vec3f, t_max: f32, arriving: tracing__Ray, distance: f32) -> tracing__Ray {
 	if (bindings__FIXED_OFFSET > 0.0) {
 		return leaving__leaving_ray(surface, direction, t_max);
 	}
 	let is_flat = surface.leaving != types__NONE;
 	let origin = offset__mirrored_origin(surface.p, surface.error, surface.ng, arriving, distance, is_flat);
-	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
+	return tracing__Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
-fn coverage__coverage_at(surface: types__Surface) -> f32 {
+fn coverage__coverage_at(surface: shading__Surface) -> f32 {
 	if (!bindings__HAS_COVERAGE) {
 		return 1.0;
 	}
@@ -4288,7 +4288,7 @@ fn coverage__coverage_at(surface: types__Surface) -> f32 {
 	return select(clamp(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
 }
 
-fn emitters__emitted(surface: types__Surface, optics: types__Optics, glow: vec3f) -> vec3f {
+fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: vec3f) -> vec3f {
 	if (!bindings__HAS_EMISSION) {
 		return vec3f(0.0);
 	}
@@ -4301,7 +4301,7 @@ fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
 	return x * x * (3.0 - 2.0 * x);
 }
 
-fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
+fn light__incident(light: types__PackedLight, p: vec3f) -> shading__Incident {
 	let to_light = light.position - p;
 	let distance = length(to_light);
 	let is_directional = light.kind == types__LIGHT_DIRECTIONAL;
@@ -4313,17 +4313,17 @@ fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
 	if (light.kind == types__LIGHT_SPOT) {
 		strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
 	}
-	return types__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
+	return shading__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
 }
 
-fn area_light__area_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+fn area_light__area_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> shading__Incident {
 	if (light.kind == types__LIGHT_SPHERE) {
 		return area_light__sphere_incident(light, p, u);
 	}
 	return area_light__flat_incident(light, p, u);
 }
 
-fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> shading__Incident {
 	let within = select(warp__disc_from_square(u), 2.0 * u - 1.0, light.kind == types__LIGHT_RECTANGLE);
 	let center = light.position - p;
 	let to_light = center + within.x * light.edge_u + within.y * light.edge_v;
@@ -4334,10 +4334,10 @@ fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> t
 	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
 	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + area_light__max_abs(light.edge_u) + area_light__max_abs(light.edge_v);
 	let usable = distance > 1e-30;
-	return types__Incident(direction, area_light__short_of(distance, reach, abs(cos_light)), select(0.0, strength, usable) * light.color);
+	return shading__Incident(direction, area_light__short_of(distance, reach, abs(cos_light)), select(0.0, strength, usable) * light.color);
 }
 
-fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> shading__Incident {
 	let to_center = light.position - p;
 	let d2 = dot(to_center, to_center);
 	let radius2 = light.radius * light.radius;
@@ -4354,7 +4354,7 @@ fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) ->
 	let fading = select(outside, 4.0 / max(radius2, 1e-30), is_inside);
 	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
 	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + light.radius;
-	return types__Incident(direction, area_light__short_of(distance, reach, chord / max(light.radius, 1e-30)), strength * light.color);
+	return shading__Incident(direction, area_light__short_of(distance, reach, chord / max(light.radius, 1e-30)), strength * light.color);
 }
 
 fn area_light__short_of(distance: f32, reach: f32, cosine: f32) -> f32 {
@@ -4464,7 +4464,7 @@ fn phong__shininess_power(x: f32, shininess: f32) -> f32 {
 	return select(select(0.0, 1.0, shininess <= 0.0), power, x > 0.0);
 }
 
-fn phong__phong(coefficients: types__Phong, n: vec3f, l: vec3f, v: vec3f) -> vec3f {
+fn phong__phong(coefficients: shading__Phong, n: vec3f, l: vec3f, v: vec3f) -> vec3f {
 	let cos_l = dot(l, n);
 	let r = 2.0 * cos_l * n - l;
 	let highlight = phong__shininess_power(max(dot(r, v), 0.0), coefficients.shininess);
@@ -4475,7 +4475,7 @@ fn phong__phong(coefficients: types__Phong, n: vec3f, l: vec3f, v: vec3f) -> vec
 const shadow__MAX_CROSSINGS: u32 = 64u;
 
 struct shadow__Passage {
-	ray: types__Ray,
+	ray: tracing__Ray,
 	media: vec4u,
 	through: vec3f,
 	crossings: u32
@@ -4485,7 +4485,7 @@ fn shadow__sees_through() -> bool {
 	return bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS);
 }
 
-fn shadow__crossed(before: shadow__Passage, hit: types__Hit) -> shadow__Passage {
+fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
 	var passage = before;
 	passage.ray = rays__DEAD;
 	if (hit.primitive == types__NONE) {
@@ -4498,7 +4498,7 @@ fn shadow__crossed(before: shadow__Passage, hit: types__Hit) -> shadow__Passage 
 		passage.through = vec3f(0.0);
 		return passage;
 	}
-	let contact = contact__contact_at(before.ray, hit, types__Cone(0.0, 0.0));
+	let contact = contact__contact_at(before.ray, hit, tracing__Cone(0.0, 0.0));
 	let surface = contact.surface;
 	var through = vec3f(0.0);
 	if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
@@ -4595,7 +4595,7 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__
 	return transmitted;
 }
 
-fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, around: vec4u, behind: u32) -> vec3f {
+fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, around: vec4u, behind: u32) -> vec3f {
 	let optics = material__load_optics(surface.material);
 	let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
 	if (bindings__SOLID_GLASS) {

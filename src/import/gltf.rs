@@ -18,6 +18,7 @@ mod document_materials;
 mod extensions;
 mod hierarchy;
 mod lights;
+mod map_kinds;
 mod maps;
 mod materials;
 mod mesh;

@@ -47,7 +47,10 @@ const CANONICAL_SHAPES: [CanonicalShape; 15] = [
 
 /// Wraps the shader functions of all shapes as `test` and `point`.
 const CANONICAL: &str = "
-    import package::types::{Candidate, NONE, NO_INSTANCE, PackedShape, Ray, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_TORUS};
+    import package::types::{
+        NONE, NO_INSTANCE, PackedShape, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_TORUS,
+    };
+    import package::types::tracing::{Candidate, Ray};
     import package::lib::canonical::{CanonicalPoint, PlacedPoint, canonical_ray, canonical_vector, placed_point};
     import package::lib::offset::offset_origin;
     import package::lib::intersect::box::{box_point, intersect_box};

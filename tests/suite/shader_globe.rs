@@ -88,7 +88,8 @@ fn spheres_with_a_surface_near_the_camera_are_packed_as_globes() {
 #[test]
 fn a_globe_is_hit_where_the_exact_sphere_is() {
     const HIT: &str = "
-        import package::types::{Candidate, PackedShape, Ray};
+        import package::types::PackedShape;
+        import package::types::tracing::{Candidate, Ray};
         import package::lib::intersect::globe::intersect_globe;
         fn probe(shape: PackedShape, ray: Ray) -> Candidate {
             return intersect_globe(ray, shape.position, shape.row_y, shape.size0);
@@ -142,7 +143,8 @@ fn a_globe_is_hit_where_the_exact_sphere_is() {
 #[test]
 fn a_ray_from_far_away_hits_a_globe_where_the_exact_sphere_is() {
     const HIT: &str = "
-        import package::types::{Candidate, PackedShape, Ray};
+        import package::types::PackedShape;
+        import package::types::tracing::{Candidate, Ray};
         import package::lib::intersect::globe::intersect_globe;
         fn probe(shape: PackedShape, ray: Ray) -> Candidate {
             return intersect_globe(ray, shape.position, shape.row_y, shape.size0);
@@ -190,7 +192,8 @@ fn a_ray_from_far_away_hits_a_globe_where_the_exact_sphere_is() {
 fn a_ray_that_leaves_a_globe_starts_close_to_it_and_does_not_hit_it_again() {
     // The distance from `reached` to the new origin, or -1 where the globe is hit again.
     const LEAVE: &str = "
-        import package::types::{NONE, NO_INSTANCE, PackedShape, Ray};
+        import package::types::{NONE, NO_INSTANCE, PackedShape};
+        import package::types::tracing::Ray;
         import package::lib::intersect::globe::{globe_point, intersect_globe};
         import package::lib::offset::offset_origin;
         fn probe(shape: PackedShape, reached: vec3f, aside: vec3f, cosine: f32) -> f32 {

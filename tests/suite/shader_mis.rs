@@ -40,8 +40,8 @@ fn dark_paths_end_and_bright_ones_may_too() {
         &[
             ("black", [0.0f32, 0.0, 0.0], 0.0),
             ("the largest channel counts", [0.1, 0.4, 0.2], 0.4),
-            ("white", [1.0, 1.0, 1.0], 0.95),
-            ("more than white", [5.0, 0.0, 0.0], 0.95),
+            ("white", [1.0, 1.0, 1.0], 1.0),
+            ("more than white", [5.0, 0.0, 0.0], 1.0),
         ],
     );
 }

@@ -14,7 +14,7 @@ const MISS: u32 = 0xffff_fffc;
 
 /// Keys of the four children, from the same inputs as in traversal.
 const KEYS: &str = "
-    import package::types::Node;
+    import package::types::tracing::Node;
     import package::lib::intersect::node::child_keys;
     import package::lib::numeric::safe_reciprocal;
     fn probe(node: Node, origin: vec3f, direction: vec3f, t_max: f32) -> vec4u {

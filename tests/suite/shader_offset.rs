@@ -123,7 +123,8 @@ fn a_ray_leaves_a_triangle_far_from_the_origin() {
 #[test]
 fn a_ray_from_a_plane_sees_another_just_above_it() {
     const LOOK_UP: &str = "
-        import package::types::{NONE, NO_INSTANCE, Ray};
+        import package::types::{NONE, NO_INSTANCE};
+        import package::types::tracing::Ray;
         import package::lib::intersect::plane::intersect_plane;
         import package::lib::offset::{offset_origin, plane_error};
         fn probe(p: vec3f, above: vec3f) -> bool {
@@ -190,7 +191,7 @@ fn a_reflected_ray_starts_on_the_path_of_the_incoming_ray() {
     let (up, o) = ([0f32, 1.0, 0.0], [0f32; 3]);
     let slanted = |length: f32| ray([-0.6 * length, 0.8 * length, 0.0], [0.6, -0.8, 0.0]);
     const RETREAT: &str = "
-        import package::types::Ray;
+        import package::types::tracing::Ray;
         import package::lib::offset::mirrored_origin;
         fn probe(error: vec3f, ng: vec3f, arriving: Ray, distance: f32, is_flat: bool) -> vec3f {
             return mirrored_origin(vec3f(0.0), error, ng, arriving, distance, is_flat);
@@ -219,7 +220,8 @@ fn a_reflected_ray_starts_on_the_path_of_the_incoming_ray() {
 #[test]
 fn a_reflected_ray_starts_between_the_two_faces_of_a_sharp_edge() {
     const MIRROR: &str = "
-        import package::types::{NONE, NO_INSTANCE, Ray};
+        import package::types::{NONE, NO_INSTANCE};
+        import package::types::tracing::Ray;
         import package::lib::numeric::normalize_or;
         import package::lib::offset::{mirrored_origin, triangle_error};
         fn probe(v0: vec3f, v1: vec3f, v2: vec3f, weights: vec2f, origin: vec3f) -> vec3f {

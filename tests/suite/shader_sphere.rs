@@ -151,7 +151,8 @@ fn an_earth_at_the_feet_is_hit_to_the_rounding_of_its_radius() {
 #[test]
 fn a_ray_that_leaves_a_sphere_does_not_hit_it_again() {
     const LEAVE: &str = "
-        import package::types::{NONE, NO_INSTANCE, Ray};
+        import package::types::{NONE, NO_INSTANCE};
+        import package::types::tracing::Ray;
         import package::lib::intersect::sphere::intersect_sphere;
         import package::lib::numeric::normalize_or;
         import package::lib::offset::{offset_origin, sphere_error};

@@ -26,7 +26,7 @@ const METHODS: [(&str, &str); 3] = [
 const WATERTIGHT: &str = METHODS[2].1;
 
 const IMPORTS: &str = "
-    import package::types::{Candidate, Ray};
+    import package::types::tracing::{Candidate, Ray};
     import package::lib::intersect::triangle_moller_trumbore::intersect_triangle_moller_trumbore;
     import package::lib::intersect::triangle_plane::intersect_triangle_plane;
     import package::lib::intersect::triangle_watertight::{intersect_triangle_watertight, shear_of};

@@ -3,7 +3,7 @@
 
 use super::Reader;
 use super::document::{ChannelTarget, Kind, Material as Source, TextureInfo};
-use super::materials::{PATH_MAPS, SHOWN_MAPS, all_maps};
+use super::map_kinds::{MapKind, all_maps};
 use crate::import::error::ImportError;
 use crate::scene::{
     CameraProperty, Coverage, LayerProperty, LightProperty, Material, MaterialProperty,
@@ -141,16 +141,14 @@ fn map_property(property: &str) -> Option<(&'static str, TextureProperty)> {
         _ => return None,
     };
     let name = map.rsplit('/').next()?;
-    let mut known = SHOWN_MAPS.iter().chain(&PATH_MAPS);
-    known
-        .find(|known| **known == name)
-        .map(|known| (*known, part))
+    MapKind::shown(name).map(|kind| (kind.name(), part))
 }
 
 /// The map of a material with a property of this name.
 pub(super) fn map_of<'m>(material: &'m Source, name: &str) -> Option<&'m TextureInfo> {
     let mut maps = all_maps(material).into_iter();
-    maps.find(|(known, _)| *known == name).map(|(_, info)| info)
+    maps.find(|(kind, _)| kind.name() == name)
+        .map(|(_, info)| info)
 }
 
 /// A target in the scene, and what the values in the file are multiplied with for it.

@@ -2,8 +2,9 @@
 //! classical materials of the scene.
 
 use super::Reader;
-use super::document::{Material as Source, Primitive, TextureInfo};
+use super::document::{Material as Source, Primitive};
 use super::document_materials::{AlphaMode, Extensions};
+use super::map_kinds::{ShownBy, all_maps};
 use crate::import::budget;
 use crate::import::error::ImportError;
 use crate::scene::{Coverage, LayerTextures, Material, MetallicRoughness};
@@ -156,52 +157,23 @@ impl Reader<'_> {
 
     /// Notes the maps of a material that are not shown.
     fn note_maps(&mut self, source: &Source, here: &str) -> Result<(), ImportError> {
-        for (parameter, info) in all_maps(source) {
-            let place = format!("{here}.{parameter}");
+        for (kind, info) in all_maps(source) {
+            let place = format!("{here}.{}", kind.name());
             if self.map(info, &place)?.is_none() {
                 continue;
             }
-            let of_paths = PATH_MAPS.contains(&parameter);
-            let is_shown = SHOWN_MAPS.contains(&parameter) || (of_paths && self.traces_paths);
-            if !is_shown {
-                self.notes
-                    .add("maps that are not shown", || match of_paths {
-                        true => format!("{place} is shown by path tracing only"),
-                        false => format!("{place} is not shown"),
-                    });
-            }
+            let what = match kind.shown_by() {
+                ShownBy::All => continue,
+                ShownBy::Paths if self.traces_paths => continue,
+                ShownBy::Paths => "is shown by path tracing only",
+                ShownBy::None => "is not shown",
+            };
+            self.notes
+                .add("maps that are not shown", || format!("{place} {what}"));
         }
         Ok(())
     }
 }
-
-/// The maps that have an effect on path-traced pictures only.
-pub(super) const PATH_MAPS: [&str; 12] = [
-    "specularTexture",
-    "specularColorTexture",
-    "clearcoatTexture",
-    "clearcoatRoughnessTexture",
-    "clearcoatNormalTexture",
-    "sheenColorTexture",
-    "sheenRoughnessTexture",
-    "anisotropyTexture",
-    "iridescenceTexture",
-    "iridescenceThicknessTexture",
-    "diffuseTransmissionTexture",
-    "diffuseTransmissionColorTexture",
-];
-
-/// The maps that have an effect on the picture.
-pub(super) const SHOWN_MAPS: [&str; 8] = [
-    "baseColorTexture",
-    "metallicRoughnessTexture",
-    "emissiveTexture",
-    "normalTexture",
-    "occlusionTexture",
-    "transmissionTexture",
-    "diffuseTexture",
-    "thicknessTexture",
-];
 
 /// The code of a vertex colour with `levels` + 1 levels per channel. They are spaced like squares, which is
 /// near to how differences are seen.
@@ -211,67 +183,6 @@ fn code(color: Vec4, levels: f32) -> u32 {
         (x.sqrt() * levels).round() as u8
     };
     u32::from_le_bytes([channel(color.x), channel(color.y), channel(color.z), 0])
-}
-
-/// All maps of a material, by the name of their property.
-pub(super) fn all_maps(source: &Source) -> Vec<(&'static str, &TextureInfo)> {
-    let mut maps = Vec::new();
-    macro_rules! list {
-        ($from:expr, $($name:literal $field:ident),*) => {
-            if let Some(from) = $from {
-                $(if let Some(map) = &from.$field { maps.push(($name, &**map)); })*
-            }
-        };
-    }
-    list!(
-        source.pbr_metallic_roughness.as_ref(),
-        "baseColorTexture" base_color_texture,
-        "metallicRoughnessTexture" metallic_roughness_texture
-    );
-    list!(
-        Some(source),
-        "normalTexture" normal_texture,
-        "occlusionTexture" occlusion_texture,
-        "emissiveTexture" emissive_texture
-    );
-    let Some(extensions) = &source.extensions else {
-        return maps;
-    };
-    list!(extensions.transmission.as_ref(), "transmissionTexture" transmission_texture);
-    list!(extensions.volume.as_ref(), "thicknessTexture" thickness_texture);
-    list!(
-        extensions.specular.as_ref(),
-        "specularTexture" specular_texture,
-        "specularColorTexture" specular_color_texture
-    );
-    list!(
-        extensions.clearcoat.as_ref(),
-        "clearcoatTexture" clearcoat_texture,
-        "clearcoatRoughnessTexture" clearcoat_roughness_texture,
-        "clearcoatNormalTexture" clearcoat_normal_texture
-    );
-    list!(
-        extensions.sheen.as_ref(),
-        "sheenColorTexture" sheen_color_texture,
-        "sheenRoughnessTexture" sheen_roughness_texture
-    );
-    list!(extensions.anisotropy.as_ref(), "anisotropyTexture" anisotropy_texture);
-    list!(
-        extensions.iridescence.as_ref(),
-        "iridescenceTexture" iridescence_texture,
-        "iridescenceThicknessTexture" iridescence_thickness_texture
-    );
-    list!(
-        extensions.diffuse_transmission.as_ref(),
-        "diffuseTransmissionTexture" diffuse_transmission_texture,
-        "diffuseTransmissionColorTexture" diffuse_transmission_color_texture
-    );
-    list!(
-        extensions.specular_glossiness.as_ref(),
-        "diffuseTexture" diffuse_texture,
-        "specularGlossinessTexture" specular_glossiness_texture
-    );
-    maps
 }
 
 /// A number in 0..=1.

@@ -4,7 +4,7 @@ use super::Reader;
 use super::blame::Blame;
 use super::buffers::{self, Buffers, Source};
 use super::document::Document;
-use super::materials::{PATH_MAPS, SHOWN_MAPS, all_maps};
+use super::map_kinds::{MapKind, ShownBy, all_maps};
 use crate::import::Options;
 use crate::import::error::ImportError;
 use crate::import::paths::Refusal;
@@ -32,24 +32,9 @@ impl Store {
     }
 }
 
-/// What the texels of a map stand for, by the name of its property.
-fn role_of(parameter: &str) -> Role {
-    match parameter {
-        "baseColorTexture"
-        | "diffuseTexture"
-        | "emissiveTexture"
-        | "specularColorTexture"
-        | "sheenColorTexture"
-        | "diffuseTransmissionColorTexture" => Role::Color,
-        _ => Role::Data,
-    }
-}
-
-/// Whether the scene has the map of this property.
-fn is_used(parameter: &str) -> bool {
-    // A volume has one thickness, whatever its map.
-    parameter != "thicknessTexture"
-        && (SHOWN_MAPS.contains(&parameter) || PATH_MAPS.contains(&parameter))
+/// Whether the scene has this map.
+fn is_used(kind: MapKind) -> bool {
+    kind != MapKind::Thickness && kind.shown_by() != ShownBy::None
 }
 
 impl Reader<'_> {
@@ -66,14 +51,13 @@ impl Reader<'_> {
             if !seen.insert(index) {
                 continue;
             }
-            for (parameter, info) in all_maps(source) {
+            for (kind, info) in all_maps(source) {
                 let texture = document.textures.get(info.index);
                 let image = texture.and_then(|texture| texture.image());
-                if let Some(image) = image.filter(|_| is_used(parameter))
+                if let Some(image) = image.filter(|_| is_used(kind))
                     && let Ok(Ok((place, name))) = self.located(image)
                 {
-                    let role = role_of(parameter);
-                    self.store.pictures.plan(place, &name, role);
+                    self.store.pictures.plan(place, &name, kind.role());
                 }
             }
         }

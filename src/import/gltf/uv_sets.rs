@@ -2,7 +2,7 @@
 
 use super::Reader;
 use super::document::{Material as Source, Primitive};
-use super::materials::all_maps;
+use super::map_kinds::{MapKind, all_maps};
 use crate::import::error::ImportError;
 use crate::import::source::quote;
 use crate::scene::{MetallicRoughness, Space};
@@ -57,10 +57,11 @@ impl<'a> Reader<'a> {
         let here = format!("materials[{index}]");
         let can_emit = self.can_emit(index, model);
         let mut maps = Vec::new();
-        for (name, info) in all_maps(source) {
-            let Some(rank) = rank(name, source, model, can_emit) else {
+        for (kind, info) in all_maps(source) {
+            let Some(rank) = rank(kind, source, model, can_emit) else {
                 continue;
             };
+            let name = kind.name();
             if let Some(map) = self.map(info, &format!("{here}.{name}"))? {
                 maps.push((rank, name, map.uv_set));
             }
@@ -126,28 +127,31 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// How much the map with this name matters; `None` if the material shows none by this name.
-fn rank(map: &str, source: &Source, model: &MetallicRoughness, can_emit: bool) -> Option<Rank> {
+/// How much a map matters; `None` if the material shows none of this kind.
+fn rank(map: MapKind, source: &Source, model: &MetallicRoughness, can_emit: bool) -> Option<Rank> {
     let extensions = source.extensions.as_deref();
     let is_older = extensions.is_some_and(|it| it.specular_glossiness.is_some());
     let layer = |is_there| Some(if is_there { Rank::Layer } else { Rank::Idle });
+    let surface = |is_there: bool| is_there.then_some(Rank::Main);
+    if model.unlit && !matches!(map, MapKind::BaseColor | MapKind::Diffuse) {
+        return None;
+    }
     match map {
-        "baseColorTexture" => (!is_older).then_some(Rank::Main),
-        "diffuseTexture" => Some(Rank::Main),
-        _ if model.unlit => None,
-        "metallicRoughnessTexture" => (!is_older).then_some(Rank::Main),
-        "emissiveTexture" => can_emit.then_some(Rank::Main),
-        "normalTexture" | "occlusionTexture" | "transmissionTexture" => Some(Rank::Main),
-        "specularTexture" | "specularColorTexture" => layer(model.specular > 0.0),
-        "clearcoatTexture" | "clearcoatRoughnessTexture" | "clearcoatNormalTexture" => {
+        MapKind::BaseColor | MapKind::MetallicRoughness => surface(!is_older),
+        MapKind::Emissive => surface(can_emit),
+        MapKind::Diffuse | MapKind::Normal | MapKind::Occlusion | MapKind::Transmission => {
+            surface(true)
+        }
+        MapKind::Specular | MapKind::SpecularColor => layer(model.specular > 0.0),
+        MapKind::Clearcoat | MapKind::ClearcoatRoughness | MapKind::ClearcoatNormal => {
             layer(model.clearcoat > 0.0)
         }
-        "sheenColorTexture" | "sheenRoughnessTexture" => layer(model.sheen_color != Vec3::ZERO),
-        "anisotropyTexture" => layer(model.anisotropy > 0.0),
-        "iridescenceTexture" | "iridescenceThicknessTexture" => layer(model.iridescence > 0.0),
-        "diffuseTransmissionTexture" | "diffuseTransmissionColorTexture" => {
+        MapKind::SheenColor | MapKind::SheenRoughness => layer(model.sheen_color != Vec3::ZERO),
+        MapKind::Anisotropy => layer(model.anisotropy > 0.0),
+        MapKind::Iridescence | MapKind::IridescenceThickness => layer(model.iridescence > 0.0),
+        MapKind::DiffuseTransmission | MapKind::DiffuseTransmissionColor => {
             layer(model.diffuse_transmission > 0.0)
         }
-        _ => None,
+        MapKind::Thickness | MapKind::SpecularGlossiness => None,
     }
 }

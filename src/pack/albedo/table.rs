@@ -6,33 +6,49 @@ use std::f64::consts::PI;
 /// Entries along each side of a table; `ALBEDO_SIDE` in `lib/albedo.wesl`.
 pub const SIDE: usize = 32;
 
-/// Angles and heights at which an integral is evaluated.
+/// Points of an integral over visible normals, and the step between their angles: Fibonacci numbers, whose lattice is
+/// even. Many are for microfacets, and for glass seen from inside, where total reflection begins at an edge.
+const FEW: [usize; 2] = [987, 610];
+const MANY: [usize; 2] = [2584, 1597];
+
+/// Angles and heights at which the integral of sheen is evaluated.
 const ANGLES: usize = 24;
 const HEIGHTS: usize = 96;
 
-/// The cosine of the direction at which an integrand of the first column is evaluated: at 0 itself nothing is seen.
-const GRAZING: f64 = 1e-6;
+/// The cosine of the direction at which an integrand of the first column is evaluated, in widths: at 0 itself nothing
+/// is seen.
+const GRAZING: f64 = 1e-4;
 
-/// The smallest width α; below, distributions of sheen are too narrow for the integrals.
-const NARROWEST: f64 = 1e-3;
+/// The smallest width α of microfacets, and that of sheen, whose integral misses narrower distributions.
+const NARROWEST: f64 = 1e-5;
+const NARROWEST_SHEEN: f64 = 1e-3;
 
 /// Rows of a table of rough glass, and the number of such tables: `GLASS_ROWS` and `GLASS_SLICES` in `lib/albedo.wesl`.
-const GLASS: [usize; 2] = [24, 24];
+const GLASS: [usize; 2] = [24, 36];
 
 /// The table of the relative index 1.
-const CLEAR: usize = 7;
+const CLEAR: usize = 12;
 
-/// All tables: microfacets, then sheen, then rough glass. Rows are of ∜α from 0 to 1, columns of ∜cos θ from 0 to 1.
-/// Those of glass have rows of √α; they go from the relative index 1/3 to 3.
+/// All tables: microfacets, then sheen, then rough glass, with rows and columns as `lib/albedo.wesl` looks them up.
 pub fn words() -> Vec<u32> {
+    let part = |i: usize, count: usize| i as f64 / (count - 1) as f64;
     let mut words = Vec::with_capacity(2 * SIDE * SIDE + SIDE * GLASS[0] * GLASS[1]);
-    for entry in [ggx as fn(f64, f64) -> [f64; 2], sheen] {
-        for row in 0..SIDE {
-            for column in 0..SIDE {
-                let [cos_o, alpha] = [column, row].map(|i| (i as f64 / (SIDE - 1) as f64).powi(4));
-                let [low, high] = entry(cos_o.max(GRAZING), alpha.max(NARROWEST));
-                words.push(u32::from(half(low)) | u32::from(half(high)) << 16);
-            }
+    for row in 0..SIDE {
+        let alpha = part(row, SIDE).powi(2).max(NARROWEST);
+        for column in 0..SIDE {
+            let cos_o = cosine(part(column, SIDE), alpha);
+            let [whole, grazing] = ggx(cos_o, alpha);
+            words.push(word(
+                whole,
+                shifted(grazing - whole * (1.0 - cos_o).powi(5)),
+            ));
+        }
+    }
+    for row in 0..SIDE {
+        for column in 0..SIDE {
+            let [cos_o, alpha] = [column, row].map(|i| part(i, SIDE).powi(4));
+            let [albedo, most] = sheen(cos_o.max(1e-6), alpha.max(NARROWEST_SHEEN));
+            words.push(word(albedo, most));
         }
     }
     for slice in 0..GLASS[1] {
@@ -45,41 +61,70 @@ pub fn words() -> Vec<u32> {
         let amplitude = 0.5 * root * root.abs();
         let eta = (1.0 + amplitude) / (1.0 - amplitude);
         for row in 0..GLASS[0] {
+            let alpha = part(row, GLASS[0]).powi(2).max(NARROWEST);
             for column in 0..SIDE {
-                let cos_o = (column as f64 / (SIDE - 1) as f64).powi(4);
-                let alpha = (row as f64 / (GLASS[0] - 1) as f64).powi(2);
-                let [whole, reflected] = glass(cos_o.max(GRAZING), alpha.max(NARROWEST), eta);
-                words.push(u32::from(half(whole)) | u32::from(half(reflected)) << 16);
+                let cos_o = cosine(part(column, SIDE), alpha);
+                let [whole, reflected] = glass(cos_o, alpha, eta);
+                words.push(word(
+                    whole,
+                    shifted(reflected / whole - fresnel(cos_o, eta)),
+                ));
             }
         }
     }
     words
 }
 
-/// The visible normals of microfacets of width `alpha` from a direction in the plane y = 0, as (x, z), in equal shares:
-/// Dupuy and Benyoub 2023. Each comes with its weight; the other half circle is their mirror image.
+/// The cosine of a column of microfacets, which is at `place` from 0 to 1: c (1 + 4α)/(c + 4α) is its square.
+fn cosine(place: f64, alpha: f64) -> f64 {
+    let (square, wide) = (place * place, 4.0 * alpha);
+    (square * wide / (1.0 + wide - square)).clamp(GRAZING * alpha, 1.0)
+}
+
+/// A difference from -1 to 1 as a number from 0 to 1.
+fn shifted(difference: f64) -> f64 {
+    0.5 + 0.5 * difference
+}
+
+/// Two half floats.
+fn word(low: f64, high: f64) -> u32 {
+    u32::from(half(low)) | u32::from(half(high)) << 16
+}
+
+/// The visible normals of microfacets of width `alpha` from a direction in the plane y = 0, as (x, z): Dupuy and
+/// Benyoub 2023. Each comes with its weight; the other half circle is their mirror image.
 fn visible_normals(
-    wo: [f64; 2],
+    [sin_o, cos_o]: [f64; 2],
     alpha: f64,
-    parts: [usize; 2],
+    [count, step]: [usize; 2],
     mut add: impl FnMut([f64; 2], f64),
 ) {
-    let [sin_o, cos_o] = wo;
     let length = (alpha * alpha * sin_o * sin_o + cos_o * cos_o).sqrt();
     let (x, z) = (alpha * sin_o / length, cos_o / length);
-    for i in 0..parts[0] {
-        let (sin, cos) = (PI * (i as f64 + 0.5) / parts[0] as f64).sin_cos();
-        for j in 0..parts[1] {
-            // Finer at the lower end, where normals are tilted most.
-            let root = (j as f64 + 0.5) / parts[1] as f64;
-            let height = root * root * (1.0 + z) - z;
-            let radius = (1.0 - height * height).max(0.0).sqrt();
-            let normal = [alpha * (radius * cos + x), alpha * radius * sin, height + z];
-            let size = normal.iter().map(|part| part * part).sum::<f64>().sqrt();
-            let weight = 2.0 * root / (parts[0] * parts[1]) as f64;
-            add([normal[0] / size, normal[2] / size], weight);
-        }
+    let share = 1.0 / count as f64;
+    for i in 0..count {
+        let (sin, cos) = (PI * share * ((i * step % count) as f64 + 0.5)).sin_cos();
+        // Finer at the lower end, where normals are tilted most.
+        let part = share * (i as f64 + 0.5);
+        let root = part.sqrt();
+        let height = part * root * (1.0 + z) - z;
+        let radius = (1.0 - height * height).max(0.0).sqrt();
+        let (h_x, h_y, h_z) = (alpha * (radius * cos + x), alpha * radius * sin, height + z);
+        let size = (h_x * h_x + h_y * h_y + h_z * h_z).sqrt();
+        add([h_x / size, h_z / size], 1.5 * root * share);
     }
+}
+
+/// Fresnel's equations for the cosine on the side of the index `eta`, relative to the other.
+fn fresnel(cos_i: f64, eta: f64) -> f64 {
+    let cos2_t = 1.0 - eta * eta * (1.0 - cos_i * cos_i);
+    if cos2_t <= 0.0 {
+        return 1.0;
+    }
+    let cos_t = cos2_t.sqrt();
+    let s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    let p = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    0.5 * (s * s + p * p)
 }
 
 /// Smith's Λ for a direction with this cosine.
@@ -89,27 +134,21 @@ fn smith(cos: f64, alpha: f64) -> f64 {
 }
 
 /// What rough glass reflects and transmits together, and what it reflects, of light from a direction with cosine
-/// `cos_o`; `eta` is the index of refraction on that side divided by that of the other. Reflected light is shadowed at the
-/// same height, transmitted light independently, as in `lib/bsdf_ggx_transmission.wesl`.
+/// `cos_o`; `eta` is the index of refraction on that side divided by that of the other. Reflected light is shadowed at
+/// the same height, transmitted light independently, as in `lib/bsdf_ggx_transmission.wesl`.
 fn glass(cos_o: f64, alpha: f64, eta: f64) -> [f64; 2] {
     let sin_o = (1.0 - cos_o * cos_o).sqrt();
     let seen = 1.0 + smith(cos_o, alpha);
     let [mut reflected, mut transmitted] = [0.0; 2];
-    visible_normals([sin_o, cos_o], alpha, [16, 48], |[x, z], weight| {
+    let points = if eta > 1.0 && alpha > 0.02 { MANY } else { FEW };
+    visible_normals([sin_o, cos_o], alpha, points, |[x, z], weight| {
         let cos_h = (sin_o * x + cos_o * z).clamp(0.0, 1.0);
-        let cos2_t = 1.0 - eta * eta * (1.0 - cos_h * cos_h);
-        let cos_t = cos2_t.max(0.0).sqrt();
-        let s = (eta * cos_h - cos_t) / (eta * cos_h + cos_t);
-        let p = (cos_h - eta * cos_t) / (cos_h + eta * cos_t);
-        let part = if cos2_t <= 0.0 {
-            1.0
-        } else {
-            0.5 * (s * s + p * p)
-        };
+        let part = fresnel(cos_h, eta);
         let up = 2.0 * cos_h * z - cos_o;
         if up > 0.0 {
             reflected += weight * part * seen / (seen + smith(up, alpha));
         }
+        let cos_t = (1.0 - eta * eta * (1.0 - cos_h * cos_h)).max(0.0).sqrt();
         let down = eta * cos_o - (eta * cos_h - cos_t) * z;
         if down > 0.0 {
             transmitted += weight * (1.0 - part) / (1.0 + smith(down, alpha));
@@ -118,29 +157,22 @@ fn glass(cos_o: f64, alpha: f64, eta: f64) -> [f64; 2] {
     [reflected + transmitted, reflected]
 }
 
-/// The sums of (1 - (1 - cos)⁵) and (1 - cos)⁵ over visible microfacets that reflect light from a direction with cosine
-/// `cos_o` out of the surface, weighted with the part that is not shadowed: factors of f0 and f90. The distribution is
-/// that of Trowbridge and Reitz with Smith's height-correlated shadowing (Heitz 2014), the normals those of Dupuy and
-/// Benyoub 2023.
+/// The sum of visible microfacets that reflect light from a direction with cosine `cos_o` out of the surface, weighted
+/// with the part that is not shadowed, and the same with the weight (1 - cos)⁵. The distribution is that of Trowbridge
+/// and Reitz with Smith's height-correlated shadowing (Heitz 2014).
 fn ggx(cos_o: f64, alpha: f64) -> [f64; 2] {
     let sin_o = (1.0 - cos_o * cos_o).sqrt();
     let seen = 1.0 + smith(cos_o, alpha);
     let mut sums = [0.0; 2];
-    visible_normals(
-        [sin_o, cos_o],
-        alpha,
-        [ANGLES, HEIGHTS],
-        |[x, z], weight| {
-            let cos_h = sin_o * x + cos_o * z;
-            let cos_i = 2.0 * cos_h * z - cos_o;
-            if cos_i > 0.0 {
-                let lit = weight * seen / (seen + smith(cos_i, alpha));
-                let grazing = (1.0 - cos_h.clamp(0.0, 1.0)).powi(5);
-                sums[0] += lit * (1.0 - grazing);
-                sums[1] += lit * grazing;
-            }
-        },
-    );
+    visible_normals([sin_o, cos_o], alpha, MANY, |[x, z], weight| {
+        let cos_h = sin_o * x + cos_o * z;
+        let cos_i = 2.0 * cos_h * z - cos_o;
+        if cos_i > 0.0 {
+            let lit = weight * seen / (seen + smith(cos_i, alpha));
+            sums[0] += lit;
+            sums[1] += lit * (1.0 - cos_h.clamp(0.0, 1.0)).powi(5);
+        }
+    });
     sums
 }
 

@@ -156,7 +156,7 @@ fn check_step(ray: &TracedRay, step: &PathStep, bounces: u32) -> Result<(), Stri
     }
     let after = wide(ray.arriving) * weight;
     let chance = match bounces >= 3 && step.lobe.is_some() {
-        true => after.max_element().min(0.95),
+        true => after.max_element().min(1.0),
         false => 1.0,
     };
     let has_roulette = !matches!(step.outcome, StepOutcome::Limit | StepOutcome::Absorbed);

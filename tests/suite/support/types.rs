@@ -1,4 +1,4 @@
-//! The structs of `shaders/types.wesl` that functions take and return.
+//! The structs of `shaders/types.wesl` and `shaders/types/` that functions take and return.
 
 use super::words::shader_struct;
 use glimray::layout::{
@@ -103,7 +103,7 @@ pub struct CanonicalPoint {
 }
 
 shader_struct!(CanonicalPoint = "package::lib::canonical::CanonicalPoint" { p: [f32; 3], n: [f32; 3], uv: [f32; 2], });
-shader_struct!(Cone = "package::types::Cone" { width: f32, spread: f32, });
+shader_struct!(Cone = "package::types::tracing::Cone" { width: f32, spread: f32, });
 shader_struct!(Moment = "package::lib::motion::Moment" { key: u32, fraction: f32, });
 shader_struct!(Space = "package::lib::motion::Space" {
     translation: [f32; 3],
@@ -119,15 +119,15 @@ shader_struct!(PackedKey = "package::types::PackedKey" {
     shear: [f32; 3],
     _pad2: u32,
 });
-shader_struct!(Ray = "package::types::Ray" {
+shader_struct!(Ray = "package::types::tracing::Ray" {
     origin: [f32; 3],
     t_max: f32,
     direction: [f32; 3],
     leaving: u32,
     leaving_instance: u32,
 });
-shader_struct!(Candidate = "package::types::Candidate" { hit: bool, t: f32, b1: f32, b2: f32, });
-shader_struct!(Node = "package::types::Node" {
+shader_struct!(Candidate = "package::types::tracing::Candidate" { hit: bool, t: f32, b1: f32, b2: f32, });
+shader_struct!(Node = "package::types::tracing::Node" {
     lo: [f32; 3],
     scale: [f32; 3],
     min_x: [f32; 4],
@@ -138,14 +138,14 @@ shader_struct!(Node = "package::types::Node" {
     max_z: [f32; 4],
     children: [u32; 4],
 });
-shader_struct!(Phong = "package::types::Phong" {
+shader_struct!(Phong = "package::types::shading::Phong" {
     diffuse: [f32; 3],
     specular: [f32; 3],
     shininess: f32,
     ambient: [f32; 3],
     reflect: [f32; 3],
 });
-shader_struct!(Incident = "package::types::Incident" {
+shader_struct!(Incident = "package::types::shading::Incident" {
     direction: [f32; 3],
     distance: f32,
     radiance: [f32; 3],

@@ -2,7 +2,7 @@
 
 use super::materials::picture;
 use super::model::Model;
-use glimray::scene::Scene;
+use glimray::scene::{Scene, Space};
 use serde_json::{Value, json};
 
 /// Values that no other set has.
@@ -149,4 +149,93 @@ fn coordinates_that_are_not_numbers_are_zero_and_reported() {
         scene.skipped,
         ["texture coordinates that are not numbers, set to 0: 2"]
     );
+}
+
+/// The maps of the specification and of its extensions, by where they are in a material, with factors that show them.
+fn maps_besides_the_base_colour() -> Vec<(&'static str, &'static str, Value)> {
+    let coat = json!({ "clearcoatFactor": 1, "clearcoatRoughnessFactor": 1 });
+    let sheen = json!({ "sheenColorFactor": [1, 1, 1], "sheenRoughnessFactor": 1 });
+    let film = json!({ "iridescenceFactor": 1 });
+    let through = json!({ "diffuseTransmissionFactor": 1 });
+    vec![
+        (
+            "pbrMetallicRoughness",
+            "metallicRoughnessTexture",
+            json!({}),
+        ),
+        ("", "normalTexture", json!({})),
+        ("", "occlusionTexture", json!({})),
+        ("", "emissiveTexture", json!({})),
+        (
+            "KHR_materials_transmission",
+            "transmissionTexture",
+            json!({ "transmissionFactor": 1 }),
+        ),
+        ("KHR_materials_specular", "specularTexture", json!({})),
+        ("KHR_materials_specular", "specularColorTexture", json!({})),
+        ("KHR_materials_clearcoat", "clearcoatTexture", coat.clone()),
+        (
+            "KHR_materials_clearcoat",
+            "clearcoatRoughnessTexture",
+            coat.clone(),
+        ),
+        ("KHR_materials_clearcoat", "clearcoatNormalTexture", coat),
+        ("KHR_materials_sheen", "sheenColorTexture", sheen.clone()),
+        ("KHR_materials_sheen", "sheenRoughnessTexture", sheen),
+        (
+            "KHR_materials_anisotropy",
+            "anisotropyTexture",
+            json!({ "anisotropyStrength": 1 }),
+        ),
+        (
+            "KHR_materials_iridescence",
+            "iridescenceTexture",
+            film.clone(),
+        ),
+        (
+            "KHR_materials_iridescence",
+            "iridescenceThicknessTexture",
+            film,
+        ),
+        (
+            "KHR_materials_diffuse_transmission",
+            "diffuseTransmissionTexture",
+            through.clone(),
+        ),
+        (
+            "KHR_materials_diffuse_transmission",
+            "diffuseTransmissionColorTexture",
+            through,
+        ),
+    ]
+}
+
+#[test]
+fn every_map_may_have_a_set_of_its_own() {
+    for (place, map, factors) in maps_besides_the_base_colour() {
+        let mut material = json!({
+            "emissiveFactor": [1, 1, 1],
+            "pbrMetallicRoughness": { "baseColorTexture": { "index": 0, "texCoord": 0 } },
+        });
+        let owner = match place {
+            "" => &mut material,
+            "pbrMetallicRoughness" => &mut material[place],
+            extension => {
+                material["extensions"][extension] = factors;
+                &mut material["extensions"][extension]
+            }
+        };
+        owner[map] = json!({ "index": 1, "texCoord": 3 });
+        let (mut model, sets) = model(&[material]);
+        give(&mut model, 0, &[(0, sets[0]), (3, sets[3])]);
+        let scene = super::scene("a.glb", model.glb());
+        assert_eq!(scene.skipped, [""; 0], "{map}");
+        let seconds = scene
+            .textures
+            .iter()
+            .filter(|it| it.space == Space::SecondUv);
+        assert!(seconds.count() > 0, "{map}");
+        let mesh = &scene.meshes[0];
+        assert_eq!((mesh.uvs[0].x, mesh.second_uvs[0].x), (0.0, 0.375), "{map}");
+    }
 }
