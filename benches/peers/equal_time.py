@@ -219,7 +219,6 @@ def main():
     parsed.folder.mkdir(parents=True, exist_ok=True)
     parsed.folder = parsed.folder.resolve()
     os.environ["LP_NUM_THREADS"] = str(parsed.threads)
-    mi.Thread.set_thread_count(parsed.threads) if hasattr(mi.Thread, "set_thread_count") else None
     budget = parsed.seconds * parsed.threads
     rows, log = [], []
     scenes = path_scenes.all_scenes(parsed.folder, parsed.surroundings)
@@ -230,7 +229,7 @@ def main():
         for renderer in parsed.renderers.split(","):
             # The first fills the shader cache, and what it takes to begin is in both.
             renderers.render(renderer, 1, 0)
-            least = min(renderers.render(renderer, 1, 0)[2] for _ in range(1))
+            least = renderers.render(renderer, 1, 0)[2]
             samples, cpu = 4, 0
             while cpu - least < budget / 12:
                 samples *= 2
