@@ -4609,10 +4609,6 @@ struct shadow__Passage {
 	crossings: u32
 }
 
-fn shadow__sees_through() -> bool {
-	return bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS);
-}
-
 fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
 	var passage = before;
 	passage.ray = rays__DEAD;
@@ -4622,7 +4618,7 @@ fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passag
 		}
 		return passage;
 	}
-	if (!shadow__sees_through()) {
+	if (!(bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS))) {
 		record__record_met(hit, before.ray.t_max);
 		passage.through = vec3f(0.0);
 		return passage;
@@ -4652,7 +4648,7 @@ fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passag
 fn shadow__light_through(rays: rays__Rays, media: ray_states__Media) -> wide__Vectors {
 	record__open_shadow(rays.t_max);
 	var through: wide__Vectors;
-	if (shadow__sees_through()) {
+	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
 		through = shadow__filtered(rays, media);
 	}
 	else {

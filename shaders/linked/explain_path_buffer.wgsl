@@ -1464,10 +1464,6 @@ fn shadow__passage_of(ray: tracing__Ray, media: vec4u) -> shadow__Passage {
 	return shadow__Passage(ray, media, vec3f(1.0), 0u);
 }
 
-fn shadow__sees_through() -> bool {
-	return bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS);
-}
-
 fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
 	var passage = before;
 	passage.ray = rays__DEAD;
@@ -1477,7 +1473,7 @@ fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passag
 		}
 		return passage;
 	}
-	if (!shadow__sees_through()) {
+	if (!(bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS))) {
 		record__record_met(hit, before.ray.t_max);
 		passage.through = vec3f(0.0);
 		return passage;

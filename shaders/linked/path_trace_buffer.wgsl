@@ -1371,7 +1371,7 @@ fn path__next_walk(path: path__Path) -> traverse__Walk {
 	var any = false;
 	if (path__is_to_lamp(path)) {
 		ray = path.lamp.ray;
-		any = !shadow__sees_through();
+		any = !(bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS));
 	}
 	return traverse__walk_of(ray, any);
 }
@@ -1482,10 +1482,6 @@ fn shadow__passage_of(ray: tracing__Ray, media: vec4u) -> shadow__Passage {
 	return shadow__Passage(ray, media, vec3f(1.0), 0u);
 }
 
-fn shadow__sees_through() -> bool {
-	return bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS);
-}
-
 fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
 	var passage = before;
 	passage.ray = rays__DEAD;
@@ -1495,7 +1491,7 @@ fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passag
 		}
 		return passage;
 	}
-	if (!shadow__sees_through()) {
+	if (!(bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS))) {
 		passage.through = vec3f(0.0);
 		return passage;
 	}
