@@ -23,7 +23,7 @@ mod layers;
 mod man;
 mod memory;
 mod merge;
-pub mod mesa;
+mod mesa;
 mod picture;
 mod progress;
 mod render;
@@ -64,6 +64,11 @@ pub fn run(
         Ok(parsed) => parsed,
         Err(error) => return exit::command_line(&error),
     };
+    #[cfg(feature = "viewer")]
+    let opens_window = matches!(cli.command, Command::View(_));
+    #[cfg(not(feature = "viewer"))]
+    let opens_window = false;
+    mesa::set_environment(opens_window);
     match dispatch(cli.command, &matches, started, window) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => exit::failure(&error),

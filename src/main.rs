@@ -7,7 +7,6 @@ use std::time::Instant;
 
 fn main() -> ExitCode {
     let started = Instant::now();
-    glimray::cli::mesa::set_environment();
     glimray::cli::exit::install_panic_hook();
     #[cfg(feature = "viewer")]
     let window = Some(&glimray::viewer::WINDOW);

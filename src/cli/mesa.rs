@@ -6,28 +6,28 @@
 //!   to standard error, where scripts look for glimray's errors. The layer has nothing to select there. This can be
 //!   removed once the layer is silent.
 //! - `LP_NATIVE_VECTOR_WIDTH` is the width in bits of the vectors in which lavapipe executes shaders. It takes 256
-//!   unless told otherwise, also where the processor has 512 (AVX-512).
+//!   unless told otherwise, also where the processor has 512 (AVX-512). With 512, Mesa 22.3 crashes as soon as it
+//!   draws: so compute kernels have 512, and the window 256.
 
 /// Replaces this process by one with the variables that are missing. Returns if there are none, or if the program
-/// cannot be executed again. Variables that are set stay as they are.
+/// cannot be executed again. Variables that are set stay as they are, but for a width with which the window would
+/// crash.
 #[cfg(target_os = "linux")]
-pub fn set_environment() {
+pub fn set_environment(opens_window: bool) {
     use std::os::unix::process::CommandExt as _;
-    let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let value = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
+    let has_no_session = value("XDG_RUNTIME_DIR").is_none() && value("NODEVICE_SELECT").is_none();
+    let width = match value("LP_NATIVE_VECTOR_WIDTH").as_deref() {
+        None if !opens_window && has_wide_vectors() => Some("512"),
+        Some("512") if opens_window => Some("256"),
+        _ => None,
+    };
     let wanted = [
-        (
-            "NODEVICE_SELECT",
-            "1",
-            !is_set("XDG_RUNTIME_DIR") && !is_set("NODEVICE_SELECT"),
-        ),
-        (
-            "LP_NATIVE_VECTOR_WIDTH",
-            "512",
-            has_wide_vectors() && !is_set("LP_NATIVE_VECTOR_WIDTH"),
-        ),
+        ("NODEVICE_SELECT", has_no_session.then_some("1")),
+        ("LP_NATIVE_VECTOR_WIDTH", width),
     ];
     let missing: Vec<_> = (wanted.into_iter())
-        .filter_map(|(name, value, is_missing)| is_missing.then_some((name, value)))
+        .filter_map(|(name, value)| Some((name, value?)))
         .collect();
     let Ok(program) = std::env::current_exe() else {
         return;
@@ -46,7 +46,7 @@ pub fn set_environment() {
 
 /// Other systems have no such layer, and no lavapipe.
 #[cfg(not(target_os = "linux"))]
-pub fn set_environment() {}
+pub fn set_environment(_opens_window: bool) {}
 
 /// Whether the processor has vectors of 512 bits, with all instructions that Mesa's compiler uses for them.
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]

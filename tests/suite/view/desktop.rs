@@ -168,10 +168,10 @@ impl Desktop {
         })
     }
 
-    fn open(&self, arguments: &[&str], settings: &Path, faults: &str) -> Opened<'_> {
+    fn open(&self, arguments: &[&str], settings: &Path, variables: &[(&str, &str)]) -> Opened<'_> {
         let mut opened = Opened {
             desktop: self,
-            program: self.program(arguments, settings, faults),
+            program: self.program(arguments, settings, variables),
             id: String::new(),
         };
         opened.find();
@@ -187,14 +187,14 @@ impl Desktop {
         command
     }
 
-    fn program(&self, arguments: &[&str], settings: &Path, faults: &str) -> Child {
+    fn program(&self, arguments: &[&str], settings: &Path, variables: &[(&str, &str)]) -> Child {
         let program = self
             .command(env!("CARGO_BIN_EXE_glimray"))
             .arg("view")
             .args(arguments)
             .env("GLIMRAY_SETTINGS", settings)
             .current_dir(settings)
-            .env("GLIMRAY_FAULT", faults)
+            .envs(variables.iter().copied())
             .stderr(Stdio::piped())
             .spawn()
             .expect("glimray");
@@ -310,7 +310,7 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
         return;
     };
     let settings = settings();
-    let opened = desktop.open(&["--samples", "2"], settings.path(), "");
+    let opened = desktop.open(&["--samples", "2"], settings.path(), &[]);
     let first = desktop.finished(INSIDE);
 
     desktop.drag([500, 300], [560, 310]);
@@ -358,7 +358,7 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
         kept.contains("sphere.scene"),
         "not among recent files: {kept}"
     );
-    let again = desktop.open(&[], settings.path(), "");
+    let again = desktop.open(&[], settings.path(), &[]);
     wait_for("the window where it was", || {
         let place = desktop.xdotool(&["getwindowgeometry", "--shell", &again.id]);
         let wanted = ["X=40", "Y=30", "WIDTH=900", "HEIGHT=600"];
@@ -381,7 +381,7 @@ fn after_a_click_on_a_line_letters_are_text_and_a_quick_drag_takes_a_border() {
         return;
     };
     let settings = settings();
-    let opened = desktop.open(&["--samples", "1"], settings.path(), "");
+    let opened = desktop.open(&["--samples", "1"], settings.path(), &[]);
     desktop.finished(WINDOW);
     let before = desktop.screenshot(SETTINGS);
     let click = |x: &str, y: &str| desktop.xdotool(&["mousemove", x, y, "click", "1"]);
@@ -422,12 +422,16 @@ fn a_lost_device_is_replaced_while_the_window_is_open() {
         return;
     };
     let settings = settings();
-    let undisturbed = desktop.open(&["--samples", "2"], settings.path(), "");
+    let undisturbed = desktop.open(&["--samples", "2"], settings.path(), &[]);
     let expected = desktop.finished(INSIDE);
     undisturbed.key("ctrl+q");
     assert_eq!(undisturbed.wait(), Some(0));
 
-    let disturbed = desktop.open(&["--samples", "2"], settings.path(), "device@12");
+    let disturbed = desktop.open(
+        &["--samples", "2"],
+        settings.path(),
+        &[("GLIMRAY_FAULT", "device@12")],
+    );
     let shown = desktop.finished(INSIDE);
     assert!(shown == expected, "the picture is not back");
     desktop.xdotool(&[
@@ -437,6 +441,28 @@ fn a_lost_device_is_replaced_while_the_window_is_open() {
     ]);
     disturbed.key("ctrl+q");
     assert_eq!(disturbed.wait(), Some(0));
+}
+
+/// lavapipe crashes when it draws with 512 bits. The shaders are compiled anew, for its cache does not distinguish
+/// widths.
+#[test]
+fn a_window_opens_where_the_vectors_of_kernels_have_512_bits() {
+    let Some(desktop) = Desktop::start() else {
+        return;
+    };
+    let settings = settings();
+    let cache = tempfile::tempdir().expect("a folder");
+    let variables = [
+        ("LP_NATIVE_VECTOR_WIDTH", "512"),
+        (
+            "MESA_SHADER_CACHE_DIR",
+            cache.path().to_str().expect("text"),
+        ),
+    ];
+    let opened = desktop.open(&["--samples", "2"], settings.path(), &variables);
+    desktop.finished(INSIDE);
+    opened.key("ctrl+q");
+    assert_eq!(opened.wait(), Some(0));
 }
 
 /// Seconds from the start of the program to its first picture, and from a movement of the mouse to a
@@ -451,7 +477,7 @@ fn how_soon_pictures_come() {
     let mut starts = Vec::new();
     for _ in 0..5 {
         let start = Instant::now();
-        let mut program = desktop.program(&[], settings.path(), "");
+        let mut program = desktop.program(&[], settings.path(), &[]);
         wait_for("a picture", || {
             (colors(&desktop.screenshot(INSIDE)) > 64).then_some(())
         });
@@ -462,7 +488,7 @@ fn how_soon_pictures_come() {
             (colors(&desktop.screenshot(INSIDE)) == 1).then_some(())
         });
     }
-    let _opened = desktop.open(&["--samples", "1"], settings.path(), "");
+    let _opened = desktop.open(&["--samples", "1"], settings.path(), &[]);
     desktop.calm(INSIDE);
     desktop.xdotool(&["mousemove", "500", "400", "mousedown", "1", "sleep", "0.5"]);
     let mut movements: Vec<f64> = (0..30)
@@ -499,7 +525,7 @@ fn pictures_of_the_window_for_the_readme() {
     let settings = settings();
     let mirrors = scene("glass_and_mirrors.toml");
     let arguments = [mirrors.to_str().expect("a name"), "--samples", "9"];
-    let opened = desktop.open(&arguments, settings.path(), "");
+    let opened = desktop.open(&arguments, settings.path(), &[]);
     let save = |name: &str| {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/gallery");
         let (width, height) = (u32::from(WINDOW[2]), u32::from(WINDOW[3]));
