@@ -4100,21 +4100,40 @@ fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: s
 }
 
 fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, n: vec3f) -> shading__Incident {
-	var arriving = shading__Incident(n, camera__T_FAR, vec3f(0.0));
 	let has_lamps = bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT;
 	var chance = 0.0;
-	if (!bindings__HAS_ENVIRONMENT && (bindings__BACKGROUND != types__BACKGROUND_COLOR || any(batch.background > vec3f(0.0)))) {
+	if (bindings__BACKGROUND != types__BACKGROUND_COLOR || any(batch.background > vec3f(0.0))) {
 		chance = select(1.0, 0.5, has_lamps);
-	}
-	if (has_lamps) {
-		arriving = emitters__sample_light(batch, p, n, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON)).incident;
-		arriving.radiance *= max(dot(n, arriving.direction), 0.0) / (warp__PI * max(1.0 - chance, 0.5));
 	}
 	if (path__random_1d(path, dimensions__SCATTER_CHOICE) < chance) {
 		let direction = warp__turn_to(n, bsdf_diffuse__diffuse_sample(path__random_2d(path, dimensions__SCATTER_DIRECTION)));
-		arriving = shading__Incident(direction, camera__T_FAR, background__background(batch, direction) / chance);
+		var density = 0.0;
+		if (bindings__HAS_ENVIRONMENT) {
+			density = batch.environment_share * environment__environment_pdf(batch, direction);
+		}
+		let cosine = max(dot(n, direction), 0.0) / warp__PI;
+		let part = cosine / max(chance * cosine + (1.0 - chance) * density, 1e-30);
+		return shading__Incident(direction, camera__T_FAR, part * background__background(batch, direction));
 	}
+	if (!has_lamps) {
+		return shading__Incident(n, camera__T_FAR, vec3f(0.0));
+	}
+	let light = emitters__sample_light(batch, p, n, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
+	var arriving = light.incident;
+	let cosine = max(dot(n, arriving.direction), 0.0) / warp__PI;
+	let is_background = bindings__HAS_ENVIRONMENT && light.pdf > 0.0 && arriving.distance >= camera__T_FAR;
+	let other = select(0.0, chance * cosine / max(light.pdf, 1e-30), is_background);
+	arriving.radiance *= cosine / (1.0 - chance + other);
 	return arriving;
+}
+
+fn bsdf_diffuse__diffuse_eval(wi: vec3f) -> f32 {
+	return max(wi.z, 0.0) / warp__PI;
+}
+
+fn bsdf_diffuse__diffuse_sample(u: vec2f) -> vec3f {
+	let p = warp__disc_from_square(u);
+	return vec3f(p, sqrt(max(1.0 - dot(p, p), 0.0)));
 }
 
 struct emitters__LightSample {
@@ -4924,15 +4943,6 @@ fn light_weight__emitter_of(batch: dispatch__Batch, primitive: u32, instance: u3
 	let found = fetch__load_emitter(low);
 	let is_it = found.instance == instance && found.primitive == primitive;
 	return types__PackedEmitter(select(types__NONE, primitive, is_it), instance, found.end, found.trail);
-}
-
-fn bsdf_diffuse__diffuse_eval(wi: vec3f) -> f32 {
-	return max(wi.z, 0.0) / warp__PI;
-}
-
-fn bsdf_diffuse__diffuse_sample(u: vec2f) -> vec3f {
-	let p = warp__disc_from_square(u);
-	return vec3f(p, sqrt(max(1.0 - dot(p, p), 0.0)));
 }
 
 fn direct__shadow_ray(surface: shading__Surface, arriving: shading__Incident) -> tracing__Ray {

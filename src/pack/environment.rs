@@ -1,4 +1,4 @@
-//! The table from which paths sample a picture in the background in proportion to its luminance.
+//! The table from which paths sample a picture in the background in proportion to its luminance above the mean.
 //!
 //! It is a tree of sums over a grid of directions, see `shaders/lib/quad_warp.wesl`: the word of the root, the words of
 //! each level row by row from the lowest elevation on, and then the density of each cell as a float.
@@ -11,7 +11,14 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// The grid has at most 2 to this power rows.
-const MAX_LEVELS: u32 = 9;
+const MAX_LEVELS: u32 = 10;
+
+/// The grid has 2 to this power as many rows as the picture: the edge of a sun goes through cells, and what differs within
+/// a cell is noise.
+const FINER_LEVELS: u32 = 2;
+
+/// A picture with less than this part of its light above the mean has no table.
+const LEAST_PART: f64 = 1e-3;
 
 /// A chance is a multiple of 1 divided by this.
 const STEPS: u32 = 1023;
@@ -28,11 +35,13 @@ pub struct Environment {
     /// Tree and densities.
     pub words: Arc<[u32]>,
     /// Columns of the grid.
-    width: u32,
+    pub width: u32,
+    /// The part of its light for which there are light samples.
+    pub part: f64,
 }
 
-/// The table of the scene's background; `None` if that is no picture, or a black one. The table `before` is reused if
-/// it is of the same picture.
+/// The table of the scene's background; `None` if that is no picture, or one that is as bright everywhere. The table
+/// `before` is reused if it is of the same picture.
 pub fn of_scene(scene: &Scene, before: Option<&Environment>) -> Option<Environment> {
     let Background::Picture { picture: index, .. } = scene.background else {
         return None;
@@ -44,99 +53,148 @@ pub fn of_scene(scene: &Scene, before: Option<&Environment>) -> Option<Environme
             ..known.clone()
         });
     }
-    let levels = (picture.height.max(2).next_power_of_two().ilog2()).min(MAX_LEVELS);
-    Some(Environment {
+    let levels = (picture.height.next_power_of_two().ilog2() + FINER_LEVELS).min(MAX_LEVELS);
+    let mut weights = weights(picture, levels);
+    let part = compensate(&mut weights, levels);
+    (part > LEAST_PART).then(|| Environment {
         index,
         picture: picture.clone(),
-        words: words(weights(picture, levels), levels)?.into(),
+        words: words(weights, levels).into(),
         width: 2 << levels,
+        part,
     })
 }
 
 impl PackedScene {
     /// The index of the first word of the tables of albedos, which come before that of the environment.
     pub(super) fn albedo_first(&self) -> u32 {
-        let table = self
-            .environment
-            .as_ref()
-            .map_or(0, |table| table.words.len());
-        (self.texels.len() - table - super::albedo::words().len()) as u32
+        self.environment_first() - super::albedo::words().len() as u32
     }
 
-    /// The first word and the columns of the table of a background; `None` if there is none, or no light in it.
-    pub(super) fn environment_of(&self, background: &Background) -> Option<(u32, u32)> {
+    /// The index of the first word of the table of the environment.
+    pub(super) fn environment_first(&self) -> u32 {
+        let table = self.environment.as_ref();
+        (self.texels.len() - table.map_or(0, |table| table.words.len())) as u32
+    }
+
+    /// The table of a background; `None` if light samples find no light in it.
+    pub(super) fn environment_of(&self, background: &Background) -> Option<&Environment> {
         let table = self.environment.as_ref()?;
         match *background {
             Background::Picture {
                 picture, strength, ..
-            } if picture == table.index && strength > 0.0 => {
-                let first = self.texels.len() - table.words.len();
-                Some((first as u32, table.width))
-            }
+            } if picture == table.index && strength > 0.0 => Some(table),
             _ => None,
         }
     }
 }
 
-/// The parts of the cells of a row of `to` that each texel of a row of `from` covers, in texels: for each texel its
-/// first cell, and the part in that and in those after it.
-fn overlaps(from: u32, to: u32) -> Vec<(usize, Vec<f32>)> {
+/// What a texel has of the light of a row of cells.
+struct Spread {
+    /// The first cell that it lights. Beyond the last one the row begins anew.
+    first: usize,
+    /// The integrals of its weight in linear interpolation over that cell and those after it, in cells.
+    parts: Vec<f32>,
+}
+
+/// How `from` texels spread over as many cells as `to`. The first and the last texel are neighbours if the row
+/// `wraps`, otherwise they go on to its ends.
+fn spreads(from: u32, to: u32, wraps: bool) -> Vec<Spread> {
     let scale = f64::from(to) / f64::from(from);
-    let texel = |index: u32| {
-        let (start, end) = (f64::from(index) * scale, f64::from(index + 1) * scale);
-        let first = start as u32;
-        let last = (end.ceil() as u32).clamp(first + 1, to);
-        let part = |cell: u32| (f64::from(cell + 1).min(end) - f64::from(cell).max(start)).max(0.0);
-        let parts = (first..last).map(|cell| part(cell) as f32).collect();
-        (first as usize, parts)
+    // The integral of the weight of a texel up to a distance from its centre, in texels: from 0 at -1 to 1 at 1.
+    let integral = |distance: f64| {
+        let d = distance.clamp(-1.0, 1.0);
+        0.5 + d - 0.5 * d * d.abs()
     };
-    (0..from).map(texel).collect()
+    let spread = |index: u32| {
+        let center = f64::from(index) + 0.5;
+        let start = ((center - 1.0) * scale).floor();
+        let end = ((center + 1.0) * scale).ceil();
+        let weight = |cell: i64, own: f64| {
+            let edges = [cell as f64, (cell + 1) as f64].map(|edge| edge / scale - own);
+            scale * (integral(edges[1]) - integral(edges[0]))
+        };
+        let part = |cell: i64| {
+            // At an end of the row the texel stands for those beyond it too.
+            let before = if index == 0 && !wraps {
+                weight(cell, center - 1.0)
+            } else {
+                0.0
+            };
+            let after = if index + 1 == from && !wraps {
+                weight(cell, center + 1.0)
+            } else {
+                0.0
+            };
+            (weight(cell, center) + before + after) as f32
+        };
+        let cells = match wraps {
+            true => start as i64..end as i64,
+            false => (start as i64).max(0)..(end as i64).min(i64::from(to)),
+        };
+        Spread {
+            first: cells.start.rem_euclid(i64::from(to)) as usize,
+            parts: cells.map(part).collect(),
+        }
+    };
+    (0..from).map(spread).collect()
 }
 
 /// The luminance that each cell of the grid sends, up to a common factor, row by row from the lowest elevation on.
-/// The picture is filtered as lookups do, so that no cell that looks bright anywhere is without weight.
+/// The picture is interpolated as lookups do, so that no cell that looks bright anywhere is without weight.
 fn weights(picture: &Picture, levels: u32) -> Vec<f64> {
     let (width, height) = (picture.width as usize, picture.height as usize);
     let (columns, rows) = (2_usize << levels, 1_usize << levels);
     let largest = Vec3::splat(f16::MAX.to_f32());
     let luminance = |texel: glam::Vec4| LUMINANCE.dot(texel.truncate().min(largest));
     let texels: Vec<f32> = picture.linear().map(luminance).collect();
-    let across = overlaps(picture.width, columns as u32);
-    let up = overlaps(picture.height, rows as u32);
+    let across = spreads(picture.width, columns as u32, true);
+    let up = spreads(picture.height, rows as u32, false);
     let mut sums = vec![0.0_f64; columns * rows];
-    let mut row = vec![0.0_f32; width];
     let mut cells = vec![0.0_f32; columns];
-    // The mean of a linear interpolation over a texel has the weights 1, 6 and 1 of the texel and its neighbours.
-    let mean = |before: f32, own: f32, after: f32| (before + 6.0 * own + after) / 8.0;
-    for (y, (first_row, parts_up)) in up.iter().enumerate() {
+    for (y, rise) in up.iter().enumerate() {
         // Texels are stored from the top row down.
-        let line = |y: usize| &texels[(height - 1 - y) * width..][..width];
-        let (below, own) = (line(y.saturating_sub(1)), line(y));
-        let above = line((y + 1).min(height - 1));
-        for (x, value) in row.iter_mut().enumerate() {
-            *value = mean(below[x], own[x], above[x]);
-        }
+        let line = &texels[(height - 1 - y) * width..][..width];
         cells.fill(0.0);
-        for (x, (first, parts)) in across.iter().enumerate() {
-            let before = row[(x + width - 1) % width];
-            let value = mean(before, row[x], row[(x + 1) % width]);
-            for (cell, part) in cells[*first..].iter_mut().zip(parts) {
-                *cell += part * value;
+        for (texel, spread) in line.iter().zip(&across) {
+            let mut cell = spread.first;
+            for part in &spread.parts {
+                cells[cell] += part * texel;
+                cell = if cell + 1 == columns { 0 } else { cell + 1 };
             }
         }
-        for (index, part) in (*first_row..).zip(parts_up) {
-            let sums = &mut sums[index * columns..][..columns];
+        for (sums, part) in sums.chunks_mut(columns).skip(rise.first).zip(&rise.parts) {
             for (sum, cell) in sums.iter_mut().zip(&cells) {
                 *sum += f64::from(part * cell);
             }
         }
     }
-    for (index, line) in sums.chunks_mut(columns).enumerate() {
-        let sine_at = |edge: usize| (PI * (edge as f64 / rows as f64 - 0.5)).sin();
-        let band = sine_at(index + 1) - sine_at(index);
+    for (line, band) in sums.chunks_mut(columns).zip(bands(levels)) {
         line.iter_mut().for_each(|sum| *sum *= band);
     }
     sums
+}
+
+/// Takes the mean radiance off these weights and returns the part that is left. Paths find light of the mean radiance by
+/// themselves, so light samples are for what is brighter (Karlík et al. 2019, MIS Compensation).
+fn compensate(weights: &mut [f64], levels: u32) -> f64 {
+    let total: f64 = weights.iter().sum();
+    for (line, band) in weights.chunks_mut(2 << levels).zip(bands(levels)) {
+        let mean = total * band / line.len() as f64;
+        line.iter_mut()
+            .for_each(|weight| *weight = (*weight - mean).max(0.0));
+    }
+    match total > 0.0 {
+        true => weights.iter().sum::<f64>() / total,
+        false => 0.0,
+    }
+}
+
+/// The part of all directions that is in each row of the grid.
+fn bands(levels: u32) -> impl Iterator<Item = f64> {
+    let rows = 1_u32 << levels;
+    let sine_at = move |edge: u32| (PI * (f64::from(edge) / f64::from(rows) - 0.5)).sin();
+    (0..rows).map(move |row| (sine_at(row + 1) - sine_at(row)) / 2.0)
 }
 
 /// Of `total`, the part `first` in steps: 0 or all of them only if the one or the other half has nothing.
@@ -157,8 +215,8 @@ fn chances(steps: u32) -> [f64; 2] {
     [first, f64::from(STEPS - steps) / f64::from(STEPS)]
 }
 
-/// The table of these weights; `None` if all are 0.
-fn words(weights: Vec<f64>, levels: u32) -> Option<Vec<u32>> {
+/// The table of these weights, of which some is more than 0.
+fn words(weights: Vec<f64>, levels: u32) -> Vec<u32> {
     // From the cells up to the two halves of the root.
     let mut pyramid = vec![weights];
     for level in (0..levels).rev() {
@@ -173,11 +231,7 @@ fn words(weights: Vec<f64>, levels: u32) -> Option<Vec<u32>> {
         pyramid.push(sums);
     }
     pyramid.reverse();
-    let halves = &pyramid[0];
-    if halves[0] + halves[1] <= 0.0 {
-        return None;
-    }
-    let root = steps(halves[0], halves[1]);
+    let root = steps(pyramid[0][0], pyramid[0][1]);
     let mut words = vec![root];
     let mut probabilities = chances(root).to_vec();
     for level in 0..levels {
@@ -207,5 +261,5 @@ fn words(weights: Vec<f64>, levels: u32) -> Option<Vec<u32>> {
         };
         (density as f32).to_bits()
     }));
-    Some(words)
+    words
 }

@@ -125,9 +125,10 @@ impl PackedScene {
         let has_lights = lights.iter().any(|light| light.color != [0.0; 3]);
         let has_others = has_lights || !emitters.rows.is_empty();
         let environment = self.environment_of(&first.background);
+        // Paths find the rest of its light by themselves.
         let environment_share = match environment {
             None => 0.0,
-            Some(_) if has_others => 0.5,
+            Some(table) if has_others => 0.5 * table.part,
             Some(_) => 1.0,
         };
         let share = emitters.share(powers.iter().sum());
@@ -190,8 +191,8 @@ impl PackedScene {
                 emitter_count: emitters.rows.len() as u32,
                 emitter_power: (emitters.power / emitters_share.max(f64::MIN_POSITIVE)) as f32,
                 emitter_group: emitters.group as u32,
-                environment_first: environment.map_or(0, |(first, _)| first),
-                environment_width: environment.map_or(0, |(_, width)| width),
+                environment_first: environment.map_or(0, |_| self.environment_first()),
+                environment_width: environment.map_or(0, |table| table.width),
                 environment_share: environment_share as f32,
                 albedo_first: self.albedo_first(),
                 cluster_row: emitter_row + emitters.rows.len() as u32,
