@@ -9,7 +9,7 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 		let pixel = vec2u(probe.pixel_x, probe.pixel_y);
 		record__start_record(probe);
 		let key = rng__pixel_key(batch.seed, pixel);
-		var path = path__path_along(batch, dispatch__sample_ray(batch, pixel, key, probe.sample), key, probe.sample);
+		var path = path__path_along(batch, dispatch__sample_ray(batch, pixel, key, probe.sample), pixel, probe.sample);
 		loop {
 			path = arrived(batch, path, traverse__walked(path__next_walk(path), traverse__NO_LIMIT).hit);
 			record__close_ray();
@@ -182,6 +182,8 @@ override bindings__STACK_REGISTERS: u32 = 0u;
 override bindings__FIXED_OFFSET: f32 = 0.0;
 
 override bindings__STRATIFIED: bool = false;
+
+override bindings__Z_ORDER: u32 = 0u;
 
 override bindings__COUNT_RAYS: bool = false;
 
@@ -1325,7 +1327,7 @@ struct path__Path {
 	pdf: f32,
 	cone: tracing__Cone,
 	key: u32,
-	sample: u32,
+	index: u32,
 	channel: u32,
 	lamp: shadow__Passage,
 	lamp_light: vec3f,
@@ -1336,12 +1338,18 @@ const path__ALL_CHANNELS: u32 = 3u;
 
 const path__CAUGHT: u32 = 4294967295u;
 
-fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, key: u32, sample: u32) -> path__Path {
+fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, pixel: vec2u, sample: u32) -> path__Path {
+	var key = rng__hash(batch.seed);
+	var index = bindings__Z_ORDER * sampling__z_order(pixel) + sample;
+	if (bindings__Z_ORDER == 0u) {
+		key = rng__pixel_key(batch.seed, pixel);
+		index = sample;
+	}
 	var cone = tracing__Cone(0.0, 0.0);
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, vec3f(0.0), 0.0, cone, key, sample, path__ALL_CHANNELS, shadow__Passage(rays__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(rays__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u);
 }
 
 fn path__is_going(path: path__Path) -> bool {
@@ -1409,11 +1417,11 @@ fn path__passed(path: path__Path, surface: shading__Surface) -> path__Path {
 }
 
 fn path__random_1d(path: path__Path, purpose: u32) -> f32 {
-	return sampling__stratified_1d(path.sample, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
+	return sampling__stratified_1d(path.index, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
 }
 
 fn path__random_2d(path: path__Path, purpose: u32) -> vec2f {
-	return sampling__stratified_2d(path.sample, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
+	return sampling__stratified_2d(path.index, dimensions__dimension_key(path.key, path.bounces + path.passes, purpose));
 }
 
 struct tracing__Ray {
@@ -1538,6 +1546,69 @@ fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, 
 		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
 	}
 	return through;
+}
+
+fn sampling__sobol(index: u32) -> vec2u {
+	var x = index;
+	x ^= (x >> 1u) & 1431655765u;
+	x ^= (x >> 2u) & 858993459u;
+	x ^= (x >> 4u) & 252645135u;
+	x ^= (x >> 8u) & 16711935u;
+	x ^= (x >> 16u) & 65535u;
+	return vec2u(reverseBits(index), reverseBits(x));
+}
+
+fn sampling__owen_scramble(fraction: u32, seed: u32) -> u32 {
+	var x = reverseBits(fraction);
+	x += seed;
+	x ^= x * 1817228412u;
+	x ^= x * 3090095698u;
+	x ^= x * 3350193720u;
+	x ^= x * 2367878886u;
+	return reverseBits(x);
+}
+
+fn sampling__sobol_34(index: u32) -> vec2u {
+	var z = vec2u(2147483648u, 3221225472u);
+	var w = vec3u(2147483648u, 3221225472u, 536870912u);
+	var point = vec2u(0u);
+	var bit = 0u;
+	loop {
+		point ^= select(vec2u(0u), vec2u(z.x, w.x), ((index >> bit) & 1u) != 0u);
+		z = vec2u(z.y, z.y ^ z.x ^ (z.x >> 2u));
+		w = vec3u(w.yz, w.y ^ w.x ^ (w.x >> 3u));
+		continuing {
+			bit += 1u;
+			break if bit >= 32u;
+		}
+	}
+	return point;
+}
+
+fn sampling__stratified_2d(index: u32, key: u32) -> vec2f {
+	return sampling__scrambled(sampling__sobol(sampling__owen_scramble(index, rng__hash(key))), key);
+}
+
+fn sampling__stratified_34(index: u32, key: u32) -> vec2f {
+	return sampling__scrambled(sampling__sobol_34(sampling__owen_scramble(index, rng__hash(key))), key ^ 2654435769u);
+}
+
+fn sampling__z_order(pixel: vec2u) -> u32 {
+	var bits = pixel & vec2u(65535u);
+	bits = (bits | (bits << vec2u(8u))) & vec2u(16711935u);
+	bits = (bits | (bits << vec2u(4u))) & vec2u(252645135u);
+	bits = (bits | (bits << vec2u(2u))) & vec2u(858993459u);
+	bits = (bits | (bits << vec2u(1u))) & vec2u(1431655765u);
+	return bits.x | (bits.y << 1u);
+}
+
+fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
+	let own = key ^ 1757159915u;
+	return rng__unit_float(sampling__owen_scramble(reverseBits(sampling__owen_scramble(index, rng__hash(own))), rng__hash(own ^ 48610963u)));
+}
+
+fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
+	return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
 }
 
 const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
@@ -1716,60 +1787,6 @@ fn filter__inverse_erf(y: vec2f) -> vec2f {
 	let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
 	let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
 	return y * select(far, near, w < vec2f(5.0));
-}
-
-fn sampling__sobol(index: u32) -> vec2u {
-	var x = index;
-	x ^= (x >> 1u) & 1431655765u;
-	x ^= (x >> 2u) & 858993459u;
-	x ^= (x >> 4u) & 252645135u;
-	x ^= (x >> 8u) & 16711935u;
-	x ^= (x >> 16u) & 65535u;
-	return vec2u(reverseBits(index), reverseBits(x));
-}
-
-fn sampling__owen_scramble(fraction: u32, seed: u32) -> u32 {
-	var x = reverseBits(fraction);
-	x += seed;
-	x ^= x * 1817228412u;
-	x ^= x * 3090095698u;
-	x ^= x * 3350193720u;
-	x ^= x * 2367878886u;
-	return reverseBits(x);
-}
-
-fn sampling__sobol_34(index: u32) -> vec2u {
-	var z = vec2u(2147483648u, 3221225472u);
-	var w = vec3u(2147483648u, 3221225472u, 536870912u);
-	var point = vec2u(0u);
-	var bit = 0u;
-	loop {
-		point ^= select(vec2u(0u), vec2u(z.x, w.x), ((index >> bit) & 1u) != 0u);
-		z = vec2u(z.y, z.y ^ z.x ^ (z.x >> 2u));
-		w = vec3u(w.yz, w.y ^ w.x ^ (w.x >> 3u));
-		continuing {
-			bit += 1u;
-			break if bit >= 32u;
-		}
-	}
-	return point;
-}
-
-fn sampling__stratified_2d(index: u32, key: u32) -> vec2f {
-	return sampling__scrambled(sampling__sobol(sampling__owen_scramble(index, rng__hash(key))), key);
-}
-
-fn sampling__stratified_34(index: u32, key: u32) -> vec2f {
-	return sampling__scrambled(sampling__sobol_34(sampling__owen_scramble(index, rng__hash(key))), key ^ 2654435769u);
-}
-
-fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
-	let own = key ^ 1757159915u;
-	return rng__unit_float(sampling__owen_scramble(reverseBits(sampling__owen_scramble(index, rng__hash(own))), rng__hash(own ^ 48610963u)));
-}
-
-fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
-	return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
 }
 
 struct features__Features {

@@ -3,7 +3,7 @@
 
 use super::{
     Integrator, layers,
-    settings::{BsdfModel, RayOffset, TriangleTest},
+    settings::{BsdfModel, RayOffset, RenderSettings, TriangleTest},
     task::Task,
 };
 use crate::{
@@ -16,6 +16,10 @@ use crate::{
     pack::{PackedScene, PackedView},
     scene::{Antialias, Backdrop, Filter},
 };
+
+/// The most samples of a pixel for which neighbouring pixels share their random numbers. With more of them noise is
+/// seldom seen, and with 64 a sequence lasts for 8192 × 8192 pixels.
+const MAX_Z_ORDER: u32 = 64;
 
 /// Features that the scene, the frame and the settings need; all others are compiled out.
 pub fn of(task: Task) -> Overrides {
@@ -60,6 +64,7 @@ pub fn of(task: Task) -> Overrides {
         ("BRUTE_FORCE", flag(settings.brute_force)),
         ("FIXED_OFFSET", f64::from(fixed_offset)),
         ("STRATIFIED", flag(settings.antialias != Antialias::None)),
+        ("Z_ORDER", f64::from(z_order(settings))),
         ("COUNT_RAYS", flag(policy.count_rays)),
         ("COUNT_STEPS", flag(integrator.counts_steps)),
         (
@@ -230,4 +235,13 @@ fn stack_registers(scene: &PackedScene, view: &PackedView) -> u32 {
 
 fn flag(on: bool) -> f64 {
     f64::from(u8::from(on))
+}
+
+/// The samples of a pixel, as the next power of two, if its neighbours and it share sequences of random numbers;
+/// otherwise 0.
+fn z_order(settings: &RenderSettings) -> u32 {
+    match settings.samples.next_power_of_two() {
+        samples if samples <= MAX_Z_ORDER && !settings.is_adaptive() => samples,
+        _ => 0,
+    }
 }

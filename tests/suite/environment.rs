@@ -174,6 +174,29 @@ fn a_small_sun_is_found_by_few_samples() {
     );
 }
 
+/// If pixels were independent, the mean of 64 would have a 64th of their variance. Blocks along a curve share one
+/// stratified sequence, so that it has much less.
+#[test]
+fn neighbouring_pixels_of_few_samples_err_in_different_directions() {
+    let scene = plane_under(random_picture(16, 8), DVec3::Y, 0.0);
+    for samples in [1, 4] {
+        let found = greys(&scene, &paths(samples, 64));
+        let level = mean(&found);
+        let variance = |values: &[f64]| {
+            let squares: Vec<f64> = values.iter().map(|value| (value - level).powi(2)).collect();
+            mean(&squares)
+        };
+        let block = |index: usize| {
+            let first = 8 * 64 * (index / 8) + 8 * (index % 8);
+            let row = |y: usize| found[first + 64 * y..][..8].iter();
+            (0..8).flat_map(row).sum::<f64>() / 64.0
+        };
+        let blocks: Vec<f64> = (0..64).map(block).collect();
+        let ratio = 64.0 * variance(&blocks) / variance(&found);
+        assert!(ratio < 0.3, "{samples} samples: {ratio}");
+    }
+}
+
 #[test]
 fn a_lamp_and_a_picture_add_their_light() {
     let lamp = Light {

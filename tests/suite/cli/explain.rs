@@ -83,12 +83,12 @@ fn explain_lists_the_rays_of_a_path_one_after_the_other() {
     │ throughput 1 1 1, contribution 0 0 0
     │ samples light 0, chance 1, 4.123 away: unoccluded
     │   radiance per density 3.142 3.142 3.142, BSDF 0.1288 0.01967 0.01967, weight 1, path density 0.1079, contribution 0.4046 0.06181 0.06181
-    │ goes on: diffuse, BSDF 0.1395 0.02182 0.02182, density 0.1178, factor 1.184 0.1852 0.1852
-    └ diffuse reflection towards (0.3959, -0.4767, 0.7848) hits nothing
-      throughput 1.184 0.1852 0.1852, contribution 1.184 0.1852 0.1852 (background 1 1 1, weight 1, path density 0.1178)
-      sum 1.589 0.247 0.247, colour 1.589 0.247 0.247
-    sum    1.589 0.247 0.247, the weighted mean of 1 sample(s)
-    pixel  1.589 0.247 0.247 (linear)
+    │ goes on: diffuse, BSDF 0.1621 0.02844 0.02844, density 0.1427, factor 1.136 0.1993 0.1993
+    └ diffuse reflection towards (0.24, 0.3848, 0.8913) hits nothing
+      throughput 1.136 0.1993 0.1993, contribution 1.136 0.1993 0.1993 (background 1 1 1, weight 1, path density 0.1427)
+      sum 1.541 0.2611 0.2611, colour 1.541 0.2611 0.2611
+    sum    1.541 0.2611 0.2611, the weighted mean of 1 sample(s)
+    pixel  1.541 0.2611 0.2611 (linear)
     ");
     let json = workspace.run(&format!("{line} --json")).expect(0).json();
     assert_eq!(json["integrator"], "path");
