@@ -39,6 +39,15 @@ pub fn kind(adapter: &AdapterReport) -> &str {
     }
 }
 
+/// How to get a faster adapter than this, if the system has none but OpenGL on the CPU.
+pub fn faster_driver(adapter: &AdapterReport) -> Option<&'static str> {
+    let is_slow = adapter.backend == "gl" && adapter.device_type == "cpu";
+    (is_slow && cfg!(target_os = "linux")).then_some(
+        "There is no Vulkan driver. Mesa's is several times faster than OpenGL on the CPU: install \
+         mesa-vulkan-drivers (Debian, Ubuntu, Fedora), vulkan-swrast (Arch) or mesa-vulkan-swrast (Alpine).",
+    )
+}
+
 /// How to get an adapter on this system, or one of `backend` if that was requested.
 pub fn advice(backend: Option<Backend>) -> &'static str {
     if backend.is_some_and(|backend| backend.absence().is_some()) {

@@ -160,11 +160,14 @@ impl Job<'_> {
     /// Prints what is about to be rendered, and on which adapter.
     pub fn announce(&self, what: &str, settings: &RenderSettings, adapter: &AdapterReport) {
         let (width, height) = settings.size;
-        let adapter = device::describe(adapter);
+        let described = device::describe(adapter);
         let console = self.console();
         console.status(format_args!(
-            "rendering {what}{width}×{height} on {adapter}"
+            "rendering {what}{width}×{height} on {described}"
         ));
+        if let Some(advice) = device::faster_driver(adapter).filter(|_| !self.device.is_chosen()) {
+            console.status(format_args!("{advice}"));
+        }
     }
 
     /// Refuses a report that would overwrite an input or cannot be written.

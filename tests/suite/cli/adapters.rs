@@ -1,6 +1,7 @@
 //! Choosing an adapter, and `doctor`.
 
 use crate::support::program::{Run, Workspace};
+use crate::support::skip::{Need, skip};
 use serde_json::Value;
 
 #[cfg(target_os = "linux")]
@@ -36,6 +37,31 @@ fn without_an_adapter_the_exit_code_is_5_and_doctor_names_packages() {
     assert_eq!(doctor["adapters"], serde_json::json!([]));
     assert_eq!(doctor["chosen"], Value::Null);
     assert!(workspace.made().is_empty());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn opengl_on_the_cpu_comes_with_advice_unless_it_was_asked_for() {
+    let workspace = Workspace::new();
+    let run = |line: &str| {
+        let mut command = workspace.command(line);
+        for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
+            command.env(name, "/nonexistent.json");
+        }
+        Run::from(command.output().expect("glimray runs"))
+    };
+    let fallen_back = run("render a.scene --size 8x6");
+    if !fallen_back.stderr.contains("[gl, CPU") {
+        return skip(Need::Gl, fallen_back.stderr);
+    }
+    let advice = "install mesa-vulkan-drivers";
+    assert!(
+        fallen_back.stderr.contains(advice),
+        "{}",
+        fallen_back.stderr
+    );
+    let asked_for = run("render a.scene --size 8x6 --backend gl").expect(0);
+    assert!(!asked_for.stderr.contains(advice), "{}", asked_for.stderr);
 }
 
 #[cfg(target_os = "linux")]
