@@ -1505,13 +1505,24 @@ fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passag
 	let rest = before.ray.t_max - hit.t;
 	if (any(passage.through > vec3f(0.0)) && rest > 0.0) {
 		if (passage.crossings < shadow__MAX_CROSSINGS) {
-			passage.ray = leaving__leaving_ray(surface, before.ray.direction, rest);
+			passage.ray = shadow__rest_of(before.ray, hit.t, surface);
 		}
 		else {
 			passage.through = vec3f(0.0);
 		}
 	}
 	return passage;
+}
+
+fn shadow__rest_of(ray: tracing__Ray, distance: f32, surface: shading__Surface) -> tracing__Ray {
+	let rest = ray.t_max - distance;
+	var next = leaving__leaving_ray(surface, ray.direction, rest);
+	let shift = next.origin - (ray.origin + distance * ray.direction);
+	let way = ray.direction - shift / rest;
+	let is_ahead = dot(way, ray.direction) > 0.0;
+	next.direction = numeric__normalize_or(way, ray.direction);
+	next.t_max = select(rays__DEAD.t_max, rest * length(way), is_ahead);
+	return next;
 }
 
 fn shadow__count_shadow(through: vec3f) {

@@ -100,6 +100,7 @@ mod shader_triangles;
 mod shader_warp;
 mod soft_shadows;
 mod spd;
+mod stack;
 mod support;
 mod tangents;
 mod textures;

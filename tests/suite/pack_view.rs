@@ -50,10 +50,10 @@ fn behind(packed: &PackedScene, view: &PackedView) -> Behind {
 }
 
 /// A box in f64.
-type Box = [DVec3; 2];
+pub type Box = [DVec3; 2];
 
 /// The boxes of a node's children, and their references.
-fn children(node: &PackedNode) -> Vec<(Box, u32)> {
+pub fn children(node: &PackedNode) -> Vec<(Box, u32)> {
     let real = |i: usize| f64::from(f32::from_bits(node[i]));
     let plane = |axis: usize, side: usize, child: usize| {
         let steps = node[6 + 2 * axis + side].to_le_bytes()[child];

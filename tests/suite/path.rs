@@ -1,6 +1,7 @@
 //! The path tracer against closed forms and against the classical integrator.
 
 mod backdrop;
+mod emitter_sides;
 mod emitter_tree;
 mod emitters;
 mod explained;

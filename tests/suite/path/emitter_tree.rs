@@ -6,8 +6,9 @@ use super::light_chances::{Chances, chances, mean_from, wide};
 use super::many_lights::{any_kind, floor_under};
 use super::{lit_floor, matte, near, paths};
 use crate::explain::{finish, random_pixels};
+use crate::film::{bytes, cut, film, merged};
 use crate::motion_blur::track;
-use crate::reference::compare::start_packed;
+use crate::reference::compare::{sliced, start_packed};
 use crate::reference::scenes::Build;
 use crate::support::random::Random;
 use crate::support::verdict::Verdict;
@@ -18,7 +19,7 @@ use glimray::layout::{
     PackedInstance, PackedKey, SHAPE, SHAPE_SPHERE,
 };
 use glimray::pack::{self, PackedScene, PackedView};
-use glimray::render::LightSource;
+use glimray::render::{LightSource, Slicing};
 use glimray::scene::{
     Attenuation, CanonicalShape, Deformation, Geometry, Instance, Light, LightKind, LightProperty,
     Material, MorphTarget, Node, NodeProperty, ObjectRef, Scene, Shape, Target, Values,
@@ -428,7 +429,7 @@ fn moving() -> Scene {
 
 /// The irradiance at the origin of a plane with normal +y from a polygon of radiance 1 above it, by Lambert's formula:
 /// positive if its corners run clockwise as seen from there.
-fn lambert(corners: &[DVec3]) -> f64 {
+pub fn lambert(corners: &[DVec3]) -> f64 {
     let next = corners.iter().cycle().skip(1);
     let edges = corners.iter().zip(next).map(|(a, b)| {
         let across = a.cross(*b);
@@ -438,7 +439,7 @@ fn lambert(corners: &[DVec3]) -> f64 {
 }
 
 /// The mean over the picture of the irradiance on the floor.
-fn mean_irradiance(scene: &Scene, at: impl Fn(DVec3) -> f64) -> f64 {
+pub fn mean_irradiance(scene: &Scene, at: impl Fn(DVec3) -> f64) -> f64 {
     let camera = &scene.cameras[0];
     let forward = (camera.look_at - camera.look_from).normalize();
     let right = forward.cross(DVec3::Y).normalize();
@@ -526,4 +527,34 @@ fn meshes_in_a_tree_give_the_irradiance_of_closed_forms() {
     let found = mean_from(&scene, &paths(2048, (24, 16), 0), 2) * PI / albedo;
     near(&mut verdict, "globe", found, expected, 0.003 * expected);
     verdict.close();
+}
+
+/// Any cut of a picture lit from the tree merges to the bytes of one run, however each part is divided into submissions.
+#[test]
+fn pictures_lit_from_a_tree_are_cut_and_merged_to_the_same_bytes() {
+    let scene = mixed(20);
+    let packed = pack::scene(&scene).expect("a scene that can be packed");
+    let view = packed.frame(&scene.frame(0.0)).expect("a frame");
+    assert!(view.has_light_tree() && !view.emitters.is_empty());
+    let whole = paths(150, (19, 13), 3);
+    let expected = film(&scene, &whole);
+    assert_eq!(expected.missing(), []);
+    let slicing = Slicing {
+        tile_side: 8,
+        max_groups: 3,
+        max_samples: 5,
+        ..Slicing::default()
+    };
+    assert!(bytes(&expected) == bytes(&film(&scene, &sliced(&whole, slicing))));
+    let mut random = Random::new(12);
+    let mut later_ranges = 0;
+    for count in [3, 6] {
+        let parts = cut(&whole, count, &mut random);
+        let ranges = parts.iter().filter_map(|part| part.sample_range.as_ref());
+        later_ranges += ranges.filter(|range| range.start > 0).count();
+        let films = parts.iter().map(|part| film(&scene, part));
+        let merged = merged(films.collect(), &mut random);
+        assert!(bytes(&merged) == bytes(&expected), "{count} parts");
+    }
+    assert!(later_ranges > 0);
 }

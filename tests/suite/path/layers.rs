@@ -370,8 +370,8 @@ fn brushed_metal_is_wider_along_its_direction() {
     verdict.close();
 }
 
-/// A floor of two triangles in the plane y = 0 whose u points along x and v against z.
-fn mapped_floor(own: Material, maps: [Option<Vec3>; 2], light: Light) -> Scene {
+/// A floor of two triangles in the plane y = 0 whose u points along x and v against z, or its back after half a turn about x.
+fn mapped_floor(own: Material, maps: [Option<Vec3>; 2], light: Light, is_back: bool) -> Scene {
     let mut scene = lit_floor(own, light);
     scene.shapes.clear();
     let material = &mut scene.materials[0];
@@ -401,7 +401,8 @@ fn mapped_floor(own: Material, maps: [Option<Vec3>; 2], light: Light) -> Scene {
     floor.uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
         .map(Vec2::from)
         .into();
-    scene.add_mesh(floor, DAffine3::IDENTITY);
+    let turn = if is_back { PI } else { 0.0 };
+    scene.add_mesh(floor, DAffine3::from_rotation_x(turn));
     scene.complete_tangents();
     scene
 }
@@ -429,18 +430,26 @@ fn a_coat_follows_its_own_normal_map_and_not_that_below() {
         attenuation: Attenuation::None,
         ..Light::default()
     };
-    for (name, maps, scale) in [
-        ("no map", [None, None], 1.0),
-        ("a map", [None, Some(tilted)], 1.0),
-        ("a map below", [Some(other), None], 1.0),
-        ("both", [Some(other), Some(tilted)], 1.0),
-        ("half of the tilt", [Some(other), Some(tilted)], 0.5),
+    for (name, maps, scale, is_back) in [
+        ("no map", [None, None], 1.0, false),
+        ("a map", [None, Some(tilted)], 1.0, false),
+        ("a map below", [Some(other), None], 1.0, false),
+        ("both", [Some(other), Some(tilted)], 1.0, false),
+        ("half of the tilt", [Some(other), Some(tilted)], 0.5, false),
         // The light is behind the normal of the surface below.
-        ("a steep map below", [Some(steep), None], 1.0),
-        ("a steep map below a map", [Some(steep), Some(tilted)], 1.0),
+        ("a steep map below", [Some(steep), None], 1.0, false),
+        (
+            "a steep map below a map",
+            [Some(steep), Some(tilted)],
+            1.0,
+            false,
+        ),
+        ("the back of both", [Some(other), Some(tilted)], 1.0, true),
     ] {
         let own = maps[1].map_or(Vec3::Z, |n| vec3(scale * n.x, scale * n.y, n.z));
-        let n = world(own);
+        let mut n = world(own);
+        // Half a turn about x, and then towards the viewer.
+        n.x *= if is_back { -1.0 } else { 1.0 };
         let coat = MetallicRoughness {
             base_color: Vec3::ZERO,
             metallic: 0.0,
@@ -450,7 +459,7 @@ fn a_coat_follows_its_own_normal_map_and_not_that_below() {
             clearcoat_normal_scale: scale,
             ..MetallicRoughness::default()
         };
-        let mut scene = mapped_floor(material(coat), maps, light.clone());
+        let mut scene = mapped_floor(material(coat), maps, light.clone(), is_back);
         scene.cameras = vec![looking(5.0 * v, DVec3::ZERO, 1e-4)];
         let settings = RenderSettings {
             bsdf: BsdfModel::Spec,
@@ -462,6 +471,17 @@ fn a_coat_follows_its_own_normal_map_and_not_that_below() {
         let lobe = specular_brdf(0.6, n.dot(h), n.dot(v), n.dot(l));
         let expected = PI * n.dot(l) * fresnel * lobe;
         near(&mut verdict, name, found, expected, 2e-3 * expected);
+        // Lamps so far away that they shine in one direction, chosen from a tree.
+        let lamp = Light {
+            kind: LightKind::Point { position: 1e4 * l },
+            color: Vec3::splat(1e8 / 8.0),
+            attenuation: Attenuation::InverseSquare,
+            ..light.clone()
+        };
+        scene.lights = vec![lamp; 8];
+        let found = mean(&scene, &settings);
+        let what = format!("{name}, lamps");
+        near(&mut verdict, what, found, expected, 2e-3 * expected);
         // Samples of its lobe find as much of even light as the integral over the directions above the floor.
         scene.lights.clear();
         scene.background = Background::Color(Vec3::ONE);

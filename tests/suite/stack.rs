@@ -1,0 +1,123 @@
+//! The stack of the portable walk: registers of software adapters hold as many entries as the deepest way through a tree
+//! needs, and walks that need all of them do the same steps as with an array.
+
+use crate::instances::packed;
+use crate::pack_view::children;
+use crate::reference::compare::{assert_none, check_same_bits, fetched, sized, start_packed};
+use crate::reference::scenes;
+use glam::{DAffine3, DQuat, DVec3, Vec3, vec3};
+use glimray::image::Image;
+use glimray::layout::{INSTANCE, LEAF, LEAF_FIRST_MASK, PackedInstance, PackedNode};
+use glimray::pack::{PackedScene, PackedView};
+use glimray::render::{Fetch, Integrator, RenderSettings, Tone};
+use glimray::scene::{Instance, Mesh, Scene};
+use std::sync::Arc;
+
+/// The camera looks along the x axis, on which triangles lie: each is twice as far away and twice as large as the one
+/// before, so that joining nearest neighbours gives a chain. `copies` of all of them follow each other likewise.
+fn chain(count: i32, copies: i32) -> Scene {
+    let place = |i: i32| 2f64.powi(i);
+    let mut mesh = Mesh::default();
+    for i in 0..count {
+        let (at, half) = (place(i - count) as f32, place(i - count - 2) as f32);
+        let first = mesh.positions.len() as u32;
+        let corners = [(-1.0, -1.0), (3.0, -1.0), (-1.0, 3.0)];
+        let corners = corners.map(|(y, z)| vec3(at, half * y, half * z));
+        mesh.positions.extend(corners);
+        mesh.normals.extend([Vec3::NEG_X; 3]);
+        mesh.materials.extend([0; 3]);
+        mesh.triangles.push([first, first + 1, first + 2]);
+    }
+    let mut scene = scenes::empty();
+    scene.cameras[0].look_from = DVec3::ZERO;
+    scene.cameras[0].look_at = DVec3::X;
+    scene.cameras[0].fov_y = 1e-6;
+    scene.meshes.push(mesh.into());
+    scene.instances.extend((0..copies).map(|i| Instance {
+        mesh: 0,
+        placement: DAffine3::from_scale_rotation_translation(
+            DVec3::splat(place(i - copies - 3)),
+            DQuat::IDENTITY,
+            DVec3::X * place(i - copies),
+        ),
+        node: None,
+    }));
+    scene
+}
+
+/// The entries that a ray along x has on its stack when it reaches its first triangle: at each node those of all children
+/// but the nearest, and one that returns from an instance.
+fn entries_on_the_way(packed: &PackedScene, view: &PackedView) -> usize {
+    let [nodes, instances, ..] = view.node_parts();
+    let nodes: Vec<PackedNode> = bytemuck::pod_collect_to_vec(nodes);
+    let instances: Vec<PackedInstance> = bytemuck::pod_collect_to_vec(instances);
+    let mut entries = 0;
+    let mut reference = match packed.instance_count() {
+        0 => 0,
+        _ => view.frame.root,
+    };
+    loop {
+        let node = match reference.checked_sub(packed.first_view_node()) {
+            Some(index) => &nodes[index as usize],
+            None => &packed.nodes[reference as usize],
+        };
+        let all = children(node);
+        entries += all.len() - 1;
+        let nearest = all.iter().min_by(|a, b| a.0[0].x.total_cmp(&b.0[0].x));
+        reference = nearest.expect("a child").1;
+        if reference >= INSTANCE {
+            entries += 1;
+            reference = instances[(reference & LEAF_FIRST_MASK) as usize].root;
+        }
+        if reference & LEAF != 0 {
+            return entries;
+        }
+    }
+}
+
+fn steps(packed: &Arc<PackedScene>, view: &PackedView, fetch: Fetch) -> Image {
+    let settings = RenderSettings {
+        integrator: Integrator::Heat,
+        ..sized(8, 8)
+    };
+    let mut renderer = start_packed(packed.clone(), view, &fetched(&settings, fetch));
+    while !renderer.is_done() {
+        renderer.step().expect("a step that loses no entry");
+    }
+    renderer.develop(&Tone::LINEAR).expect("a picture")
+}
+
+#[test]
+fn registers_hold_the_deepest_way_through_a_tree() {
+    let mut results = Vec::new();
+    for (copies, most_baked, registers) in [
+        (1, usize::MAX, 1..=8),
+        // Trees over instances have all registers.
+        (20, 0, 8..=8),
+    ] {
+        for registers in registers {
+            // Of the chains for which so many registers are just enough, the one that fills most of them.
+            let trees = (1..60).map(|count| {
+                let scene = chain(count, copies);
+                let packed = packed(&scene, most_baked);
+                let view = packed.frame(&scene.frame(0.0)).expect("a view");
+                (packed, view)
+            });
+            let fits = |(packed, view): &(Arc<PackedScene>, PackedView)| {
+                packed.stack_entries(view).div_ceil(4) == registers
+            };
+            let entries =
+                |(packed, view): &(Arc<PackedScene>, PackedView)| entries_on_the_way(packed, view);
+            let deepest = trees.filter(fits).max_by_key(entries);
+            let (packed, view) = deepest.expect("a chain");
+            let entries = entries_on_the_way(&packed, &view);
+            let name = format!("{registers} registers, {copies} copies, {entries} entries");
+            assert!(entries > 4 * (registers - 1), "{name}");
+            let [expected, found] =
+                [Fetch::Buffer, Fetch::Image].map(|fetch| steps(&packed, &view, fetch));
+            assert!(expected.pixels[0][0] > 0.0, "{name}");
+            results.push(check_same_bits(&name, &expected, &found));
+        }
+    }
+    assert_none(results);
+}
