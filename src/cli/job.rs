@@ -15,7 +15,7 @@ use crate::cli::report;
 use crate::cli::report::{
     AnimationReport, Draft, ImageReport, Memory, Report, SceneReport, Seconds,
 };
-use crate::gpu::{AdapterReport, Gpu};
+use crate::gpu::{AdapterChoice, AdapterReport, Gpu};
 use crate::output;
 use crate::render::{ExecutionPolicy, Integrator, RenderSettings, Renderer, Stats, Tone};
 use crate::scene::{Backdrop, Scene};
@@ -165,7 +165,8 @@ impl Job<'_> {
         console.status(format_args!(
             "rendering {what}{width}×{height} on {described}"
         ));
-        if let Some(advice) = device::faster_driver(adapter).filter(|_| !self.device.is_chosen()) {
+        let is_chosen = self.device.choice() != AdapterChoice::default();
+        if let Some(advice) = device::faster_driver(adapter).filter(|_| !is_chosen) {
             console.status(format_args!("{advice}"));
         }
     }

@@ -411,11 +411,6 @@ impl DeviceFlags {
         }
     }
 
-    /// Whether the adapter, or its backend, was asked for.
-    pub fn is_chosen(&self) -> bool {
-        self.backend.is_some() || self.adapter.is_some()
-    }
-
     pub fn memory_limit_bytes(&self) -> u64 {
         self.memory_limit << 20
     }
