@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Path-traces one scene of path_scenes.py with Cycles (PyPI `bpy`), in a process of its own.
+"""Path-traces one scene of path_scenes.py or material_scenes.py with Cycles (PyPI `bpy`), in a process of its own.
 
     cycles_render.py FOLDER SCENE --size WxH --samples N --seed N [--threads N] -o PICTURE.exr
 
@@ -18,6 +18,7 @@ import bpy
 from mathutils import Matrix, Vector
 
 import addon_utils  # noqa: E402: bpy puts it on the path
+import material_scenes
 import path_scenes
 
 
@@ -145,7 +146,8 @@ def main():
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     for add_on in ("cycles", "io_scene_gltf2"):
         addon_utils.enable(add_on)
-    build(path_scenes.all_scenes(parsed.folder, parsed.surroundings)[parsed.scene])
+    makers = material_scenes if parsed.scene in material_scenes.NAMES else path_scenes
+    build(makers.all_scenes(parsed.folder, parsed.surroundings)[parsed.scene])
     width, height = map(int, parsed.size.split("x"))
     set_up(width, height, parsed.samples, parsed.seed, parsed.threads, parsed.output.resolve())
     # Blender writes about its progress to the standard output.

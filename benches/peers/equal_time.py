@@ -13,6 +13,7 @@ import os
 import subprocess
 import sys
 import time
+from functools import cached_property
 from pathlib import Path
 
 import mitsuba as mi
@@ -164,14 +165,17 @@ class Renderers:
     def __init__(self, parsed, name, scene):
         self.parsed, self.name, self.scene, self.folder = parsed, name, scene, parsed.folder
         self.size = tuple(map(int, parsed.size.split("x")))
-        self.peer = peer(scene, self.size)
         self.file = scene.model.path if scene.model else native(scene, parsed.folder)
+
+    @cached_property
+    def peer(self):
+        return peer(self.scene, self.size)
 
     def render(self, renderer, samples, seed):
         out = self.folder / f"{self.name}-{renderer}-{seed}.exr"
         return getattr(self, renderer.lower())(samples, seed, out)
 
-    def glimray(self, samples, seed, out):
+    def glimray(self, samples, seed, out, more=()):
         report = out.with_suffix(".json")
         command = [self.parsed.glimray, "render", self.file, "--integrator", "path", "--size", self.parsed.size, "--samples",
                    samples, "--max-depth", BOUNCES, "--seed", seed, "--filter", "box", "--quiet", "--report", report, "-o", out]
@@ -179,6 +183,7 @@ class Renderers:
             views = (("--look-from", self.scene.look_from), ("--look-at", self.scene.look_at))
             command += [part for flag, at in views for part in (flag, ",".join(map(str, at)))]
             command += ["--fov-y", self.scene.fov_y_deg, "--environment", self.scene.environment, "--bare"]
+        command += more
         process = subprocess.Popen(list(map(str, command)))
         _, status, usage = os.wait4(process.pid, 0)
         if status:

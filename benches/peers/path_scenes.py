@@ -237,11 +237,12 @@ def png(pixels):
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows.tobytes())) + chunk(b"IEND", b"")
 
 
-def write_glb(path, meshes, materials, images=()):
+def write_glb(path, meshes, materials, images=(), places=None):
     """Meshes of (vertices, normals, texture coordinates, triangles, index of the material); materials as in glTF.
 
-    Images are RGB with 8 bits. Each is a texture."""
-    views, accessors, primitives, data = [], [], [], b""
+    Images are RGB with 8 bits. Each is a texture. Arrays that several meshes share are stored once. With `places`, each
+    mesh is moved there."""
+    views, accessors, primitives, data, stored = [], [], [], b"", {}
 
     def view(raw):
         nonlocal data
@@ -249,20 +250,27 @@ def write_glb(path, meshes, materials, images=()):
         data += raw + b"\0" * (-len(raw) % 4)
         return len(views) - 1
 
-    def accessor(values, kind, component):
-        more = {"min": values.min(0).tolist(), "max": values.max(0).tolist()} if kind == "VEC3" else {}
-        accessors.append({"bufferView": view(values.tobytes()), "componentType": component, "type": kind,
-                          "count": len(values), **more})
-        return len(accessors) - 1
+    def accessor(source, kind, number, component):
+        if id(source) not in stored:
+            values = np.asarray(source, number)
+            values = values.ravel() if kind == "SCALAR" else values
+            more = {"min": values.min(0).tolist(), "max": values.max(0).tolist()} if kind == "VEC3" else {}
+            accessors.append({"bufferView": view(values.tobytes()), "componentType": component, "type": kind,
+                              "count": len(values), **more})
+            stored[id(source)] = len(accessors) - 1
+        return stored[id(source)]
 
     for vertices, normals, uv, triangles, material in meshes:
-        places = {"POSITION": (vertices, "VEC3"), "NORMAL": (normals, "VEC3"), "TEXCOORD_0": (uv, "VEC2")}
-        attributes = {key: accessor(np.asarray(v, "<f4"), kind, 5126) for key, (v, kind) in places.items()}
-        indices = accessor(np.asarray(triangles, "<u4").ravel(), "SCALAR", 5125)
+        kinds = {"POSITION": (vertices, "VEC3"), "NORMAL": (normals, "VEC3"), "TEXCOORD_0": (uv, "VEC2")}
+        attributes = {key: accessor(v, kind, "<f4", 5126) for key, (v, kind) in kinds.items()}
+        indices = accessor(triangles, "SCALAR", "<u4", 5125)
         primitives.append({"attributes": attributes, "indices": indices, "material": material})
+    nodes = [{"mesh": i} for i in range(len(primitives))]
+    for node, place in zip(nodes, places or ()):
+        node["translation"] = list(place)
     document = {
-        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(primitives)))}],
-        "nodes": [{"mesh": i} for i in range(len(primitives))], "meshes": [{"primitives": [p]} for p in primitives],
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}],
+        "nodes": nodes, "meshes": [{"primitives": [p]} for p in primitives],
         "materials": materials, "accessors": accessors,
     }
     if images:
@@ -289,12 +297,21 @@ def ball(center, radius, around=128, across=64):
     return normals * radius + np.array(center), normals, np.stack([u, v], -1), triangles
 
 
-def helmet_model(path):
+def checks():
+    """A picture of a base colour."""
     y, x = np.mgrid[0:256, 0:512]
-    stripes = (np.sin(x / 512 * tau * 12) * np.sin(y / 256 * pi * 6) > 0)[..., None]
-    base = np.where(stripes, [200, 60, 40], [230, 225, 215]).astype(np.uint8)
-    scratched = (np.sin(x / 9.1 + 3 * np.sin(y / 17)) > 0.6)[..., None]
-    surface = np.where(scratched, [0, 150, 255], [0, 70, 0]).astype(np.uint8)
+    red = (np.sin(x / 512 * tau * 12) * np.sin(y / 256 * pi * 6) > 0)[..., None]
+    return np.where(red, [200, 60, 40], [230, 225, 215]).astype(np.uint8)
+
+
+def scratches():
+    """A picture of roughness, in green, and metal, in blue."""
+    y, x = np.mgrid[0:256, 0:512]
+    bare = (np.sin(x / 9.1 + 3 * np.sin(y / 17)) > 0.6)[..., None]
+    return np.where(bare, [0, 150, 255], [0, 70, 0]).astype(np.uint8)
+
+
+def helmet_model(path):
     textured = {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1}}}
     gold = {"pbrMetallicRoughness": {"baseColorFactor": [0.95, 0.7, 0.3, 1], "metallicFactor": 1, "roughnessFactor": 0.25}}
     dark = {"pbrMetallicRoughness": {"baseColorFactor": [0.05, 0.05, 0.06, 1], "metallicFactor": 0, "roughnessFactor": 0.15}}
@@ -303,7 +320,7 @@ def helmet_model(path):
     floor = np.array([[-3, -0.6, 3], [3, -0.6, 3], [3, -0.6, -3], [-3, -0.6, -3]])
     meshes.append((floor, np.tile([0, 1, 0], (4, 1)), np.zeros((4, 2)), [[0, 1, 2], [0, 2, 3]], 3))
     ground = {"pbrMetallicRoughness": {"baseColorFactor": [0.4, 0.4, 0.4, 1], "metallicFactor": 0, "roughnessFactor": 0.8}}
-    return write_glb(path, meshes, [textured, gold, dark, ground], [base, surface])
+    return write_glb(path, meshes, [textured, gold, dark, ground], [checks(), scratches()])
 
 
 def all_scenes(folder, surroundings):
