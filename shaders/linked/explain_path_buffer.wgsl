@@ -2908,6 +2908,7 @@ struct layers__Layers {
 	diffuse: vec3f,
 	f0: vec3f,
 	f90: vec3f,
+	metallic: f32,
 	over_f0: vec3f,
 	over_f90: vec3f,
 	alpha: f32,
@@ -3014,6 +3015,7 @@ fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
 	var layers: layers__Layers;
 	layers.alpha = own.roughness * own.roughness;
 	layers.ior = own.ior;
+	layers.metallic = own.metallic;
 	let body = 1.0 - own.metallic;
 	layers.diffuse = body * own.base;
 	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {
@@ -5087,7 +5089,13 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	}
 	let mean_alpha = sqrt(bsdf.alpha.x * bsdf.alpha.y);
 	let albedo = albedo__ggx_albedo(bsdf.wo.z, mean_alpha);
-	let boost = select(albedo__multiple_scattering(bsdf.f0, albedo), vec3f(1.0), bindings__BSDF_SPEC);
+	let covered = inside * (1.0 - layers.metallic);
+	let beside = max(bsdf.f0 - covered * over, vec3f(0.0));
+	let of_metal = min(beside / max(layers.metallic, 1e-6), vec3f(1.0));
+	let single = albedo.x * beside + albedo.y * max(bsdf.f90 - covered * layers.over_f90, vec3f(0.0));
+	let over_glossy = lobes__scattered_often(over, albedo) * (albedo.x * over + albedo.y * layers.over_f90);
+	let glossy = covered * over_glossy + lobes__scattered_often(of_metal, albedo) * single;
+	let boost = glossy / max(albedo.x * bsdf.f0 + albedo.y * bsdf.f90, vec3f(1e-9));
 	bsdf.boundary_gain = 1.0;
 	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && bsdf.boundary_alpha.x >= layers__SMOOTH) {
 		let glass = albedo__glass_albedo(bsdf.wo.z, mean_alpha, bsdf.eta);
@@ -5096,8 +5104,7 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 			seen = lobes__Split(glass.y * bsdf.reflect, (1.0 - glass.y) * bsdf.transmit);
 		}
 	}
-	let glossy = boost * (albedo.x * bsdf.f0 + albedo.y * bsdf.f90);
-	var left = 1.0 - numeric__max_component(boost * (albedo.x * over + albedo.y * layers.over_f90));
+	var left = 1.0 - numeric__max_component(over_glossy);
 	if ((optics.flags & types__MATERIAL_SUM) == 0u) {
 		left *= optics.opacity * (1.0 - numeric__max_component(seen.reflect));
 	}
@@ -5123,6 +5130,13 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	bsdf.chances = weights / total;
 	bsdf.coating_chances = bsdf.coating.albedos / total;
 	return bsdf;
+}
+
+fn lobes__scattered_often(f0: vec3f, albedo: vec2f) -> vec3f {
+	if (bindings__BSDF_SPEC) {
+		return vec3f(1.0);
+	}
+	return albedo__multiple_scattering(f0, albedo);
 }
 
 fn lobes__coat_axis(bsdf: lobes__Bsdf, surface: shading__Surface) -> vec3f {

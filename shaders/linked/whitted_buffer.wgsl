@@ -3867,6 +3867,7 @@ struct layers__Layers {
 	diffuse: vec3f,
 	f0: vec3f,
 	f90: vec3f,
+	metallic: f32,
 	over_f0: vec3f,
 	over_f90: vec3f,
 	alpha: f32,
@@ -3973,6 +3974,7 @@ fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
 	var layers: layers__Layers;
 	layers.alpha = own.roughness * own.roughness;
 	layers.ior = own.ior;
+	layers.metallic = own.metallic;
 	let body = 1.0 - own.metallic;
 	layers.diffuse = body * own.base;
 	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && own.transmission > 0.0) {

@@ -42,6 +42,11 @@ fn white_materials_are_invisible_in_even_light() {
             roughness,
             ..dielectric.clone()
         };
+        let mixed = |metallic| MetallicRoughness {
+            metallic,
+            ..metal.clone()
+        };
+        let (quarter, half) = (mixed(0.25), mixed(0.5));
         let coated = MetallicRoughness {
             clearcoat: 1.0,
             clearcoat_roughness: roughness,
@@ -59,6 +64,8 @@ fn white_materials_are_invisible_in_even_light() {
         };
         for (name, model) in [
             ("metal", metal),
+            ("a quarter of metal", quarter),
+            ("half of metal", half),
             ("plastic", plastic),
             ("coated plastic", coated),
             ("cloth", cloth),
