@@ -233,3 +233,23 @@ fn owen_scrambling_keeps_common_leading_bits_and_splits_where_they_end() {
     }
     verdict.close();
 }
+
+/// Bit k of a place on the curve is bit k/2 of a coordinate.
+#[test]
+fn the_z_order_has_the_bits_of_both_coordinates_by_turns() {
+    let mut random = Random::new(3);
+    let mut pixels: Vec<[u32; 2]> = (0..200)
+        .map(|_| [(); 2].map(|()| random.word() >> 19))
+        .collect();
+    pixels.extend([[0, 0], [1, 0], [0, 1], [3, 5], [8191, 8191], [65535, 0]]);
+    let places: Vec<u32> = gpu().map("lib::sampling::z_order", &pixels);
+    let mut verdict = Verdict::on("z_order");
+    for (pixel, place) in pixels.iter().zip(places) {
+        let bit = |k: u32| (pixel[k as usize % 2] >> (k / 2) & 1) << k;
+        let expected: u32 = (0..32).map(bit).sum();
+        verdict.that(format!("{pixel:?}"), place == expected, || {
+            format!("{place}, expected {expected}")
+        });
+    }
+    verdict.close();
+}
