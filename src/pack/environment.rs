@@ -13,8 +13,8 @@ use std::sync::Arc;
 /// The grid has at most 2 to this power rows.
 const MAX_LEVELS: u32 = 10;
 
-/// The grid has 2 to this power as many rows as the picture: the edge of a sun goes through cells, and what differs within
-/// a cell is noise.
+/// The grid has 2 to this power times as many rows as the picture: the edge of a sun goes through cells, and what
+/// differs within a cell is noise.
 const FINER_LEVELS: u32 = 2;
 
 /// A picture with less than this part of its light above the mean has no table.
