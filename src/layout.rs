@@ -483,10 +483,10 @@ packed! {
         light_samples: f32,
         /// Width of the part of a pixel that a sample stands for, in pixels.
         footprint: f32,
+        /// Film blocks of 8x8 pixels that a workgroup renders one after the other, at least 1.
+        blocks: u32,
         /// Counts of what the dispatch did; zero before it.
         counters: PackedCounters,
-        /// Not used.
-        _pad: u32,
     }
     /// What a dispatch counted.
     PackedCounters {

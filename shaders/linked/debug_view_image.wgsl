@@ -1,7 +1,7 @@
 @compute @workgroup_size(64, 1, 1)
 fn debug_view(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
 	let batch = dispatch__load_batch();
-	let work = dispatch__work_of(dispatch__load_block(group), lane);
+	let work = block__work_of(block__load_block(group), lane);
 	let key = rng__pixel_key(batch.seed, work.pixel);
 	if (work.inside) {
 		var sum = film__load_sum(work.film_index);
@@ -42,12 +42,6 @@ fn view(batch: dispatch__Batch, ray: tracing__Ray) -> vec3f {
 	return 0.5 * surface.n + 0.5;
 }
 
-struct dispatch__Work {
-	inside: bool,
-	film_index: u32,
-	pixel: vec2u
-}
-
 struct dispatch__RayCounts {
 	primary: u32,
 	primary_hits: u32,
@@ -66,30 +60,6 @@ var<private> dispatch__cut_throughput: f32 = 0.0;
 var<private> dispatch__clamped_light: f32 = 0.0;
 
 var<private> dispatch__kept_light: f32 = 0.0;
-
-struct dispatch__Block {
-	film_index: u32,
-	corner: vec2u,
-	end: vec2u,
-	is_inside: bool
-}
-
-fn dispatch__load_block(group: vec3u) -> dispatch__Block {
-	let index = bindings__dispatch.first_group + group.y * bindings__dispatch.grid_width + group.x;
-	let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
-	let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
-	return dispatch__Block(64u * index, tile + tile__group_corner(visited, bindings__dispatch.group_columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group);
-}
-
-fn dispatch__work_of(block: dispatch__Block, place: u32) -> dispatch__Work {
-	let film_index = block.film_index + place;
-	if (bindings__ADAPTIVE) {
-		let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
-		return dispatch__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
-	}
-	let pixel = block.corner + tile__morton_8x8(place);
-	return dispatch__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
-}
 
 struct dispatch__Batch {
 	camera: types__PackedCamera,
@@ -174,14 +144,14 @@ fn dispatch__add_counts(lane: u32) {
 		atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
 		atomicAdd(&bindings__dispatch.counters.shadow, dispatch__counts.shadow);
 		atomicAdd(&bindings__dispatch.counters.shadow_blocked, dispatch__counts.shadow_blocked);
-		if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
+		if (bindings__HAS_TREES) {
 			atomicAdd(&bindings__dispatch.counters.reflection, dispatch__counts.reflection);
 			atomicAdd(&bindings__dispatch.counters.reflection_hits, dispatch__counts.reflection_hits);
 			atomicAdd(&bindings__dispatch.counters.refraction, dispatch__counts.refraction);
 			atomicAdd(&bindings__dispatch.counters.refraction_hits, dispatch__counts.refraction_hits);
 		}
 	}
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) && ray_stack__cut_off_trees > 0u) {
+	if (bindings__HAS_TREES && ray_stack__cut_off_trees > 0u) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
 	}
 	if (bindings__HAS_LAYERS && dispatch__cut_throughput > 0.0) {
@@ -509,8 +479,8 @@ struct types__PackedDispatch {
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
-	counters: types__PackedCounters,
-	_pad: u32
+	blocks: u32,
+	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
@@ -722,7 +692,7 @@ override bindings__HAS_TEXTURES: bool = true;
 
 override bindings__HAS_FOOTPRINTS: bool = true;
 
-override bindings__HAS_COVERAGE: bool = true;
+override bindings__HAS_TREES: bool = true;
 
 override bindings__HAS_NORMAL_MAPS: bool = true;
 
@@ -765,6 +735,42 @@ override bindings__SQUARES_ROW: u32 = 1u;
 override bindings__HAS_FEATURES: bool = false;
 
 var<private> albedo__albedo_first: u32;
+
+struct block__Work {
+	inside: bool,
+	film_index: u32,
+	pixel: vec2u
+}
+
+struct block__Block {
+	index: u32,
+	end_index: u32,
+	corner: vec2u,
+	end: vec2u,
+	is_inside: bool,
+	tile: vec2u,
+	size: vec2u,
+	step: vec2u
+}
+
+fn block__load_block(group: vec3u) -> block__Block {
+	let workgroup = group.y * bindings__dispatch.grid_width + group.x;
+	let index = bindings__dispatch.first_group + bindings__dispatch.blocks * workgroup;
+	let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
+	let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
+	let columns = bindings__dispatch.group_columns;
+	return block__Block(index, min(index + bindings__dispatch.blocks, bindings__dispatch.end_group), tile + tile__group_corner(visited, columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group, tile, vec2u(columns, bindings__dispatch.group_count / columns), vec2u(bindings__dispatch.group_stride % columns, bindings__dispatch.group_stride / columns));
+}
+
+fn block__work_of(block: block__Block, place: u32) -> block__Work {
+	let film_index = 64u * block.index + place;
+	if (bindings__ADAPTIVE) {
+		let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
+		return block__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
+	}
+	let pixel = block.corner + tile__morton_8x8(place);
+	return block__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
+}
 
 const tile__GROUP_SIDE: u32 = 8u;
 

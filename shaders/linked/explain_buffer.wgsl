@@ -18,97 +18,111 @@ fn explain(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 }
 
 fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u32) -> wide__Vectors {
-	var radiance = wide__no_vectors();
-	var states = ray_stack__camera_states(batch, rays);
-	var is_unfinished = false;
-	features__start_features();
+	var trees = start_trees(batch, rays);
 	loop {
-		let hits = rays__closest_hits(states.rays);
-		var next = states;
-		var receivers = direct__no_receivers();
-		var arriving = wide__no_vectors();
-		var color = wide__no_vectors();
-		var is_first = false;
-		is_unfinished = false;
-		var rows = rays__rows_where(states.rays.t_max >= wide__Floats(0.0));
-		loop {
-			let k = rays__first_row(rows);
-			ray_stack__current_tree = k;
-			let state = ray_states__state_at(states, k);
-			let hit = rays__hit_at(hits, k);
-			is_first = state.node == 1u;
-			var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_states__no_ray(), ray_states__no_ray());
-			if (state.ray.t_max >= 0.0) {
-				dispatch__count_hit(state.kind, hit);
-				record__open_ray(state.ray, hit, state.kind, state.throughput, state.media);
-				if (hit.primitive == types__NONE) {
-					let seen = escaping_throughput(state) * background__background(batch, state.ray.direction);
-					radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + seen);
-					if (is_first) {
-						features__see_albedo(seen, vec3f(0.0));
-						features__see_light(seen, 0u);
-					}
-					record__record_miss(seen);
-				}
-				else {
-					let contact = contact__contact_at(state.ray, hit, state.cone);
-					var surface = contact.surface;
-					if (bindings__HAS_TEXTURES) {
-						surface.phong = texture__textured_phong(surface);
-					}
-					let factors = texture__texture_optics(surface);
-					if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
-						event = optics__scatter(batch, state, hit.t, contact, factors, coverage__coverage_at(surface));
-						surface.phong.diffuse *= event.diffuse;
-						surface.phong.ambient *= event.diffuse;
-						surface.phong.specular *= event.highlight;
-					}
-					record__record_surface(contact.surface);
-					record__record_arriving(event.arriving);
-					var key = shading__SampleKey(wide__word_at(keys, k), sample, 1.0);
-					if (state.node > 1u) {
-						key.hash = rng__hash_combine(key.hash, state.node);
-						key.weight = numeric__max_component(event.arriving);
-					}
-					receivers = direct__receiver_set(receivers, k, surface, -state.ray.direction, key);
-					arriving = wide__vector_set(arriving, k, event.arriving);
-					let own = own_light(batch, surface, factors[2]);
-					color = wide__vector_set(color, k, own);
-					if (is_first) {
-						features__see_first(surface, hit, hit.t);
-						let glow = own - batch.ambient * surface.phong.ambient;
-						features__see_albedo(surface.phong.diffuse + glow, surface.n);
-						features__see_light(event.arriving * glow, 0u);
-					}
-				}
-			}
-			if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
-				let following = ray_stack__next_ray(event.reflected, event.refracted);
-				next = ray_states__state_set(next, k, following);
-				is_unfinished |= ray_states__is_alive(following);
-			}
-			continuing {
-				rows = rays__later_rows(rows);
-				break if wide__ONE_RAY | (rows == 0u);
-			}
-		}
-		loops__cut_off |= rows != 0u;
-		let direct = direct__direct_light(batch, receivers, states.media, sample);
-		if (is_first) {
-			features__see_light(wide__vector_at(arriving, 0u) * wide__vector_at(direct, 0u), 1u);
-		}
-		radiance.x += arriving.x * (color.x + direct.x);
-		radiance.y += arriving.y * (color.y + direct.y);
-		radiance.z += arriving.z * (color.z + direct.z);
-		record__close_ray();
-		states = next;
+		trees = traced(batch, trees, keys, sample);
 		continuing {
 		
-			break if !rays__any_lane(is_unfinished);
+			break if !trees.are_unfinished;
 		}
 	}
-	loops__cut_off |= is_unfinished;
-	return radiance;
+	loops__cut_off |= trees.are_unfinished;
+	return trees.radiance;
+}
+
+struct Trees {
+	states: ray_states__RayStates,
+	radiance: wide__Vectors,
+	are_unfinished: bool
+}
+
+fn start_trees(batch: dispatch__Batch, rays: rays__Rays) -> Trees {
+	features__start_features();
+	return Trees(ray_stack__camera_states(batch, rays), wide__no_vectors(), true);
+}
+
+fn traced(batch: dispatch__Batch, trees: Trees, keys: wide__Words, sample: u32) -> Trees {
+	let states = trees.states;
+	var radiance = trees.radiance;
+	let hits = rays__closest_hits(states.rays);
+	var next = states;
+	var receivers = direct__no_receivers();
+	var arriving = wide__no_vectors();
+	var color = wide__no_vectors();
+	var is_first = false;
+	var are_unfinished = false;
+	var rows = rays__rows_where(states.rays.t_max >= wide__Floats(0.0));
+	loop {
+		let k = rays__first_row(rows);
+		ray_stack__current_tree = k;
+		let state = ray_states__state_at(states, k);
+		let hit = rays__hit_at(hits, k);
+		is_first = state.node == 1u;
+		var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_states__no_ray(), ray_states__no_ray());
+		if (state.ray.t_max >= 0.0) {
+			dispatch__count_hit(state.kind, hit);
+			record__open_ray(state.ray, hit, state.kind, state.throughput, state.media);
+			if (hit.primitive == types__NONE) {
+				let seen = escaping_throughput(state) * background__background(batch, state.ray.direction);
+				radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + seen);
+				if (is_first) {
+					features__see_albedo(seen, vec3f(0.0));
+					features__see_light(seen, 0u);
+				}
+				record__record_miss(seen);
+			}
+			else {
+				let contact = contact__contact_at(state.ray, hit, state.cone);
+				var surface = contact.surface;
+				if (bindings__HAS_TEXTURES) {
+					surface.phong = texture__textured_phong(surface);
+				}
+				let factors = texture__texture_optics(surface);
+				if (bindings__HAS_TREES) {
+					event = optics__scatter(batch, state, hit.t, contact, factors, coverage__coverage_at(surface));
+					surface.phong.diffuse *= event.diffuse;
+					surface.phong.ambient *= event.diffuse;
+					surface.phong.specular *= event.highlight;
+				}
+				record__record_surface(contact.surface);
+				record__record_arriving(event.arriving);
+				var key = shading__SampleKey(wide__word_at(keys, k), sample, 1.0);
+				if (state.node > 1u) {
+					key.hash = rng__hash_combine(key.hash, state.node);
+					key.weight = numeric__max_component(event.arriving);
+				}
+				receivers = direct__receiver_set(receivers, k, surface, -state.ray.direction, key);
+				arriving = wide__vector_set(arriving, k, event.arriving);
+				let own = own_light(batch, surface, factors[2]);
+				color = wide__vector_set(color, k, own);
+				if (is_first) {
+					features__see_first(surface, hit, hit.t);
+					let glow = own - batch.ambient * surface.phong.ambient;
+					features__see_albedo(surface.phong.diffuse + glow, surface.n);
+					features__see_light(event.arriving * glow, 0u);
+				}
+			}
+		}
+		if (bindings__HAS_TREES) {
+			let following = ray_stack__next_ray(event.reflected, event.refracted);
+			next = ray_states__state_set(next, k, following);
+			are_unfinished |= ray_states__is_alive(following);
+		}
+		continuing {
+			rows = rays__later_rows(rows);
+			break if wide__ONE_RAY | (rows == 0u);
+		}
+	}
+	loops__cut_off |= rows != 0u;
+	let direct = direct__direct_light(batch, receivers, states.media, sample);
+	if (is_first) {
+		features__see_light(wide__vector_at(arriving, 0u) * wide__vector_at(direct, 0u), 1u);
+	}
+	radiance.x += arriving.x * (color.x + direct.x);
+	radiance.y += arriving.y * (color.y + direct.y);
+	radiance.z += arriving.z * (color.z + direct.z);
+	record__close_ray();
+	return Trees(next, radiance, are_unfinished);
 }
 
 fn escaping_throughput(state: ray_states__RayState) -> vec3f {
@@ -209,6 +223,8 @@ override bindings__HAS_PICTURES: bool = true;
 override bindings__HAS_FOOTPRINTS: bool = true;
 
 override bindings__HAS_COVERAGE: bool = true;
+
+override bindings__HAS_TREES: bool = true;
 
 override bindings__HAS_NORMAL_MAPS: bool = true;
 
@@ -650,8 +666,8 @@ struct types__PackedDispatch {
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
-	counters: types__PackedCounters,
-	_pad: u32
+	blocks: u32,
+	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
@@ -1032,14 +1048,14 @@ fn dispatch__add_counts(lane: u32) {
 		atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
 		atomicAdd(&bindings__dispatch.counters.shadow, dispatch__counts.shadow);
 		atomicAdd(&bindings__dispatch.counters.shadow_blocked, dispatch__counts.shadow_blocked);
-		if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
+		if (bindings__HAS_TREES) {
 			atomicAdd(&bindings__dispatch.counters.reflection, dispatch__counts.reflection);
 			atomicAdd(&bindings__dispatch.counters.reflection_hits, dispatch__counts.reflection_hits);
 			atomicAdd(&bindings__dispatch.counters.refraction, dispatch__counts.refraction);
 			atomicAdd(&bindings__dispatch.counters.refraction_hits, dispatch__counts.refraction_hits);
 		}
 	}
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) && ray_stack__cut_off_trees > 0u) {
+	if (bindings__HAS_TREES && ray_stack__cut_off_trees > 0u) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
 	}
 	if (bindings__HAS_LAYERS && dispatch__cut_throughput > 0.0) {
@@ -1725,6 +1741,80 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	return direction.x * x + direction.y * y + direction.z * n;
 }
 
+const ray_states__KIND_PRIMARY: u32 = 0u;
+
+const ray_states__KIND_REFLECTED: u32 = 1u;
+
+const ray_states__KIND_REFRACTED: u32 = 2u;
+
+struct ray_states__RayState {
+	ray: tracing__Ray,
+	throughput: vec3f,
+	media: vec4u,
+	depth: u32,
+	kind: u32,
+	node: u32,
+	cone: tracing__Cone
+}
+
+struct ray_states__Media {
+	x: wide__Words,
+	y: wide__Words,
+	z: wide__Words,
+	w: wide__Words
+}
+
+struct ray_states__RayStates {
+	rays: rays__Rays,
+	throughput: wide__Vectors,
+	media: ray_states__Media,
+	step: wide__Words,
+	node: wide__Words,
+	cone_width: wide__Floats,
+	cone_spread: wide__Floats
+}
+
+fn ray_states__is_alive(state: ray_states__RayState) -> bool {
+	return any(state.throughput > vec3f(0.0));
+}
+
+fn ray_states__with_cones(batch: dispatch__Batch, states: ray_states__RayStates) -> ray_states__RayStates {
+	var all = states;
+	var k = 0u;
+	loop {
+		let cone = footprint__camera_cone(batch, wide__vector_at(states.rays.direction, k));
+		all.cone_width = wide__float_set(all.cone_width, k, cone.width);
+		all.cone_spread = wide__float_set(all.cone_spread, k, cone.spread);
+		continuing {
+			k += 1u;
+			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+		}
+	}
+	loops__cut_off |= k < wide__RAYS_PER_LANE;
+	return all;
+}
+
+fn ray_states__state_at(states: ray_states__RayStates, k: u32) -> ray_states__RayState {
+	let step = wide__word_at(states.step, k);
+	return ray_states__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_states__media_at(states.media, k), step >> 2u, step & 3u, wide__word_at(states.node, k), tracing__Cone(wide__float_at(states.cone_width, k), wide__float_at(states.cone_spread, k)));
+}
+
+fn ray_states__state_set(states: ray_states__RayStates, k: u32, state: ray_states__RayState) -> ray_states__RayStates {
+	return ray_states__RayStates(rays__ray_set(states.rays, k, state.ray), wide__vector_set(states.throughput, k, state.throughput), ray_states__media_set(states.media, k, state.media), wide__word_set(states.step, k, (state.depth << 2u) | state.kind), wide__word_set(states.node, k, state.node), wide__float_set(states.cone_width, k, state.cone.width), wide__float_set(states.cone_spread, k, state.cone.spread));
+}
+
+fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
+	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
+}
+
+fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
+	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
+}
+
+fn ray_states__no_ray() -> ray_states__RayState {
+	return ray_states__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, tracing__Cone(0.0, 0.0));
+}
+
 const ray_stack__RAY_STACK_SIZE: u32 = 9u;
 
 const ray_stack__MAX_TREE_RAYS: u32 = 1024u;
@@ -1849,80 +1939,6 @@ fn ray_stack__kept_cone(index: u32) -> tracing__Cone {
 		return tracing__Cone(ray_stack__cone_stack[index].x, ray_stack__cone_stack[index].y);
 	}
 	return tracing__Cone(0.0, 0.0);
-}
-
-const ray_states__KIND_PRIMARY: u32 = 0u;
-
-const ray_states__KIND_REFLECTED: u32 = 1u;
-
-const ray_states__KIND_REFRACTED: u32 = 2u;
-
-struct ray_states__RayState {
-	ray: tracing__Ray,
-	throughput: vec3f,
-	media: vec4u,
-	depth: u32,
-	kind: u32,
-	node: u32,
-	cone: tracing__Cone
-}
-
-struct ray_states__Media {
-	x: wide__Words,
-	y: wide__Words,
-	z: wide__Words,
-	w: wide__Words
-}
-
-struct ray_states__RayStates {
-	rays: rays__Rays,
-	throughput: wide__Vectors,
-	media: ray_states__Media,
-	step: wide__Words,
-	node: wide__Words,
-	cone_width: wide__Floats,
-	cone_spread: wide__Floats
-}
-
-fn ray_states__is_alive(state: ray_states__RayState) -> bool {
-	return any(state.throughput > vec3f(0.0));
-}
-
-fn ray_states__with_cones(batch: dispatch__Batch, states: ray_states__RayStates) -> ray_states__RayStates {
-	var all = states;
-	var k = 0u;
-	loop {
-		let cone = footprint__camera_cone(batch, wide__vector_at(states.rays.direction, k));
-		all.cone_width = wide__float_set(all.cone_width, k, cone.width);
-		all.cone_spread = wide__float_set(all.cone_spread, k, cone.spread);
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	return all;
-}
-
-fn ray_states__state_at(states: ray_states__RayStates, k: u32) -> ray_states__RayState {
-	let step = wide__word_at(states.step, k);
-	return ray_states__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_states__media_at(states.media, k), step >> 2u, step & 3u, wide__word_at(states.node, k), tracing__Cone(wide__float_at(states.cone_width, k), wide__float_at(states.cone_spread, k)));
-}
-
-fn ray_states__state_set(states: ray_states__RayStates, k: u32, state: ray_states__RayState) -> ray_states__RayStates {
-	return ray_states__RayStates(rays__ray_set(states.rays, k, state.ray), wide__vector_set(states.throughput, k, state.throughput), ray_states__media_set(states.media, k, state.media), wide__word_set(states.step, k, (state.depth << 2u) | state.kind), wide__word_set(states.node, k, state.node), wide__float_set(states.cone_width, k, state.cone.width), wide__float_set(states.cone_spread, k, state.cone.spread));
-}
-
-fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
-	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
-}
-
-fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
-	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
-}
-
-fn ray_states__no_ray() -> ray_states__RayState {
-	return ray_states__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, tracing__Cone(0.0, 0.0));
 }
 
 const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());

@@ -237,6 +237,8 @@ override bindings__HAS_FOOTPRINTS: bool = true;
 
 override bindings__HAS_COVERAGE: bool = true;
 
+override bindings__HAS_TREES: bool = true;
+
 override bindings__HAS_NORMAL_MAPS: bool = true;
 
 override bindings__HAS_COAT_NORMALS: bool = false;
@@ -745,8 +747,8 @@ struct types__PackedDispatch {
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
-	counters: types__PackedCounters,
-	_pad: u32
+	blocks: u32,
+	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
@@ -1079,14 +1081,14 @@ fn dispatch__add_counts(lane: u32) {
 		atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
 		atomicAdd(&bindings__dispatch.counters.shadow, dispatch__counts.shadow);
 		atomicAdd(&bindings__dispatch.counters.shadow_blocked, dispatch__counts.shadow_blocked);
-		if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
+		if (bindings__HAS_TREES) {
 			atomicAdd(&bindings__dispatch.counters.reflection, dispatch__counts.reflection);
 			atomicAdd(&bindings__dispatch.counters.reflection_hits, dispatch__counts.reflection_hits);
 			atomicAdd(&bindings__dispatch.counters.refraction, dispatch__counts.refraction);
 			atomicAdd(&bindings__dispatch.counters.refraction_hits, dispatch__counts.refraction_hits);
 		}
 	}
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) && ray_stack__cut_off_trees > 0u) {
+	if (bindings__HAS_TREES && ray_stack__cut_off_trees > 0u) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
 	}
 	if (bindings__HAS_LAYERS && dispatch__cut_throughput > 0.0) {

@@ -5,7 +5,7 @@ const ROULETTE_START: u32 = 3u;
 @compute @workgroup_size(64, 1, 1)
 fn path_trace(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
 	let batch = dispatch__load_batch();
-	var pixels = pixels__load_pixels(batch, dispatch__load_block(group), lane);
+	var pixels = pixels__load_pixels(batch, block__load_block(group), lane);
 	var sample = batch.first_sample;
 	var path = path__camera_path(batch, pixels, sample);
 	var walk = path__next_walk(path);
@@ -129,12 +129,6 @@ fn scattered(batch: dispatch__Batch, before: path__Path, surface: shading__Surfa
 	return path;
 }
 
-struct dispatch__Work {
-	inside: bool,
-	film_index: u32,
-	pixel: vec2u
-}
-
 struct dispatch__RayCounts {
 	primary: u32,
 	primary_hits: u32,
@@ -153,36 +147,6 @@ var<private> dispatch__cut_throughput: f32 = 0.0;
 var<private> dispatch__clamped_light: f32 = 0.0;
 
 var<private> dispatch__kept_light: f32 = 0.0;
-
-fn dispatch__place_of(lane: u32, k: u32) -> u32 {
-	{
-		return lane;
-	}
-}
-
-struct dispatch__Block {
-	film_index: u32,
-	corner: vec2u,
-	end: vec2u,
-	is_inside: bool
-}
-
-fn dispatch__load_block(group: vec3u) -> dispatch__Block {
-	let index = bindings__dispatch.first_group + group.y * bindings__dispatch.grid_width + group.x;
-	let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
-	let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
-	return dispatch__Block(64u * index, tile + tile__group_corner(visited, bindings__dispatch.group_columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group);
-}
-
-fn dispatch__work_of(block: dispatch__Block, place: u32) -> dispatch__Work {
-	let film_index = block.film_index + place;
-	if (bindings__ADAPTIVE) {
-		let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
-		return dispatch__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
-	}
-	let pixel = block.corner + tile__morton_8x8(place);
-	return dispatch__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
-}
 
 struct dispatch__Batch {
 	camera: types__PackedCamera,
@@ -285,14 +249,14 @@ fn dispatch__add_counts(lane: u32) {
 		atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
 		atomicAdd(&bindings__dispatch.counters.shadow, dispatch__counts.shadow);
 		atomicAdd(&bindings__dispatch.counters.shadow_blocked, dispatch__counts.shadow_blocked);
-		if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
+		if (bindings__HAS_TREES) {
 			atomicAdd(&bindings__dispatch.counters.reflection, dispatch__counts.reflection);
 			atomicAdd(&bindings__dispatch.counters.reflection_hits, dispatch__counts.reflection_hits);
 			atomicAdd(&bindings__dispatch.counters.refraction, dispatch__counts.refraction);
 			atomicAdd(&bindings__dispatch.counters.refraction_hits, dispatch__counts.refraction_hits);
 		}
 	}
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) && ray_stack__cut_off_trees > 0u) {
+	if (bindings__HAS_TREES && ray_stack__cut_off_trees > 0u) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
 	}
 	if (bindings__HAS_LAYERS && dispatch__cut_throughput > 0.0) {
@@ -739,8 +703,8 @@ struct types__PackedDispatch {
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
-	counters: types__PackedCounters,
-	_pad: u32
+	blocks: u32,
+	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
@@ -1006,6 +970,8 @@ override bindings__HAS_FOOTPRINTS: bool = true;
 
 override bindings__HAS_COVERAGE: bool = true;
 
+override bindings__HAS_TREES: bool = true;
+
 override bindings__HAS_NORMAL_MAPS: bool = true;
 
 override bindings__HAS_COAT_NORMALS: bool = false;
@@ -1098,11 +1064,11 @@ struct pixels__Pixels {
 	squares: wide__Floats
 }
 
-fn pixels__load_pixels(batch: dispatch__Batch, block: dispatch__Block, lane: u32) -> pixels__Pixels {
+fn pixels__load_pixels(batch: dispatch__Batch, block: block__Block, lane: u32) -> pixels__Pixels {
 	var pixels = pixels__Pixels(wide__Words(types__NONE), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__no_vectors(), wide__Floats(0.0), wide__Floats(0.0));
 	var k = 0u;
 	loop {
-		let work = dispatch__work_of(block, dispatch__place_of(lane, k));
+		let work = block__work_of(block, block__place_of(lane, k));
 		pixels.x = wide__word_set(pixels.x, k, work.pixel.x);
 		pixels.y = wide__word_set(pixels.y, k, work.pixel.y);
 		pixels.keys = wide__word_set(pixels.keys, k, rng__pixel_key(batch.seed, work.pixel));
@@ -1190,6 +1156,48 @@ fn pixels__with_sum(pixels: pixels__Pixels, k: u32, sum: film__Sum) -> pixels__P
 	next.weights = wide__float_set(pixels.weights, k, sum.radiance.w);
 	next.squares = wide__float_set(pixels.squares, k, sum.squares);
 	return next;
+}
+
+struct block__Work {
+	inside: bool,
+	film_index: u32,
+	pixel: vec2u
+}
+
+fn block__place_of(lane: u32, k: u32) -> u32 {
+	{
+		return lane;
+	}
+}
+
+struct block__Block {
+	index: u32,
+	end_index: u32,
+	corner: vec2u,
+	end: vec2u,
+	is_inside: bool,
+	tile: vec2u,
+	size: vec2u,
+	step: vec2u
+}
+
+fn block__load_block(group: vec3u) -> block__Block {
+	let workgroup = group.y * bindings__dispatch.grid_width + group.x;
+	let index = bindings__dispatch.first_group + bindings__dispatch.blocks * workgroup;
+	let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
+	let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
+	let columns = bindings__dispatch.group_columns;
+	return block__Block(index, min(index + bindings__dispatch.blocks, bindings__dispatch.end_group), tile + tile__group_corner(visited, columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group, tile, vec2u(columns, bindings__dispatch.group_count / columns), vec2u(bindings__dispatch.group_stride % columns, bindings__dispatch.group_stride / columns));
+}
+
+fn block__work_of(block: block__Block, place: u32) -> block__Work {
+	let film_index = 64u * block.index + place;
+	if (bindings__ADAPTIVE) {
+		let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
+		return block__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
+	}
+	let pixel = block.corner + tile__morton_8x8(place);
+	return block__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
 }
 
 const wide__RAYS_PER_LANE: u32 = 1u;

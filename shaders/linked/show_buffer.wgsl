@@ -1,6 +1,6 @@
 @compute @workgroup_size(64, 1, 1)
 fn show(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-	let work = dispatch__work_of(dispatch__load_block(group), lane);
+	let work = block__work_of(block__load_block(group), lane);
 	let tone = film__load_tone();
 	let corner = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
 	if (work.inside) {
@@ -12,34 +12,40 @@ fn show(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) la
 	}
 }
 
-struct dispatch__Work {
+struct block__Work {
 	inside: bool,
 	film_index: u32,
 	pixel: vec2u
 }
 
-struct dispatch__Block {
-	film_index: u32,
+struct block__Block {
+	index: u32,
+	end_index: u32,
 	corner: vec2u,
 	end: vec2u,
-	is_inside: bool
+	is_inside: bool,
+	tile: vec2u,
+	size: vec2u,
+	step: vec2u
 }
 
-fn dispatch__load_block(group: vec3u) -> dispatch__Block {
-	let index = bindings__dispatch.first_group + group.y * bindings__dispatch.grid_width + group.x;
+fn block__load_block(group: vec3u) -> block__Block {
+	let workgroup = group.y * bindings__dispatch.grid_width + group.x;
+	let index = bindings__dispatch.first_group + bindings__dispatch.blocks * workgroup;
 	let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
 	let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
-	return dispatch__Block(64u * index, tile + tile__group_corner(visited, bindings__dispatch.group_columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group);
+	let columns = bindings__dispatch.group_columns;
+	return block__Block(index, min(index + bindings__dispatch.blocks, bindings__dispatch.end_group), tile + tile__group_corner(visited, columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group, tile, vec2u(columns, bindings__dispatch.group_count / columns), vec2u(bindings__dispatch.group_stride % columns, bindings__dispatch.group_stride / columns));
 }
 
-fn dispatch__work_of(block: dispatch__Block, place: u32) -> dispatch__Work {
-	let film_index = block.film_index + place;
+fn block__work_of(block: block__Block, place: u32) -> block__Work {
+	let film_index = 64u * block.index + place;
 	if (bindings__ADAPTIVE) {
 		let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
-		return dispatch__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
+		return block__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
 	}
 	let pixel = block.corner + tile__morton_8x8(place);
-	return dispatch__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
+	return block__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
 }
 
 @group(1) @binding(1)
@@ -119,8 +125,8 @@ struct types__PackedDispatch {
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
-	counters: types__PackedCounters,
-	_pad: u32
+	blocks: u32,
+	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
@@ -161,7 +167,7 @@ fn film__load_tone() -> types__PackedTone {
 	return chosen;
 }
 
-fn film__load_weighted_sum(work: dispatch__Work, tone: types__PackedTone) -> vec4f {
+fn film__load_weighted_sum(work: block__Work, tone: types__PackedTone) -> vec4f {
 	return bindings__film[tone.film_rows * work.film_index];
 }
 

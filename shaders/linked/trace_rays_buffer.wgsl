@@ -9,7 +9,7 @@ fn answer(group: vec3u, lane: u32) {
 	var rays = rays__dead_rays();
 	var k = 0u;
 	loop {
-		let query = query__load_query_ray(first + dispatch__place_of(lane, k));
+		let query = query__load_query_ray(first + block__place_of(lane, k));
 		rays = rays__ray_set(rays, k, query.ray);
 		shutter__shutter_time = query.time;
 		continuing {
@@ -21,7 +21,7 @@ fn answer(group: vec3u, lane: u32) {
 	let hits = trace(rays);
 	k = 0u;
 	loop {
-		query__store_hit(first + dispatch__place_of(lane, k), rays__hit_at(hits, k));
+		query__store_hit(first + block__place_of(lane, k), rays__hit_at(hits, k));
 		continuing {
 			k += 1u;
 			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
@@ -347,8 +347,8 @@ struct types__PackedDispatch {
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
-	counters: types__PackedCounters,
-	_pad: u32
+	blocks: u32,
+	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
@@ -524,7 +524,7 @@ struct tracing__Node {
 	children: vec4u
 }
 
-fn dispatch__place_of(lane: u32, k: u32) -> u32 {
+fn block__place_of(lane: u32, k: u32) -> u32 {
 	{
 		return lane;
 	}

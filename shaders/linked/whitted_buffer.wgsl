@@ -5,13 +5,32 @@ fn whitted(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 
 fn render(group: vec3u, lane: u32) {
 	let batch = dispatch__load_batch();
-	var pixels = pixels__load_pixels(batch, dispatch__load_block(group), lane);
+	var block = block__load_block(group);
+	var pixels = pixels__load_pixels(batch, block, lane);
 	var sample = batch.first_sample;
+	var trees = start_trees(batch, pixels__sample_rays(batch, pixels, sample));
 	loop {
-		let radiance = trace(batch, pixels__sample_rays(batch, pixels, sample), pixels.keys, sample);
-		pixels = pixels__add_samples(pixels, sample, radiance);
-		continuing {
+		loop {
+			trees = traced(batch, trees, pixels.keys, sample);
+			continuing {
+			
+				break if bindings__REFILLS_LANES | !rays__any_lane(trees.are_unfinished);
+			}
+		}
+		loops__cut_off |= !bindings__REFILLS_LANES & trees.are_unfinished;
+		if (!trees.are_unfinished) {
+			pixels = pixels__add_samples(pixels, sample, trees.radiance);
 			sample += 1u;
+			if (bindings__REFILLS_LANES && sample >= batch.end_sample && block__has_next_block(block)) {
+				pixels__store_pixels(pixels);
+				block = block__next_block(block);
+				pixels = pixels__load_pixels(batch, block, lane);
+				sample = batch.first_sample;
+			}
+			trees = start_trees(batch, pixels__sample_rays(batch, pixels, sample));
+		}
+		continuing {
+		
 			break if sample >= batch.end_sample;
 		}
 	}
@@ -20,93 +39,94 @@ fn render(group: vec3u, lane: u32) {
 	dispatch__add_counts(lane);
 }
 
-fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u32) -> wide__Vectors {
-	var radiance = wide__no_vectors();
-	var states = ray_stack__camera_states(batch, rays);
-	var is_unfinished = false;
+struct Trees {
+	states: ray_states__RayStates,
+	radiance: wide__Vectors,
+	are_unfinished: bool
+}
+
+fn start_trees(batch: dispatch__Batch, rays: rays__Rays) -> Trees {
 	features__start_features();
+	return Trees(ray_stack__camera_states(batch, rays), wide__no_vectors(), true);
+}
+
+fn traced(batch: dispatch__Batch, trees: Trees, keys: wide__Words, sample: u32) -> Trees {
+	let states = trees.states;
+	var radiance = trees.radiance;
+	let hits = rays__closest_hits(states.rays);
+	var next = states;
+	var receivers = direct__no_receivers();
+	var arriving = wide__no_vectors();
+	var color = wide__no_vectors();
+	var is_first = false;
+	var are_unfinished = false;
+	var rows = rays__rows_where(states.rays.t_max >= wide__Floats(0.0));
 	loop {
-		let hits = rays__closest_hits(states.rays);
-		var next = states;
-		var receivers = direct__no_receivers();
-		var arriving = wide__no_vectors();
-		var color = wide__no_vectors();
-		var is_first = false;
-		is_unfinished = false;
-		var rows = rays__rows_where(states.rays.t_max >= wide__Floats(0.0));
-		loop {
-			let k = rays__first_row(rows);
-			ray_stack__current_tree = k;
-			let state = ray_states__state_at(states, k);
-			let hit = rays__hit_at(hits, k);
-			is_first = state.node == 1u;
-			var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_states__no_ray(), ray_states__no_ray());
-			if (state.ray.t_max >= 0.0) {
-				dispatch__count_hit(state.kind, hit);
-				if (hit.primitive == types__NONE) {
-					let seen = escaping_throughput(state) * background__background(batch, state.ray.direction);
-					radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + seen);
-					if (is_first) {
-						features__see_albedo(seen, vec3f(0.0));
-						features__see_light(seen, 0u);
-					}
-				}
-				else {
-					let contact = contact__contact_at(state.ray, hit, state.cone);
-					var surface = contact.surface;
-					if (bindings__HAS_TEXTURES) {
-						surface.phong = texture__textured_phong(surface);
-					}
-					let factors = texture__texture_optics(surface);
-					if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
-						event = optics__scatter(batch, state, hit.t, contact, factors, coverage__coverage_at(surface));
-						surface.phong.diffuse *= event.diffuse;
-						surface.phong.ambient *= event.diffuse;
-						surface.phong.specular *= event.highlight;
-					}
-					var key = shading__SampleKey(wide__word_at(keys, k), sample, 1.0);
-					if (state.node > 1u) {
-						key.hash = rng__hash_combine(key.hash, state.node);
-						key.weight = numeric__max_component(event.arriving);
-					}
-					receivers = direct__receiver_set(receivers, k, surface, -state.ray.direction, key);
-					arriving = wide__vector_set(arriving, k, event.arriving);
-					let own = own_light(batch, surface, factors[2]);
-					color = wide__vector_set(color, k, own);
-					if (is_first) {
-						features__see_first(surface, hit, hit.t);
-						let glow = own - batch.ambient * surface.phong.ambient;
-						features__see_albedo(surface.phong.diffuse + glow, surface.n);
-						features__see_light(event.arriving * glow, 0u);
-					}
+		let k = rays__first_row(rows);
+		ray_stack__current_tree = k;
+		let state = ray_states__state_at(states, k);
+		let hit = rays__hit_at(hits, k);
+		is_first = state.node == 1u;
+		var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_states__no_ray(), ray_states__no_ray());
+		if (state.ray.t_max >= 0.0) {
+			dispatch__count_hit(state.kind, hit);
+			if (hit.primitive == types__NONE) {
+				let seen = escaping_throughput(state) * background__background(batch, state.ray.direction);
+				radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + seen);
+				if (is_first) {
+					features__see_albedo(seen, vec3f(0.0));
+					features__see_light(seen, 0u);
 				}
 			}
-			if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
-				let following = ray_stack__next_ray(event.reflected, event.refracted);
-				next = ray_states__state_set(next, k, following);
-				is_unfinished |= ray_states__is_alive(following);
-			}
-			continuing {
-				rows = rays__later_rows(rows);
-				break if wide__ONE_RAY | (rows == 0u);
+			else {
+				let contact = contact__contact_at(state.ray, hit, state.cone);
+				var surface = contact.surface;
+				if (bindings__HAS_TEXTURES) {
+					surface.phong = texture__textured_phong(surface);
+				}
+				let factors = texture__texture_optics(surface);
+				if (bindings__HAS_TREES) {
+					event = optics__scatter(batch, state, hit.t, contact, factors, coverage__coverage_at(surface));
+					surface.phong.diffuse *= event.diffuse;
+					surface.phong.ambient *= event.diffuse;
+					surface.phong.specular *= event.highlight;
+				}
+				var key = shading__SampleKey(wide__word_at(keys, k), sample, 1.0);
+				if (state.node > 1u) {
+					key.hash = rng__hash_combine(key.hash, state.node);
+					key.weight = numeric__max_component(event.arriving);
+				}
+				receivers = direct__receiver_set(receivers, k, surface, -state.ray.direction, key);
+				arriving = wide__vector_set(arriving, k, event.arriving);
+				let own = own_light(batch, surface, factors[2]);
+				color = wide__vector_set(color, k, own);
+				if (is_first) {
+					features__see_first(surface, hit, hit.t);
+					let glow = own - batch.ambient * surface.phong.ambient;
+					features__see_albedo(surface.phong.diffuse + glow, surface.n);
+					features__see_light(event.arriving * glow, 0u);
+				}
 			}
 		}
-		loops__cut_off |= rows != 0u;
-		let direct = direct__direct_light(batch, receivers, states.media, sample);
-		if (is_first) {
-			features__see_light(wide__vector_at(arriving, 0u) * wide__vector_at(direct, 0u), 1u);
+		if (bindings__HAS_TREES) {
+			let following = ray_stack__next_ray(event.reflected, event.refracted);
+			next = ray_states__state_set(next, k, following);
+			are_unfinished |= ray_states__is_alive(following);
 		}
-		radiance.x += arriving.x * (color.x + direct.x);
-		radiance.y += arriving.y * (color.y + direct.y);
-		radiance.z += arriving.z * (color.z + direct.z);
-		states = next;
 		continuing {
-		
-			break if !rays__any_lane(is_unfinished);
+			rows = rays__later_rows(rows);
+			break if wide__ONE_RAY | (rows == 0u);
 		}
 	}
-	loops__cut_off |= is_unfinished;
-	return radiance;
+	loops__cut_off |= rows != 0u;
+	let direct = direct__direct_light(batch, receivers, states.media, sample);
+	if (is_first) {
+		features__see_light(wide__vector_at(arriving, 0u) * wide__vector_at(direct, 0u), 1u);
+	}
+	radiance.x += arriving.x * (color.x + direct.x);
+	radiance.y += arriving.y * (color.y + direct.y);
+	radiance.z += arriving.z * (color.z + direct.z);
+	return Trees(next, radiance, are_unfinished);
 }
 
 fn escaping_throughput(state: ray_states__RayState) -> vec3f {
@@ -124,12 +144,6 @@ fn own_light(batch: dispatch__Batch, surface: shading__Surface, glow: vec3f) -> 
 		color += emission;
 	}
 	return color;
-}
-
-struct dispatch__Work {
-	inside: bool,
-	film_index: u32,
-	pixel: vec2u
 }
 
 struct dispatch__RayCounts {
@@ -150,36 +164,6 @@ var<private> dispatch__cut_throughput: f32 = 0.0;
 var<private> dispatch__clamped_light: f32 = 0.0;
 
 var<private> dispatch__kept_light: f32 = 0.0;
-
-fn dispatch__place_of(lane: u32, k: u32) -> u32 {
-	{
-		return lane;
-	}
-}
-
-struct dispatch__Block {
-	film_index: u32,
-	corner: vec2u,
-	end: vec2u,
-	is_inside: bool
-}
-
-fn dispatch__load_block(group: vec3u) -> dispatch__Block {
-	let index = bindings__dispatch.first_group + group.y * bindings__dispatch.grid_width + group.x;
-	let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
-	let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
-	return dispatch__Block(64u * index, tile + tile__group_corner(visited, bindings__dispatch.group_columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group);
-}
-
-fn dispatch__work_of(block: dispatch__Block, place: u32) -> dispatch__Work {
-	let film_index = block.film_index + place;
-	if (bindings__ADAPTIVE) {
-		let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
-		return dispatch__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
-	}
-	let pixel = block.corner + tile__morton_8x8(place);
-	return dispatch__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
-}
 
 struct dispatch__Batch {
 	camera: types__PackedCamera,
@@ -282,14 +266,14 @@ fn dispatch__add_counts(lane: u32) {
 		atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
 		atomicAdd(&bindings__dispatch.counters.shadow, dispatch__counts.shadow);
 		atomicAdd(&bindings__dispatch.counters.shadow_blocked, dispatch__counts.shadow_blocked);
-		if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
+		if (bindings__HAS_TREES) {
 			atomicAdd(&bindings__dispatch.counters.reflection, dispatch__counts.reflection);
 			atomicAdd(&bindings__dispatch.counters.reflection_hits, dispatch__counts.reflection_hits);
 			atomicAdd(&bindings__dispatch.counters.refraction, dispatch__counts.refraction);
 			atomicAdd(&bindings__dispatch.counters.refraction_hits, dispatch__counts.refraction_hits);
 		}
 	}
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) && ray_stack__cut_off_trees > 0u) {
+	if (bindings__HAS_TREES && ray_stack__cut_off_trees > 0u) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
 	}
 	if (bindings__HAS_LAYERS && dispatch__cut_throughput > 0.0) {
@@ -702,8 +686,8 @@ struct types__PackedDispatch {
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
-	counters: types__PackedCounters,
-	_pad: u32
+	blocks: u32,
+	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
@@ -938,6 +922,10 @@ override bindings__HAS_FOOTPRINTS: bool = true;
 
 override bindings__HAS_COVERAGE: bool = true;
 
+override bindings__REFILLS_LANES: bool = false;
+
+override bindings__HAS_TREES: bool = true;
+
 override bindings__HAS_NORMAL_MAPS: bool = true;
 
 override bindings__HAS_COAT_NORMALS: bool = false;
@@ -994,6 +982,82 @@ override bindings__OPACITY_ROW: u32 = 1u;
 
 var<private> albedo__albedo_first: u32;
 
+struct block__Work {
+	inside: bool,
+	film_index: u32,
+	pixel: vec2u
+}
+
+fn block__place_of(lane: u32, k: u32) -> u32 {
+	{
+		return lane;
+	}
+}
+
+struct block__Block {
+	index: u32,
+	end_index: u32,
+	corner: vec2u,
+	end: vec2u,
+	is_inside: bool,
+	tile: vec2u,
+	size: vec2u,
+	step: vec2u
+}
+
+fn block__load_block(group: vec3u) -> block__Block {
+	let workgroup = group.y * bindings__dispatch.grid_width + group.x;
+	let index = bindings__dispatch.first_group + bindings__dispatch.blocks * workgroup;
+	let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
+	let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
+	let columns = bindings__dispatch.group_columns;
+	return block__Block(index, min(index + bindings__dispatch.blocks, bindings__dispatch.end_group), tile + tile__group_corner(visited, columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group, tile, vec2u(columns, bindings__dispatch.group_count / columns), vec2u(bindings__dispatch.group_stride % columns, bindings__dispatch.group_stride / columns));
+}
+
+fn block__has_next_block(block: block__Block) -> bool {
+	return block.index + 1u < block.end_index;
+}
+
+fn block__next_block(block: block__Block) -> block__Block {
+	var next = block;
+	next.index += 1u;
+	next.corner = block.tile + tile__next_corner(block.corner - block.tile, block.step, block.size);
+	return next;
+}
+
+fn block__work_of(block: block__Block, place: u32) -> block__Work {
+	let film_index = 64u * block.index + place;
+	if (bindings__ADAPTIVE) {
+		let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
+		return block__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
+	}
+	let pixel = block.corner + tile__morton_8x8(place);
+	return block__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
+}
+
+const tile__GROUP_SIDE: u32 = 8u;
+
+fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
+	return (index * stride) % group_count;
+}
+
+fn tile__morton_8x8(lane: u32) -> vec2u {
+	let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
+	let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
+	return vec2u(x, y);
+}
+
+fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
+	return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
+}
+
+fn tile__next_corner(corner: vec2u, step: vec2u, size: vec2u) -> vec2u {
+	var place = corner / tile__GROUP_SIDE + step;
+	place += select(vec2u(0u), vec2u(0u - size.x, 1u), place.x >= size.x);
+	place.y -= select(0u, size.y, place.y >= size.y);
+	return tile__GROUP_SIDE * place;
+}
+
 struct pixels__Pixels {
 	film_index: wide__Words,
 	x: wide__Words,
@@ -1004,11 +1068,11 @@ struct pixels__Pixels {
 	squares: wide__Floats
 }
 
-fn pixels__load_pixels(batch: dispatch__Batch, block: dispatch__Block, lane: u32) -> pixels__Pixels {
+fn pixels__load_pixels(batch: dispatch__Batch, block: block__Block, lane: u32) -> pixels__Pixels {
 	var pixels = pixels__Pixels(wide__Words(types__NONE), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__no_vectors(), wide__Floats(0.0), wide__Floats(0.0));
 	var k = 0u;
 	loop {
-		let work = dispatch__work_of(block, dispatch__place_of(lane, k));
+		let work = block__work_of(block, block__place_of(lane, k));
 		pixels.x = wide__word_set(pixels.x, k, work.pixel.x);
 		pixels.y = wide__word_set(pixels.y, k, work.pixel.y);
 		pixels.keys = wide__word_set(pixels.keys, k, rng__pixel_key(batch.seed, work.pixel));
@@ -1142,22 +1206,6 @@ fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
 
 fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
 	return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
-}
-
-const tile__GROUP_SIDE: u32 = 8u;
-
-fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
-	return (index * stride) % group_count;
-}
-
-fn tile__morton_8x8(lane: u32) -> vec2u {
-	let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
-	let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
-	return vec2u(x, y);
-}
-
-fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
-	return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
 }
 
 fn rng__hash(x: u32) -> u32 {
@@ -1296,6 +1344,153 @@ fn rays__any_lane(condition: bool) -> bool {
 	}
 }
 
+const ray_states__KIND_PRIMARY: u32 = 0u;
+
+const ray_states__KIND_REFLECTED: u32 = 1u;
+
+const ray_states__KIND_REFRACTED: u32 = 2u;
+
+struct ray_states__RayState {
+	ray: tracing__Ray,
+	throughput: vec3f,
+	media: vec4u,
+	depth: u32,
+	kind: u32,
+	node: u32,
+	cone: tracing__Cone
+}
+
+struct ray_states__Media {
+	x: wide__Words,
+	y: wide__Words,
+	z: wide__Words,
+	w: wide__Words
+}
+
+struct ray_states__RayStates {
+	rays: rays__Rays,
+	throughput: wide__Vectors,
+	media: ray_states__Media,
+	step: wide__Words,
+	node: wide__Words,
+	cone_width: wide__Floats,
+	cone_spread: wide__Floats
+}
+
+fn ray_states__is_alive(state: ray_states__RayState) -> bool {
+	return any(state.throughput > vec3f(0.0));
+}
+
+fn ray_states__with_cones(batch: dispatch__Batch, states: ray_states__RayStates) -> ray_states__RayStates {
+	var all = states;
+	var k = 0u;
+	loop {
+		let cone = footprint__camera_cone(batch, wide__vector_at(states.rays.direction, k));
+		all.cone_width = wide__float_set(all.cone_width, k, cone.width);
+		all.cone_spread = wide__float_set(all.cone_spread, k, cone.spread);
+		continuing {
+			k += 1u;
+			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+		}
+	}
+	loops__cut_off |= k < wide__RAYS_PER_LANE;
+	return all;
+}
+
+fn ray_states__state_at(states: ray_states__RayStates, k: u32) -> ray_states__RayState {
+	let step = wide__word_at(states.step, k);
+	return ray_states__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_states__media_at(states.media, k), step >> 2u, step & 3u, wide__word_at(states.node, k), tracing__Cone(wide__float_at(states.cone_width, k), wide__float_at(states.cone_spread, k)));
+}
+
+fn ray_states__state_set(states: ray_states__RayStates, k: u32, state: ray_states__RayState) -> ray_states__RayStates {
+	return ray_states__RayStates(rays__ray_set(states.rays, k, state.ray), wide__vector_set(states.throughput, k, state.throughput), ray_states__media_set(states.media, k, state.media), wide__word_set(states.step, k, (state.depth << 2u) | state.kind), wide__word_set(states.node, k, state.node), wide__float_set(states.cone_width, k, state.cone.width), wide__float_set(states.cone_spread, k, state.cone.spread));
+}
+
+fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
+	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
+}
+
+fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
+	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
+}
+
+fn ray_states__no_ray() -> ray_states__RayState {
+	return ray_states__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, tracing__Cone(0.0, 0.0));
+}
+
+struct features__Features {
+	albedo: vec3f,
+	normal: vec3f,
+	direct: vec3f,
+	emission: vec3f,
+	position: vec3f,
+	depth: f32,
+	uv: vec2f,
+	material: u32,
+	primitive: u32,
+	instance: u32,
+	is_followed: bool
+}
+
+var<private> features__features: features__Features;
+
+var<private> features__off_centre: f32;
+
+fn features__start_features() {
+	if (bindings__HAS_FEATURES) {
+		features__features = features__Features();
+		features__features.is_followed = true;
+	}
+}
+
+fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32) {
+	if (bindings__HAS_FEATURES && features__features.material == 0u) {
+		features__features.position = surface.p;
+		features__features.depth = depth;
+		features__features.uv = surface.uv;
+		features__features.material = surface.material + 1u;
+		features__features.primitive = hit.primitive;
+		features__features.instance = hit.instance;
+	}
+}
+
+fn features__see_albedo(albedo: vec3f, normal: vec3f) {
+	if (bindings__HAS_FEATURES && features__features.is_followed) {
+		features__features.albedo = clamp(albedo, vec3f(0.0), vec3f(1.0));
+		features__features.normal = normal;
+		features__features.is_followed = false;
+	}
+}
+
+fn features__see_light(light: vec3f, scatterings: u32) {
+	if (bindings__HAS_FEATURES) {
+		features__features.emission += select(vec3f(0.0), light, scatterings == 0u);
+		features__features.direct += select(vec3f(0.0), light, scatterings == 1u);
+	}
+}
+
+fn features__add_features(first_row: u32, sample: u32, weight: f32) {
+	let row = first_row + bindings__FEATURES_ROW;
+	features__add_mean(row, features__features.albedo, weight);
+	features__add_mean(row + 1u, features__features.normal, weight);
+	features__add_mean(row + 2u, features__features.direct, weight);
+	features__add_mean(row + 3u, features__features.emission, weight);
+	let nearness = 1.0 / (1.0 + features__off_centre);
+	if (nearness > bindings__film[row + 4u].x) {
+		let usable = numeric__is_finite(features__features.position) && numeric__is_finite(vec3f(features__features.uv, features__features.depth));
+		bindings__film[row + 4u] = vec4f(nearness, f32(sample), f32(features__features.material), f32(features__features.instance));
+		bindings__film[row + 5u] = select(vec4f(0.0), vec4f(features__features.position, features__features.depth), usable);
+		bindings__film[row + 6u] = vec4f(select(vec2f(0.0), features__features.uv, usable), f32(features__features.primitive & 65535u), f32(features__features.primitive >> 16u));
+	}
+}
+
+fn features__add_mean(row: u32, value: vec3f, weight: f32) {
+	let next = bindings__film[row] + weight * vec4f(value, 1.0);
+	if (numeric__is_finite(next.xyz)) {
+		bindings__film[row] = next;
+	}
+}
+
 const ray_stack__RAY_STACK_SIZE: u32 = 9u;
 
 const ray_stack__MAX_TREE_RAYS: u32 = 1024u;
@@ -1415,80 +1610,6 @@ fn ray_stack__kept_cone(index: u32) -> tracing__Cone {
 		return tracing__Cone(ray_stack__cone_stack[index].x, ray_stack__cone_stack[index].y);
 	}
 	return tracing__Cone(0.0, 0.0);
-}
-
-const ray_states__KIND_PRIMARY: u32 = 0u;
-
-const ray_states__KIND_REFLECTED: u32 = 1u;
-
-const ray_states__KIND_REFRACTED: u32 = 2u;
-
-struct ray_states__RayState {
-	ray: tracing__Ray,
-	throughput: vec3f,
-	media: vec4u,
-	depth: u32,
-	kind: u32,
-	node: u32,
-	cone: tracing__Cone
-}
-
-struct ray_states__Media {
-	x: wide__Words,
-	y: wide__Words,
-	z: wide__Words,
-	w: wide__Words
-}
-
-struct ray_states__RayStates {
-	rays: rays__Rays,
-	throughput: wide__Vectors,
-	media: ray_states__Media,
-	step: wide__Words,
-	node: wide__Words,
-	cone_width: wide__Floats,
-	cone_spread: wide__Floats
-}
-
-fn ray_states__is_alive(state: ray_states__RayState) -> bool {
-	return any(state.throughput > vec3f(0.0));
-}
-
-fn ray_states__with_cones(batch: dispatch__Batch, states: ray_states__RayStates) -> ray_states__RayStates {
-	var all = states;
-	var k = 0u;
-	loop {
-		let cone = footprint__camera_cone(batch, wide__vector_at(states.rays.direction, k));
-		all.cone_width = wide__float_set(all.cone_width, k, cone.width);
-		all.cone_spread = wide__float_set(all.cone_spread, k, cone.spread);
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	return all;
-}
-
-fn ray_states__state_at(states: ray_states__RayStates, k: u32) -> ray_states__RayState {
-	let step = wide__word_at(states.step, k);
-	return ray_states__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_states__media_at(states.media, k), step >> 2u, step & 3u, wide__word_at(states.node, k), tracing__Cone(wide__float_at(states.cone_width, k), wide__float_at(states.cone_spread, k)));
-}
-
-fn ray_states__state_set(states: ray_states__RayStates, k: u32, state: ray_states__RayState) -> ray_states__RayStates {
-	return ray_states__RayStates(rays__ray_set(states.rays, k, state.ray), wide__vector_set(states.throughput, k, state.throughput), ray_states__media_set(states.media, k, state.media), wide__word_set(states.step, k, (state.depth << 2u) | state.kind), wide__word_set(states.node, k, state.node), wide__float_set(states.cone_width, k, state.cone.width), wide__float_set(states.cone_spread, k, state.cone.spread));
-}
-
-fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
-	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
-}
-
-fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
-	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
-}
-
-fn ray_states__no_ray() -> ray_states__RayState {
-	return ray_states__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, tracing__Cone(0.0, 0.0));
 }
 
 const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
@@ -1615,77 +1736,298 @@ struct tracing__Cone {
 	spread: f32
 }
 
-struct features__Features {
-	albedo: vec3f,
-	normal: vec3f,
-	direct: vec3f,
-	emission: vec3f,
-	position: vec3f,
-	depth: f32,
-	uv: vec2f,
-	material: u32,
-	primitive: u32,
-	instance: u32,
-	is_followed: bool
+const filter__PI: f32 = 3.14159265;
+
+const filter__SIGMA: f32 = 0.5;
+
+const filter__ROUNDS: u32 = 22u;
+
+const filter__BLACKMAN_HARRIS_1: f32 = 0.48829 / (filter__PI * 0.35875);
+
+const filter__BLACKMAN_HARRIS_2: f32 = 0.14128 / (filter__PI * 0.35875);
+
+const filter__BLACKMAN_HARRIS_3: f32 = 0.01168 / (3.0 * filter__PI * 0.35875);
+
+const filter__MITCHELL_ZERO: f32 = 1.14285714;
+
+const filter__MITCHELL_POSITIVE: f32 = 0.51749271;
+
+const filter__MITCHELL_TOTAL: f32 = 0.53498542;
+
+fn filter__filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
+	let centred = 2.0 * u - 1.0;
+	if (kind == types__FILTER_BOX) {
+		return 2.0 * radius * (u - 0.5);
+	}
+	let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
+	let fraction = abs(centred);
+	if (kind == types__FILTER_TENT) {
+		return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
+	}
+	if (kind == types__FILTER_GAUSSIAN) {
+		let scale = filter__SIGMA * sqrt(2.0);
+		return scale * side * min(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
+	}
+	return radius * side * filter__searched(kind, fraction);
 }
 
-var<private> features__features: features__Features;
-
-var<private> features__off_centre: f32;
-
-fn features__start_features() {
-	if (bindings__HAS_FEATURES) {
-		features__features = features__Features();
-		features__features.is_followed = true;
-	}
+fn filter__filter_sign(kind: u32, u: vec2f) -> f32 {
+	let negative = abs(2.0 * u - 1.0) > vec2f(filter__MITCHELL_POSITIVE / filter__MITCHELL_TOTAL);
+	return select(1.0, -1.0, (kind == types__FILTER_MITCHELL) & (negative.x != negative.y));
 }
 
-fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32) {
-	if (bindings__HAS_FEATURES && features__features.material == 0u) {
-		features__features.position = surface.p;
-		features__features.depth = depth;
-		features__features.uv = surface.uv;
-		features__features.material = surface.material + 1u;
-		features__features.primitive = hit.primitive;
-		features__features.instance = hit.instance;
+fn filter__searched(kind: u32, fraction: vec2f) -> vec2f {
+	var low = vec2f(0.0);
+	var width = 1.0;
+	var done = 0u;
+	loop {
+		width *= 0.5;
+		let middle = low + width;
+		low = select(low, middle, filter__cumulated(kind, middle) <= fraction);
+		continuing {
+			done += 1u;
+			break if done >= filter__ROUNDS;
+		}
 	}
+	return low + 0.5 * width;
 }
 
-fn features__see_albedo(albedo: vec3f, normal: vec3f) {
-	if (bindings__HAS_FEATURES && features__features.is_followed) {
-		features__features.albedo = clamp(albedo, vec3f(0.0), vec3f(1.0));
-		features__features.normal = normal;
-		features__features.is_followed = false;
+fn filter__cumulated(kind: u32, x: vec2f) -> vec2f {
+	if (kind == types__FILTER_BLACKMAN_HARRIS) {
+		let s = sin(filter__PI * x);
+		let c = cos(filter__PI * x);
+		return x + s * (filter__BLACKMAN_HARRIS_1 + filter__BLACKMAN_HARRIS_2 * c + filter__BLACKMAN_HARRIS_3 * (4.0 * c * c - 1.0));
 	}
+	let t = 2.0 * x;
+	let inner = t * (16.0 / 3.0 + t * t * (-4.0 + t * 1.75)) / 6.0;
+	let e = 2.0 - t;
+	let outer = e * e * e * (7.0 / 12.0 * e - 2.0 / 3.0) / 6.0;
+	let signed = select(0.5 - outer, inner, t < vec2f(1.0));
+	let absolute = select(signed, 2.0 * filter__MITCHELL_POSITIVE - signed, t > vec2f(filter__MITCHELL_ZERO));
+	return absolute / filter__MITCHELL_TOTAL;
 }
 
-fn features__see_light(light: vec3f, scatterings: u32) {
-	if (bindings__HAS_FEATURES) {
-		features__features.emission += select(vec3f(0.0), light, scatterings == 0u);
-		features__features.direct += select(vec3f(0.0), light, scatterings == 1u);
-	}
+fn filter__erf(x: f32) -> f32 {
+	let t = 1.0 / (1.0 + 0.3275911 * x);
+	let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
+	return 1.0 - series * exp(-min(x * x, 80.0));
 }
 
-fn features__add_features(first_row: u32, sample: u32, weight: f32) {
-	let row = first_row + bindings__FEATURES_ROW;
-	features__add_mean(row, features__features.albedo, weight);
-	features__add_mean(row + 1u, features__features.normal, weight);
-	features__add_mean(row + 2u, features__features.direct, weight);
-	features__add_mean(row + 3u, features__features.emission, weight);
-	let nearness = 1.0 / (1.0 + features__off_centre);
-	if (nearness > bindings__film[row + 4u].x) {
-		let usable = numeric__is_finite(features__features.position) && numeric__is_finite(vec3f(features__features.uv, features__features.depth));
-		bindings__film[row + 4u] = vec4f(nearness, f32(sample), f32(features__features.material), f32(features__features.instance));
-		bindings__film[row + 5u] = select(vec4f(0.0), vec4f(features__features.position, features__features.depth), usable);
-		bindings__film[row + 6u] = vec4f(select(vec2f(0.0), features__features.uv, usable), f32(features__features.primitive & 65535u), f32(features__features.primitive >> 16u));
-	}
+fn filter__inverse_erf(y: vec2f) -> vec2f {
+	let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
+	let a = w - 2.5;
+	let b = sqrt(max(w, vec2f(0.0))) - 3.0;
+	let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
+	let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
+	return y * select(far, near, w < vec2f(5.0));
 }
 
-fn features__add_mean(row: u32, value: vec3f, weight: f32) {
-	let next = bindings__film[row] + weight * vec4f(value, 1.0);
-	if (numeric__is_finite(next.xyz)) {
-		bindings__film[row] = next;
+fn sampling__sobol(index: u32) -> vec2u {
+	var x = index;
+	x ^= (x >> 1u) & 1431655765u;
+	x ^= (x >> 2u) & 858993459u;
+	x ^= (x >> 4u) & 252645135u;
+	x ^= (x >> 8u) & 16711935u;
+	x ^= (x >> 16u) & 65535u;
+	return vec2u(reverseBits(index), reverseBits(x));
+}
+
+fn sampling__owen_scramble(fraction: u32, seed: u32) -> u32 {
+	var x = reverseBits(fraction);
+	x += seed;
+	x ^= x * 1817228412u;
+	x ^= x * 3090095698u;
+	x ^= x * 3350193720u;
+	x ^= x * 2367878886u;
+	return reverseBits(x);
+}
+
+fn sampling__sobol_34(index: u32) -> vec2u {
+	var z = vec2u(2147483648u, 3221225472u);
+	var w = vec3u(2147483648u, 3221225472u, 536870912u);
+	var point = vec2u(0u);
+	var bit = 0u;
+	loop {
+		point ^= select(vec2u(0u), vec2u(z.x, w.x), ((index >> bit) & 1u) != 0u);
+		z = vec2u(z.y, z.y ^ z.x ^ (z.x >> 2u));
+		w = vec3u(w.yz, w.y ^ w.x ^ (w.x >> 3u));
+		continuing {
+			bit += 1u;
+			break if bit >= 32u;
+		}
 	}
+	return point;
+}
+
+fn sampling__stratified_2d(index: u32, key: u32) -> vec2f {
+	return sampling__scrambled(sampling__sobol(sampling__owen_scramble(index, rng__hash(key))), key);
+}
+
+fn sampling__stratified_34(index: u32, key: u32) -> vec2f {
+	return sampling__scrambled(sampling__sobol_34(sampling__owen_scramble(index, rng__hash(key))), key ^ 2654435769u);
+}
+
+fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
+	let own = key ^ 1757159915u;
+	return rng__unit_float(sampling__owen_scramble(reverseBits(sampling__owen_scramble(index, rng__hash(own))), rng__hash(own ^ 48610963u)));
+}
+
+fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
+	return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
+}
+
+var<private> shutter__shutter_time: f32 = 0.0;
+
+fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
+	if (bindings__CAMERA_MOTION) {
+		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
+		return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
+	}
+	return still;
+}
+
+fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
+	if (bindings__LIGHT_MOTION) {
+		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
+		let place = moment.key * light_count + index;
+		return motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
+	}
+	return fetch__load_light(index);
+}
+
+struct motion__Moment {
+	key: u32,
+	fraction: f32
+}
+
+fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
+	let intervals = max(key_count, 2u) - 1u;
+	let at = time * f32(intervals);
+	let key = min(u32(at), intervals - 1u);
+	return motion__Moment(key, at - f32(key));
+}
+
+struct motion__Space {
+	translation: vec3f,
+	linear: mat3x3f,
+	inverse: mat3x3f
+}
+
+fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
+	let q = mix(a.rotation, b.rotation, vec4f(fraction));
+	let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+	let d = mix(a.stretch, b.stretch, vec3f(fraction));
+	let s = mix(a.shear, b.shear, vec3f(fraction));
+	let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
+	let e = d / size;
+	let f = s / size;
+	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
+	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
+	let usable = abs(determinant) > 1e-30;
+	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
+	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
+	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+}
+
+fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
+	let d = 2.0 * q.xyz * q.xyz;
+	let xy = 2.0 * q.x * q.y;
+	let xz = 2.0 * q.x * q.z;
+	let yz = 2.0 * q.y * q.z;
+	let w = 2.0 * q.w * q.xyz;
+	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
+}
+
+fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
+	return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
+}
+
+fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
+	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.place, a.visible);
+}
+
+const camera__T_FAR: f32 = 3e38;
+
+fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
+	return tracing__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+	let x = 2.0 * position.x / size.x - 1.0;
+	let y = 1.0 - 2.0 * position.y / size.y;
+	return camera.forward + x * camera.right + y * camera.up;
+}
+
+fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
+	let origin = camera.origin + camera__across(camera, position, size);
+	return tracing__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+	let x = 2.0 * position.x / size.x - 1.0;
+	let y = 1.0 - 2.0 * position.y / size.y;
+	return x * camera.right + y * camera.up;
+}
+
+fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
+	let off_axis = camera__aperture_point(camera, u);
+	let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
+	return tracing__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
+	let off_axis = camera__aperture_point(camera, u);
+	let origin = camera.origin + camera__across(camera, position, size) + off_axis;
+	let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
+	return tracing__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
+	var aperture = warp__disc_from_square(u);
+	if (camera.blade_count >= 3u) {
+		aperture = warp__polygon_from_square(u, camera.blade_count, camera.blade_rotation);
+	}
+	let p = camera.lens_radius * aperture;
+	return p.x * normalize(camera.right) + p.y * normalize(camera.up);
+}
+
+const warp__PI: f32 = 3.14159265;
+
+fn warp__disc_from_square(u: vec2f) -> vec2f {
+	let p = 2.0 * u - 1.0;
+	let by_x = abs(p.x) > abs(p.y);
+	let radius = select(p.y, p.x, by_x);
+	let ratio = select(p.x, p.y, by_x) / select(1.0, radius, abs(radius) > 0.0);
+	let angle = select(0.5 * warp__PI - 0.25 * warp__PI * ratio, 0.25 * warp__PI * ratio, by_x);
+	return radius * vec2f(cos(angle), sin(angle));
+}
+
+fn warp__triangle_from_square(u: vec2f) -> vec2f {
+	let s = sqrt(u.y);
+	return vec2f(s * (1.0 - u.x), s * u.x);
+}
+
+fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
+	let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
+	let b = warp__triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
+	let step = 2.0 * warp__PI / f32(count);
+	let angles = rotation + step * vec2f(edge, edge + 1.0);
+	return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
+}
+
+fn warp__cone_from_square(u: vec2f, depth: f32) -> vec3f {
+	let p = warp__disc_from_square(u);
+	let below = min(dot(p, p), 1.0) * depth;
+	return vec3f(p * sqrt(max(depth * (2.0 - below), 0.0)), 1.0 - below);
+}
+
+fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
+	let side = select(-1.0, 1.0, n.z >= 0.0);
+	let a = -1.0 / (side + n.z);
+	let b = n.x * n.y * a;
+	let x = vec3f(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
+	let y = vec3f(b, side + n.y * n.y * a, -n.y);
+	return direction.x * x + direction.y * y + direction.z * n;
 }
 
 const traverse__RETURN: u32 = 4294967294u;
@@ -2101,76 +2443,6 @@ fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
 fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
 	let at = vec4f(q, 1.0);
 	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
-}
-
-struct motion__Moment {
-	key: u32,
-	fraction: f32
-}
-
-fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
-	let intervals = max(key_count, 2u) - 1u;
-	let at = time * f32(intervals);
-	let key = min(u32(at), intervals - 1u);
-	return motion__Moment(key, at - f32(key));
-}
-
-struct motion__Space {
-	translation: vec3f,
-	linear: mat3x3f,
-	inverse: mat3x3f
-}
-
-fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
-	let q = mix(a.rotation, b.rotation, vec4f(fraction));
-	let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
-	let d = mix(a.stretch, b.stretch, vec3f(fraction));
-	let s = mix(a.shear, b.shear, vec3f(fraction));
-	let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
-	let e = d / size;
-	let f = s / size;
-	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
-	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
-	let usable = abs(determinant) > 1e-30;
-	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
-	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
-	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
-}
-
-fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
-	let d = 2.0 * q.xyz * q.xyz;
-	let xy = 2.0 * q.x * q.y;
-	let xz = 2.0 * q.x * q.z;
-	let yz = 2.0 * q.y * q.z;
-	let w = 2.0 * q.w * q.xyz;
-	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
-}
-
-fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
-	return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
-}
-
-fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
-	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.place, a.visible);
-}
-
-var<private> shutter__shutter_time: f32 = 0.0;
-
-fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
-	if (bindings__CAMERA_MOTION) {
-		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
-		return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
-	}
-	return still;
-}
-
-fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
-	if (bindings__LIGHT_MOTION) {
-		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
-		let place = moment.key * light_count + index;
-		return motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
-	}
-	return fetch__load_light(index);
 }
 
 const node__MISS: u32 = 4294967292u;
@@ -2717,51 +2989,6 @@ fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
 fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
 	let n = numeric__normalize_or(p, vec3f(0.0, 1.0, 0.0));
 	return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
-}
-
-const camera__T_FAR: f32 = 3e38;
-
-fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
-	return tracing__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
-	let x = 2.0 * position.x / size.x - 1.0;
-	let y = 1.0 - 2.0 * position.y / size.y;
-	return camera.forward + x * camera.right + y * camera.up;
-}
-
-fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
-	let origin = camera.origin + camera__across(camera, position, size);
-	return tracing__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
-	let x = 2.0 * position.x / size.x - 1.0;
-	let y = 1.0 - 2.0 * position.y / size.y;
-	return x * camera.right + y * camera.up;
-}
-
-fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
-	let off_axis = camera__aperture_point(camera, u);
-	let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
-	return tracing__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
-	let off_axis = camera__aperture_point(camera, u);
-	let origin = camera.origin + camera__across(camera, position, size) + off_axis;
-	let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
-	return tracing__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
-	var aperture = warp__disc_from_square(u);
-	if (camera.blade_count >= 3u) {
-		aperture = warp__polygon_from_square(u, camera.blade_count, camera.blade_rotation);
-	}
-	let p = camera.lens_radius * aperture;
-	return p.x * normalize(camera.right) + p.y * normalize(camera.up);
 }
 
 fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
@@ -4368,99 +4595,6 @@ fn area_light__max_abs(v: vec3f) -> f32 {
 	return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
-const warp__PI: f32 = 3.14159265;
-
-fn warp__disc_from_square(u: vec2f) -> vec2f {
-	let p = 2.0 * u - 1.0;
-	let by_x = abs(p.x) > abs(p.y);
-	let radius = select(p.y, p.x, by_x);
-	let ratio = select(p.x, p.y, by_x) / select(1.0, radius, abs(radius) > 0.0);
-	let angle = select(0.5 * warp__PI - 0.25 * warp__PI * ratio, 0.25 * warp__PI * ratio, by_x);
-	return radius * vec2f(cos(angle), sin(angle));
-}
-
-fn warp__triangle_from_square(u: vec2f) -> vec2f {
-	let s = sqrt(u.y);
-	return vec2f(s * (1.0 - u.x), s * u.x);
-}
-
-fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
-	let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
-	let b = warp__triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
-	let step = 2.0 * warp__PI / f32(count);
-	let angles = rotation + step * vec2f(edge, edge + 1.0);
-	return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
-}
-
-fn warp__cone_from_square(u: vec2f, depth: f32) -> vec3f {
-	let p = warp__disc_from_square(u);
-	let below = min(dot(p, p), 1.0) * depth;
-	return vec3f(p * sqrt(max(depth * (2.0 - below), 0.0)), 1.0 - below);
-}
-
-fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
-	let side = select(-1.0, 1.0, n.z >= 0.0);
-	let a = -1.0 / (side + n.z);
-	let b = n.x * n.y * a;
-	let x = vec3f(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
-	let y = vec3f(b, side + n.y * n.y * a, -n.y);
-	return direction.x * x + direction.y * y + direction.z * n;
-}
-
-fn sampling__sobol(index: u32) -> vec2u {
-	var x = index;
-	x ^= (x >> 1u) & 1431655765u;
-	x ^= (x >> 2u) & 858993459u;
-	x ^= (x >> 4u) & 252645135u;
-	x ^= (x >> 8u) & 16711935u;
-	x ^= (x >> 16u) & 65535u;
-	return vec2u(reverseBits(index), reverseBits(x));
-}
-
-fn sampling__owen_scramble(fraction: u32, seed: u32) -> u32 {
-	var x = reverseBits(fraction);
-	x += seed;
-	x ^= x * 1817228412u;
-	x ^= x * 3090095698u;
-	x ^= x * 3350193720u;
-	x ^= x * 2367878886u;
-	return reverseBits(x);
-}
-
-fn sampling__sobol_34(index: u32) -> vec2u {
-	var z = vec2u(2147483648u, 3221225472u);
-	var w = vec3u(2147483648u, 3221225472u, 536870912u);
-	var point = vec2u(0u);
-	var bit = 0u;
-	loop {
-		point ^= select(vec2u(0u), vec2u(z.x, w.x), ((index >> bit) & 1u) != 0u);
-		z = vec2u(z.y, z.y ^ z.x ^ (z.x >> 2u));
-		w = vec3u(w.yz, w.y ^ w.x ^ (w.x >> 3u));
-		continuing {
-			bit += 1u;
-			break if bit >= 32u;
-		}
-	}
-	return point;
-}
-
-fn sampling__stratified_2d(index: u32, key: u32) -> vec2f {
-	return sampling__scrambled(sampling__sobol(sampling__owen_scramble(index, rng__hash(key))), key);
-}
-
-fn sampling__stratified_34(index: u32, key: u32) -> vec2f {
-	return sampling__scrambled(sampling__sobol_34(sampling__owen_scramble(index, rng__hash(key))), key ^ 2654435769u);
-}
-
-fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
-	let own = key ^ 1757159915u;
-	return rng__unit_float(sampling__owen_scramble(reverseBits(sampling__owen_scramble(index, rng__hash(own))), rng__hash(own ^ 48610963u)));
-}
-
-fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
-	return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
-}
-
 fn phong__shininess_power(x: f32, shininess: f32) -> f32 {
 	let power = exp2(shininess * log2(max(x, 1e-30)));
 	return select(select(0.0, 1.0, shininess <= 0.0), power, x > 0.0);
@@ -4635,92 +4769,6 @@ fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
 	let own = texel * inverseSqrt(max(dot(texel, texel), 1e-12));
 	let turn = vec2f(cos(rotation), sin(rotation));
 	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
-}
-
-const filter__PI: f32 = 3.14159265;
-
-const filter__SIGMA: f32 = 0.5;
-
-const filter__ROUNDS: u32 = 22u;
-
-const filter__BLACKMAN_HARRIS_1: f32 = 0.48829 / (filter__PI * 0.35875);
-
-const filter__BLACKMAN_HARRIS_2: f32 = 0.14128 / (filter__PI * 0.35875);
-
-const filter__BLACKMAN_HARRIS_3: f32 = 0.01168 / (3.0 * filter__PI * 0.35875);
-
-const filter__MITCHELL_ZERO: f32 = 1.14285714;
-
-const filter__MITCHELL_POSITIVE: f32 = 0.51749271;
-
-const filter__MITCHELL_TOTAL: f32 = 0.53498542;
-
-fn filter__filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
-	let centred = 2.0 * u - 1.0;
-	if (kind == types__FILTER_BOX) {
-		return 2.0 * radius * (u - 0.5);
-	}
-	let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
-	let fraction = abs(centred);
-	if (kind == types__FILTER_TENT) {
-		return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
-	}
-	if (kind == types__FILTER_GAUSSIAN) {
-		let scale = filter__SIGMA * sqrt(2.0);
-		return scale * side * min(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
-	}
-	return radius * side * filter__searched(kind, fraction);
-}
-
-fn filter__filter_sign(kind: u32, u: vec2f) -> f32 {
-	let negative = abs(2.0 * u - 1.0) > vec2f(filter__MITCHELL_POSITIVE / filter__MITCHELL_TOTAL);
-	return select(1.0, -1.0, (kind == types__FILTER_MITCHELL) & (negative.x != negative.y));
-}
-
-fn filter__searched(kind: u32, fraction: vec2f) -> vec2f {
-	var low = vec2f(0.0);
-	var width = 1.0;
-	var done = 0u;
-	loop {
-		width *= 0.5;
-		let middle = low + width;
-		low = select(low, middle, filter__cumulated(kind, middle) <= fraction);
-		continuing {
-			done += 1u;
-			break if done >= filter__ROUNDS;
-		}
-	}
-	return low + 0.5 * width;
-}
-
-fn filter__cumulated(kind: u32, x: vec2f) -> vec2f {
-	if (kind == types__FILTER_BLACKMAN_HARRIS) {
-		let s = sin(filter__PI * x);
-		let c = cos(filter__PI * x);
-		return x + s * (filter__BLACKMAN_HARRIS_1 + filter__BLACKMAN_HARRIS_2 * c + filter__BLACKMAN_HARRIS_3 * (4.0 * c * c - 1.0));
-	}
-	let t = 2.0 * x;
-	let inner = t * (16.0 / 3.0 + t * t * (-4.0 + t * 1.75)) / 6.0;
-	let e = 2.0 - t;
-	let outer = e * e * e * (7.0 / 12.0 * e - 2.0 / 3.0) / 6.0;
-	let signed = select(0.5 - outer, inner, t < vec2f(1.0));
-	let absolute = select(signed, 2.0 * filter__MITCHELL_POSITIVE - signed, t > vec2f(filter__MITCHELL_ZERO));
-	return absolute / filter__MITCHELL_TOTAL;
-}
-
-fn filter__erf(x: f32) -> f32 {
-	let t = 1.0 / (1.0 + 0.3275911 * x);
-	let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
-	return 1.0 - series * exp(-min(x * x, 80.0));
-}
-
-fn filter__inverse_erf(y: vec2f) -> vec2f {
-	let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
-	let a = w - 2.5;
-	let b = sqrt(max(w, vec2f(0.0))) - 3.0;
-	let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
-	let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
-	return y * select(far, near, w < vec2f(5.0));
 }
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);

@@ -209,7 +209,7 @@ impl Developer {
             first_sample: 0,
             end_sample: 0,
         };
-        let packed = slice.packed(tile, settings);
+        let packed = slice.packed(tile, settings, 1);
         gpu.write(context.dispatch, 0, bytes_of(&packed))?;
         gpu.write(&self.tone, 0, bytes_of(tone))?;
 
@@ -220,7 +220,7 @@ impl Developer {
             pass.set_bind_group(1, context.frame_group, &[]);
             pass.set_bind_group(2, context.film_group, &[]);
             pass.set_bind_group(3, &self.group, &[]);
-            let (columns, rows) = slice.grid();
+            let (columns, rows) = slice.grid(1);
             pass.dispatch_workgroups(columns, rows, 1);
         }
         let source = Source {

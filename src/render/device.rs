@@ -34,6 +34,8 @@ pub struct Device {
     pub developer: Option<Developer>,
     /// The tone of the picture on a screen.
     pub shown_tone: Option<wgpu::Buffer>,
+    /// Samples that a lane of the pipeline should take one after the other.
+    pub lane_samples: u32,
     /// Index of the film tile whose sums are in the film buffer.
     pub loaded_tile: Option<usize>,
 }
@@ -47,7 +49,7 @@ impl Device {
         let uploads = &mut stats.uploads;
         let buffers = Buffers::new(&gpu, &layouts, fetch, shown, task.film_rows, uploads)?;
         stats.upload_seconds += start.elapsed().as_secs_f64();
-        let pipeline = compile(&gpu, fetch, &layouts, &buffers, task, stats)?;
+        let (pipeline, lane_samples) = compile(&gpu, fetch, &layouts, &buffers, task, stats)?;
         Ok(Self {
             gpu,
             fetch,
@@ -56,6 +58,7 @@ impl Device {
             pipeline,
             developer: None,
             shown_tone: None,
+            lane_samples,
             loaded_tile: None,
         })
     }
@@ -72,7 +75,8 @@ impl Device {
         (self.buffers).set(gpu, layouts, shown, spare, &mut stats.uploads)?;
         stats.upload_seconds += start.elapsed().as_secs_f64();
         self.loaded_tile = None;
-        self.pipeline = compile(gpu, self.fetch, layouts, &self.buffers, task, stats)?;
+        let compiled = compile(gpu, self.fetch, layouts, &self.buffers, task, stats)?;
+        (self.pipeline, self.lane_samples) = compiled;
         Ok(())
     }
 
@@ -109,21 +113,21 @@ impl Device {
         settings: &RenderSettings,
         back: Readback,
     ) -> Result<Reading, GpuError> {
-        let Self { gpu, buffers, .. } = self;
+        let (gpu, buffers) = (&self.gpu, &self.buffers);
         let is_loaded = self.loaded_tile == Some(index);
         let is_blank = !is_loaded && tile.has_no_sums();
         if !is_loaded && !is_blank {
             gpu.write(&buffers.film, 0, cast_slice(&tile.sums))?;
         }
         self.loaded_tile = Some(index);
-        let packed = slice.packed(tile, settings);
+        let packed = slice.packed(tile, settings, self.lane_samples);
         gpu.write(&buffers.dispatch, 0, bytes_of(&packed))?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         if is_blank {
             let bytes = tile.row_count() as u64 * ROW_BYTES;
             encoder.clear_buffer(&buffers.film, 0, Some(bytes));
         }
-        let (columns, rows) = slice.grid();
+        let (columns, rows) = slice.grid(self.lane_samples);
         let grid = (gpu.dispatch_columns(columns), rows);
         dispatch(&mut encoder, &self.pipeline, buffers, grid);
         let counters = counters(&buffers.dispatch);
@@ -150,7 +154,7 @@ impl Device {
         self.gpu.read(reading, |bytes| {
             let (counters, sums) = bytes.split_at(size_of::<PackedCounters>());
             let counters = pod_read_unaligned(counters);
-            if slice.is_complete(&counters) {
+            if slice.is_complete(&counters, self.lane_samples) {
                 cast_slice_mut(&mut tile.sums[rows]).copy_from_slice(sums);
             }
             counters
@@ -203,7 +207,7 @@ pub fn counters(dispatch: &wgpu::Buffer) -> Source<'_> {
     }
 }
 
-/// The pipeline of the integrator. A new one is dispatched once without work, because some drivers only compile
+/// The pipeline of the integrator, and the samples that its lanes should take. A new one is dispatched once without work, because some drivers only compile
 /// then.
 fn compile(
     gpu: &Gpu,
@@ -212,14 +216,16 @@ fn compile(
     buffers: &Buffers,
     task: Task,
     stats: &mut Stats,
-) -> Result<wgpu::ComputePipeline, GpuError> {
+) -> Result<(wgpu::ComputePipeline, u32), GpuError> {
     let start = Instant::now();
-    let Compiled { pipeline, is_new } = pipelines::rendering(gpu, fetch, layouts, task)?;
+    let (compiled, lane_samples) = pipelines::rendering(gpu, fetch, layouts, task)?;
+    let Compiled { pipeline, is_new } = compiled;
     if is_new {
         let idle = PackedDispatch {
             group_count: 1,
             group_columns: 1,
             grid_width: 1,
+            blocks: 1,
             ..Default::default()
         };
         gpu.write(&buffers.dispatch, 0, bytes_of(&idle))?;
@@ -228,7 +234,7 @@ fn compile(
         gpu.submit(encoder.finish())?;
         stats.compile_seconds += start.elapsed().as_secs_f64();
     }
-    Ok(pipeline)
+    Ok((pipeline, lane_samples))
 }
 
 fn dispatch(

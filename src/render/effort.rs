@@ -1,7 +1,7 @@
 //! Estimates the work of one sample of a pixel in advance: a submission cannot do less than one sample of one
 //! workgroup, and drivers reset a GPU that takes too long.
 
-use super::{FilmError, RenderError, RenderSettings};
+use super::{FilmError, Integrator, RenderError, RenderSettings, task::Task};
 use crate::{
     layout::LIGHT_RECTANGLE,
     pack::{PackedScene, PackedView},
@@ -99,6 +99,21 @@ pub fn shadow_rays(view: &PackedView, settings: &RenderSettings) -> u64 {
     lights
         .map(|light| of(light.kind, light.sample_count).max(1))
         .fold(0, u64::saturating_add)
+}
+
+/// Whether surfaces send rays on.
+pub fn has_trees(scene: &PackedScene, settings: &RenderSettings) -> bool {
+    let features = &scene.features;
+    let bends = features.reflection || features.refraction;
+    features.coverage || bends && settings.max_depth > 0
+}
+
+/// Whether the ray trees of [`Integrator::Whitted`] differ in size, but hardly the work of each ray: lights with several samples
+/// take fewer of them for weaker rays.
+pub fn has_uneven_trees(task: Task) -> bool {
+    task.settings.integrator == Integrator::Whitted
+        && has_trees(task.scene, task.settings)
+        && shadow_rays(task.view, task.settings) <= u64::from(task.view.frame.light_count)
 }
 
 /// Rejects lights that need too many shadow rays from one point, and sample ranges with adaptive sampling,

@@ -142,7 +142,7 @@ impl FilmTile {
     }
 
     /// The position in the picture of a film index of a rectangle; `None` for padding. The order is that of the
-    /// shader (scene/dispatch.wesl).
+    /// shader (scene/block.wesl).
     pub fn pixel_at(&self, film_index: usize) -> Option<[u32; 2]> {
         let (index, lane) = (
             film_index / GROUP_PIXELS,

@@ -2,7 +2,7 @@
 //! a kernel.
 
 use super::{
-    Integrator, layers,
+    Integrator, effort, layers,
     settings::{BsdfModel, RayOffset, RenderSettings, TriangleTest},
     task::Task,
 };
@@ -99,6 +99,7 @@ pub fn of(task: Task) -> Overrides {
         ("HAS_PICTURES", flag(features.pictures)),
         ("HAS_FOOTPRINTS", flag(features.footprints)),
         ("HAS_COVERAGE", flag(features.coverage)),
+        ("HAS_TREES", flag(effort::has_trees(scene, settings))),
         ("HAS_NORMAL_MAPS", flag(features.normal_maps)),
         ("HAS_COAT_NORMALS", flag(is_path && features.coat_normals)),
         ("HAS_OCCLUSION", flag(features.occlusion_maps)),

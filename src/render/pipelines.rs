@@ -13,13 +13,18 @@ const MAX_PACKET_MATERIALS: usize = 0xffff;
 /// The number of rays from which on packets usually save more time than their kernel takes longer to compile.
 const MIN_PACKET_RAYS: u64 = 1_000_000;
 
-/// A pipeline for bind groups 0 to 2 of the kernel of the task's integrator.
+/// Samples of a lane whose ray trees differ in size. They share the 65,535 rounds of a loop of lavapipe, and have at most 1,024
+/// rays each.
+const TREES_PER_LANE: u32 = 4;
+
+/// A pipeline for bind groups 0 to 2 of the kernel of the task's integrator, and the samples that its lanes should take one after
+/// the other.
 pub fn rendering(
     gpu: &Gpu,
     fetch: Fetch,
     layouts: &Layouts,
     task: Task,
-) -> Result<Compiled, GpuError> {
+) -> Result<(Compiled, u32), GpuError> {
     let kernel = task.settings.integrator.entry().kernel;
     let as_packets = match task.policy.fetch {
         Fetch::Auto => least_rays(task) >= MIN_PACKET_RAYS,
@@ -33,7 +38,12 @@ pub fn rendering(
         true => tracing_variant(gpu, fetch, task.view),
         false => portable(fetch),
     };
-    tracing(gpu, variant, layouts, kernel, overrides::of(task))
+    // Lanes of a vector wait for the largest of their trees, unless each has several. GPUs have not been measured.
+    let refills = variant == Variant::Image && effort::has_uneven_trees(task);
+    let mut overrides = overrides::of(task);
+    overrides.push(("REFILLS_LANES", f64::from(u8::from(refills))));
+    let compiled = tracing(gpu, variant, layouts, kernel, overrides)?;
+    Ok((compiled, if refills { TREES_PER_LANE } else { 1 }))
 }
 
 /// A pipeline for bind groups 0 to 2 of a kernel, specialised by these overrides.

@@ -201,7 +201,7 @@ impl Renderer {
             first_sample: 0,
             end_sample: 0,
         };
-        let packed = slice.packed(tile, &self.settings);
+        let packed = slice.packed(tile, &self.settings, 1);
         gpu.write(&buffers.dispatch, 0, bytes_of(&packed))?;
         gpu.write(shown_tone, 0, bytes_of(tone))?;
         let resources = [
@@ -216,7 +216,7 @@ impl Renderer {
             pass.set_bind_group(1, &buffers.frame_group, &[]);
             pass.set_bind_group(2, &buffers.film_group, &[]);
             pass.set_bind_group(3, &target, &[]);
-            let (columns, rows) = slice.grid();
+            let (columns, rows) = slice.grid(1);
             pass.dispatch_workgroups(columns, rows, 1);
         }
         gpu.enqueue(encoder.finish()).map(drop)

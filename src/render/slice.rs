@@ -29,22 +29,28 @@ pub struct Slice {
 }
 
 impl Slice {
-    /// Workgroups along x and y.
-    pub fn grid(&self) -> (u32, u32) {
+    /// Blocks of 8x8 pixels that each workgroup renders one after the other, for lanes that take this many samples if they can.
+    fn blocks(&self, lane_samples: u32) -> u32 {
+        (lane_samples / (self.end_sample - self.first_sample).max(1)).max(1)
+    }
+
+    /// Workgroups along x and y, for lanes that take this many samples if they can.
+    pub fn grid(&self, lane_samples: u32) -> (u32, u32) {
         let groups = (self.end_group - self.first_group).max(1);
+        let groups = groups.div_ceil(self.blocks(lane_samples));
         let rows = groups.div_ceil(GRID_WIDTH);
         (groups.div_ceil(rows), rows)
     }
 
     /// Whether every workgroup of the dispatch finished.
-    pub fn is_done(&self, counters: &PackedCounters) -> bool {
-        let (columns, rows) = self.grid();
+    pub fn is_done(&self, counters: &PackedCounters, lane_samples: u32) -> bool {
+        let (columns, rows) = self.grid(lane_samples);
         counters.groups_done == columns * rows
     }
 
     /// Whether every workgroup finished and no path was cut off.
-    pub fn is_complete(&self, counters: &PackedCounters) -> bool {
-        self.is_done(counters) && counters.cut_off_paths == 0
+    pub fn is_complete(&self, counters: &PackedCounters, lane_samples: u32) -> bool {
+        self.is_done(counters, lane_samples) && counters.cut_off_paths == 0
     }
 
     /// Whether a slice is a part of this one.
@@ -89,7 +95,12 @@ impl Slice {
     }
 
     /// The dispatch parameters of the slice.
-    pub fn packed(&self, tile: &FilmTile, settings: &RenderSettings) -> PackedDispatch {
+    pub fn packed(
+        &self,
+        tile: &FilmTile,
+        settings: &RenderSettings,
+        lane_samples: u32,
+    ) -> PackedDispatch {
         PackedDispatch {
             picture_width: settings.size.0,
             picture_height: settings.size.1,
@@ -102,7 +113,7 @@ impl Slice {
             group_stride: tile.group_stride(),
             first_group: self.first_group,
             end_group: self.end_group,
-            grid_width: self.grid().0,
+            grid_width: self.grid(lane_samples).0,
             first_sample: self.first_sample,
             end_sample: self.end_sample,
             seed: settings.seed,
@@ -111,6 +122,7 @@ impl Slice {
             min_throughput: settings.min_throughput,
             light_samples: settings.light_samples,
             footprint: settings.footprint(),
+            blocks: self.blocks(lane_samples),
             ..Default::default()
         }
     }

@@ -224,7 +224,7 @@ impl Renderer {
         seconds: f64,
     ) -> Result<(), RenderError> {
         self.stats.submitted(seconds);
-        if part.is_complete(counters) {
+        if part.is_complete(counters, self.device.lane_samples) {
             self.planner.learn(&part, seconds);
             self.stats.add(counters);
             if let Some(work) = self.work.take_if(|work| work.parts.is_empty()) {
@@ -257,7 +257,7 @@ impl Renderer {
         part: Slice,
         counters: &PackedCounters,
     ) -> Result<Vec<Slice>, RenderError> {
-        if !part.is_done(counters) {
+        if !part.is_done(counters, self.device.lane_samples) {
             self.planner.shrink();
             self.stats.count_loss(self.earlier_losses)?;
             Ok(match part.group_halves() {
@@ -269,6 +269,10 @@ impl Renderer {
             // the same data.
             self.policy.fetch = Fetch::Image;
             self.prepare_device(false, 0)?;
+            Ok(vec![part])
+        } else if self.device.lane_samples > 1 {
+            // Several samples of a lane share the limit.
+            self.device.lane_samples = 1;
             Ok(vec![part])
         } else if let Some((earlier, later)) = part.sample_halves() {
             self.planner.shorten_paths();

@@ -340,12 +340,17 @@ fn counts_do_not_depend_on_slicing() {
     let whole = RenderSettings {
         samples: 4,
         antialias: glimray::render::Antialias::Stratified,
+        size: (37, 21),
         ..to_depth(5)
     };
     let (image, stats) = render(&scene, &counting(&whole));
     for (max_groups, max_samples, tile_side, fetch) in [
         (1, 1, 8, Fetch::Buffer),
         (3, 2, 2048, Fetch::Image),
+        // A lane takes the same pixel of several workgroups, one after the other.
+        (u32::MAX, 1, 2048, Fetch::Image),
+        (5, 1, 2048, Fetch::Image),
+        (7, 3, 24, Fetch::Image),
         (2, 4, 16, Fetch::Packet),
     ] {
         let slicing = Slicing {

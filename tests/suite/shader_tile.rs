@@ -90,3 +90,28 @@ fn workgroups_cover_a_tile_once() {
     );
     verdict.close();
 }
+
+#[test]
+fn the_next_corner_is_that_of_the_next_workgroup() {
+    let mut verdict = Verdict::on("next_corner");
+    for (columns, rows, stride) in [(5, 3, 7), (5, 3, 1), (1, 13, 5), (13, 1, 12), (64, 64, 65)] {
+        let corner = |index: u32| {
+            let group = index * stride % (columns * rows);
+            [8 * (group % columns), 8 * (group / columns)]
+        };
+        let step = [stride % columns, stride / columns];
+        let indices = 0..columns * rows;
+        let inputs: Vec<_> = (indices
+            .clone()
+            .map(|index| (corner(index), step, [columns, rows])))
+        .collect();
+        let expected: Vec<_> = indices.map(|index| corner(index + 1)).collect();
+        let next: Vec<[u32; 2]> = gpu().map("lib::tile::next_corner", &inputs);
+        verdict.that(
+            format!("{columns} by {rows} workgroups in strides of {stride}"),
+            next == expected,
+            || format!("{next:?}"),
+        );
+    }
+    verdict.close();
+}
