@@ -1497,15 +1497,9 @@ fn features__add_mean(row: u32, value: vec3f, weight: f32) {
 	}
 }
 
-const ray_stack__RAY_STACK_SIZE: u32 = 9u;
-
 const ray_stack__MAX_TREE_RAYS: u32 = 1024u;
 
-var<private> ray_stack__ray_stack: array<vec4u, 36>;
-
 var<private> ray_stack__stack_counts: wide__Words;
-
-var<private> ray_stack__cone_stack: array<vec2f, 9>;
 
 var<private> ray_stack__tree_rays: wide__Words;
 
@@ -1542,7 +1536,7 @@ fn ray_stack__next_ray(reflected: ray_states__RayState, refracted: ray_states__R
 	}
 	if (sends_both) {
 		let reflected_is_weaker = ray_stack__strength(reflected) < ray_stack__strength(refracted);
-		if (count == ray_stack__RAY_STACK_SIZE) {
+		if (count == ray_entries__RAY_STACK_SIZE) {
 			ray_stack__cut_tree();
 			return ray_stack__choose(reflected, refracted, !reflected_is_weaker);
 		}
@@ -1576,12 +1570,7 @@ fn ray_stack__strength(state: ray_states__RayState) -> f32 {
 
 fn ray_stack__push(k: u32, state: ray_states__RayState) {
 	let count = wide__word_at(ray_stack__stack_counts, k);
-	let row = 4u * count;
-	ray_stack__ray_stack[row] = vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving);
-	ray_stack__ray_stack[row + 1u] = vec4u(bitcast<vec3u>(state.ray.direction), ray_stack__step_and_instance(state));
-	ray_stack__ray_stack[row + 2u] = vec4u(bitcast<vec3u>(state.throughput), state.node);
-	ray_stack__ray_stack[row + 3u] = state.media;
-	ray_stack__keep_cone(count, state.cone);
+	ray_entries__push_entry(ray_entries__Entry(vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving), vec4u(bitcast<vec3u>(state.ray.direction), ray_stack__step_and_instance(state)), vec4u(bitcast<vec3u>(state.throughput), state.node), state.media, state.cone), count);
 	ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, count + 1u);
 }
 
@@ -1590,11 +1579,8 @@ fn ray_stack__pop(k: u32) -> ray_states__RayState {
 		return ray_states__no_ray();
 	}
 	ray_stack__stack_counts -= 1u;
-	let row = 4u * ray_stack__stack_counts;
-	let r0 = ray_stack__ray_stack[row];
-	let r1 = ray_stack__ray_stack[row + 1u];
-	let r2 = ray_stack__ray_stack[row + 2u];
-	return ray_stack__stored(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, ray_stack__ray_stack[row + 3u], ray_stack__kept_cone(ray_stack__stack_counts));
+	let entry = ray_entries__pop_entry(ray_stack__stack_counts);
+	return ray_stack__stored(bitcast<vec3f>(entry.r0.xyz), entry.r0.w, bitcast<vec3f>(entry.r1.xyz), entry.r1.w, bitcast<vec3f>(entry.r2.xyz), entry.r2.w, entry.media, entry.cone);
 }
 
 fn ray_stack__step_and_instance(state: ray_states__RayState) -> u32 {
@@ -1603,19 +1589,6 @@ fn ray_stack__step_and_instance(state: ray_states__RayState) -> u32 {
 
 fn ray_stack__stored(origin: vec3f, leaving: u32, direction: vec3f, place: u32, throughput: vec3f, node: u32, media: vec4u, cone: tracing__Cone) -> ray_states__RayState {
 	return ray_states__RayState(tracing__Ray(origin, camera__T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node, cone);
-}
-
-fn ray_stack__keep_cone(index: u32, cone: tracing__Cone) {
-	if (bindings__HAS_FOOTPRINTS) {
-		ray_stack__cone_stack[index] = vec2f(cone.width, cone.spread);
-	}
-}
-
-fn ray_stack__kept_cone(index: u32) -> tracing__Cone {
-	if (bindings__HAS_FOOTPRINTS) {
-		return tracing__Cone(ray_stack__cone_stack[index].x, ray_stack__cone_stack[index].y);
-	}
-	return tracing__Cone(0.0, 0.0);
 }
 
 const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
@@ -4632,6 +4605,59 @@ fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: v
 	}
 	let shines = surface.outside || (optics.flags & types__MATERIAL_TWO_SIDED) != 0u;
 	return select(vec3f(0.0), glow * material__load_emission(surface.material), shines);
+}
+
+const ray_entries__RAY_STACK_SIZE: u32 = 9u;
+
+struct ray_entries__Entry {
+	r0: vec4u,
+	r1: vec4u,
+	r2: vec4u,
+	media: vec4u,
+	cone: tracing__Cone
+}
+
+var<private> ray_entries__e0: ray_entries__Entry;
+
+var<private> ray_entries__e1: ray_entries__Entry;
+
+var<private> ray_entries__e2: ray_entries__Entry;
+
+var<private> ray_entries__e3: ray_entries__Entry;
+
+var<private> ray_entries__e4: ray_entries__Entry;
+
+var<private> ray_entries__e5: ray_entries__Entry;
+
+var<private> ray_entries__e6: ray_entries__Entry;
+
+var<private> ray_entries__e7: ray_entries__Entry;
+
+var<private> ray_entries__e8: ray_entries__Entry;
+
+fn ray_entries__push_entry(entry: ray_entries__Entry, index: u32) {
+	ray_entries__e8 = ray_entries__e7;
+	ray_entries__e7 = ray_entries__e6;
+	ray_entries__e6 = ray_entries__e5;
+	ray_entries__e5 = ray_entries__e4;
+	ray_entries__e4 = ray_entries__e3;
+	ray_entries__e3 = ray_entries__e2;
+	ray_entries__e2 = ray_entries__e1;
+	ray_entries__e1 = ray_entries__e0;
+	ray_entries__e0 = entry;
+}
+
+fn ray_entries__pop_entry(index: u32) -> ray_entries__Entry {
+	let entry = ray_entries__e0;
+	ray_entries__e0 = ray_entries__e1;
+	ray_entries__e1 = ray_entries__e2;
+	ray_entries__e2 = ray_entries__e3;
+	ray_entries__e3 = ray_entries__e4;
+	ray_entries__e4 = ray_entries__e5;
+	ray_entries__e5 = ray_entries__e6;
+	ray_entries__e6 = ray_entries__e7;
+	ray_entries__e7 = ray_entries__e8;
+	return entry;
 }
 
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {

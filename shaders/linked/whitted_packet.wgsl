@@ -194,8 +194,6 @@ fn lanes__closer_two(at: primitive__TraversalRay, before: lanes__TwoHits, candid
 	return lanes__TwoHits(hit, primitive__runner_up);
 }
 
-const ray_stack__RAY_STACK_SIZE: u32 = 9u;
-
 const ray_stack__MAX_TREE_RAYS: u32 = 1024u;
 
 const ray_stack__ENTRY_WORDS: u32 = 14u;
@@ -243,7 +241,7 @@ fn ray_stack__next_ray(reflected: ray_states__RayState, refracted: ray_states__R
 	}
 	if (sends_both) {
 		let reflected_is_weaker = ray_stack__strength(reflected) < ray_stack__strength(refracted);
-		if (count == ray_stack__RAY_STACK_SIZE) {
+		if (count == ray_entries__RAY_STACK_SIZE) {
 			ray_stack__cut_tree();
 			return ray_stack__choose(reflected, refracted, !reflected_is_weaker);
 		}
@@ -297,7 +295,7 @@ fn ray_stack__kept_cone(index: u32) -> tracing__Cone {
 }
 
 fn ray_stack__entry_start(k: u32, index: u32) -> u32 {
-	return ray_stack__ENTRY_WORDS * ((wide__RAYS_PER_LANE * ray_stack__stack_lane + k) * ray_stack__RAY_STACK_SIZE + index);
+	return ray_stack__ENTRY_WORDS * ((wide__RAYS_PER_LANE * ray_stack__stack_lane + k) * ray_entries__RAY_STACK_SIZE + index);
 }
 
 fn ray_stack__push(k: u32, state: ray_states__RayState) {
@@ -317,7 +315,7 @@ fn ray_stack__push(k: u32, state: ray_states__RayState) {
 	ray_stack__ray_stack[at + 11u] = state.node;
 	ray_stack__ray_stack[at + 12u] = (state.media.x & 65535u) | (state.media.y << 16u);
 	ray_stack__ray_stack[at + 13u] = (state.media.z & 65535u) | (state.media.w << 16u);
-	ray_stack__keep_cone(ray_stack__RAY_STACK_SIZE * k + count, state.cone);
+	ray_stack__keep_cone(ray_entries__RAY_STACK_SIZE * k + count, state.cone);
 	ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, count + 1u);
 }
 
@@ -329,7 +327,7 @@ fn ray_stack__pop(k: u32) -> ray_states__RayState {
 	ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, count - 1u);
 	let at = ray_stack__entry_start(k, count - 1u);
 	let media = vec4u(ray_stack__ray_stack[at + 12u] & 65535u, ray_stack__ray_stack[at + 12u] >> 16u, ray_stack__ray_stack[at + 13u] & 65535u, ray_stack__ray_stack[at + 13u] >> 16u);
-	return ray_stack__stored(bitcast<vec3f>(vec3u(ray_stack__ray_stack[at], ray_stack__ray_stack[at + 1u], ray_stack__ray_stack[at + 2u])), ray_stack__ray_stack[at + 3u], bitcast<vec3f>(vec3u(ray_stack__ray_stack[at + 4u], ray_stack__ray_stack[at + 5u], ray_stack__ray_stack[at + 6u])), ray_stack__ray_stack[at + 7u], bitcast<vec3f>(vec3u(ray_stack__ray_stack[at + 8u], ray_stack__ray_stack[at + 9u], ray_stack__ray_stack[at + 10u])), ray_stack__ray_stack[at + 11u], select(media, vec4u(types__NONE), media == vec4u(65535u)), ray_stack__kept_cone(ray_stack__RAY_STACK_SIZE * k + count - 1u));
+	return ray_stack__stored(bitcast<vec3f>(vec3u(ray_stack__ray_stack[at], ray_stack__ray_stack[at + 1u], ray_stack__ray_stack[at + 2u])), ray_stack__ray_stack[at + 3u], bitcast<vec3f>(vec3u(ray_stack__ray_stack[at + 4u], ray_stack__ray_stack[at + 5u], ray_stack__ray_stack[at + 6u])), ray_stack__ray_stack[at + 7u], bitcast<vec3f>(vec3u(ray_stack__ray_stack[at + 8u], ray_stack__ray_stack[at + 9u], ray_stack__ray_stack[at + 10u])), ray_stack__ray_stack[at + 11u], select(media, vec4u(types__NONE), media == vec4u(65535u)), ray_stack__kept_cone(ray_entries__RAY_STACK_SIZE * k + count - 1u));
 }
 
 struct dispatch__RayCounts {
@@ -4690,6 +4688,8 @@ fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: v
 	let shines = surface.outside || (optics.flags & types__MATERIAL_TWO_SIDED) != 0u;
 	return select(vec3f(0.0), glow * material__load_emission(surface.material), shines);
 }
+
+const ray_entries__RAY_STACK_SIZE: u32 = 9u;
 
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
 	let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
