@@ -4879,9 +4879,11 @@ fn albedo__blended_albedo(entries: vec4u, weights: vec4f) -> vec2f {
 	return weights.x * picture__halves(entries.x) + weights.y * picture__halves(entries.y) + weights.z * picture__halves(entries.z) + weights.w * picture__halves(entries.w);
 }
 
-fn albedo__multiple_scattering(f0: vec3f, albedo: vec2f) -> vec3f {
+fn albedo__multiple_scattering(f0: vec3f, f90: vec3f, albedo: vec2f) -> vec3f {
 	let single = clamp(albedo.x + albedo.y, 0.001, 1.0);
-	return 1.0 + f0 * ((1.0 - single) / single);
+	let leaves = sqrt(single);
+	let kept = clamp(f0 + (f90 - f0) / 21.0, vec3f(0.0), vec3f(1.0));
+	return 1.0 + kept * (leaves * (1.0 - single) / single) / (1.0 - kept * (1.0 - leaves));
 }
 
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
@@ -5099,10 +5101,11 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	let albedo = albedo__ggx_albedo(bsdf.wo.z, mean_alpha);
 	let covered = inside * (1.0 - layers.metallic);
 	let beside = max(bsdf.f0 - covered * over, vec3f(0.0));
-	let of_metal = min(beside / max(layers.metallic, 1e-6), vec3f(1.0));
-	let single = albedo.x * beside + albedo.y * max(bsdf.f90 - covered * layers.over_f90, vec3f(0.0));
-	let over_glossy = lobes__scattered_often(over, albedo) * (albedo.x * over + albedo.y * layers.over_f90);
-	let glossy = covered * over_glossy + lobes__scattered_often(of_metal, albedo) * single;
+	let beside_f90 = max(bsdf.f90 - covered * layers.over_f90, vec3f(0.0));
+	let part = 1.0 / max(layers.metallic, 1e-6);
+	let of_metal = lobes__scattered_often(min(part * beside, vec3f(1.0)), min(part * beside_f90, vec3f(1.0)), albedo);
+	let over_glossy = lobes__scattered_often(over, layers.over_f90, albedo) * (albedo.x * over + albedo.y * layers.over_f90);
+	let glossy = covered * over_glossy + of_metal * (albedo.x * beside + albedo.y * beside_f90);
 	let boost = glossy / max(albedo.x * bsdf.f0 + albedo.y * bsdf.f90, vec3f(1e-9));
 	bsdf.boundary_gain = 1.0;
 	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && bsdf.boundary_alpha.x >= layers__SMOOTH) {
@@ -5140,11 +5143,11 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	return bsdf;
 }
 
-fn lobes__scattered_often(f0: vec3f, albedo: vec2f) -> vec3f {
+fn lobes__scattered_often(f0: vec3f, f90: vec3f, albedo: vec2f) -> vec3f {
 	if (bindings__BSDF_SPEC) {
 		return vec3f(1.0);
 	}
-	return albedo__multiple_scattering(f0, albedo);
+	return albedo__multiple_scattering(f0, f90, albedo);
 }
 
 fn lobes__coat_axis(bsdf: lobes__Bsdf, surface: shading__Surface) -> vec3f {

@@ -3,6 +3,7 @@
 
 mod check;
 pub mod reference;
+mod walk;
 
 use crate::support::verdict::Verdict;
 use check::{Lobe, Wide};

@@ -45,7 +45,7 @@ fn over_normals(wo: DVec3, alpha: f64, parts: [usize; 2], mut add: impl FnMut(DV
 }
 
 /// The factors of f0 and f90.
-fn ggx_albedo(cos_o: f64, alpha: f64) -> [f64; 2] {
+pub fn ggx_albedo(cos_o: f64, alpha: f64) -> [f64; 2] {
     let widths = [alpha, alpha];
     let wo = view(cos_o);
     let mut sums = [0.0; 2];
@@ -205,7 +205,8 @@ fn white_metal_reflects_everything_at_every_roughness() {
         }
     }
     let albedos = factors(&rows);
-    let inputs: Vec<_> = albedos.iter().map(|&albedo| ([1f32; 3], albedo)).collect();
+    let white = [1f32; 3];
+    let inputs: Vec<_> = (albedos.iter().map(|&albedo| (white, white, albedo))).collect();
     let gains: Vec<[f32; 3]> = gpu().map("lib::albedo::multiple_scattering", &inputs);
     let mut verdict = Verdict::on("white metal");
     for ((&(cos, alpha), [gain, ..]), factors) in rows.iter().zip(gains).zip(albedos) {
@@ -320,24 +321,37 @@ fn lookups_meet_the_entries_and_are_linear_between_them() {
 #[test]
 fn light_that_is_scattered_again_takes_the_colour_of_the_metal_again() {
     let white = [1.0; 3];
+    let colour = [1f32, 0.5, 0.0];
+    // The root of 0.81 of the light leaves at each reflection: Σ F^(n+1) 0.9 · 0.1^n.
+    let series = |kept: f64| 1.0 + 0.19 / 0.81 * 0.9 * kept / (1.0 - 0.1 * kept);
     gpu().check(
         "lib::albedo::multiple_scattering",
         Tolerance::Absolute(1e-6),
         &[
             (
                 "nothing is lost at once",
-                ([1f32, 0.5, 0.0], [0.6f32, 0.4]),
+                (colour, [1f32; 3], [0.6f32, 0.4]),
                 white,
             ),
             (
-                "a third is",
-                ([1.0, 0.5, 0.0], [0.5, 0.25]),
-                [4.0 / 3.0, 7.0 / 6.0, 1.0],
+                "a fifth is, the same at all angles",
+                (colour, colour, [0.5, 0.31]),
+                [1.0 / 0.81, series(0.5), 1.0],
+            ),
+            (
+                "more at grazing angles",
+                (colour, [1.0; 3], [0.5, 0.31]),
+                [1.0 / 0.81, series(0.5 + 0.5 / 21.0), series(1.0 / 21.0)],
             ),
             (
                 "more than everything is reflected",
-                ([1.0; 3], [0.9, 0.2]),
+                ([1.0; 3], [1.0; 3], [0.9, 0.2]),
                 white,
+            ),
+            (
+                "and again",
+                ([3.0; 3], [3.0; 3], [0.5, 0.31]),
+                [1.0 / 0.81; 3],
             ),
         ],
     );

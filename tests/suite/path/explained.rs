@@ -436,7 +436,8 @@ fn albedo(wo: DVec3, alpha: f64) -> f64 {
     2.0 * PI / (rows * columns) as f64 * (0..rows * columns).map(cell).sum::<f64>()
 }
 
-/// Phong's material as the page on path tracing says: microfacets over a diffuse body, with Turquin's factor.
+/// Phong's material as the page on path tracing says: microfacets over a diffuse body, with the light that
+/// they scatter several times.
 #[test]
 fn values_on_a_glossy_floor_are_those_of_formulas() {
     let mut verdict = Verdict::on("a glossy floor");
@@ -458,7 +459,9 @@ fn values_on_a_glossy_floor_are_those_of_formulas() {
             frame(DVec3::from(ray.direction)),
         );
         let even = albedo(wo, alpha);
-        let boost = 1.0 + reflectance * (1.0 - even) / even;
+        let leaves = even.sqrt();
+        let again = reflectance * leaves / (1.0 - reflectance * (1.0 - leaves));
+        let boost = 1.0 + again * (1.0 - even) / even;
         let glossy = boost * even * reflectance;
         let diffuse = (1.0 - glossy) * body;
         let [value, visible] = ggx(wo, wi, [alpha, alpha, 0.0, 0.0]);
