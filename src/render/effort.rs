@@ -101,6 +101,15 @@ pub fn shadow_rays(view: &PackedView, settings: &RenderSettings) -> u64 {
         .fold(0, u64::saturating_add)
 }
 
+/// The rays of `picture_count` pictures if every camera ray hits an opaque surface.
+pub fn least_rays(view: &PackedView, settings: &RenderSettings, picture_count: u32) -> u64 {
+    let [.., width, height] = settings.region();
+    let pixels = u64::from(width) * u64::from(height);
+    let of_pixel = shadow_rays(view, settings).saturating_add(1);
+    let of_picture = (pixels * u64::from(settings.samples)).saturating_mul(of_pixel);
+    of_picture.saturating_mul(u64::from(picture_count))
+}
+
 /// Rejects lights that need too many shadow rays from one point, and sample ranges with adaptive sampling,
 /// where they are not known in advance.
 pub fn check(view: &PackedView, settings: &RenderSettings) -> Result<(), RenderError> {
