@@ -16,5 +16,6 @@ pub mod ray_lines;
 pub mod ray_text;
 pub mod scene_file;
 pub mod showcase;
+pub mod tuning;
 pub mod value_names;
 pub mod window;

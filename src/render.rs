@@ -36,11 +36,12 @@ mod stats;
 mod sums;
 mod task;
 mod tone;
+mod tune;
 mod work;
 
 pub use crate::scene::{Antialias, Filter};
 pub use checkpoint::{Checkpoint, CheckpointError};
-pub use effort::LongPath;
+pub use effort::{LongPath, least_rays};
 pub use error::RenderError;
 pub use explain::{
     LightSample, LightSource, Lobe, PathStep, RayHit, RayKind, RaySplit, RayTree, SampleTree,
@@ -52,13 +53,14 @@ pub use fingerprint::Fingerprint;
 pub use integrator::{Integrator, IntegratorEntry, Shows, TABLE as INTEGRATORS};
 pub use layers::{Layer, LayerKind};
 pub use levels::{Levels, Quantity};
-pub use policy::{ExecutionPolicy, Fetch, Slicing};
+pub use policy::{ExecutionPolicy, Fetch, Slicing, Storage};
 pub use query::{QueryHit, QueryRay, RayBatch, RayQuery, RaySteps, RayTest};
 pub use settings::{BsdfModel, MIN_THROUGHPUT, RayOffset, RenderSettings, TriangleTest};
 pub use show::Screen;
 pub use stats::{Rays, Stats, Uploads};
 pub use sums::SAMPLE_BLOCK;
 pub use tone::Tone;
+pub use tune::StorageTimes;
 pub use work::Status;
 
 use crate::{
@@ -134,7 +136,7 @@ impl Renderer {
             policy: &policy,
             film_rows: tiles.largest(),
         };
-        let fetch = bindings::choose_fetch(policy.fetch, &gpu, &scene, &view);
+        let fetch = bindings::choose_fetch(&policy, &gpu, &scene, &view);
         let gpu = gpu.with_limits_for(bindings::needs(&scene, &view, fetch, task.film_rows))?;
         let (choice, is_own) = (gpu.choice().clone(), gpu.is_own());
         let device = Device::new(gpu, fetch, task, &mut stats);
@@ -242,13 +244,13 @@ impl Renderer {
     fn prepare_device(&mut self, is_other_scene: bool, spare: u64) -> Result<(), RenderError> {
         let (gpu, scene, view) = (&self.device.gpu, &self.scene, &self.view);
         let fetch = match is_other_scene {
-            true => bindings::choose_fetch(self.policy.fetch, gpu, scene, view),
+            true => bindings::choose_fetch(&self.policy, gpu, scene, view),
             false => self.device.fetch,
         };
         let needs = bindings::needs(scene, view, fetch, self.tiles.largest());
         if !gpu.meets(needs) {
             gpu.check_limits(needs)?;
-            let fetch = bindings::choose_fetch(self.policy.fetch, gpu, scene, view);
+            let fetch = bindings::choose_fetch(&self.policy, gpu, scene, view);
             return self.replace_device(fetch);
         }
         self.surviving_losses(|renderer| {
@@ -266,6 +268,14 @@ impl Renderer {
             }
             device.set(task, spare, stats)
         })
+    }
+
+    /// Where its kernels read the scene from.
+    pub fn storage(&self) -> Storage {
+        match self.device.fetch {
+            Fetch::Image => Storage::Image,
+            _ => Storage::Buffer,
+        }
     }
 
     /// The device that it renders on.

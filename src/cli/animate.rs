@@ -174,6 +174,7 @@ impl<'a> Sequence<'a> {
             journal.close();
         }
         draft.seconds.set_render_times(&frames.stats);
+        draft.fetch = renderer.fetch();
         draft.seconds.write = renderer.write_seconds();
         draft.seconds.denoise = self
             .job

@@ -150,7 +150,11 @@ pub enum Command {
     /// List GPU adapters and their limits, and run a self-test.
     ///
     /// If there is no adapter, it names the driver packages to install.
-    #[command(after_help = "Example: glimray doctor --backend vulkan")]
+    #[command(after_help = "Example: glimray doctor --backend vulkan\n\n\
+            Before the first long render on an adapter, glimray measures whether kernels read scenes faster from images \
+            or from buffers. It keeps the result in adapters.toml in the user's cache folder, or in the folder that \
+            GLIMRAY_CACHE names. The variable GLIMRAY_FETCH decides instead: image, buffer, off (what is usual on such \
+            adapters, without measuring) or auto.")]
     Doctor(DoctorArgs),
     /// Compare two pictures: RMSE, PSNR, FLIP, largest difference.
     ///

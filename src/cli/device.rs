@@ -1,26 +1,62 @@
 //! Creates renderers, and describes adapters for people.
 
 use crate::app::error::AppError;
+use crate::app::tuning::{self, Tuning};
 use crate::gpu::{AdapterReport, Backend, Gpu};
-use crate::pack;
-use crate::render::{ExecutionPolicy, RenderSettings, Renderer};
+use crate::pack::{self, PackedScene, PackedView};
+use crate::render::{self, ExecutionPolicy, RenderSettings, Renderer};
 use crate::scene::Scene;
 use std::sync::Arc;
 
-/// A renderer of `scene` while the shutter is open, from `shutter.0` to `shutter.1` in seconds, and the
-/// seconds that building the tree took.
+/// A renderer of a picture, and how it came about.
+pub struct Prepared {
+    pub renderer: Renderer,
+    /// Seconds that building the tree took.
+    pub build_seconds: f64,
+    pub tuning: Tuning,
+}
+
+/// A renderer of `scene` while the shutter is open, from `shutter.0` to `shutter.1` in seconds. If the picture is worth
+/// it, the adapter is measured first.
+pub fn prepared(
+    gpu: Gpu,
+    scene: &Scene,
+    shutter: (f64, f64),
+    settings: RenderSettings,
+    policy: ExecutionPolicy,
+) -> Result<Prepared, AppError> {
+    let (packed, view) = packed(scene, shutter)?;
+    let rays = render::least_rays(&view, &settings, policy.picture_count);
+    let tuning = tuning::tuned(&gpu, rays)?;
+    let build_seconds = packed.build_seconds;
+    let policy = ExecutionPolicy {
+        storage: Some(tuning.storage),
+        ..policy
+    };
+    Ok(Prepared {
+        renderer: Renderer::new(gpu, packed, &view, settings, policy)?,
+        build_seconds,
+        tuning,
+    })
+}
+
+/// As [`prepared`], for a few pixels: the adapter is not measured.
 pub fn renderer(
     gpu: Gpu,
     scene: &Scene,
     shutter: (f64, f64),
     settings: RenderSettings,
     policy: ExecutionPolicy,
-) -> Result<(Renderer, f64), AppError> {
+) -> Result<Renderer, AppError> {
+    let (packed, view) = packed(scene, shutter)?;
+    let policy = tuning::with_known(&gpu, policy)?;
+    Ok(Renderer::new(gpu, packed, &view, settings, policy)?)
+}
+
+fn packed(scene: &Scene, shutter: (f64, f64)) -> Result<(Arc<PackedScene>, PackedView), AppError> {
     let packed = Arc::new(pack::scene(scene)?);
-    let build_seconds = packed.build_seconds;
     let view = packed.view(&scene.motion_samples(shutter.0, shutter.1))?;
-    let renderer = Renderer::new(gpu, packed, &view, settings, policy)?;
-    Ok((renderer, build_seconds))
+    Ok((packed, view))
 }
 
 /// Describes the adapter in a status line: `NAME [BACKEND, KIND]`.

@@ -4,6 +4,7 @@ mod self_test;
 
 use crate::app::console;
 use crate::app::error::AppError;
+use crate::app::tuning::{self, Tuning};
 use crate::cli::args::DoctorArgs;
 use crate::cli::device;
 use crate::gpu::{self, AdapterChoice, AdapterReport, Gpu};
@@ -19,6 +20,7 @@ pub fn run(arguments: &DoctorArgs) -> Result<(), AppError> {
     });
     let opened = Gpu::new(&choice);
     let chosen = opened.as_ref().ok().map(|gpu| gpu.adapter().clone());
+    let tuning = opened.as_ref().ok().map(tuning::known).transpose()?;
     let outcome = opened
         .map_err(AppError::from)
         .and_then(|gpu| self_test::run(gpu, arguments.device.memory_limit_bytes()));
@@ -26,10 +28,11 @@ pub fn run(arguments: &DoctorArgs) -> Result<(), AppError> {
     let advice = (adapters.is_empty()).then(|| device::advice(choice.backend));
     if arguments.json {
         let passed = outcome.as_ref().ok();
-        console::print_json(&to_json(&adapters, chosen.as_ref(), passed, advice))?;
+        console::print_json(&to_json(&adapters, chosen.as_ref(), tuning, passed, advice))?;
     } else {
         let mut text = String::new();
-        write_text(&mut text, &adapters, chosen.as_ref(), outcome.as_ref().ok())
+        let outcome = outcome.as_ref().ok();
+        write_text(&mut text, &adapters, chosen.as_ref(), tuning, outcome)
             .map_err(|error| AppError::Internal(format!("doctor: {error}")))?;
         if let Some(advice) = advice {
             text = text + advice + "\n";
@@ -54,12 +57,16 @@ fn verdict(chosen: Option<&AdapterReport>, outcome: Outcome) -> Result<(), AppEr
 fn to_json(
     adapters: &[AdapterReport],
     chosen: Option<&AdapterReport>,
+    tuning: Option<Tuning>,
     outcome: Option<&Outcome>,
     advice: Option<&str>,
 ) -> Value {
     json!({
         "adapters": adapters.iter().map(adapter_json).collect::<Value>(),
         "chosen": chosen.map(|adapter| adapter.index),
+        "fetch": tuning.map(|tuning| json!({
+            "storage": tuning::name(tuning.storage), "reason": tuning.reason,
+        })),
         "self_test": outcome.map(|outcome| json!({
             "passed": outcome.is_right(), "found": outcome.found, "expected": outcome.expected,
         })),
@@ -85,6 +92,7 @@ fn write_text(
     out: &mut String,
     adapters: &[AdapterReport],
     chosen: Option<&AdapterReport>,
+    tuning: Option<Tuning>,
     outcome: Option<&Outcome>,
 ) -> fmt::Result {
     writeln!(out, "adapters   {}", adapters.len())?;
@@ -102,6 +110,13 @@ fn write_text(
     }
     if let Some(adapter) = chosen {
         writeln!(out, "used       {}  {}", adapter.index, adapter.name)?;
+    }
+    if let Some(Tuning {
+        storage, reason, ..
+    }) = tuning
+    {
+        let (name, why) = (tuning::name(storage), reason.phrase());
+        writeln!(out, "reads      scenes from {name}s, {why}")?;
     }
     match outcome {
         Some(outcome) if outcome.is_right() => writeln!(

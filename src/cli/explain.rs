@@ -49,7 +49,7 @@ pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     )?;
     let gpu = Gpu::new(&arguments.device.choice())?;
     let policy = job::policy(&arguments.device, false);
-    let (mut renderer, _) = device::renderer(gpu, &scene, shutter, settings.clone(), policy)?;
+    let mut renderer = device::renderer(gpu, &scene, shutter, settings.clone(), policy)?;
     let samples = samples(arguments, &settings, &mut renderer)?;
     let tree = renderer.explain(arguments.pixel, samples)?;
     if let Some(path) = &arguments.obj {

@@ -230,6 +230,7 @@ impl Job<'_> {
                 ..self.image(outcome.path, settings, outcome.size)
             },
             adapter: outcome.adapter.map(Into::into),
+            fetch: draft.fetch.clone(),
             seconds: Seconds {
                 denoise: (draft.seconds.denoise).or(of_paths.then_some(0.0)),
                 ..draft.seconds.clone()
@@ -319,6 +320,9 @@ fn details(console: Console, report: &Report) {
          upload {upload:.3}, trace {trace:.3}, develop {develop:.3}, denoise {denoise:.3}, \
          write {write:.3}"
     ));
+    if let Some(fetch) = &report.fetch {
+        console.detail(format_args!("{}", fetch.sentence()));
+    }
     console.detail(format_args!(
         "{} submissions, the longest {:.1} ms; {:.1} MiB on the GPU",
         report.submissions.count,

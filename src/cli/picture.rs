@@ -11,7 +11,7 @@ use crate::cli::interrupt::Interrupt;
 use crate::cli::job::{Job, Outcome};
 use crate::cli::layers::Finished;
 use crate::cli::progress::Progress;
-use crate::cli::report::Draft;
+use crate::cli::report::{Draft, FetchReport};
 use crate::render::{FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK};
 use std::ops::Range;
 use std::time::Instant;
@@ -52,9 +52,10 @@ pub fn run(
 
     let gpu = job.open_gpu(size, draft)?;
     job.announce("", &settings, gpu.adapter());
-    let (mut renderer, bvh_seconds) =
-        device::renderer(gpu, &job.scene, shutter, settings.clone(), job.policy())?;
-    draft.seconds.bvh = bvh_seconds;
+    let prepared = device::prepared(gpu, &job.scene, shutter, settings.clone(), job.policy())?;
+    let mut renderer = prepared.renderer;
+    draft.seconds.bvh = prepared.build_seconds;
+    draft.fetch = Some(FetchReport::new(&renderer, &prepared.tuning));
     if let Some(checkpoint) = &mut checkpoint {
         draft.resumed = checkpoint.resume(&mut renderer, job.console())?;
     }

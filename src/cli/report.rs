@@ -6,9 +6,10 @@ pub use draft::Draft;
 
 use crate::app::console;
 use crate::app::error::AppError;
+use crate::app::tuning::{self, Reason, Tuning};
 use crate::gpu::AdapterReport;
 use crate::output;
-use crate::render::{Rays, Stats};
+use crate::render::{Rays, Renderer, Stats};
 use crate::scene::{Geometry, Scene};
 use serde::Serialize;
 use std::path::Path;
@@ -24,6 +25,8 @@ pub struct Report {
     pub image: ImageReport,
     /// Null if no adapter was needed.
     pub adapter: Option<Adapter>,
+    /// Null if nothing was rendered.
+    pub fetch: Option<FetchReport>,
     pub seconds: Seconds,
     /// Null without `--count-rays`.
     pub rays: Option<RayCounts>,
@@ -136,6 +139,39 @@ pub struct Adapter {
     pub backend: String,
     pub driver: String,
     pub device_type: String,
+}
+
+/// Where kernels read the scene from.
+#[derive(Clone, Debug, Serialize)]
+pub struct FetchReport {
+    /// "image" or "buffer".
+    pub storage: &'static str,
+    /// Why: "device_type", "environment", "cache" or "measurement".
+    pub reason: Reason,
+    /// Time to measure the adapter in this run; 0 if it was not measured.
+    pub seconds: f64,
+    /// Times to trace the same rays, from a measurement now or before; null without one.
+    pub image_seconds: Option<f64>,
+    pub buffer_seconds: Option<f64>,
+}
+
+impl FetchReport {
+    /// That of a renderer that was prepared with this tuning.
+    pub fn new(renderer: &Renderer, tuning: &Tuning) -> Self {
+        Self {
+            storage: tuning::name(renderer.storage()),
+            reason: tuning.reason,
+            seconds: tuning.seconds,
+            image_seconds: tuning.times.map(|times| times.image),
+            buffer_seconds: tuning.times.map(|times| times.buffer),
+        }
+    }
+
+    /// For people.
+    pub fn sentence(&self) -> String {
+        let (storage, why) = (self.storage, self.reason.phrase());
+        format!("the scene is read from {storage}s, {why}")
+    }
 }
 
 /// Wall-clock times in seconds. `total` runs from the start of the process until the file is on disk; the

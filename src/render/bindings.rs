@@ -3,7 +3,7 @@
 use super::{
     arrays::{ARRAY_COUNT, Array, IMAGE_WIDTH, ROW_BYTES, Rows, arrays},
     layouts::{Layouts, group},
-    policy::Fetch,
+    policy::{ExecutionPolicy, Fetch, Storage},
     stats::Uploads,
 };
 use crate::{
@@ -203,14 +203,24 @@ fn frame_group(
     Ok(group(gpu, &layouts.frame, &resources))
 }
 
-/// The fetch to use: the requested one, or by default images on software adapters, where they are twice as
-/// fast, and buffers elsewhere unless only images are large enough.
-pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene, view: &PackedView) -> Fetch {
-    let fits = largest_row_bytes(scene, view) <= gpu.adapter().max_binding_bytes;
-    match wanted {
-        Fetch::Auto | Fetch::Packet if gpu.is_cpu() || !fits => Fetch::Image,
-        Fetch::Auto | Fetch::Packet => Fetch::Buffer,
-        chosen => chosen,
+/// The fetch to use, image or buffer: the requested one, or by default that of the faster storage, unless the adapter has
+/// room for the scene only in the other.
+pub fn choose_fetch(
+    policy: &ExecutionPolicy,
+    gpu: &Gpu,
+    scene: &PackedScene,
+    view: &PackedView,
+) -> Fetch {
+    let adapter = gpu.adapter();
+    let rows = largest_row_bytes(scene, view);
+    let fits_buffer = rows <= adapter.max_binding_bytes;
+    let fits_image = image_side(rows) <= adapter.max_texture_2d;
+    let preferred = policy.storage.unwrap_or_else(|| Storage::usual(gpu));
+    match (policy.fetch, preferred) {
+        (Fetch::Auto | Fetch::Packet, Storage::Image) if fits_image || !fits_buffer => Fetch::Image,
+        (Fetch::Auto | Fetch::Packet, Storage::Buffer) if !fits_buffer => Fetch::Image,
+        (Fetch::Auto | Fetch::Packet, _) => Fetch::Buffer,
+        (chosen, _) => chosen,
     }
 }
 
@@ -225,11 +235,16 @@ pub fn needs(scene: &PackedScene, view: &PackedView, fetch: Fetch, film_rows: us
         };
     }
     // Texels stay within the limits that WebGPU guarantees.
-    let height = rows.div_ceil(u64::from(IMAGE_WIDTH) * 16);
     Needs {
         binding_bytes: film,
-        texture_side: IMAGE_WIDTH.max(height.try_into().unwrap_or(u32::MAX)),
+        texture_side: image_side(rows),
     }
+}
+
+/// The longer side of an image of this many bytes of rows, in texels.
+fn image_side(bytes: u64) -> u32 {
+    let height = bytes.div_ceil(u64::from(IMAGE_WIDTH) * ROW_BYTES);
+    IMAGE_WIDTH.max(height.try_into().unwrap_or(u32::MAX))
 }
 
 fn largest_row_bytes(scene: &PackedScene, view: &PackedView) -> u64 {

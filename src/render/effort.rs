@@ -116,6 +116,15 @@ pub fn has_uneven_trees(task: Task) -> bool {
         && shadow_rays(task.view, task.settings) <= u64::from(task.view.frame.light_count)
 }
 
+/// The rays of `picture_count` pictures if every camera ray hits an opaque surface.
+pub fn least_rays(view: &PackedView, settings: &RenderSettings, picture_count: u32) -> u64 {
+    let [.., width, height] = settings.region();
+    let pixels = u64::from(width) * u64::from(height);
+    let of_pixel = shadow_rays(view, settings).saturating_add(1);
+    let of_picture = (pixels * u64::from(settings.samples)).saturating_mul(of_pixel);
+    of_picture.saturating_mul(u64::from(picture_count))
+}
+
 /// Rejects lights that need too many shadow rays from one point, and sample ranges with adaptive sampling,
 /// where they are not known in advance.
 pub fn check(view: &PackedView, settings: &RenderSettings) -> Result<(), RenderError> {

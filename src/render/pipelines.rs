@@ -111,13 +111,8 @@ pub fn tracing_variant(gpu: &Gpu, fetch: Fetch, view: &PackedView) -> Variant {
     }
 }
 
-/// The rays of all pictures if every camera ray hits an opaque surface.
 fn least_rays(task: Task) -> u64 {
-    let [.., width, height] = task.settings.region();
-    let pixels = u64::from(width) * u64::from(height);
-    let of_pixel = effort::shadow_rays(task.view, task.settings).saturating_add(1);
-    let of_picture = (pixels * u64::from(task.settings.samples)).saturating_mul(of_pixel);
-    of_picture.saturating_mul(u64::from(task.policy.picture_count))
+    effort::least_rays(task.view, task.settings, task.policy.picture_count)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! How the work is executed. The policy never affects the picture.
 
-use crate::gpu::MEMORY_LIMIT_BYTES;
+use crate::gpu::{Gpu, MEMORY_LIMIT_BYTES};
 
 /// How a picture is rendered. The policy does not affect the result.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +12,9 @@ pub struct ExecutionPolicy {
     pub host_copy: bool,
     /// How shaders read the scene.
     pub fetch: Fetch,
+    /// The storage that is faster on this adapter, if that is known ([`super::StorageTimes`]); only for
+    /// [`Fetch::Auto`] and [`Fetch::Packet`]. By default the kind of the adapter decides.
+    pub storage: Option<Storage>,
     /// How many pictures like this one will be rendered, such as the frames of an animation, at least 1: a kernel that
     /// traces faster but takes longer to compile may be worth it for all of them together.
     pub picture_count: u32,
@@ -27,6 +30,7 @@ impl Default for ExecutionPolicy {
             slicing: Slicing::default(),
             host_copy: true,
             fetch: Fetch::Auto,
+            storage: None,
             picture_count: 1,
             memory_limit_bytes: MEMORY_LIMIT_BYTES,
             count_rays: false,
@@ -37,8 +41,9 @@ impl Default for ExecutionPolicy {
 /// How shaders read nodes and triangles, and whether neighbouring rays are traced together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Fetch {
-    /// Images on software adapters; elsewhere buffers if they are large enough. Larger pictures, and smaller ones of
-    /// which there are many, are traced in packets where the adapter can do so.
+    /// From [`ExecutionPolicy::storage`], otherwise images on software adapters and buffers elsewhere; from the other
+    /// one if the adapter's are too small for the scene. Larger pictures, and smaller ones of which there are many, are
+    /// traced in packets where the adapter can do so and the scene is in images.
     #[default]
     Auto,
     /// Storage images: faster on software adapters.
@@ -53,6 +58,25 @@ impl Fetch {
     /// Whether rays may be traced in packets.
     pub(super) fn allows_packets(self) -> bool {
         matches!(self, Self::Auto | Self::Packet)
+    }
+}
+
+/// Where shaders read nodes and triangles from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// Storage images.
+    Image,
+    /// Storage buffers.
+    Buffer,
+}
+
+impl Storage {
+    /// What is usually faster on an adapter of this kind. Software adapters read images twice as fast.
+    pub fn usual(gpu: &Gpu) -> Self {
+        match gpu.is_cpu() {
+            true => Self::Image,
+            false => Self::Buffer,
+        }
     }
 }
 

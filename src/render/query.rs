@@ -152,7 +152,7 @@ pub struct RayQuery {
 }
 
 impl RayQuery {
-    /// Uploads a scene. Of the policy, the fetch and the memory limit apply.
+    /// Uploads a scene. Of the policy, the fetch, the storage and the memory limit apply.
     ///
     /// # Errors
     /// The device failed, or the scene exceeds the memory limit or the limits of the adapter.
@@ -163,7 +163,7 @@ impl RayQuery {
         policy: ExecutionPolicy,
     ) -> Result<Self, RenderError> {
         bindings::ledger(&scene, view, MAX_RAYS, 0).check(policy.memory_limit_bytes)?;
-        let fetch = bindings::choose_fetch(policy.fetch, &gpu, &scene, view);
+        let fetch = bindings::choose_fetch(&policy, &gpu, &scene, view);
         let gpu = gpu.with_limits_for(bindings::needs(&scene, view, fetch, MAX_RAYS))?;
         let layouts = Layouts::new(&gpu, fetch);
         let shown = (&scene, view);

@@ -106,6 +106,7 @@ mod tangents;
 mod textures;
 mod thin_walls;
 mod trees;
+mod tuning;
 mod uv_view;
 #[cfg(feature = "video")]
 mod video;

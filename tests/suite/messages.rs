@@ -10,13 +10,13 @@ use insta::assert_snapshot;
 use serde_json::Value;
 use std::process::{Command, Stdio};
 
-/// Names of all fields, such as `outer.inner`. `adapter`, `rays` and `error` count as one field each, because
+/// Names of all fields, such as `outer.inner`. `adapter`, `fetch`, `rays` and `error` count as one field each, because
 /// they may be null.
 fn fields(report: &Value) -> Vec<String> {
     let mut names = Vec::new();
     for (outer, value) in report.as_object().expect("an object") {
         match value.as_object() {
-            Some(inner) if !["adapter", "rays", "error"].contains(&outer.as_str()) => {
+            Some(inner) if !["adapter", "fetch", "rays", "error"].contains(&outer.as_str()) => {
                 names.extend(inner.keys().map(|name| format!("{outer}.{name}")));
             }
             _ => names.push(outer.clone()),

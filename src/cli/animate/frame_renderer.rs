@@ -1,6 +1,7 @@
 //! Renders frames. All of them share one renderer, so that only moving geometry is uploaded per frame.
 
 use crate::app::error::AppError;
+use crate::app::tuning;
 use crate::cli::animate::fingerprint;
 use crate::cli::animate::fingerprint::Fingerprint;
 use crate::cli::animate::journal::{Journal, Origin};
@@ -11,6 +12,7 @@ use crate::cli::args::LayerFlags;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::layers::Finished;
 use crate::cli::progress::FrameProgress;
+use crate::cli::report::FetchReport;
 use crate::gpu::{AdapterReport, Gpu};
 use crate::output::video::{self, Picture8, VideoOptions, Y4mWriter};
 use crate::output::{self, Format, OutputError};
@@ -38,6 +40,8 @@ pub struct FrameRenderer<'a> {
     fingerprints: (Fingerprint, Fingerprint),
     write_seconds: f64,
     denoise_seconds: f64,
+    /// `None` before a frame is rendered.
+    fetch: Option<FetchReport>,
 }
 
 impl<'a> FrameRenderer<'a> {
@@ -69,6 +73,7 @@ impl<'a> FrameRenderer<'a> {
             missing: 0,
             write_seconds: 0.0,
             denoise_seconds: 0.0,
+            fetch: None,
         })
     }
 
@@ -89,6 +94,11 @@ impl<'a> FrameRenderer<'a> {
     /// Time to denoise frames, in seconds.
     pub fn denoise_seconds(&self) -> f64 {
         self.denoise_seconds
+    }
+
+    /// Where the kernels read the frames from; `None` if none was rendered.
+    pub fn fetch(&self) -> Option<FetchReport> {
+        self.fetch.clone()
     }
 
     /// The packed view of a frame: camera, lights and moving geometry during its exposure.
@@ -194,12 +204,18 @@ impl<'a> FrameRenderer<'a> {
             }
             (empty, Some(gpu)) => {
                 let settings = self.settings.clone();
+                let picture_count = u32::try_from(self.missing.max(1)).unwrap_or(u32::MAX);
+                let rays = render::least_rays(view, &settings, picture_count);
+                let tuning = tuning::tuned(&gpu, rays)?;
                 let policy = ExecutionPolicy {
-                    picture_count: u32::try_from(self.missing.max(1)).unwrap_or(u32::MAX),
+                    picture_count,
+                    storage: Some(tuning.storage),
                     ..self.sequence.job.policy()
                 };
                 let scene = self.scene.clone();
-                empty.insert(Renderer::new(gpu, scene, view, settings, policy)?)
+                let renderer = Renderer::new(gpu, scene, view, settings, policy)?;
+                self.fetch = Some(FetchReport::new(&renderer, &tuning));
+                empty.insert(renderer)
             }
             (None, None) => return Err(AppError::Internal("there is no adapter".into())),
         };

@@ -3,6 +3,7 @@
 use super::figure::Figure;
 use super::workloads::Workload;
 use crate::app::error::AppError;
+use crate::app::tuning;
 use crate::app::window::median;
 use crate::cli::args::BenchArgs;
 use crate::cli::job;
@@ -140,7 +141,7 @@ pub fn render(
         size: workload.size,
         ..RenderSettings::from(&scene.output)
     };
-    let policy = job::policy(&arguments.device, count_rays);
+    let policy = tuning::with_known(&gpu, job::policy(&arguments.device, count_rays))?;
     let packed = Arc::new(pack::scene_with(scene, workload.most_baked)?);
     let view = packed.view(&scene.motion_samples(shutter_interval.0, shutter_interval.1))?;
     let mut renderer = Renderer::new(gpu, packed.clone(), &view, settings, policy)?;

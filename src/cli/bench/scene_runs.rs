@@ -6,6 +6,7 @@ use super::renders::{self, Times};
 use super::scenes::{Detail, Procedural};
 use super::workloads::Workload;
 use crate::app::error::AppError;
+use crate::app::tuning;
 use crate::cli::args::BenchArgs;
 use crate::cli::job;
 use crate::gpu::Gpu;
@@ -139,7 +140,7 @@ impl SceneRuns {
         self.times.push(rendered.times);
         let (packed, view) = (rendered.packed, rendered.view);
         (self.tree_bytes, self.all_bytes) = bytes(&packed, &view);
-        let policy = job::policy(&arguments.device, false);
+        let policy = tuning::with_known(gpu, job::policy(&arguments.device, false))?;
         let query = RayQuery::new(gpu.clone(), packed, &view, policy)?;
         self.sets.iter_mut().try_for_each(|set| set.run(&query))
     }

@@ -47,7 +47,7 @@ pub fn run(gpu: Gpu, memory_limit_bytes: u64) -> Result<Outcome, AppError> {
         memory_limit_bytes,
         ..ExecutionPolicy::default()
     };
-    let (mut renderer, _) = device::renderer(gpu, &scene(), (0.0, 0.0), settings, policy)?;
+    let mut renderer = device::renderer(gpu, &scene(), (0.0, 0.0), settings, policy)?;
     while !renderer.is_done() {
         renderer.step()?;
     }

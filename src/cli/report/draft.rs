@@ -4,7 +4,9 @@
 use crate::app::error::AppError;
 use crate::app::inputs::Inputs;
 use crate::cli::args::LogFlags;
-use crate::cli::report::{Adapter, ImageReport, Report, SceneReport, Seconds, host_peak_bytes};
+use crate::cli::report::{
+    Adapter, FetchReport, ImageReport, Report, SceneReport, Seconds, host_peak_bytes,
+};
 use crate::cli::scene_file;
 use crate::import::Options;
 use crate::scene::Scene;
@@ -29,6 +31,7 @@ pub struct Draft<'a> {
     pub inputs: Inputs,
     pub seconds: Seconds,
     pub adapter: Option<Adapter>,
+    pub fetch: Option<FetchReport>,
     /// The share of the work that was in a checkpoint at the start, if there was one.
     pub resumed: Option<f64>,
     /// Output path.
@@ -56,6 +59,7 @@ impl<'a> Draft<'a> {
             inputs: Inputs::default(),
             seconds: Seconds::default(),
             adapter: None,
+            fetch: None,
             resumed: None,
             image_path: image_path.into(),
             image: None,
@@ -141,6 +145,7 @@ impl<'a> Draft<'a> {
             "scene": scene,
             "image": image,
             "adapter": self.adapter,
+            "fetch": self.fetch,
             "seconds": seconds,
             "rays": null,
             "submissions": { "count": null, "longest_ms": null },
