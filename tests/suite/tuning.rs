@@ -189,15 +189,12 @@ fn short_renders_measure_nothing() {
     let cached = Cached::new();
     let [_, reason] = cached.choice("auto", SHORT);
     assert_eq!(reason, "device_type");
-    // One pixel less than 200 million rays in 701 rays each.
+    // A little less than 200 million rays: 701 for each pixel.
     let size = "533x535";
     let line = LONG.replace("640x480", size);
     assert_eq!(cached.choice("auto", &line)[1], "device_type");
     cached
-        .run(
-            "auto",
-            &format!("explain many.scene --size 4000x3000 --pixel 1,1"),
-        )
+        .run("auto", "explain many.scene --size 4000x3000 --pixel 1,1")
         .expect(0);
     assert!(!cached.folder.exists());
 }
