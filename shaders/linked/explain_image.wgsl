@@ -8,26 +8,14 @@ fn explain(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 		record__start_record(probe);
 		let key = rng__pixel_key(batch.seed, pixel);
 		let rays = rays__ray_set(rays__dead_rays(), 0u, dispatch__sample_ray(batch, pixel, key, probe.sample));
-		probe.color = wide__vector_at(trace(batch, rays, key, probe.sample), 0u);
+		let trees = followed(batch, start_trees(batch, rays), key, probe.sample);
+		probe.color = wide__vector_at(trees.radiance, 0u);
 		probe.weight = dispatch__sample_weight(key, probe.sample);
 		probe.time = shutter__shutter_time;
 		probe.cut_off = ray_stack__cut_off_trees;
 		record__store_probe(index, probe);
 	}
 	dispatch__add_counts(lane);
-}
-
-fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u32) -> wide__Vectors {
-	var trees = start_trees(batch, rays);
-	loop {
-		trees = traced(batch, trees, keys, sample);
-		continuing {
-		
-			break if !trees.are_unfinished;
-		}
-	}
-	loops__cut_off |= trees.are_unfinished;
-	return trees.radiance;
 }
 
 struct Trees {
@@ -39,6 +27,19 @@ struct Trees {
 fn start_trees(batch: dispatch__Batch, rays: rays__Rays) -> Trees {
 	features__start_features();
 	return Trees(ray_stack__camera_states(batch, rays), wide__no_vectors(), true);
+}
+
+fn followed(batch: dispatch__Batch, before: Trees, keys: wide__Words, sample: u32) -> Trees {
+	var trees = before;
+	loop {
+		trees = traced(batch, trees, keys, sample);
+		continuing {
+		
+			break if bindings__REFILLS_LANES | !rays__any_lane(trees.are_unfinished);
+		}
+	}
+	loops__cut_off |= !bindings__REFILLS_LANES & trees.are_unfinished;
+	return trees;
 }
 
 fn traced(batch: dispatch__Batch, trees: Trees, keys: wide__Words, sample: u32) -> Trees {
@@ -225,6 +226,8 @@ override bindings__HAS_PICTURES: bool = true;
 override bindings__HAS_FOOTPRINTS: bool = true;
 
 override bindings__HAS_COVERAGE: bool = true;
+
+override bindings__REFILLS_LANES: bool = false;
 
 override bindings__HAS_TREES: bool = true;
 
@@ -1821,195 +1824,6 @@ fn ray_states__no_ray() -> ray_states__RayState {
 	return ray_states__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, tracing__Cone(0.0, 0.0));
 }
 
-const ray_stack__MAX_TREE_RAYS: u32 = 1024u;
-
-var<private> ray_stack__stack_counts: wide__Words;
-
-var<private> ray_stack__stack_senders: array<u32, ray_entries__RAY_STACK_SIZE>;
-
-var<private> ray_stack__tree_rays: wide__Words;
-
-var<private> ray_stack__current_tree: u32;
-
-var<private> ray_stack__trees_cut_off: wide__Words;
-
-var<private> ray_stack__cut_off_trees: u32 = 0u;
-
-fn ray_stack__camera_states(batch: dispatch__Batch, rays: rays__Rays) -> ray_states__RayStates {
-	let media = batch.camera_media;
-	ray_stack__stack_counts = wide__Words(0u);
-	ray_stack__tree_rays = wide__Words(0u);
-	ray_stack__trees_cut_off = wide__Words(0u);
-	let all = wide__Floats(1.0);
-	let states = ray_states__RayStates(rays, wide__Vectors(all, all, all), ray_states__Media(wide__Words(media.x), wide__Words(media.y), wide__Words(media.z), wide__Words(media.w)), wide__Words(ray_states__KIND_PRIMARY), wide__Words(1u), wide__Floats(0.0), wide__Floats(0.0));
-	if (bindings__HAS_FOOTPRINTS) {
-		return ray_states__with_cones(batch, states);
-	}
-	return states;
-}
-
-fn ray_stack__next_ray(reflected: ray_states__RayState, refracted: ray_states__RayState) -> ray_states__RayState {
-	let k = ray_stack__current_tree;
-	let count = wide__word_at(ray_stack__stack_counts, k);
-	let rays = wide__word_at(ray_stack__tree_rays, k) + 1u;
-	ray_stack__tree_rays = wide__word_set(ray_stack__tree_rays, k, rays);
-	record__sender = record__traced_index;
-	let sends_both = ray_states__is_alive(reflected) && ray_states__is_alive(refracted);
-	let goes_on = ray_states__is_alive(reflected) || ray_states__is_alive(refracted) || count > 0u;
-	if (goes_on && rays >= ray_stack__MAX_TREE_RAYS) {
-		ray_stack__cut_tree();
-		ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, 0u);
-		return ray_states__no_ray();
-	}
-	if (sends_both) {
-		let reflected_is_weaker = ray_stack__strength(reflected) < ray_stack__strength(refracted);
-		if (count == ray_entries__RAY_STACK_SIZE) {
-			ray_stack__cut_tree();
-			return ray_stack__choose(reflected, refracted, !reflected_is_weaker);
-		}
-		ray_stack__push(k, ray_stack__choose(reflected, refracted, !reflected_is_weaker));
-		return ray_stack__choose(reflected, refracted, reflected_is_weaker);
-	}
-	if (ray_states__is_alive(refracted)) {
-		return refracted;
-	}
-	if (ray_states__is_alive(reflected)) {
-		return reflected;
-	}
-	return ray_stack__pop(k);
-}
-
-fn ray_stack__cut_tree() {
-	ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);
-	ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
-}
-
-fn ray_stack__choose(reflected: ray_states__RayState, refracted: ray_states__RayState, first: bool) -> ray_states__RayState {
-	if (first) {
-		return reflected;
-	}
-	return refracted;
-}
-
-fn ray_stack__strength(state: ray_states__RayState) -> f32 {
-	return dot(state.throughput, vec3f(1.0));
-}
-
-fn ray_stack__push(k: u32, state: ray_states__RayState) {
-	let count = wide__word_at(ray_stack__stack_counts, k);
-	ray_entries__push_entry(ray_entries__Entry(vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving), vec4u(bitcast<vec3u>(state.ray.direction), ray_stack__step_and_instance(state)), vec4u(bitcast<vec3u>(state.throughput), state.node), state.media, state.cone), count);
-	ray_stack__stack_senders[count] = record__sender;
-	ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, count + 1u);
-}
-
-fn ray_stack__pop(k: u32) -> ray_states__RayState {
-	if (ray_stack__stack_counts == 0u) {
-		return ray_states__no_ray();
-	}
-	ray_stack__stack_counts -= 1u;
-	record__sender = ray_stack__stack_senders[ray_stack__stack_counts];
-	let entry = ray_entries__pop_entry(ray_stack__stack_counts);
-	return ray_stack__stored(bitcast<vec3f>(entry.r0.xyz), entry.r0.w, bitcast<vec3f>(entry.r1.xyz), entry.r1.w, bitcast<vec3f>(entry.r2.xyz), entry.r2.w, entry.media, entry.cone);
-}
-
-fn ray_stack__step_and_instance(state: ray_states__RayState) -> u32 {
-	return (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind;
-}
-
-fn ray_stack__stored(origin: vec3f, leaving: u32, direction: vec3f, place: u32, throughput: vec3f, node: u32, media: vec4u, cone: tracing__Cone) -> ray_states__RayState {
-	return ray_states__RayState(tracing__Ray(origin, camera__T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node, cone);
-}
-
-const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
-
-fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> tracing__Cone {
-	let camera = batch.camera;
-	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
-	let side = batch.footprint * max(sides.x, sides.y);
-	if (bindings__ORTHOGRAPHIC) {
-		return tracing__Cone(side, 0.0);
-	}
-	return tracing__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
-}
-
-fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
-	let e1 = corners[1] - corners[0];
-	let e2 = corners[2] - corners[0];
-	let d1 = uvs[1] - uvs[0];
-	let d2 = uvs[2] - uvs[0];
-	return mat2x2f(ray_cone__uv_along(axes[0], e1, e2, d1, d2), ray_cone__uv_along(axes[1], e1, e2, d1, d2));
-}
-
-fn footprint__shape_uv_footprint(shape: types__PackedShape, p: vec3f, axes: mat2x3f, part: f32) -> mat2x2f {
-	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
-		return mat2x2f(vec2f(dot(shape.row_x, axes[0]), dot(shape.row_z, axes[0])), vec2f(dot(shape.row_x, axes[1]), dot(shape.row_z, axes[1])));
-	}
-	var first = vec2f(0.0);
-	var ends = mat2x2f(first, first);
-	var k = 0u;
-	loop {
-		let at = select(select(p + axes[1], p + axes[0], k == 1u), p, k == 0u);
-		let uv = footprint__shape_uv(shape, at, part);
-		let way = uv - first - round(uv - first);
-		first = select(first, uv, k == 0u);
-		ends = mat2x2f(select(ends[0], way, k == 1u), select(ends[1], way, k == 2u));
-		continuing {
-			k += 1u;
-			break if k > 2u;
-		}
-	}
-	loops__cut_off |= k <= 2u;
-	return ends;
-}
-
-fn footprint__shape_uv(shape: types__PackedShape, p: vec3f, part: f32) -> vec2f {
-	if (!shape__is_round(shape.kind)) {
-		return shape__canonical_point(shape, p, part).uv;
-	}
-	if (shape__is_globe(shape.kind)) {
-		return canonical__sphere_uv(globe__globe_point(shape, p).ng);
-	}
-	return canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
-}
-
-fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) -> mat2x3f {
-	let rows = transpose(mat3x3f(instance.pattern_x.xyz, instance.pattern_y.xyz, instance.pattern_z.xyz));
-	return mat2x3f(rows * own[0], rows * own[1]);
-}
-
-fn footprint__with_shape_footprint(own: shading__Surface, ray: tracing__Ray, hit: tracing__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: tracing__Cone) -> shading__Surface {
-	var surface = own;
-	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
-	var local = axes;
-	var scale = 1.0;
-	if (bindings__HAS_INSTANCES && is_placed) {
-		local = mat2x3f(space.inverse * axes[0], space.inverse * axes[1]);
-		scale = length(instance__placed_normal(space, own.ng));
-	}
-	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
-	surface.footprint = shading__Footprint(in_uv, in_uv, axes);
-	if (shape__is_round(shape.kind)) {
-		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
-		surface.curvature = select(-curvature, curvature, own.outside);
-	}
-	return surface;
-}
-
-fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) -> f32 {
-	if (!(bindings__HAS_FOOTPRINTS && (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION))) {
-		return 0.0;
-	}
-	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
-	return select(-bend, bend, side < 0.0) / 3.0;
-}
-
-var<private> loops__nodes_visited: u32 = 0u;
-
-var<private> loops__primitives_tested: u32 = 0u;
-
-var<private> loops__cut_off: bool = false;
-
 const traverse__RETURN: u32 = 4294967294u;
 
 const traverse__CONTACT_RANGE: f32 = 0.0001;
@@ -2489,6 +2303,12 @@ fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
 fn numeric__max_component(v: vec3f) -> f32 {
 	return max(v.x, max(v.y, v.z));
 }
+
+var<private> loops__nodes_visited: u32 = 0u;
+
+var<private> loops__primitives_tested: u32 = 0u;
+
+var<private> loops__cut_off: bool = false;
 
 fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
 	if (bindings__HAS_MOTION) {
@@ -3269,6 +3089,105 @@ fn direct__record_shadows(rays: rays__Rays, unshadowed: wide__Vectors, through: 
 	}
 }
 
+const ray_stack__MAX_TREE_RAYS: u32 = 1024u;
+
+var<private> ray_stack__stack_counts: wide__Words;
+
+var<private> ray_stack__stack_senders: array<u32, ray_entries__RAY_STACK_SIZE>;
+
+var<private> ray_stack__tree_rays: wide__Words;
+
+var<private> ray_stack__current_tree: u32;
+
+var<private> ray_stack__trees_cut_off: wide__Words;
+
+var<private> ray_stack__cut_off_trees: u32 = 0u;
+
+fn ray_stack__camera_states(batch: dispatch__Batch, rays: rays__Rays) -> ray_states__RayStates {
+	let media = batch.camera_media;
+	ray_stack__stack_counts = wide__Words(0u);
+	ray_stack__tree_rays = wide__Words(0u);
+	ray_stack__trees_cut_off = wide__Words(0u);
+	let all = wide__Floats(1.0);
+	let states = ray_states__RayStates(rays, wide__Vectors(all, all, all), ray_states__Media(wide__Words(media.x), wide__Words(media.y), wide__Words(media.z), wide__Words(media.w)), wide__Words(ray_states__KIND_PRIMARY), wide__Words(1u), wide__Floats(0.0), wide__Floats(0.0));
+	if (bindings__HAS_FOOTPRINTS) {
+		return ray_states__with_cones(batch, states);
+	}
+	return states;
+}
+
+fn ray_stack__next_ray(reflected: ray_states__RayState, refracted: ray_states__RayState) -> ray_states__RayState {
+	let k = ray_stack__current_tree;
+	let count = wide__word_at(ray_stack__stack_counts, k);
+	let rays = wide__word_at(ray_stack__tree_rays, k) + 1u;
+	ray_stack__tree_rays = wide__word_set(ray_stack__tree_rays, k, rays);
+	record__sender = record__traced_index;
+	let sends_both = ray_states__is_alive(reflected) && ray_states__is_alive(refracted);
+	let goes_on = ray_states__is_alive(reflected) || ray_states__is_alive(refracted) || count > 0u;
+	if (goes_on && rays >= ray_stack__MAX_TREE_RAYS) {
+		ray_stack__cut_tree();
+		ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, 0u);
+		return ray_states__no_ray();
+	}
+	if (sends_both) {
+		let reflected_is_weaker = ray_stack__strength(reflected) < ray_stack__strength(refracted);
+		if (count == ray_entries__RAY_STACK_SIZE) {
+			ray_stack__cut_tree();
+			return ray_stack__choose(reflected, refracted, !reflected_is_weaker);
+		}
+		ray_stack__push(k, ray_stack__choose(reflected, refracted, !reflected_is_weaker));
+		return ray_stack__choose(reflected, refracted, reflected_is_weaker);
+	}
+	if (ray_states__is_alive(refracted)) {
+		return refracted;
+	}
+	if (ray_states__is_alive(reflected)) {
+		return reflected;
+	}
+	return ray_stack__pop(k);
+}
+
+fn ray_stack__cut_tree() {
+	ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);
+	ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
+}
+
+fn ray_stack__choose(reflected: ray_states__RayState, refracted: ray_states__RayState, first: bool) -> ray_states__RayState {
+	if (first) {
+		return reflected;
+	}
+	return refracted;
+}
+
+fn ray_stack__strength(state: ray_states__RayState) -> f32 {
+	return dot(state.throughput, vec3f(1.0));
+}
+
+fn ray_stack__push(k: u32, state: ray_states__RayState) {
+	let count = wide__word_at(ray_stack__stack_counts, k);
+	ray_entries__push_entry(ray_entries__Entry(vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving), vec4u(bitcast<vec3u>(state.ray.direction), ray_stack__step_and_instance(state)), vec4u(bitcast<vec3u>(state.throughput), state.node), state.media, state.cone), count);
+	ray_stack__stack_senders[count] = record__sender;
+	ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, count + 1u);
+}
+
+fn ray_stack__pop(k: u32) -> ray_states__RayState {
+	if (ray_stack__stack_counts == 0u) {
+		return ray_states__no_ray();
+	}
+	ray_stack__stack_counts -= 1u;
+	record__sender = ray_stack__stack_senders[ray_stack__stack_counts];
+	let entry = ray_entries__pop_entry(ray_stack__stack_counts);
+	return ray_stack__stored(bitcast<vec3f>(entry.r0.xyz), entry.r0.w, bitcast<vec3f>(entry.r1.xyz), entry.r1.w, bitcast<vec3f>(entry.r2.xyz), entry.r2.w, entry.media, entry.cone);
+}
+
+fn ray_stack__step_and_instance(state: ray_states__RayState) -> u32 {
+	return (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind;
+}
+
+fn ray_stack__stored(origin: vec3f, leaving: u32, direction: vec3f, place: u32, throughput: vec3f, node: u32, media: vec4u, cone: tracing__Cone) -> ray_states__RayState {
+	return ray_states__RayState(tracing__Ray(origin, camera__T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node, cone);
+}
+
 struct optics__ScatterEvent {
 	arriving: vec3f,
 	diffuse: vec3f,
@@ -3919,6 +3838,90 @@ fn tangent_space__surface_tangent(frame: mat3x3f, n: vec3f, flips: bool) -> vec4
 	let along = numeric__normalize_or(frame[0] - dot(frame[0], n) * n, vec3f(0.0));
 	let hand = select(-1.0, 1.0, (dot(cross(n, along), frame[1]) >= 0.0) != flips);
 	return vec4f(along, select(hand, 0.0, dot(along, along) == 0.0));
+}
+
+const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
+
+fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> tracing__Cone {
+	let camera = batch.camera;
+	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
+	let side = batch.footprint * max(sides.x, sides.y);
+	if (bindings__ORTHOGRAPHIC) {
+		return tracing__Cone(side, 0.0);
+	}
+	return tracing__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
+}
+
+fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
+	let e1 = corners[1] - corners[0];
+	let e2 = corners[2] - corners[0];
+	let d1 = uvs[1] - uvs[0];
+	let d2 = uvs[2] - uvs[0];
+	return mat2x2f(ray_cone__uv_along(axes[0], e1, e2, d1, d2), ray_cone__uv_along(axes[1], e1, e2, d1, d2));
+}
+
+fn footprint__shape_uv_footprint(shape: types__PackedShape, p: vec3f, axes: mat2x3f, part: f32) -> mat2x2f {
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		return mat2x2f(vec2f(dot(shape.row_x, axes[0]), dot(shape.row_z, axes[0])), vec2f(dot(shape.row_x, axes[1]), dot(shape.row_z, axes[1])));
+	}
+	var first = vec2f(0.0);
+	var ends = mat2x2f(first, first);
+	var k = 0u;
+	loop {
+		let at = select(select(p + axes[1], p + axes[0], k == 1u), p, k == 0u);
+		let uv = footprint__shape_uv(shape, at, part);
+		let way = uv - first - round(uv - first);
+		first = select(first, uv, k == 0u);
+		ends = mat2x2f(select(ends[0], way, k == 1u), select(ends[1], way, k == 2u));
+		continuing {
+			k += 1u;
+			break if k > 2u;
+		}
+	}
+	loops__cut_off |= k <= 2u;
+	return ends;
+}
+
+fn footprint__shape_uv(shape: types__PackedShape, p: vec3f, part: f32) -> vec2f {
+	if (!shape__is_round(shape.kind)) {
+		return shape__canonical_point(shape, p, part).uv;
+	}
+	if (shape__is_globe(shape.kind)) {
+		return canonical__sphere_uv(globe__globe_point(shape, p).ng);
+	}
+	return canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
+}
+
+fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) -> mat2x3f {
+	let rows = transpose(mat3x3f(instance.pattern_x.xyz, instance.pattern_y.xyz, instance.pattern_z.xyz));
+	return mat2x3f(rows * own[0], rows * own[1]);
+}
+
+fn footprint__with_shape_footprint(own: shading__Surface, ray: tracing__Ray, hit: tracing__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: tracing__Cone) -> shading__Surface {
+	var surface = own;
+	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
+	var local = axes;
+	var scale = 1.0;
+	if (bindings__HAS_INSTANCES && is_placed) {
+		local = mat2x3f(space.inverse * axes[0], space.inverse * axes[1]);
+		scale = length(instance__placed_normal(space, own.ng));
+	}
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
+	surface.footprint = shading__Footprint(in_uv, in_uv, axes);
+	if (shape__is_round(shape.kind)) {
+		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
+		surface.curvature = select(-curvature, curvature, own.outside);
+	}
+	return surface;
+}
+
+fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) -> f32 {
+	if (!(bindings__HAS_FOOTPRINTS && (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION))) {
+		return 0.0;
+	}
+	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
+	return select(-bend, bend, side < 0.0) / 3.0;
 }
 
 const ray_cone__MOST_TAPS: f32 = 8.0;

@@ -8,16 +8,12 @@ fn render(group: vec3u, lane: u32) {
 	var block = block__load_block(group);
 	var pixels = pixels__load_pixels(batch, block, lane);
 	var sample = batch.first_sample;
-	var trees = start_trees(batch, pixels__sample_rays(batch, pixels, sample));
+	var trees: Trees;
 	loop {
-		loop {
-			trees = traced(batch, trees, pixels.keys, sample);
-			continuing {
-			
-				break if bindings__REFILLS_LANES | !rays__any_lane(trees.are_unfinished);
-			}
+		if (!bindings__REFILLS_LANES | !trees.are_unfinished) {
+			trees = start_trees(batch, pixels__sample_rays(batch, pixels, sample));
 		}
-		loops__cut_off |= !bindings__REFILLS_LANES & trees.are_unfinished;
+		trees = followed(batch, trees, pixels.keys, sample);
 		if (!trees.are_unfinished) {
 			pixels = pixels__add_samples(pixels, sample, trees.radiance);
 			sample += 1u;
@@ -27,7 +23,6 @@ fn render(group: vec3u, lane: u32) {
 				pixels = pixels__load_pixels(batch, block, lane);
 				sample = batch.first_sample;
 			}
-			trees = start_trees(batch, pixels__sample_rays(batch, pixels, sample));
 		}
 		continuing {
 		
@@ -48,6 +43,19 @@ struct Trees {
 fn start_trees(batch: dispatch__Batch, rays: rays__Rays) -> Trees {
 	features__start_features();
 	return Trees(ray_stack__camera_states(batch, rays), wide__no_vectors(), true);
+}
+
+fn followed(batch: dispatch__Batch, before: Trees, keys: wide__Words, sample: u32) -> Trees {
+	var trees = before;
+	loop {
+		trees = traced(batch, trees, keys, sample);
+		continuing {
+		
+			break if bindings__REFILLS_LANES | !rays__any_lane(trees.are_unfinished);
+		}
+	}
+	loops__cut_off |= !bindings__REFILLS_LANES & trees.are_unfinished;
+	return trees;
 }
 
 fn traced(batch: dispatch__Batch, trees: Trees, keys: wide__Words, sample: u32) -> Trees {
@@ -1280,76 +1288,6 @@ var<private> loops__primitives_tested: u32 = 0u;
 
 var<private> loops__cut_off: bool = false;
 
-struct rays__Rays {
-	origin: wide__Vectors,
-	direction: wide__Vectors,
-	t_max: wide__Floats,
-	leaving: wide__Words,
-	leaving_instance: wide__Words
-}
-
-struct rays__Hits {
-	t: wide__Floats,
-	primitive: wide__Words,
-	b1: wide__Floats,
-	b2: wide__Floats,
-	instance: wide__Words
-}
-
-fn rays__rows_where(condition: bool) -> u32 {
-	return select(0u, 1u, condition);
-}
-
-fn rays__first_row(rows: u32) -> u32 {
-	{
-		return 0u;
-	}
-}
-
-fn rays__later_rows(rows: u32) -> u32 {
-	return rows & (rows - 1u);
-}
-
-const rays__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
-
-fn rays__dead_rays() -> rays__Rays {
-	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
-}
-
-fn rays__ray_at(rays: rays__Rays, k: u32) -> tracing__Ray {
-	return tracing__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
-}
-
-fn rays__ray_set(rays: rays__Rays, k: u32, ray: tracing__Ray) -> rays__Rays {
-	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
-}
-
-fn rays__hit_at(hits: rays__Hits, k: u32) -> tracing__Hit {
-	return tracing__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
-}
-
-fn rays__hits_of(hit: tracing__Hit) -> rays__Hits {
-	return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
-}
-
-fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
-	}
-}
-
-fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
-	}
-}
-
-fn rays__any_lane(condition: bool) -> bool {
-	{
-		return condition;
-	}
-}
-
 const ray_states__KIND_PRIMARY: u32 = 0u;
 
 const ray_states__KIND_REFLECTED: u32 = 1u;
@@ -1422,6 +1360,76 @@ fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_st
 
 fn ray_states__no_ray() -> ray_states__RayState {
 	return ray_states__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, tracing__Cone(0.0, 0.0));
+}
+
+struct rays__Rays {
+	origin: wide__Vectors,
+	direction: wide__Vectors,
+	t_max: wide__Floats,
+	leaving: wide__Words,
+	leaving_instance: wide__Words
+}
+
+struct rays__Hits {
+	t: wide__Floats,
+	primitive: wide__Words,
+	b1: wide__Floats,
+	b2: wide__Floats,
+	instance: wide__Words
+}
+
+fn rays__rows_where(condition: bool) -> u32 {
+	return select(0u, 1u, condition);
+}
+
+fn rays__first_row(rows: u32) -> u32 {
+	{
+		return 0u;
+	}
+}
+
+fn rays__later_rows(rows: u32) -> u32 {
+	return rows & (rows - 1u);
+}
+
+const rays__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
+
+fn rays__dead_rays() -> rays__Rays {
+	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
+}
+
+fn rays__ray_at(rays: rays__Rays, k: u32) -> tracing__Ray {
+	return tracing__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
+}
+
+fn rays__ray_set(rays: rays__Rays, k: u32, ray: tracing__Ray) -> rays__Rays {
+	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
+}
+
+fn rays__hit_at(hits: rays__Hits, k: u32) -> tracing__Hit {
+	return tracing__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
+}
+
+fn rays__hits_of(hit: tracing__Hit) -> rays__Hits {
+	return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
+}
+
+fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
+	{
+		return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
+	}
+}
+
+fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
+	{
+		return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
+	}
+}
+
+fn rays__any_lane(condition: bool) -> bool {
+	{
+		return condition;
+	}
 }
 
 struct features__Features {

@@ -84,6 +84,7 @@ pub fn name(storage: Storage) -> &'static str {
 }
 
 /// What the environment says.
+#[derive(Clone, Copy)]
 enum Wish {
     Auto,
     Off,
@@ -95,18 +96,21 @@ enum Wish {
 /// # Errors
 /// The environment variable has an unknown value.
 pub fn known(gpu: &Gpu) -> Result<Tuning, AppError> {
+    Ok(known_by(wish()?, gpu))
+}
+
+fn known_by(wish: Wish, gpu: &Gpu) -> Tuning {
     let usual = Tuning {
         storage: Storage::usual(gpu),
         reason: Reason::DeviceType,
         seconds: 0.0,
         times: None,
     };
-    let wish = wish()?;
     let entry = match wish {
         Wish::Auto => file().and_then(|file| Entry::find(&file, gpu)),
         Wish::Off | Wish::Storage(_) => None,
     };
-    Ok(match (wish, entry) {
+    match (wish, entry) {
         (Wish::Storage(storage), _) => Tuning {
             storage,
             reason: Reason::Environment,
@@ -119,7 +123,7 @@ pub fn known(gpu: &Gpu) -> Result<Tuning, AppError> {
             ..usual
         },
         _ => usual,
-    })
+    }
 }
 
 /// The policy with the choice for an adapter, without measuring.
@@ -138,12 +142,13 @@ pub fn with_known(gpu: &Gpu, policy: ExecutionPolicy) -> Result<ExecutionPolicy,
 /// # Errors
 /// As [`known`]. If measuring fails or takes too long, the kind of the adapter decides.
 pub fn tuned(gpu: &Gpu, rays: u64) -> Result<Tuning, AppError> {
-    let known = known(gpu)?;
+    let wish = wish()?;
+    let known = known_by(wish, gpu);
     let least = match gpu.is_cpu() {
         true => MIN_RAYS_ON_CPU,
         false => MIN_RAYS,
     };
-    let may_measure = known.reason == Reason::DeviceType && matches!(wish()?, Wish::Auto);
+    let may_measure = known.reason == Reason::DeviceType && matches!(wish, Wish::Auto);
     if !may_measure || rays < least {
         return Ok(known);
     }

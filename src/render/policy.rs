@@ -71,7 +71,7 @@ pub enum Storage {
 }
 
 impl Storage {
-    /// What is usually faster on an adapter of this kind. Software adapters read images twice as fast.
+    /// What is usually faster on an adapter of this kind. Software adapters read images faster.
     pub fn usual(gpu: &Gpu) -> Self {
         match gpu.is_cpu() {
             true => Self::Image,
