@@ -5,6 +5,7 @@ pub mod advice;
 pub mod clock;
 pub mod console;
 pub mod error;
+pub mod folders;
 pub mod inputs;
 #[cfg(feature = "viewer")]
 pub mod layer_picture;

@@ -125,6 +125,7 @@ pub mod layout;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod output;
 pub mod pack;
+mod random;
 pub mod render;
 pub mod scene;
 pub mod threads;

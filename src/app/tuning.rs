@@ -1,9 +1,9 @@
 //! Where kernels read the scene from: as the environment says, otherwise as was measured on this adapter before, otherwise
 //! as a measurement says if the work is worth it, otherwise by the kind of the adapter. Measurements are kept in
-//! `adapters.toml` in the platform's cache folder, or in the one that the environment variable `GLIMRAY_CACHE` names.
+//! `adapters.toml` in the cache folder ([`folders::cache`]).
 //! That file only saves time: whatever is wrong with it or its folder is ignored.
 
-use super::error::AppError;
+use super::{error::AppError, folders};
 use crate::clock::Instant;
 use crate::gpu::Gpu;
 use crate::output;
@@ -14,9 +14,6 @@ use std::{env, fs};
 
 /// The environment variable that chooses: `image`, `buffer`, `off` for the adapter's kind, or `auto`, the default.
 pub const VARIABLE: &str = "GLIMRAY_FETCH";
-
-/// The environment variable that overrides the cache folder.
-pub const FOLDER_VARIABLE: &str = "GLIMRAY_CACHE";
 
 /// The name of the file.
 const FILE: &str = "adapters.toml";
@@ -187,13 +184,7 @@ fn wish() -> Result<Wish, AppError> {
 
 /// The file of measurements; `None` if the platform has no cache folder.
 fn file() -> Option<PathBuf> {
-    let named = env::var_os(FOLDER_VARIABLE).filter(|folder| !folder.is_empty());
-    let platform = || {
-        directories::ProjectDirs::from("", "", "glimray")
-            .map(|folders| folders.cache_dir().to_owned())
-    };
-    let folder = named.map(PathBuf::from).or_else(platform)?;
-    Some(folder.join(FILE))
+    Some(folders::cache()?.join(FILE))
 }
 
 /// The contents of the file.

@@ -8,6 +8,13 @@
 //! - `LP_NATIVE_VECTOR_WIDTH` is the width in bits of the vectors in which lavapipe executes shaders. It takes 256
 //!   unless told otherwise, also where the processor has 512 (AVX-512). With 512, Mesa 22.3 crashes as soon as it
 //!   draws: so compute kernels have 512, and the window 256.
+//! - `MESA_SHADER_CACHE_DIR` names a folder of their own for kernels of 512 bits. Mesa's cache does not distinguish the
+//!   widths, so a kernel that the window has compiled would stay at 256.
+
+#[cfg(target_os = "linux")]
+use crate::app::folders;
+#[cfg(target_os = "linux")]
+use std::ffi::OsString;
 
 /// Replaces this process by one with the variables that are missing. Returns if there are none, or if the program
 /// cannot be executed again. Variables that are set stay as they are, but for a width with which the window would
@@ -22,9 +29,17 @@ pub fn set_environment(opens_window: bool) {
         Some("512") if opens_window => Some("256"),
         _ => None,
     };
+    let cache = match value("MESA_SHADER_CACHE_DIR") {
+        None if width == Some("512") => wide_cache(),
+        _ => None,
+    };
     let wanted = [
-        ("NODEVICE_SELECT", has_no_session.then_some("1")),
-        ("LP_NATIVE_VECTOR_WIDTH", width),
+        (
+            "NODEVICE_SELECT",
+            has_no_session.then(|| OsString::from("1")),
+        ),
+        ("LP_NATIVE_VECTOR_WIDTH", width.map(OsString::from)),
+        ("MESA_SHADER_CACHE_DIR", cache),
     ];
     let missing: Vec<_> = (wanted.into_iter())
         .filter_map(|(name, value)| Some((name, value?)))
@@ -42,6 +57,15 @@ pub fn set_environment(opens_window: bool) {
     }
     // Returns only on failure. The message, or the lower speed, is then acceptable.
     let _ = again.args(arguments).envs(missing).exec();
+}
+
+/// The folder of kernels for vectors of 512 bits. Mesa would print a message if it could not be created; without it the
+/// widths share Mesa's own folder.
+#[cfg(target_os = "linux")]
+fn wide_cache() -> Option<OsString> {
+    let folder = folders::platform_cache()?.join("mesa-512-bits");
+    std::fs::create_dir_all(&folder).ok()?;
+    Some(folder.into())
 }
 
 /// Other systems have no such layer, and no lavapipe.

@@ -7,6 +7,7 @@ use crate::{
     clock::Instant,
     gpu::Gpu,
     pack,
+    random::SplitMix64,
     scene::{Camera, Instance, Material, Mesh, Scene},
 };
 use glam::{DAffine3, DVec3, Vec3, dvec3};
@@ -147,7 +148,7 @@ fn rays(side: u32) -> Vec<QueryRay> {
         let target = dvec3(at(index % side), 0.0, at(index / side));
         QueryRay::new(eye, (target - eye).normalize().as_vec3())
     });
-    let mut random = Random(1);
+    let mut random = SplitMix64::new(1);
     let bounced = (0..count).map(|_| {
         let (x, z) = (random.unit() - 0.5, random.unit() - 0.5);
         let (up, turn) = (random.unit(), TAU * random.unit());
@@ -157,17 +158,4 @@ fn rays(side: u32) -> Vec<QueryRay> {
         QueryRay::new(origin, direction.as_vec3())
     });
     seen.chain(bounced).collect()
-}
-
-/// SplitMix64 (Steele et al. 2014).
-struct Random(u64);
-
-impl Random {
-    /// Uniform in [0, 1).
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }

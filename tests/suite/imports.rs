@@ -14,17 +14,18 @@ use std::{
 const MODULES: &[(&str, &[&str])] = &[
     ("scene", &["threads"]),
     ("clock", &[]),
+    ("random", &[]),
     ("image", &[]),
     ("layout", &[]),
     ("gpu", &[]),
     ("threads", &[]),
     ("bvh", &["threads"]),
-    ("import", &["scene", "threads"]),
+    ("import", &["random", "scene", "threads"]),
     ("export", &["scene"]),
     ("pack", &["clock", "scene", "bvh", "layout"]),
     (
         "render",
-        &["clock", "scene", "pack", "layout", "gpu", "image"],
+        &["clock", "random", "scene", "pack", "layout", "gpu", "image"],
     ),
     ("output", &["image"]),
     (
@@ -41,8 +42,8 @@ const MODULES: &[(&str, &[&str])] = &[
 
 /// What the command line and the window may use: everything but each other.
 const ABOVE_APP: &[&str] = &[
-    "app", "bvh", "clock", "scene", "image", "layout", "gpu", "import", "export", "pack", "render",
-    "output",
+    "app", "bvh", "clock", "random", "scene", "image", "layout", "gpu", "import", "export", "pack",
+    "render", "output",
 ];
 
 /// What each tier of `shaders/` may import.

@@ -1,29 +1,27 @@
-//! Random numbers that are the same on every machine.
+//! Random numbers, points and directions of scenes and rays.
 
+use crate::random::{GAMMA, SplitMix64, mixed};
 use glam::{DVec3, dvec3};
 
-/// A sequence of random numbers (SplitMix64 by Steele and Vigna). Results are computed with operations that
-/// IEEE 754 rounds correctly, without functions of a mathematics library.
+/// A sequence of random numbers. Results are computed with operations that IEEE 754 rounds correctly, without
+/// functions of a mathematics library.
 #[derive(Clone, Debug)]
-pub struct Random(u64);
-
-const GAMMA: u64 = 0x9E37_79B9_7F4A_7C15;
+pub struct Random(SplitMix64);
 
 impl Random {
     /// The sequence with this seed.
     pub fn new(seed: u64) -> Self {
-        Self(seed)
+        Self(SplitMix64::new(seed))
     }
 
     /// The sequence for item `index` of a series. Sequences of different items are independent.
     pub fn of(series: u64, index: u64) -> Self {
-        Self(mixed(mixed(series.wrapping_add(GAMMA)).wrapping_add(index)))
+        Self::new(mixed(mixed(series.wrapping_add(GAMMA)).wrapping_add(index)))
     }
 
     /// A number in 0..1.
     pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(GAMMA);
-        (mixed(self.0) >> 11) as f64 / (1_u64 << 53) as f64
+        self.0.unit()
     }
 
     /// A number in `low..high`.
@@ -54,13 +52,6 @@ impl Random {
         let sum = normal + self.direction();
         sum.try_normalize().unwrap_or(normal)
     }
-}
-
-/// A bijection that changes about half of the bits when one bit of its argument changes.
-fn mixed(bits: u64) -> u64 {
-    let bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    bits ^ (bits >> 31)
 }
 
 /// About sin(2π `turns`), within 0.001: a parabola with a correction.

@@ -5,6 +5,7 @@ use super::file::{GridTable, PointsTable, RepeatTable, RingTable, ScatterTable};
 use crate::import::error::ImportError;
 use crate::import::paths::Files;
 use crate::import::{MAX_GEOMETRY_BYTES, ply};
+use crate::random::{GAMMA, mixed, unit};
 use crate::scene::Transform;
 use glam::{DAffine3, DQuat, DVec3};
 use std::f64::consts::TAU;
@@ -139,16 +140,10 @@ fn scatter(table: &ScatterTable, index: u64) -> DAffine3 {
     transform.affine()
 }
 
-/// A random number in [0, 1) for each seed and index: SplitMix64 (Steele, Lea and Flood 2014) of both, so
-/// that each can be computed without those before it.
+/// A random number in [0, 1) for each seed and index: SplitMix64 of both, so that
+/// each can be computed without those before it.
 fn random(seed: u64, index: u64) -> f64 {
-    const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
-    let mix = |z: u64| {
-        let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    };
-    let stream = mix(seed.wrapping_add(1).wrapping_mul(GAMMA));
-    let bits = mix(stream.wrapping_add(index.wrapping_add(1).wrapping_mul(GAMMA)));
-    (bits >> 11) as f64 / (1_u64 << 53) as f64
+    let stream = mixed(seed.wrapping_add(1).wrapping_mul(GAMMA));
+    let bits = mixed(stream.wrapping_add(index.wrapping_add(1).wrapping_mul(GAMMA)));
+    unit(bits)
 }

@@ -6,6 +6,7 @@ mod saved_camera;
 
 pub use saved_camera::SavedCamera;
 
+use crate::app::folders::{self, SETTINGS_VARIABLE};
 use crate::output::{self, OutputError};
 use crate::scene::ToneCurve;
 use crate::viewer::model::bindings::Bindings;
@@ -13,7 +14,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::{env, fs, io};
+use std::{fs, io};
 
 /// The name of the file.
 const FILE: &str = "viewer.toml";
@@ -23,9 +24,6 @@ pub const MAX_RECENT: usize = 12;
 
 /// Maximum number of bookmarks per scene; the oldest is dropped.
 pub const MAX_CAMERAS: usize = 100;
-
-/// The environment variable that overrides the settings folder.
-pub const FOLDER_VARIABLE: &str = "GLIMRAY_SETTINGS";
 
 /// Scales of the interface.
 const SCALES: [f32; 12] = [
@@ -186,12 +184,12 @@ impl Preferences {
 pub enum PreferencesError {
     /// The platform has no settings folder.
     #[error(
-        "cannot save the settings: there is no home folder. Name a folder in {FOLDER_VARIABLE}."
+        "cannot save the settings: there is no home folder. Name a folder in {SETTINGS_VARIABLE}."
     )]
     NoFolder,
     /// The folder cannot be created, or the old file cannot be renamed.
     #[error(
-        "cannot save the settings ({}): {}. Make the folder writable, or name another one in {FOLDER_VARIABLE}.",
+        "cannot save the settings ({}): {}. Make the folder writable, or name another one in {SETTINGS_VARIABLE}.",
         path.display(),
         output::reason(source)
     )]
@@ -203,7 +201,7 @@ pub enum PreferencesError {
     },
     /// The existing file can be neither read nor renamed, and must not be lost.
     #[error(
-        "cannot save the settings ({}): the existing file cannot be read and is not replaced. Make it readable, or name another folder in {FOLDER_VARIABLE}.",
+        "cannot save the settings ({}): the existing file cannot be read and is not replaced. Make it readable, or name another folder in {SETTINGS_VARIABLE}.",
         path.display()
     )]
     Unread {
@@ -228,13 +226,8 @@ pub struct Store {
 impl Store {
     /// The file in the folder that the environment names, else in the platform's folder.
     pub fn of_this_system() -> Self {
-        let named = env::var_os(FOLDER_VARIABLE).filter(|folder| !folder.is_empty());
-        let platform = || {
-            directories::ProjectDirs::from("", "", "glimray")
-                .map(|folders| folders.config_dir().to_owned())
-        };
         Self {
-            folder: named.map(PathBuf::from).or_else(platform),
+            folder: folders::settings(),
             written: None,
             is_unread: false,
         }

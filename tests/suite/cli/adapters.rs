@@ -3,6 +3,7 @@
 use crate::support::program::{Run, Workspace};
 use crate::support::skip::{Need, skip};
 use serde_json::Value;
+use std::path::Path;
 
 #[cfg(target_os = "linux")]
 #[test]
@@ -132,4 +133,45 @@ fn lavapipe_takes_the_widest_vectors_unless_told_otherwise() {
     };
     let chosen = name(None).expect("an adapter");
     assert!(chosen.contains(widest), "{chosen}");
+}
+
+/// Mesa's cache does not distinguish the widths of vectors, so kernels of 512 bits have a folder of their own.
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+#[test]
+fn wide_kernels_have_a_shader_cache_of_their_own() {
+    let workspace = Workspace::new();
+    let caches = workspace.path("caches");
+    let wide = caches.join("glimray/mesa-512-bits");
+    let run = |variables: &[(&str, &Path)]| {
+        let mut command = workspace.command("render a.scene --size 8x6 --quiet");
+        command
+            .env_remove("LP_NATIVE_VECTOR_WIDTH")
+            .env_remove("MESA_SHADER_CACHE_DIR")
+            .env("XDG_CACHE_HOME", &caches)
+            .envs(variables.iter().copied());
+        let run = Run::from(command.output().expect("glimray runs")).expect(0);
+        assert_eq!(run.stderr, "");
+    };
+    let is_used =
+        |folder: &Path| std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
+    let own = workspace.path("own");
+    run(&[("LP_NATIVE_VECTOR_WIDTH", Path::new("256"))]);
+    run(&[("MESA_SHADER_CACHE_DIR", &own)]);
+    assert!(!wide.exists());
+    assert!(!is_lavapipe(&workspace) || is_used(&own));
+
+    run(&[]);
+    let has_wide_vectors = std::arch::is_x86_feature_detected!("avx512vl");
+    assert_eq!(is_used(&wide), has_wide_vectors && is_lavapipe(&workspace));
+
+    // A folder that cannot be created is no reason for a message.
+    std::fs::create_dir(workspace.path("blocked")).expect("a folder");
+    workspace.write("blocked/glimray", "a file");
+    run(&[("XDG_CACHE_HOME", &workspace.path("blocked"))]);
+}
+
+fn is_lavapipe(workspace: &Workspace) -> bool {
+    let doctor = workspace.run("doctor --json").json();
+    let name = doctor["adapters"][0]["name"].as_str();
+    name.is_some_and(|name| name.contains("llvmpipe"))
 }
