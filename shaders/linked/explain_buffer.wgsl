@@ -207,6 +207,10 @@ override bindings__SOLID_GLASS: bool = false;
 
 override bindings__HAS_AREA_LIGHTS: bool = true;
 
+override bindings__LIGHT_KIND: u32 = types__MIXED_LIGHTS;
+
+override bindings__LIGHT_ATTENUATION: u32 = types__MIXED_LIGHTS;
+
 override bindings__HAS_LENS: bool = true;
 
 override bindings__FILTER: u32 = types__FILTER_BOX;
@@ -246,6 +250,8 @@ override bindings__HAS_EMISSION: bool = true;
 override bindings__HAS_LAYERS: bool = false;
 
 override bindings__CLAMP_INDIRECT: f32 = 0.0;
+
+override bindings__HAS_METALLIC_ROUGHNESS: bool = true;
 
 override bindings__HAS_COATINGS: bool = false;
 
@@ -334,6 +340,8 @@ const types__LIGHT_SPOT: u32 = 2u;
 const types__LIGHT_RECTANGLE: u32 = 3u;
 
 const types__LIGHT_SPHERE: u32 = 5u;
+
+const types__MIXED_LIGHTS: u32 = 4294967295u;
 
 const types__ATTENUATION_INVERSE_SQUARE: u32 = 1u;
 
@@ -1601,12 +1609,22 @@ fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
 }
 
 fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
+	var light: types__PackedLight;
 	if (bindings__LIGHT_MOTION) {
 		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
 		let place = moment.key * light_count + index;
-		return motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
+		light = motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
 	}
-	return fetch__load_light(index);
+	else {
+		light = fetch__load_light(index);
+	}
+	if (bindings__LIGHT_KIND != types__MIXED_LIGHTS) {
+		light.kind = bindings__LIGHT_KIND;
+	}
+	if (bindings__LIGHT_ATTENUATION != types__MIXED_LIGHTS) {
+		light.attenuation = bindings__LIGHT_ATTENUATION;
+	}
+	return light;
 }
 
 struct motion__Moment {
@@ -4149,7 +4167,7 @@ fn layers__layers_at(surface: shading__Surface, optics: shading__Optics) -> laye
 		loops__cut_off |= rest != 0u;
 	}
 	var layers: layers__Layers;
-	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
+	if (bindings__HAS_METALLIC_ROUGHNESS && (optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
 		layers = layers__metallic_roughness(own);
 	}
 	else {

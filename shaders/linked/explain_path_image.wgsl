@@ -215,6 +215,10 @@ override bindings__SOLID_GLASS: bool = false;
 
 override bindings__HAS_AREA_LIGHTS: bool = true;
 
+override bindings__LIGHT_KIND: u32 = types__MIXED_LIGHTS;
+
+override bindings__LIGHT_ATTENUATION: u32 = types__MIXED_LIGHTS;
+
 override bindings__HAS_LENS: bool = true;
 
 override bindings__FILTER: u32 = types__FILTER_BOX;
@@ -254,6 +258,10 @@ override bindings__HAS_EMISSION: bool = true;
 override bindings__HAS_LAYERS: bool = false;
 
 override bindings__CLAMP_INDIRECT: f32 = 0.0;
+
+override bindings__HAS_GLOSS: bool = true;
+
+override bindings__HAS_METALLIC_ROUGHNESS: bool = true;
 
 override bindings__HAS_COATINGS: bool = false;
 
@@ -364,6 +372,8 @@ const types__LIGHT_RECTANGLE: u32 = 3u;
 const types__LIGHT_DISC: u32 = 4u;
 
 const types__LIGHT_SPHERE: u32 = 5u;
+
+const types__MIXED_LIGHTS: u32 = 4294967295u;
 
 const types__ATTENUATION_INVERSE_SQUARE: u32 = 1u;
 
@@ -1276,6 +1286,15 @@ fn albedo__ggx_albedo(cos_o: f32, alpha: f32) -> vec2f {
 	return albedo__ggx_factors(albedo__blended(albedo__ggx_lookup(cos_o, alpha)), cos_o);
 }
 
+fn albedo__stretched_albedo(wo: vec3f, alpha: vec2f) -> vec2f {
+	let place = albedo__stretched_slice(wo, alpha);
+	let slice = min(vec2u(place), vec2u(albedo__STRETCHED_SIDE - 2u));
+	let part = place - vec2f(slice);
+	let at_azimuth = mix(albedo__blended(albedo__stretched_lookup(slice, wo, alpha)), albedo__blended(albedo__stretched_lookup(slice + vec2u(1u, 0u), wo, alpha)), part.x);
+	let at_next = mix(albedo__blended(albedo__stretched_lookup(slice + vec2u(0u, 1u), wo, alpha)), albedo__blended(albedo__stretched_lookup(slice + vec2u(1u, 1u), wo, alpha)), part.x);
+	return albedo__ggx_factors(mix(at_azimuth, at_next, part.y), wo.z);
+}
+
 fn albedo__sheen_albedo(cos_o: f32, alpha: f32) -> vec2f {
 	return albedo__blended(albedo__sheen_lookup(cos_o, alpha));
 }
@@ -1857,12 +1876,22 @@ fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
 }
 
 fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
+	var light: types__PackedLight;
 	if (bindings__LIGHT_MOTION) {
 		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
 		let place = moment.key * light_count + index;
-		return motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
+		light = motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
 	}
-	return fetch__load_light(index);
+	else {
+		light = fetch__load_light(index);
+	}
+	if (bindings__LIGHT_KIND != types__MIXED_LIGHTS) {
+		light.kind = bindings__LIGHT_KIND;
+	}
+	if (bindings__LIGHT_ATTENUATION != types__MIXED_LIGHTS) {
+		light.attenuation = bindings__LIGHT_ATTENUATION;
+	}
+	return light;
 }
 
 struct motion__Moment {
@@ -2985,7 +3014,7 @@ fn layers__layers_at(surface: shading__Surface, optics: shading__Optics) -> laye
 		loops__cut_off |= rest != 0u;
 	}
 	var layers: layers__Layers;
-	if ((optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
+	if (bindings__HAS_METALLIC_ROUGHNESS && (optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
 		layers = layers__metallic_roughness(own);
 	}
 	else {
@@ -4186,28 +4215,26 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f3
 	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || source.is_emitter)) {
 		return emitters__sample_emitter(p, source, u);
 	}
-	let light = shutter__shutter_light(source.index, batch.light_count);
-	var arriving = light__incident(light, p);
-	var pdf = 0.0;
-	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
-		arriving = emitters__lamp_incident(light, p, u);
-		if (light_weight__can_be_hit(light)) {
-			pdf = source.chance * spherical_rectangle__solid_density(light, p, arriving.direction, arriving.distance);
-		}
-	}
-	arriving.radiance *= select(0.0, warp__PI / max(source.chance, 1e-30), source.chance > 0.0);
-	return emitters__LightSample(arriving, pdf);
+	var found = emitters__sample_lamp(shutter__shutter_light(source.index, batch.light_count), p, u);
+	found.incident.radiance *= select(0.0, warp__PI / max(source.chance, 1e-30), source.chance > 0.0);
+	found.pdf *= source.chance;
+	return found;
 }
 
-fn emitters__lamp_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> shading__Incident {
+fn emitters__sample_lamp(light: types__PackedLight, p: vec3f, u: vec2f) -> emitters__LightSample {
+	if (!(bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE)) {
+		return emitters__LightSample(light__incident(light, p), 0.0);
+	}
 	if (light.kind != types__LIGHT_RECTANGLE || light.attenuation != types__ATTENUATION_INVERSE_SQUARE) {
-		return area_light__area_incident(light, p, u);
+		let arriving = area_light__area_incident(light, p, u);
+		let pdf = area_light__area_density(light, p, arriving.direction, arriving.distance);
+		return emitters__LightSample(arriving, select(0.0, pdf, light_weight__can_be_hit(light)));
 	}
 	let found = spherical_rectangle__solid_sample(light, p, u);
 	let cosine = -dot(found.direction, light.direction);
 	let strength = select(0.0, 1.0 / max(emissive_shape__area_of(light) * found.pdf, 1e-30), cosine > 0.0);
 	let reach = numeric__max_component(abs(light.position)) + numeric__max_component(abs(p));
-	return shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), strength * light.color);
+	return emitters__LightSample(shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), strength * light.color), select(0.0, found.pdf, light_weight__can_be_hit(light)));
 }
 
 fn emitters__sample_emitter(p: vec3f, source: light_choice__Source, u: vec2f) -> emitters__LightSample {
@@ -4826,18 +4853,24 @@ const albedo__GLASS_SLICES: u32 = 36u;
 
 const albedo__GLASS_CLEAR: f32 = 12.0;
 
+const albedo__STRETCHED_ALBEDO: u32 = 29696u;
+
+const albedo__STRETCHED_SIZE: vec2u = vec2u(16u, 12u);
+
+const albedo__STRETCHED_SIDE: u32 = 6u;
+
 struct albedo__AlbedoLookup {
 	words: vec4u,
 	weights: vec4f
 }
 
-fn albedo__entries_around(first: u32, rows: u32, place: vec2f) -> albedo__AlbedoLookup {
-	let last = vec2f(f32(albedo__ALBEDO_SIDE - 1u), f32(rows - 1u));
+fn albedo__entries_around(first: u32, size: vec2u, place: vec2f) -> albedo__AlbedoLookup {
+	let last = vec2f(size - 1u);
 	let cell = min(floor(last * place), last - 1.0);
 	let part = last * place - cell;
-	let corner = first + u32(cell.y) * albedo__ALBEDO_SIDE + u32(cell.x);
+	let corner = first + u32(cell.y) * size.x + u32(cell.x);
 	let of_rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
-	return albedo__AlbedoLookup(vec4u(corner, corner + 1u, corner + albedo__ALBEDO_SIDE, corner + albedo__ALBEDO_SIDE + 1u), of_rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
+	return albedo__AlbedoLookup(vec4u(corner, corner + 1u, corner + size.x, corner + size.x + 1u), of_rows * vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x));
 }
 
 fn albedo__facet_place(cos_o: f32, alpha: f32) -> vec2f {
@@ -4847,7 +4880,19 @@ fn albedo__facet_place(cos_o: f32, alpha: f32) -> vec2f {
 }
 
 fn albedo__ggx_lookup(cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
-	return albedo__entries_around(albedo__GGX_ALBEDO, albedo__ALBEDO_SIDE, albedo__facet_place(cos_o, alpha));
+	return albedo__entries_around(albedo__GGX_ALBEDO, vec2u(albedo__ALBEDO_SIDE), albedo__facet_place(cos_o, alpha));
+}
+
+fn albedo__stretched_slice(wo: vec3f, alpha: vec2f) -> vec2f {
+	let away_from_x = 1.0 - abs(wo.x) / max(length(wo.xy), 1e-9);
+	return f32(albedo__STRETCHED_SIDE - 1u) * clamp(vec2f(sqrt(alpha.y / alpha.x), away_from_x), vec2f(0.0), vec2f(1.0));
+}
+
+fn albedo__stretched_lookup(slice: vec2u, wo: vec3f, alpha: vec2f) -> albedo__AlbedoLookup {
+	let first = albedo__STRETCHED_ALBEDO + (slice.y * albedo__STRETCHED_SIDE + slice.x) * albedo__STRETCHED_SIZE.x * albedo__STRETCHED_SIZE.y;
+	let along = length(alpha * wo.xy) / max(length(wo.xy), 1e-9);
+	let place = vec2f(albedo__facet_place(wo.z, along).x, albedo__facet_place(wo.z, alpha.x).y);
+	return albedo__entries_around(first, albedo__STRETCHED_SIZE, place);
 }
 
 fn albedo__ggx_factors(entry: vec2f, cos_o: f32) -> vec2f {
@@ -4857,7 +4902,7 @@ fn albedo__ggx_factors(entry: vec2f, cos_o: f32) -> vec2f {
 
 fn albedo__sheen_lookup(cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
 	let place = sqrt(sqrt(clamp(vec2f(cos_o, alpha), vec2f(0.0), vec2f(1.0))));
-	return albedo__entries_around(albedo__SHEEN_ALBEDO, albedo__ALBEDO_SIDE, place);
+	return albedo__entries_around(albedo__SHEEN_ALBEDO, vec2u(albedo__ALBEDO_SIDE), place);
 }
 
 fn albedo__glass_slice(eta: f32) -> f32 {
@@ -4867,7 +4912,7 @@ fn albedo__glass_slice(eta: f32) -> f32 {
 }
 
 fn albedo__glass_lookup(slice: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
-	return albedo__entries_around(albedo__GLASS_ALBEDO + slice * albedo__GLASS_ROWS * albedo__ALBEDO_SIDE, albedo__GLASS_ROWS, albedo__facet_place(cos_o, alpha));
+	return albedo__entries_around(albedo__GLASS_ALBEDO + slice * albedo__GLASS_ROWS * albedo__ALBEDO_SIDE, vec2u(albedo__ALBEDO_SIDE, albedo__GLASS_ROWS), albedo__facet_place(cos_o, alpha));
 }
 
 fn albedo__glass_factors(entry: vec2f, cos_o: f32, eta: f32) -> vec2f {
@@ -5097,31 +5142,22 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 		bsdf.f0 = mix(bsdf.f0, inside * film, layers.film);
 		over = mix(over, film, layers.film * numeric__max_component(layers.over_f90));
 	}
-	let mean_alpha = sqrt(bsdf.alpha.x * bsdf.alpha.y);
-	let albedo = albedo__ggx_albedo(bsdf.wo.z, mean_alpha);
-	let covered = inside * (1.0 - layers.metallic);
-	let beside = max(bsdf.f0 - covered * over, vec3f(0.0));
-	let beside_f90 = max(bsdf.f90 - covered * layers.over_f90, vec3f(0.0));
-	let part = 1.0 / max(layers.metallic, 1e-6);
-	let of_metal = lobes__scattered_often(min(part * beside, vec3f(1.0)), min(part * beside_f90, vec3f(1.0)), albedo);
-	let over_glossy = lobes__scattered_often(over, layers.over_f90, albedo) * (albedo.x * over + albedo.y * layers.over_f90);
-	let glossy = covered * over_glossy + of_metal * (albedo.x * beside + albedo.y * beside_f90);
-	let boost = glossy / max(albedo.x * bsdf.f0 + albedo.y * bsdf.f90, vec3f(1e-9));
+	let gloss = gloss__gloss_at(layers, bsdf.f0, bsdf.f90, over, inside, bsdf.wo, bsdf.alpha);
 	bsdf.boundary_gain = 1.0;
 	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && bsdf.boundary_alpha.x >= layers__SMOOTH) {
-		let glass = albedo__glass_albedo(bsdf.wo.z, mean_alpha, bsdf.eta);
-		bsdf.boundary_gain = 1.0 / max(select(albedo.x + albedo.y, glass.x, bsdf.bends), 0.001);
+		let glass = albedo__glass_albedo(bsdf.wo.z, sqrt(bsdf.alpha.x * bsdf.alpha.y), bsdf.eta);
+		bsdf.boundary_gain = 1.0 / max(select(gloss.albedo.x + gloss.albedo.y, glass.x, bsdf.bends), 0.001);
 		if (bsdf.bends) {
 			seen = lobes__Split(glass.y * bsdf.reflect, (1.0 - glass.y) * bsdf.transmit);
 		}
 	}
-	var left = 1.0 - numeric__max_component(over_glossy);
+	var left = 1.0 - numeric__max_component(gloss.over);
 	if ((optics.flags & types__MATERIAL_SUM) == 0u) {
 		left *= optics.opacity * (1.0 - numeric__max_component(seen.reflect));
 	}
 	bsdf.diffuse = (inside * max(left, 0.0)) * layers.diffuse;
 	let whole = select(bsdf.diffuse, inside * layers.diffuse, bindings__BSDF_SPEC && (optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u);
-	var scale = 1.0 / max(numeric__max_component(bsdf.diffuse + glossy + seen.reflect + seen.transmit), 1.0);
+	var scale = 1.0 / max(numeric__max_component(bsdf.diffuse + gloss.whole + seen.reflect + seen.transmit), 1.0);
 	if (bindings__HAS_COATINGS) {
 		bsdf.coating = coating__coating_at(layers, bsdf.wo, lobes__coat_axis(bsdf, surface));
 		bsdf.coating.albedos *= inside;
@@ -5133,21 +5169,14 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 		bsdf.diffuse = whole;
 	}
 	bsdf.diffuse *= scale;
-	bsdf.gain = scale * boost;
+	bsdf.gain = scale * gloss.boost;
 	bsdf.reflect *= scale;
 	bsdf.transmit *= scale;
-	let weights = vec3f(dot(bsdf.diffuse + bsdf.through, tone__LUMINANCE_REC709), scale * dot(glossy, tone__LUMINANCE_REC709), scale * dot(seen.reflect + seen.transmit, tone__LUMINANCE_REC709));
+	let weights = vec3f(dot(bsdf.diffuse + bsdf.through, tone__LUMINANCE_REC709), scale * dot(gloss.whole, tone__LUMINANCE_REC709), scale * dot(seen.reflect + seen.transmit, tone__LUMINANCE_REC709));
 	let total = max(weights.x + weights.y + weights.z + bsdf.coating.albedos.x + bsdf.coating.albedos.y, 1e-30);
 	bsdf.chances = weights / total;
 	bsdf.coating_chances = bsdf.coating.albedos / total;
 	return bsdf;
-}
-
-fn lobes__scattered_often(f0: vec3f, f90: vec3f, albedo: vec2f) -> vec3f {
-	if (bindings__BSDF_SPEC) {
-		return vec3f(1.0);
-	}
-	return albedo__multiple_scattering(f0, f90, albedo);
 }
 
 fn lobes__coat_axis(bsdf: lobes__Bsdf, surface: shading__Surface) -> vec3f {
@@ -5240,6 +5269,41 @@ fn thin_film__thin_film(cos_i: f32, outside: f32, film_ior: f32, thickness: f32,
 	return select(reflected, vec3f(1.0), above.total);
 }
 
+struct gloss__Gloss {
+	whole: vec3f,
+	over: vec3f,
+	boost: vec3f,
+	albedo: vec2f
+}
+
+fn gloss__gloss_at(layers: layers__Layers, f0: vec3f, f90: vec3f, over: vec3f, inside: f32, wo: vec3f, alpha: vec2f) -> gloss__Gloss {
+	if (!bindings__HAS_GLOSS) {
+		return gloss__Gloss(vec3f(0.0), vec3f(0.0), vec3f(0.0), vec2f(0.0));
+	}
+	var albedo = albedo__ggx_albedo(wo.z, alpha.x);
+	if (bindings__HAS_ANISOTROPY && alpha.x > alpha.y) {
+		albedo = albedo__stretched_albedo(wo, alpha);
+	}
+	let covering = gloss__scattered_often(over, layers.over_f90, albedo) * (albedo.x * over + albedo.y * layers.over_f90);
+	var whole = inside * covering;
+	if (bindings__HAS_METALLIC_ROUGHNESS) {
+		let covered = inside * (1.0 - layers.metallic);
+		let beside = max(f0 - covered * over, vec3f(0.0));
+		let beside_f90 = max(f90 - covered * layers.over_f90, vec3f(0.0));
+		let part = 1.0 / max(layers.metallic, 1e-6);
+		let of_metal = gloss__scattered_often(min(part * beside, vec3f(1.0)), min(part * beside_f90, vec3f(1.0)), albedo);
+		whole = covered * covering + of_metal * (albedo.x * beside + albedo.y * beside_f90);
+	}
+	return gloss__Gloss(whole, covering, whole / max(albedo.x * f0 + albedo.y * f90, vec3f(1e-9)), albedo);
+}
+
+fn gloss__scattered_often(f0: vec3f, f90: vec3f, albedo: vec2f) -> vec3f {
+	if (bindings__BSDF_SPEC) {
+		return vec3f(1.0);
+	}
+	return albedo__multiple_scattering(f0, f90, albedo);
+}
+
 const seen__CLEAR: f32 = 0.01;
 
 const seen__ROUGH_SHARE: f32 = 0.25;
@@ -5289,10 +5353,14 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 	var pdf = 0.0;
 	if (wi.z > 0.0) {
 		let diffuse = bsdf_diffuse__diffuse_eval(wi);
-		let glossy = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.alpha, bindings__BSDF_SPEC);
 		let cos_h = dot(bsdf.wo, normalize(bsdf.wo + wi));
-		value = (diffuse * lobes__below_glossy(bsdf, cos_h)) * bsdf.diffuse + glossy.x * (bsdf.gain * lobes__glossy_fresnel(bsdf, cos_h));
-		pdf = bsdf.chances.x * (1.0 - bsdf__through_share(bsdf)) * diffuse + bsdf.chances.y * glossy.y;
+		value = (diffuse * lobes__below_glossy(bsdf, cos_h)) * bsdf.diffuse;
+		pdf = bsdf.chances.x * (1.0 - bsdf__through_share(bsdf)) * diffuse;
+		if (bindings__HAS_GLOSS) {
+			let glossy = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.alpha, bindings__BSDF_SPEC);
+			value += glossy.x * (bsdf.gain * lobes__glossy_fresnel(bsdf, cos_h));
+			pdf += bsdf.chances.y * glossy.y;
+		}
 		if (bindings__HAS_COATINGS) {
 			let sheen = bsdf_sheen__sheen_eval(bsdf.wo, wi, bsdf.coating.sheen_alpha);
 			value += sheen.x * bsdf.coating.sheen;
@@ -5341,8 +5409,10 @@ fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSamp
 		return bsdf__boundary_sample(bsdf, clamp((choice - first) / chances.z, 0.0, 1.0), u);
 	}
 	record_path__record_lobe(select(types__LOBE_GLOSSY, types__LOBE_DIFFUSE, is_diffuse));
-	let h = bsdf_ggx__ggx_normal(bsdf.wo, bsdf.alpha, u);
-	var wi = select(bsdf__reflected_at(bsdf.wo, h), bsdf_diffuse__diffuse_sample(u), is_diffuse);
+	var wi = bsdf_diffuse__diffuse_sample(u);
+	if (bindings__HAS_GLOSS && !is_diffuse) {
+		wi = bsdf__reflected_at(bsdf.wo, bsdf_ggx__ggx_normal(bsdf.wo, bsdf.alpha, u));
+	}
 	if (bindings__HAS_COATINGS) {
 		if (!is_diffuse && !is_glossy) {
 			let is_coat = choice < chances.x + chances.y + bsdf.coating_chances.x;

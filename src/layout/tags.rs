@@ -87,6 +87,8 @@ pub const LIGHT_RECTANGLE: u32 = 3;
 pub const LIGHT_DISC: u32 = 4;
 /// [`super::PackedLight::kind`]: a sphere.
 pub const LIGHT_SPHERE: u32 = 5;
+/// Stands for the kind or the attenuation of lights that differ in it.
+pub const MIXED_LIGHTS: u32 = u32::MAX;
 
 /// [`super::PackedLight::attenuation`]: none.
 pub const ATTENUATION_NONE: u32 = 0;

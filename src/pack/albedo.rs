@@ -1,7 +1,7 @@
 //! The tables of directional albedos that the path tracer reads: `lib/albedo.wesl`.
 
-/// The tables, one after the other: 32 × 32 words of microfacets, as many of sheen, and 36 × 24 × 32 of rough glass. A
-/// word has two half floats, the first in its lower half.
+/// The tables, one after the other: 32 × 32 words of microfacets, as many of sheen, 36 × 24 × 32 of rough glass, and 6 × 6 × 12 × 16 of
+/// stretched microfacets. A word has two half floats, the first in its lower half.
 ///
 /// Microfacets reflect f0 · A + f90 · B with Schlick's Fresnel factor. A word has E = A + B, and by how much B is above
 /// E · (1 - cos θ)⁵, which smooth ones reflect; a difference d is stored as (1 + d)/2. Rows are of √α from 0 to 1,
@@ -9,8 +9,10 @@
 /// depends on c/α alone. A word of sheen has its albedo, at most 1, and the factor that keeps narrow sheen at grazing
 /// angles from reflecting more; rows are of ∜α, columns of ∜cos θ. A word of glass has what it reflects and transmits
 /// together, and by how much the reflected share of it is above that of smooth glass; places are those of microfacets,
-/// and there is a table for each relative index of refraction.
+/// and there is a table for each relative index of refraction. A word of stretched microfacets is one of microfacets; rows
+/// are of √α for the larger width, columns have the width along the azimuth φ of the direction for α, and there is a table for each
+/// 1 - cos φ and, within these, for each root of the ratio of the widths.
 pub fn words() -> &'static [u32] {
-    static WORDS: [u32; 29696] = include!(concat!(env!("OUT_DIR"), "/albedo.txt"));
+    static WORDS: [u32; 36608] = include!(concat!(env!("OUT_DIR"), "/albedo.txt"));
     &WORDS
 }

@@ -20,6 +20,10 @@ pub struct Features {
     pub filtered_shadows: bool,
     /// Some transparent material is a thin wall.
     pub thin_walls: bool,
+    /// Some material reflects by microfacets.
+    pub gloss: bool,
+    /// Some material is described by metal and roughness.
+    pub metallic_roughness: bool,
     /// Some material has a clear coat, sheen, a thin film or diffuse transmission.
     pub coatings: bool,
     /// Some emissive material has a clear coat.

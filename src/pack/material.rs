@@ -183,6 +183,9 @@ pub fn features(scene: &Scene) -> Features {
             || has_total_reflection(scene)
             || !refraction && has_thin_material(scene),
         refraction,
+        gloss: (may_be_nonblack(scene, |m| m.specular, MaterialProperty::Specular)).contains(&true)
+            || has_layers(scene, |_, model| !model.unlit),
+        metallic_roughness: has_layers(scene, |_, _| true),
         coatings: has_layers(scene, |_, model| model.is_coated()),
         coated_emission: emission && has_layers(scene, |_, model| model.clearcoat > 0.0),
         coat_normals: has_layers(scene, |material, model| {

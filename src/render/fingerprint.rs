@@ -22,6 +22,8 @@ impl Fingerprint {
             filtered_shadows,
             // These follow from the materials.
             anisotropy: _,
+            gloss: _,
+            metallic_roughness: _,
             coatings: _,
             coated_emission: _,
             coat_normals: _,

@@ -10,8 +10,8 @@ use crate::{
     gpu::Overrides,
     layout::{
         BACKDROP_BACKGROUND, BACKDROP_COLOR, BACKDROP_TRANSPARENT, FILTER_BLACKMAN_HARRIS,
-        FILTER_BOX, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_TENT, PackedTone,
-        TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT,
+        FILTER_BOX, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_TENT, MIXED_LIGHTS, PackedLight,
+        PackedTone, TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT,
     },
     pack::{PackedScene, PackedView},
     scene::{Antialias, Backdrop, Filter},
@@ -112,6 +112,11 @@ pub fn of(task: Task) -> Overrides {
             "CLAMP_INDIRECT",
             f64::from(settings.clamp_indirect.unwrap_or_default()),
         ),
+        ("HAS_GLOSS", flag(is_path && features.gloss)),
+        (
+            "HAS_METALLIC_ROUGHNESS",
+            flag(is_path && features.metallic_roughness),
+        ),
         ("HAS_COATINGS", flag(is_path && features.coatings)),
         (
             "HAS_COATED_EMISSION",
@@ -165,6 +170,11 @@ pub fn of(task: Task) -> Overrides {
         true => overrides.extend([
             ("HAS_LIGHTS", flag(view.has_lights)),
             ("HAS_AREA_LIGHTS", flag(view.has_area_lights)),
+            ("LIGHT_KIND", f64::from(common(view, |light| light.kind))),
+            (
+                "LIGHT_ATTENUATION",
+                f64::from(common(view, |light| light.attenuation)),
+            ),
             ("BACKGROUND", f64::from(view.background)),
         ]),
         false => overrides.push(("VIEW", f64::from(integrator.view))),
@@ -231,6 +241,16 @@ fn stack_registers(scene: &PackedScene, view: &PackedView) -> u32 {
         registers @ 1..=MOST => registers as u32,
         0 => 1,
         _ => 0,
+    }
+}
+
+/// What all lights have in common.
+fn common(view: &PackedView, of: fn(&PackedLight) -> u32) -> u32 {
+    let mut all = view.lights.iter().map(of);
+    let first = all.next().unwrap_or(MIXED_LIGHTS);
+    match all.all(|other| other == first) {
+        true => first,
+        false => MIXED_LIGHTS,
     }
 }
 

@@ -13,7 +13,7 @@ use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::{
     image::Image,
     pack,
-    render::{Antialias, Filter, RenderSettings, Tone},
+    render::{Antialias, Filter, Integrator, RenderSettings, Tone},
     scene::{
         Attenuation, Background, Camera, CanonicalShape, Fresnel, Geometry, Instance, Lens, Light,
         LightKind, Material, Mesh, Mixing, Node, NodeProperty, Pattern, Picture, Scene, Shadows,
@@ -519,4 +519,67 @@ fn compiled_out_features_do_not_affect_the_picture() {
         )
     });
     assert_none(rows);
+}
+
+/// A floor of this material under a lamp, as paths see it.
+fn lit_floor(material: Material) -> Scene {
+    let mut scene = before(0.0, material);
+    add_box(&mut scene, dvec3(-2.0, -1.0, -2.0), dvec3(2.0, 0.0, 2.0));
+    scene.lights.push(Light {
+        kind: LightKind::Rectangle {
+            center: dvec3(0.0, 2.5, 0.0),
+            edge_u: DVec3::X,
+            edge_v: DVec3::Z,
+        },
+        color: Vec3::ONE,
+        attenuation: Attenuation::InverseSquare,
+        ..Light::default()
+    });
+    scene
+}
+
+#[test]
+fn paths_do_not_depend_on_code_that_the_scene_does_not_need() {
+    let settings = RenderSettings {
+        integrator: Integrator::Path,
+        samples: 4,
+        max_depth: 4,
+        ..sized(32, 24)
+    };
+    let picture = |scene: &Scene, change: fn(&mut pack::Features)| {
+        let mut packed = pack::scene(scene).expect("a packed scene");
+        change(&mut packed.features);
+        rendered(&Arc::new(packed), &[scene.frame(0.0)], &settings).0
+    };
+    let matte = lit_floor(Material {
+        specular: Vec3::ZERO,
+        ..Material::default()
+    });
+    let own = picture(&matte, |features| {
+        assert!(!features.gloss && !features.metallic_roughness);
+    });
+    let more = picture(&matte, |features| {
+        (features.gloss, features.metallic_roughness) = (true, true);
+    });
+    // A dark light of another kind: the kernel then chooses between kinds.
+    let mut mixed = matte.clone();
+    mixed.lights.push(Light {
+        kind: LightKind::Point {
+            position: dvec3(1.0, 2.0, 0.0),
+        },
+        color: Vec3::ZERO,
+        ..Light::default()
+    });
+    let mixed = picture(&mixed, |_| {});
+    let glossy = lit_floor(Material {
+        specular: Vec3::ONE,
+        ..Material::default()
+    });
+    let whole = picture(&glossy, |features| assert!(features.gloss));
+    let lacking = picture(&glossy, |features| features.gloss = false);
+    assert_none([
+        check_alike("code for gloss", &own, &more, 0.01, 0.0),
+        check_alike("code for other lights", &own, &mixed, 0.01, 0.0),
+    ]);
+    assert!(check_alike("without gloss", &whole, &lacking, 2.0, 0.005).is_err());
 }

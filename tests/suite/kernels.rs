@@ -172,10 +172,8 @@ fn specialised_kernels_are_valid_and_branch_on_no_constant() {
 
 #[test]
 fn a_feature_that_is_off_leaves_no_function_behind() {
-    let functions = |overrides: &[(&str, f64)]| -> String {
-        let module = Kernel::WHITTED
-            .specialized(Variant::Image, overrides)
-            .expect("WGSL");
+    let functions = |kernel: &Kernel, overrides: &[(&str, f64)]| -> String {
+        let module = kernel.specialized(Variant::Image, overrides).expect("WGSL");
         let names = module.functions.iter();
         names
             .filter_map(|(_, function)| function.name.clone())
@@ -184,16 +182,22 @@ fn a_feature_that_is_off_leaves_no_function_behind() {
     };
     let mut verdict = Verdict::on("functions");
     // With the functions that only this feature needs.
-    for (feature, name) in [
-        ("HAS_TEXTURES", "noise__"),
-        ("HAS_INSTANCES", "load_instance"),
-        ("HAS_AREA_LIGHTS", "area_incident"),
-        ("HAS_LENS", "lens_ray"),
-        ("HAS_CONTACT", "is_near"),
+    for (kernel, feature, name) in [
+        (&Kernel::WHITTED, "HAS_TEXTURES", "noise__"),
+        (&Kernel::WHITTED, "HAS_INSTANCES", "load_instance"),
+        (&Kernel::WHITTED, "HAS_AREA_LIGHTS", "area_incident"),
+        (&Kernel::WHITTED, "HAS_LENS", "lens_ray"),
+        (&Kernel::WHITTED, "HAS_CONTACT", "is_near"),
+        (&Kernel::PATH_TRACE, "HAS_GLOSS", "ggx_albedo"),
+        (
+            &Kernel::PATH_TRACE,
+            "HAS_METALLIC_ROUGHNESS",
+            "metallic_roughness",
+        ),
     ] {
-        let all = functions(&[]);
+        let all = functions(kernel, &[]);
         verdict.that(feature, all.contains(name), || format!("not in {all}"));
-        let without = functions(&[(feature, 0.0)]);
+        let without = functions(kernel, &[(feature, 0.0)]);
         verdict.that(feature, !without.contains(name), || without.clone());
     }
     verdict.close();

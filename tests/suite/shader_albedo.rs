@@ -16,6 +16,7 @@ const SHEEN: usize = 1024;
 const GLASS: usize = 2048;
 const GLASS_ROWS: usize = 24;
 const SLICES: usize = 36;
+const STRETCHED: usize = GLASS + SLICES * GLASS_ROWS * SIDE;
 const CLEAR: usize = 12;
 
 fn view(cos: f64) -> DVec3 {
@@ -149,7 +150,7 @@ fn cosine(column: f64, alpha: f64) -> f64 {
 
 #[test]
 fn entries_are_the_albedos_of_the_formulas() {
-    assert_eq!(albedo::words().len(), GLASS + SLICES * GLASS_ROWS * SIDE);
+    assert_eq!(albedo::words().len(), STRETCHED + 6 * 6 * 12 * 16);
     let mut verdict = Verdict::on("pack/albedo.rs");
     // Along the normal, with α = 1, the integral has a closed form.
     let [whole, _] = entry(GGX, 31, 31);
@@ -274,6 +275,99 @@ fn rough_glass_scatters_everything_at_every_roughness_and_index() {
             }
         }
     }
+    verdict.close();
+}
+
+/// What microfacets of different widths along x and y reflect, as [`ggx_albedo`]: over directions, on a grid around the
+/// mirrored normals.
+fn stretched_albedo(wo: DVec3, widths: [f64; 2]) -> f64 {
+    const PARTS: [usize; 2] = [400, 360];
+    let mut sum = 0.0;
+    for i in 0..PARTS[0] {
+        // Slopes of normals in proportion to their density: tan²θ = u/(1 - u) in units of the widths.
+        let root = 1.0 - ((i as f64 + 0.5) / PARTS[0] as f64).powi(2);
+        let weight = 2.0 * (i as f64 + 0.5) / PARTS[0] as f64;
+        let slope = (root / (1.0 - root)).sqrt();
+        for j in 0..PARTS[1] {
+            let (sin, cos) = (TAU * (j as f64 + 0.5) / PARTS[1] as f64).sin_cos();
+            let h = DVec3::new(widths[0] * slope * cos, widths[1] * slope * sin, 1.0).normalize();
+            let seen = wo.dot(h);
+            let wi = 2.0 * seen * h - wo;
+            if seen > 0.0 && wi.z > 0.0 {
+                let hidden = reference::ggx_lambda(wo, widths) + reference::ggx_lambda(wi, widths);
+                let share = weight * seen / (wo.z * h.z * (PARTS[0] * PARTS[1]) as f64);
+                sum += share / (1.0 + hidden);
+            }
+        }
+    }
+    sum
+}
+
+#[test]
+fn brushed_white_metal_reflects_everything_from_every_side() {
+    let mut rows = Vec::new();
+    for roughness in [0.1_f32, 0.2, 0.4, 0.6, 0.8, 0.95] {
+        for strength in [0.2_f32, 0.45, 0.7, 0.9, 1.0] {
+            for (cos, azimuth) in [
+                (0.97_f32, 0.3_f32),
+                (0.8, 1.5),
+                (0.6, 0.0),
+                (0.6, 0.7),
+                (0.4, 1.2),
+                (0.25, 0.4),
+                (0.1, 1.0),
+                (0.05, 0.1),
+            ] {
+                let narrow = roughness * roughness;
+                let wide = narrow + (1.0 - narrow) * strength * strength;
+                let flat = (1.0 - cos * cos).sqrt();
+                let wo = [flat * azimuth.cos(), flat * azimuth.sin(), cos];
+                rows.push((wo, [wide, narrow]));
+            }
+        }
+    }
+    let slices: Vec<[f32; 2]> = gpu().map("lib::albedo::stretched_slice", &rows);
+    let place = "import package::lib::albedo::stretched_lookup;
+        fn probe(slice: vec2u, wo: vec3f, alpha: vec2f) -> mat2x4f {
+            let found = stretched_lookup(slice, wo, alpha);
+            return mat2x4f(vec4f(found.words), found.weights);
+        }";
+    let mut whole = vec![0.0_f64; rows.len()];
+    for corner in [[0, 0], [1, 0], [0, 1], [1, 1]] {
+        let at = |slice: &[f32; 2]| slice.map(|place| place.floor().min(4.0));
+        let inputs: Vec<_> = (rows.iter().zip(&slices))
+            .map(|(row, slice)| {
+                let [x, y] = at(slice).map(|place| place as u32);
+                ([x + corner[0], y + corner[1]], row.0, row.1)
+            })
+            .collect();
+        let found: Vec<[[f32; 4]; 2]> = gpu().map_source(place, &inputs);
+        for ((sum, slice), [words, weights]) in whole.iter_mut().zip(&slices).zip(found) {
+            let parts = [0, 1].map(|axis| {
+                let part = f64::from(slice[axis] - at(slice)[axis]);
+                if corner[axis] == 1 { part } else { 1.0 - part }
+            });
+            for (word, weight) in words.iter().zip(weights) {
+                let bits = albedo::words()[*word as usize] & 0xffff;
+                *sum +=
+                    parts[0] * parts[1] * f64::from(weight) * f16::from_bits(bits as u16).to_f64();
+            }
+        }
+    }
+    let mut verdict = Verdict::on("brushed white metal");
+    let mut offs = Vec::new();
+    for ((wo, widths), whole) in rows.iter().zip(whole) {
+        let wo = DVec3::from_array(wo.map(f64::from));
+        let all = stretched_albedo(wo, widths.map(f64::from)) / whole;
+        offs.push(all - 1.0);
+        verdict.that(
+            format!("{wo}, α {widths:?}"),
+            (all - 1.0).abs() < 0.012,
+            || all,
+        );
+    }
+    let mean = offs.iter().sum::<f64>() / offs.len() as f64;
+    verdict.that("mean", mean.abs() < 2.5e-3, || mean);
     verdict.close();
 }
 

@@ -29,7 +29,11 @@ const GLASS: [usize; 2] = [24, 36];
 /// The table of the relative index 1.
 const CLEAR: usize = 12;
 
-/// All tables: microfacets, then sheen, then rough glass, with rows and columns as `lib/albedo.wesl` looks them up.
+/// Columns and rows of a table of stretched microfacets, and the number of ratios of their widths, and of azimuths:
+/// `STRETCHED_SIZE` and `STRETCHED_SIDE` in `lib/albedo.wesl`.
+const STRETCHED: [usize; 3] = [16, 12, 6];
+
+/// All tables: microfacets, then sheen, then rough glass, then stretched microfacets, with rows and columns as `lib/albedo.wesl` looks them up.
 pub fn words() -> Vec<u32> {
     let part = |i: usize, count: usize| i as f64 / (count - 1) as f64;
     let mut words = Vec::with_capacity(2 * SIDE * SIDE + SIDE * GLASS[0] * GLASS[1]);
@@ -69,6 +73,27 @@ pub fn words() -> Vec<u32> {
                     whole,
                     shifted(reflected / whole - fresnel(cos_o, eta)),
                 ));
+            }
+        }
+    }
+    let [columns, rows, side] = STRETCHED;
+    for azimuth in 0..side {
+        let cos = 1.0 - part(azimuth, side);
+        let along = [cos, (1.0 - cos * cos).sqrt()];
+        for ratio in 0..side {
+            let ratio = part(ratio, side).powi(2);
+            for row in 0..rows {
+                let wide = part(row, rows).powi(2).max(NARROWEST);
+                let alpha = [wide, (wide * ratio).max(NARROWEST)];
+                let seen = (alpha[0] * along[0]).hypot(alpha[1] * along[1]);
+                for column in 0..columns {
+                    let cos_o = cosine(part(column, columns), seen);
+                    let [whole, grazing] = stretched(cos_o, along, alpha);
+                    words.push(word(
+                        whole,
+                        shifted(grazing - whole * (1.0 - cos_o).powi(5)),
+                    ));
+                }
             }
         }
     }
@@ -173,6 +198,46 @@ fn ggx(cos_o: f64, alpha: f64) -> [f64; 2] {
             sums[1] += lit * (1.0 - cos_h.clamp(0.0, 1.0)).powi(5);
         }
     });
+    sums
+}
+
+/// The same for microfacets of the widths `alpha` along x and y, from a direction with the azimuth `along`.
+fn stretched(cos_o: f64, along: [f64; 2], alpha: [f64; 2]) -> [f64; 2] {
+    let sin_o = (1.0 - cos_o * cos_o).sqrt();
+    let wo = [sin_o * along[0], sin_o * along[1], cos_o];
+    let smith = |w: [f64; 3]| {
+        let slope2 = ((alpha[0] * w[0]).powi(2) + (alpha[1] * w[1]).powi(2)) / (w[2] * w[2]);
+        0.5 * ((1.0 + slope2).sqrt() - 1.0)
+    };
+    let unit = |v: [f64; 3]| {
+        let size = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+        v.map(|part| part / size)
+    };
+    let pole = unit([alpha[0] * wo[0], alpha[1] * wo[1], wo[2]]);
+    let seen = 1.0 + smith(wo);
+    let [count, step] = MANY;
+    let mut sums = [0.0; 2];
+    for i in 0..count {
+        // As in `visible_normals`, on the whole circle.
+        let turn = ((i * step % count) as f64 + 0.5) / count as f64;
+        let (sin, cos) = (2.0 * PI * turn).sin_cos();
+        let part = (i as f64 + 0.5) / count as f64;
+        let root = part.sqrt();
+        let height = part * root * (1.0 + pole[2]) - pole[2];
+        let radius = (1.0 - height * height).max(0.0).sqrt();
+        let h = unit([
+            alpha[0] * (radius * cos + pole[0]),
+            alpha[1] * (radius * sin + pole[1]),
+            height + pole[2],
+        ]);
+        let cos_h = wo[0] * h[0] + wo[1] * h[1] + wo[2] * h[2];
+        let wi = [0, 1, 2].map(|axis| 2.0 * cos_h * h[axis] - wo[axis]);
+        if wi[2] > 0.0 {
+            let lit = 1.5 * root / count as f64 * seen / (seen + smith(wi));
+            sums[0] += lit;
+            sums[1] += lit * (1.0 - cos_h.clamp(0.0, 1.0)).powi(5);
+        }
+    }
     sums
 }
 

@@ -299,11 +299,25 @@ fn anisotropic([x, y]: [f64; 2], v: DVec3, l: DVec3) -> f64 {
     d / (4.0 * v.z * (1.0 + lambda(v)) * (1.0 + lambda(l)))
 }
 
-/// A square of brushed metal whose u points along x and v along -z, seen and lit from many sides.
+/// A square on the floor, whose u points along x and v along -z.
+pub fn square() -> Mesh {
+    let corners = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
+    Mesh {
+        positions: corners.map(|(x, z)| vec3(x, 0.0, z)).to_vec(),
+        normals: vec![Vec3::Y; 4],
+        uvs: corners
+            .map(|(x, z)| Vec2::new(0.5 + 0.5 * x, 0.5 - 0.5 * z))
+            .to_vec(),
+        materials: vec![0; 4],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Mesh::default()
+    }
+}
+
+/// A square of brushed metal, seen and lit from many sides.
 #[test]
 fn brushed_metal_is_wider_along_its_direction() {
     let mut verdict = Verdict::on("brushed metal by the specification");
-    let corners = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
     for (strength, rotation) in [(0.6, 0.0), (1.0, 0.5), (0.8, -2.0)] {
         let model = MetallicRoughness {
             base_color: Vec3::ONE,
@@ -312,17 +326,6 @@ fn brushed_metal_is_wider_along_its_direction() {
             anisotropy_rotation: rotation,
             ..MetallicRoughness::default()
         };
-        let mesh = Mesh {
-            positions: corners.map(|(x, z)| vec3(x, 0.0, z)).to_vec(),
-            normals: vec![Vec3::Y; 4],
-            uvs: corners
-                .map(|(x, z)| glam::Vec2::new(0.5 + 0.5 * x, 0.5 - 0.5 * z))
-                .to_vec(),
-            materials: vec![0; 4],
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
-            ..Mesh::default()
-        };
-
         for (v, l) in [
             (dvec3(0.1, 0.9, 0.2), dvec3(0.3, 0.8, 0.1)),
             (dvec3(0.5, 0.7, 0.1), dvec3(-0.2, 0.6, 0.4)),
@@ -337,7 +340,7 @@ fn brushed_metal_is_wider_along_its_direction() {
             };
             let mut scene = lit_floor(material(model.clone()), light);
             scene.shapes.clear();
-            scene.meshes.push(Arc::new(mesh.clone()));
+            scene.meshes.push(Arc::new(square()));
             scene.instances.push(Instance {
                 mesh: 0,
                 placement: DAffine3::IDENTITY,

@@ -1,10 +1,12 @@
 //! Metallic-roughness materials in path-traced pictures: what they reflect of even light.
 
+use super::layers::square;
 use super::{ball_in, looking, mean, paths};
 use crate::reference::scenes::Build;
 use crate::support::verdict::Verdict;
-use glam::{DVec3, Vec3, dvec3};
-use glimray::scene::{Background, Material, MetallicRoughness, Picture};
+use glam::{DAffine3, DVec3, Vec3, dvec3};
+use glimray::scene::{Background, Instance, Material, MetallicRoughness, Picture, Scene};
+use std::sync::Arc;
 
 /// A material as the importers make it.
 pub fn material(model: MetallicRoughness) -> Material {
@@ -75,6 +77,43 @@ fn white_materials_are_invisible_in_even_light() {
             let room = if name == "metal" { 0.002 } else { 0.005 };
             let what = format!("{name}, roughness {roughness}");
             invisible(&mut verdict, what, found, room);
+        }
+    }
+    verdict.close();
+}
+
+/// Brushed white metal reflects all light too, seen along its direction and across it.
+#[test]
+fn brushed_white_metal_is_invisible_in_even_light() {
+    let mut verdict = Verdict::on("brushed white metal under a background of 1");
+    for (roughness, strength) in [(0.1, 1.0), (0.1, 0.6), (0.3, 1.0), (0.6, 0.8)] {
+        let model = MetallicRoughness {
+            roughness,
+            anisotropy: strength,
+            ..MetallicRoughness::default()
+        };
+        for from in [
+            dvec3(0.0, 3.0, 0.01),
+            dvec3(3.0, 2.0, 0.0),
+            dvec3(0.0, 1.0, 3.0),
+            dvec3(2.0, 1.0, 2.0),
+        ] {
+            let mut scene = Scene {
+                materials: vec![material(model.clone())],
+                background: Background::Color(Vec3::ONE),
+                meshes: vec![Arc::new(square())],
+                instances: vec![Instance {
+                    mesh: 0,
+                    placement: DAffine3::IDENTITY,
+                    node: None,
+                }],
+                cameras: vec![looking(from, DVec3::ZERO, 1e-3)],
+                ..Scene::default()
+            };
+            scene.complete_tangents();
+            let found = mean(&scene, &paths(1024, (8, 8), 16));
+            let what = format!("roughness {roughness}, anisotropy {strength}, from {from}");
+            verdict.that(what, (found - 1.0).abs() < 0.012, || found);
         }
     }
     verdict.close();
