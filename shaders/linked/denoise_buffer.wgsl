@@ -12,6 +12,8 @@ const LEAST_WEIGHT: f32 = 0.3;
 
 const LUMINANCE_SHARE: f32 = 0.001;
 
+const MOST_VARIANCE: f32 = 1e30;
+
 struct Guide {
 	normal: vec3f,
 	albedo: vec3f,
@@ -75,14 +77,16 @@ fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
 			break if k >= 9;
 		}
 	}
+	let luminance = dot(own.xyz, tone__LUMINANCE_REC709);
+	let is_known = own.w <= MOST_VARIANCE;
 	if (own.w < 0.0 || total < LEAST_WEIGHT) {
-		return own;
+		return vec4f(own.xyz, select(luminance * luminance, own.w, is_known));
 	}
 	let mean = sum / total;
-	let most = mean + OUTLIER * sqrt(max(squares / total - mean * mean, 0.0)) + LUMINANCE_SHARE * mean;
-	let luminance = dot(own.xyz, tone__LUMINANCE_REC709);
+	let spread = max(squares / total - mean * mean, 0.0);
+	let most = mean + OUTLIER * sqrt(spread) + LUMINANCE_SHARE * mean;
 	let scale = select(1.0, most / luminance, luminance > most);
-	return vec4f(scale * own.xyz, (variance + scale * scale * own.w) / (total + 1.0));
+	return vec4f(scale * own.xyz, select(spread, (variance + scale * scale * own.w) / (total + 1.0), is_known));
 }
 
 fn averaged(p: vec2i, last: vec2i, step: i32) -> vec4f {

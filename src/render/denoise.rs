@@ -17,6 +17,9 @@ const STRIDES: [u32; 5] = [1, 2, 4, 8, 16];
 const LEAST_ALBEDO: f32 = 0.02;
 /// The largest signal; its square is finite.
 const MOST: f32 = 1e15;
+/// Stands for the variance of a single sample; `MOST_VARIANCE` of the kernel is between it and the square of the largest
+/// signal.
+const UNKNOWN_VARIANCE: f32 = 1e31;
 const SIGNAL: TextureFormat = TextureFormat::Rgba32Float;
 const GUIDES: TextureFormat = TextureFormat::Rgba32Uint;
 const TEXEL_BYTES: u32 = 16;
@@ -78,7 +81,8 @@ fn albedo(features: &PixelFeatures) -> [f32; 3] {
     })
 }
 
-/// A pixel divided by its albedo, and the variance of its luminance; negative if it is not finite.
+/// A pixel divided by its albedo, and the variance of its luminance: negative if the pixel is not finite, and unknown
+/// if it has a single sample.
 fn signal([r, g, b, opacity]: [f32; 4], features: &PixelFeatures) -> [f32; 4] {
     let albedo = albedo(features);
     let [ar, ag, ab] = albedo;
@@ -89,7 +93,11 @@ fn signal([r, g, b, opacity]: [f32; 4], features: &PixelFeatures) -> [f32; 4] {
     }
     let [r, g, b] = [r * opacity / ar, g * opacity / ag, b * opacity / ab]
         .map(|channel| channel.clamp(0.0, MOST));
-    [r, g, b, variance.clamp(0.0, MOST * MOST)]
+    let variance = match features.samples {
+        1.0 => UNKNOWN_VARIANCE,
+        _ => variance.clamp(0.0, MOST * MOST),
+    };
+    [r, g, b, variance]
 }
 
 /// The transparency of a pixel as a signal. Its variance is that of samples which are either opaque or not, the greatest
