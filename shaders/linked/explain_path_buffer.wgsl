@@ -5140,10 +5140,11 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	bsdf.boundary_gain = 1.0;
 	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && bsdf.boundary_alpha.x >= layers__SMOOTH) {
 		let glass = albedo__glass_albedo(bsdf.wo.z, sqrt(bsdf.alpha.x * bsdf.alpha.y), bsdf.eta);
-		bsdf.boundary_gain = 1.0 / max(select(gloss.albedo.x + gloss.albedo.y, glass.x, bsdf.bends), 0.001);
-		if (bsdf.bends) {
-			seen = lobes__Split(glass.y * bsdf.reflect, (1.0 - glass.y) * bsdf.transmit);
-		}
+		let wall = max(gloss.albedo.x + gloss.albedo.y, 0.001);
+		let along_normal = boundary__boundary_at(bsdf.flags, 1.0, bsdf.eta).reflectance;
+		let share = select((along_normal * gloss.albedo.x + gloss.albedo.y) / wall, glass.y, bsdf.bends);
+		bsdf.boundary_gain = 1.0 / select(wall, max(glass.x, 0.001), bsdf.bends);
+		seen = lobes__Split(share * bsdf.reflect, (1.0 - share) * bsdf.transmit);
 	}
 	var left = 1.0 - numeric__max_component(gloss.over);
 	if ((optics.flags & types__MATERIAL_SUM) == 0u) {
@@ -5364,7 +5365,7 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, bindings__BSDF_SPEC);
 			let split = lobes__split_at(bsdf, cos_h);
 			value += (boundary.x * bsdf.boundary_gain) * split.reflect;
-			pdf += bsdf.chances.z * bsdf__reflection_chance(split) * bsdf__boundary_density(bsdf, boundary);
+			pdf += bsdf.chances.z * bsdf__reflection_chance(bsdf, split, cos_h) * bsdf__boundary_density(bsdf, boundary);
 		}
 	}
 	else if (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) {
@@ -5374,9 +5375,10 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 			boundary = bsdf_ggx_transmission__ggx_transmission(bsdf.wo, wi, bsdf.boundary_alpha, bsdf.eta);
 			h = bsdf_ggx_transmission__transmission_half(bsdf.wo, wi, bsdf.eta);
 		}
-		let split = lobes__split_at(bsdf, dot(bsdf.wo, h));
+		let cos_h = dot(bsdf.wo, h);
+		let split = lobes__split_at(bsdf, cos_h);
 		value = (boundary.x * bsdf.boundary_gain) * split.transmit;
-		pdf = bsdf.chances.z * (1.0 - bsdf__reflection_chance(split)) * bsdf__boundary_density(bsdf, boundary);
+		pdf = bsdf.chances.z * (1.0 - bsdf__reflection_chance(bsdf, split, cos_h)) * bsdf__boundary_density(bsdf, boundary);
 	}
 	if (bindings__HAS_COATINGS && wi.z < 0.0) {
 		let through = bsdf_diffuse__diffuse_eval(-wi);
@@ -5442,7 +5444,7 @@ struct bsdf__Facet {
 fn bsdf__facet_at(bsdf: lobes__Bsdf, h: vec3f, choice: f32) -> bsdf__Facet {
 	let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
 	let split = lobes__split_at(bsdf, cos_h);
-	let chance = bsdf__reflection_chance(split);
+	let chance = bsdf__reflection_chance(bsdf, split, cos_h);
 	let reflects = choice < chance;
 	let mirrored = bsdf__reflected_at(bsdf.wo, h);
 	var wi = select(vec3f(mirrored.xy, -mirrored.z), mirrored, reflects);
@@ -5500,7 +5502,10 @@ fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f, is_on_side: bool) -> bsdf__B
 	return bsdf__BsdfSample(direction, weight, found.pdf);
 }
 
-fn bsdf__reflection_chance(split: lobes__Split) -> f32 {
+fn bsdf__reflection_chance(bsdf: lobes__Bsdf, split: lobes__Split, cos_h: f32) -> f32 {
+	if (bsdf__draws_again() && (bsdf.flags & types__MATERIAL_FRESNEL) != 0u && bsdf.boundary_alpha.x >= layers__SMOOTH) {
+		return boundary__boundary_at(bsdf.flags, clamp(cos_h, 0.0, 1.0), bsdf.eta).reflectance;
+	}
 	let reflected = dot(split.reflect, tone__LUMINANCE_REC709);
 	return reflected / max(reflected + dot(split.transmit, tone__LUMINANCE_REC709), 1e-30);
 }

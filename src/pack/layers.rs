@@ -50,7 +50,12 @@ fn of_metallic_roughness(material: &Material, model: &MetallicRoughness) -> Pack
         f0: if model.unlit { Vec3::ZERO } else { colored }.into(),
         f90: if model.unlit { 0.0 } else { model.specular },
         roughness: model.roughness,
-        transmission: if model.unlit { 0.0 } else { model.transmission },
+        // What reflects everything transmits nothing.
+        transmission: if model.unlit || model.ior == 0.0 {
+            0.0
+        } else {
+            model.transmission
+        },
         coat: if model.unlit { 0.0 } else { model.clearcoat },
         coat_roughness: model.clearcoat_roughness,
         coat_normal_scale: model.clearcoat_normal_scale,

@@ -190,6 +190,44 @@ fn rough_glass_is_invisible_in_even_light() {
     verdict.close();
 }
 
+/// Where a material transmits a part of the light and scatters the rest, or has metal beside it, little is lost or added
+/// either. What reflects everything transmits nothing. In smooth balls the light that is scattered inside would be reflected
+/// totally for ever.
+#[test]
+fn partly_transmissive_white_is_invisible_in_even_light() {
+    let mut verdict = Verdict::on("partly transmissive balls under a background of 1");
+    let rows = [
+        // Transmission, metallic, index of refraction, thickness, roughness.
+        (0.5, 0.0, 1.5, 0.0, &[0.2, 0.5, 0.8, 1.0][..]),
+        (0.2, 0.0, 1.5, 0.0, &[0.2, 0.5, 0.8, 1.0]),
+        (0.5, 0.0, 2.5, 0.0, &[0.5, 1.0]),
+        (0.5, 0.5, 1.5, 0.0, &[0.5, 1.0]),
+        (0.5, 0.0, 1.5, 1.0, &[1.0]),
+        (0.2, 0.0, 1.5, 1.0, &[1.0]),
+        (0.5, 0.0, 0.0, 1.0, &[0.0, 0.5, 1.0]),
+        (0.5, 0.5, 0.0, 0.0, &[0.0, 0.5, 1.0]),
+    ];
+    for (transmission, metallic, ior, thickness, all) in rows {
+        for &roughness in all {
+            let white = material(MetallicRoughness {
+                metallic,
+                transmission,
+                roughness,
+                thickness,
+                ior,
+                ..MetallicRoughness::default()
+            });
+            let found = mean(&ball_in(1.0, white), &paths(512, (12, 12), 64));
+            let what = format!(
+                "transmission {transmission}, metallic {metallic}, index {ior}, roughness {roughness}, \
+                 thickness {thickness}"
+            );
+            verdict.that(what, (found - 1.0).abs() < 0.008, || found);
+        }
+    }
+    verdict.close();
+}
+
 /// The same with light that bounces inside, where errors would add up. Light samples know the white picture's
 /// directions, and boundaries must scatter towards them as much as paths that go there by themselves. These sums have more
 /// samples and room: near total reflection lobes are narrow, and light samples rarely meet them.
