@@ -21,7 +21,6 @@ use crate::cli::args::BenchArgs;
 use crate::cli::device;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job;
-use crate::gpu::Gpu;
 use comparison::Baseline;
 use playing::Playing;
 use renders::Renders;
@@ -34,7 +33,7 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
         Some(path) => Some((path, Baseline::read(path, is_quick)?)),
         None => None,
     };
-    let gpu = Gpu::new(&arguments.device.choice())?;
+    let gpu = device::open(&arguments.device)?;
     let is_selected = |name: &str| match &arguments.only {
         Some(part) => name.contains(part.as_str()),
         None => true,
