@@ -1,8 +1,8 @@
-//! `glimray bench`: its scenes and ray sets are the same everywhere, its exact counters do not grow, and it
-//! compares runs.
+//! `glimray bench`: its scenes and ray sets are the same everywhere, and its exact counters do not grow.
+
+mod comparing;
 
 use crate::reference::compare::open_gpu;
-use crate::support::program::Workspace;
 use crate::support::verdict::Verdict;
 use glimray::cli::bench::ray_sets;
 use glimray::cli::bench::scenes::{self, ALL, Detail};
@@ -230,98 +230,4 @@ fn the_largest_scenes_are_as_documented() {
     assert_eq!(terrain.triangle_count(), 4_000_000);
     let small = scenes::terrain(Detail::Small);
     assert_eq!(small.triangle_count(), 40_000);
-}
-
-#[test]
-fn a_file_that_is_no_earlier_run_is_refused() {
-    let workspace = Workspace::new();
-    workspace.write(
-        "foreign.json",
-        r#"{"glimray": "0.1.0", "command": "render"}"#,
-    );
-    workspace.write(
-        "quick.json",
-        r#"{"glimray": "0.1.0", "quick": true, "workloads": []}"#,
-    );
-    for (file, why) in [
-        ("missing.json", "missing.json"),
-        ("foreign.json", "no figures of a benchmark"),
-        ("a.scene", "no figures of a benchmark"),
-        ("quick.json", "with --quick"),
-    ] {
-        let run = workspace.run(&format!("bench --compare {file}")).expect(3);
-        run.says(why);
-        run.says("Give a file with the output of `glimray bench --json`.");
-        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
-        assert!(run.stdout.is_empty(), "{file}");
-    }
-}
-
-#[test]
-fn a_name_of_no_measurement_is_refused() {
-    let run = Workspace::new().run("bench --only nonsense").expect(2);
-    run.says("nothing to measure (--only nonsense)");
-    assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
-}
-
-#[test]
-fn a_comparison_marks_counters_that_grew() {
-    let workspace = Workspace::new();
-    let mut old = workspace
-        .run("bench --quick --only sphereflake --json")
-        .expect(0)
-        .json();
-    let scene = old["scenes"][0].clone();
-    assert_eq!(scene["spheres"], 7381);
-    let sets: Vec<_> = scene["rays"]
-        .as_array()
-        .expect("ray sets")
-        .iter()
-        .map(|set| set["set"].clone())
-        .collect();
-    assert_eq!(
-        sets,
-        [
-            "primary",
-            "shadow",
-            "ambient-occlusion",
-            "diffuse",
-            "mirror",
-            "random"
-        ]
-    );
-    for set in scene["rays"].as_array().expect("ray sets") {
-        let rate = &set["mrays_per_second"];
-        let [low, middle, high] =
-            ["min", "median", "max"].map(|name| rate[name].as_f64().expect(name));
-        assert!(0.0 < low && low <= middle && middle <= high, "{set}");
-        assert!(set["nodes_per_ray"].as_f64().expect("nodes") > 0.5, "{set}");
-    }
-    let nodes = scene["rays"][0]["nodes_per_ray"].as_f64().expect("nodes");
-    old["scenes"][0]["rays"][0]["nodes_per_ray"] = (nodes / 1.06).into();
-    let primitives = scene["rays"][0]["primitives_per_ray"]
-        .as_f64()
-        .expect("primitives");
-    old["scenes"][0]["rays"][0]["primitives_per_ray"] = (primitives / 1.04).into();
-    workspace.write("old.json", old.to_string());
-    let run = workspace
-        .run("bench --quick --only sphereflake --compare old.json --json")
-        .expect(0)
-        .json();
-    let compared = run["compared"].as_array().expect("ratios");
-    let of = |name: &str| {
-        let found = compared
-            .iter()
-            .find(|ratio| ratio["figure"] == format!("sphereflake/primary/{name}"));
-        let found = found.unwrap_or_else(|| panic!("{name} in {compared:?}"));
-        (
-            found["ratio"].as_f64().expect("a ratio"),
-            found["grew"].clone(),
-        )
-    };
-    let (ratio, grew) = of("nodes_per_ray");
-    assert!((ratio - 1.06).abs() < 1e-9 && grew == true, "{ratio}");
-    let (ratio, grew) = of("primitives_per_ray");
-    assert!((ratio - 1.04).abs() < 1e-9 && grew == false, "{ratio}");
-    assert!(of("mrays_per_second").1 == false, "a speed is no counter");
 }
