@@ -2,7 +2,7 @@
 
 use super::figure::Figure;
 use super::ray_sets::{self, RaySet, fnv};
-use super::renders::{self, Times};
+use super::renders::{self, Purpose, Times};
 use super::scenes::{Detail, Procedural};
 use super::workloads::Workload;
 use crate::app::error::AppError;
@@ -136,7 +136,10 @@ impl SceneRuns {
             import::load_from(file, FILE, &import::Options::default())?;
             self.loads.push(started.elapsed().as_secs_f64());
         }
-        let rendered = renders::render(&self.workload, arguments, false)?;
+        if self.times.is_empty() {
+            renders::render(&self.workload, arguments, Purpose::Warm)?;
+        }
+        let rendered = renders::render(&self.workload, arguments, Purpose::Time)?;
         self.times.push(rendered.times);
         let (packed, view) = (rendered.packed, rendered.view);
         (self.tree_bytes, self.all_bytes) = bytes(&packed, &view);
