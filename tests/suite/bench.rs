@@ -1,13 +1,14 @@
 //! `glimray bench`: its scenes and ray sets are the same everywhere, and its exact counters do not grow.
 
 mod comparing;
+mod packets;
 
 use crate::reference::compare::open_gpu;
 use crate::support::verdict::Verdict;
-use glimray::cli::bench::ray_sets;
+use glimray::cli::bench::ray_sets::{self, RaySet};
 use glimray::cli::bench::scenes::{self, ALL, Detail};
 use glimray::pack;
-use glimray::render::{ExecutionPolicy, RayQuery, RaySteps};
+use glimray::render::{ExecutionPolicy, RayBatch, RayQuery, RaySteps, RayTest};
 use std::sync::Arc;
 
 /// Side of the picture of the small ray sets.
@@ -127,41 +128,56 @@ const STEPS: [(&str, Steps); 6] = [
 
 #[test]
 fn nodes_and_primitives_per_ray_do_not_grow() {
-    let mut verdict = Verdict::on("steps per ray");
-    let mut table = String::new();
-    for (name, expected) in STEPS {
-        table += &format!("\n{name} ");
-        let scene = ALL.iter().find(|scene| scene.name == name).expect(name);
-        let scene = (scene.scene)(Detail::Small);
-        let packed = Arc::new(pack::scene(&scene).expect("packed"));
-        let view = packed.frame(&scene.frame(0.0)).expect("a view");
-        let policy = ExecutionPolicy::default();
-        let query = RayQuery::new(open_gpu(), packed, &view, policy).expect("a query");
-        let sets = ray_sets::of(&scene, SIDE);
+    do_not_grow("steps per ray", &STEPS, |query, batch, test| {
+        query.steps(batch, test).expect("steps")
+    });
+}
+
+/// Fails if the means of what `count` counts are more than 5 % above a table. Then it prints the table of today, to replace
+/// that after a change on purpose.
+fn do_not_grow(
+    what: &str,
+    table: &[(&str, Steps)],
+    count: impl Fn(&RayQuery, &RayBatch, RayTest) -> Vec<RaySteps>,
+) {
+    let mut verdict = Verdict::on(what);
+    let mut today = String::new();
+    for (name, expected) in table {
+        today += &format!("\n{name} ");
+        let (query, sets) = small(name);
         for (set, expected) in sets.iter().zip(expected) {
             let batch = query.batch(&set.rays).expect("a batch");
-            let steps = query.steps(&batch, set.test).expect("steps");
-            let mean = |part: fn(&RaySteps) -> u32| {
-                steps
-                    .iter()
-                    .map(|steps| f64::from(part(steps)))
-                    .sum::<f64>()
-                    / steps.len() as f64
-            };
-            let found = [mean(|steps| steps.nodes), mean(|steps| steps.primitives)];
-            table += &format!("[{:.3}, {:.3}], ", found[0], found[1]);
-            let has_grown = found
-                .iter()
-                .zip(expected)
-                .any(|(found, expected)| *found > GROWTH * expected);
+            let found = means(&count(&query, &batch, set.test));
+            today += &format!("[{:.3}, {:.3}], ", found[0], found[1]);
+            let has_grown =
+                (found.iter().zip(expected)).any(|(found, expected)| *found > GROWTH * expected);
             verdict.that(format!("{name}, {}", set.name), !has_grown, || {
                 format!("[{:.3}, {:.3}], it was {expected:?}", found[0], found[1])
             });
         }
     }
-    // Shown if the test fails, to replace the table after a change on purpose.
-    println!("{table}");
+    println!("{today}");
     verdict.close();
+}
+
+/// A scene at small detail, ready for queries, and its ray sets.
+fn small(name: &str) -> (RayQuery, Vec<RaySet>) {
+    let scene = ALL.iter().find(|scene| scene.name == name).expect(name);
+    let scene = (scene.scene)(Detail::Small);
+    let packed = Arc::new(pack::scene(&scene).expect("packed"));
+    let view = packed.frame(&scene.frame(0.0)).expect("a view");
+    let policy = ExecutionPolicy::default();
+    let query = RayQuery::new(open_gpu(), packed, &view, policy).expect("a query");
+    (query, ray_sets::of(&scene, SIDE))
+}
+
+/// Nodes and primitives, as means over the rays.
+fn means(steps: &[RaySteps]) -> [f64; 2] {
+    let mean = |part: fn(&RaySteps) -> u32| {
+        let sum: f64 = steps.iter().map(|steps| f64::from(part(steps))).sum();
+        sum / steps.len() as f64
+    };
+    [mean(|steps| steps.nodes), mean(|steps| steps.primitives)]
 }
 
 #[test]

@@ -195,7 +195,8 @@ fn is_figure(key: &str) -> bool {
 
 /// Whether a figure is the same in every run of one version.
 fn is_counter(key: &str) -> bool {
-    key.ends_with("_per_ray") || key.ends_with("_per_primitive")
+    let kinds = ["_per_ray", "_per_packet", "_per_primitive"];
+    kinds.iter().any(|kind| key.ends_with(kind))
 }
 
 impl Comparison {
