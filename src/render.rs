@@ -54,7 +54,7 @@ pub use integrator::{Integrator, IntegratorEntry, Shows, TABLE as INTEGRATORS};
 pub use layers::{Layer, LayerKind};
 pub use levels::{Levels, Quantity};
 pub use policy::{ExecutionPolicy, Fetch, Slicing, Storage};
-pub use query::{QueryHit, QueryRay, RayBatch, RayQuery, RaySteps, RayTest};
+pub use query::{Coherence, QueryHit, QueryRay, RayBatch, RayQuery, RaySteps, RayTest};
 pub use settings::{BsdfModel, MIN_THROUGHPUT, RayOffset, RenderSettings, TriangleTest};
 pub use show::Screen;
 pub use stats::{Rays, Stats, Uploads};

@@ -45,6 +45,8 @@ pub enum Reason {
     Cache,
     /// It was measured just now.
     Measurement,
+    /// The choice was the other one, for which the scene is too large on this adapter.
+    Limits,
 }
 
 impl Reason {
@@ -55,6 +57,7 @@ impl Reason {
             Self::Environment => "as GLIMRAY_FETCH says",
             Self::Cache => "as measured before",
             Self::Measurement => "as measured now",
+            Self::Limits => "as it is too large for the others",
         }
     }
 }
@@ -72,6 +75,28 @@ pub struct Tuning {
     pub times: Option<StorageTimes>,
 }
 
+impl Tuning {
+    /// Why a renderer for which this was the choice reads from `storage`.
+    pub fn reason_for(&self, storage: Storage) -> Reason {
+        match storage == self.storage {
+            true => self.reason,
+            false => Reason::Limits,
+        }
+    }
+
+    /// A sentence for people if the environment asked for another storage than a renderer reads from.
+    pub fn refusal(&self, storage: Storage) -> Option<String> {
+        let is_refused = self.reason == Reason::Environment && storage != self.storage;
+        let (used, wished) = (name(storage), name(self.storage));
+        is_refused.then(|| {
+            format!(
+                "the scene is read from {used}s, not from {wished}s as {VARIABLE} says: it is too large for the \
+                 {wished}s of this adapter. `glimray doctor` prints its limits."
+            )
+        })
+    }
+}
+
 /// The name of a storage in reports.
 pub fn name(storage: Storage) -> &'static str {
     match storage {
@@ -86,6 +111,14 @@ enum Wish {
     Auto,
     Off,
     Storage(Storage),
+}
+
+/// Checks the environment variable.
+///
+/// # Errors
+/// It has an unknown value.
+pub fn check() -> Result<(), AppError> {
+    wish().map(drop)
 }
 
 /// The choice for an adapter without measuring.

@@ -21,7 +21,6 @@ use crate::cli::args::BenchArgs;
 use crate::cli::device;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job;
-use crate::gpu::Gpu;
 use comparison::Baseline;
 use playing::Playing;
 use renders::Renders;
@@ -34,7 +33,7 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
         Some(path) => Some((path, Baseline::read(path, is_quick)?)),
         None => None,
     };
-    let gpu = Gpu::new(&arguments.device.choice())?;
+    let gpu = device::open(&arguments.device)?;
     let is_selected = |name: &str| match &arguments.only {
         Some(part) => name.contains(part.as_str()),
         None => true,
@@ -86,10 +85,11 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
         "playing": playing,
         "viewer": viewer,
     });
-    let ratios = baseline.map(|(path, baseline)| (path, baseline.ratios(&run)));
+    let compared = baseline.map(|(path, baseline)| (path, baseline.compare(&run, is_selected)));
     if arguments.json {
-        if let Some((_, ratios)) = &ratios {
-            run["compared"] = serde_json::json!(ratios);
+        if let Some((_, comparison)) = &compared {
+            run["compared"] = serde_json::json!(comparison.ratios);
+            run["compared_with"] = serde_json::json!(comparison.sides);
         }
         return console::print_json(&run);
     }
@@ -102,7 +102,7 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
     text.extend(scenes.iter().map(scene_runs::Row::text));
     text.extend(playing.iter().map(playing::Row::text));
     text.extend(viewer_text);
-    text.extend(ratios.map(|(path, ratios)| comparison::text(path, &ratios)));
+    text.extend(compared.map(|(path, comparison)| comparison.text(path)));
     console::print(&text)
 }
 

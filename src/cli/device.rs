@@ -1,7 +1,9 @@
 //! Creates renderers, and describes adapters for people.
 
+use crate::app::console;
 use crate::app::error::AppError;
 use crate::app::tuning::{self, Tuning};
+use crate::cli::args::DeviceFlags;
 use crate::gpu::{AdapterReport, Backend, Gpu};
 use crate::pack::{self, PackedScene, PackedView};
 use crate::render::{self, ExecutionPolicy, RenderSettings, Renderer};
@@ -14,6 +16,13 @@ pub struct Prepared {
     /// Seconds that building the tree took.
     pub build_seconds: f64,
     pub tuning: Tuning,
+}
+
+/// Opens the adapter that the flags choose, after a look at the environment: nothing is then announced that a wrong
+/// value would stop.
+pub fn open(flags: &DeviceFlags) -> Result<Gpu, AppError> {
+    tuning::check()?;
+    Ok(Gpu::new(&flags.choice())?)
 }
 
 /// A renderer of `scene` while the shutter is open, from `shutter.0` to `shutter.1` in seconds. If the picture is worth
@@ -57,6 +66,13 @@ fn packed(scene: &Scene, shutter: (f64, f64)) -> Result<(Arc<PackedScene>, Packe
     let packed = Arc::new(pack::scene(scene)?);
     let view = packed.view(&scene.motion_samples(shutter.0, shutter.1))?;
     Ok((packed, view))
+}
+
+/// Warns if the environment asks for another storage than the renderer reads the scene from.
+pub fn warn_of_storage(renderer: &Renderer, tuning: &Tuning) {
+    if let Some(refusal) = tuning.refusal(renderer.storage()) {
+        console::warning(refusal);
+    }
 }
 
 /// Describes the adapter in a status line: `NAME [BACKEND, KIND]`.

@@ -12,7 +12,6 @@ use crate::cli::interrupt::Interrupt;
 use crate::cli::job;
 use crate::cli::memory;
 use crate::cli::scene_file;
-use crate::gpu::Gpu;
 use crate::output;
 use crate::render::{Integrator, RenderSettings, Renderer};
 use std::ops::Range;
@@ -47,7 +46,7 @@ pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
         &arguments.scene.display().to_string(),
         settings.size,
     )?;
-    let gpu = Gpu::new(&arguments.device.choice())?;
+    let gpu = device::open(&arguments.device)?;
     let policy = job::policy(&arguments.device, false);
     let mut renderer = device::renderer(gpu, &scene, shutter, settings.clone(), policy)?;
     let samples = samples(arguments, &settings, &mut renderer)?;

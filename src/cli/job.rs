@@ -151,7 +151,7 @@ impl Job<'_> {
     pub fn open_gpu(&self, size: (u32, u32), draft: &mut Draft) -> Result<Gpu, AppError> {
         memory::check_scene(&self.scene, &draft.scene_path, size)?;
         let started = Instant::now();
-        let gpu = Gpu::new(&self.device.choice())?;
+        let gpu = device::open(self.device)?;
         draft.seconds.gpu = started.elapsed().as_secs_f64();
         draft.adapter = Some(gpu.adapter().into());
         Ok(gpu)

@@ -55,6 +55,7 @@ pub fn run(
     let prepared = device::prepared(gpu, &job.scene, shutter, settings.clone(), job.policy())?;
     let mut renderer = prepared.renderer;
     draft.seconds.bvh = prepared.build_seconds;
+    device::warn_of_storage(&renderer, &prepared.tuning);
     draft.fetch = Some(FetchReport::new(&renderer, &prepared.tuning));
     if let Some(checkpoint) = &mut checkpoint {
         draft.resumed = checkpoint.resume(&mut renderer, job.console())?;

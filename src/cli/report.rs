@@ -146,7 +146,7 @@ pub struct Adapter {
 pub struct FetchReport {
     /// "image" or "buffer".
     pub storage: &'static str,
-    /// Why: "device_type", "environment", "cache" or "measurement".
+    /// Why: "device_type", "environment", "cache", "measurement" or "limits".
     pub reason: Reason,
     /// Time to measure the adapter in this run; 0 if it was not measured.
     pub seconds: f64,
@@ -158,9 +158,10 @@ pub struct FetchReport {
 impl FetchReport {
     /// That of a renderer that was prepared with this tuning.
     pub fn new(renderer: &Renderer, tuning: &Tuning) -> Self {
+        let storage = renderer.storage();
         Self {
-            storage: tuning::name(renderer.storage()),
-            reason: tuning.reason,
+            storage: tuning::name(storage),
+            reason: tuning.reason_for(storage),
             seconds: tuning.seconds,
             image_seconds: tuning.times.map(|times| times.image),
             buffer_seconds: tuning.times.map(|times| times.buffer),

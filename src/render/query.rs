@@ -1,5 +1,9 @@
 //! Ray queries: closest hits and occlusion of rays that the caller supplies: `kernels/trace_rays.wesl`.
 
+mod rays;
+
+pub use rays::{Coherence, QueryHit, QueryRay, RaySteps, RayTest};
+
 use super::{
     ExecutionPolicy, LongPath, RenderError,
     arrays::{Array, Rows},
@@ -18,7 +22,6 @@ use crate::{
     pack::{PackedScene, PackedView},
 };
 use bytemuck::{bytes_of, cast_slice, pod_collect_to_vec, pod_read_unaligned};
-use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 /// Rays of a workgroup.
@@ -26,88 +29,21 @@ const GROUP_RAYS: usize = 64;
 /// Maximum number of rays of a dispatch: 16 MiB of results.
 const MAX_RAYS: usize = 1 << 20;
 const ROW_BYTES: u64 = 16;
-
-/// A ray in world space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct QueryRay {
-    /// Origin, finite.
-    pub origin: DVec3,
-    /// Direction, of unit length.
-    pub direction: Vec3,
-    /// Surfaces at this distance or beyond are ignored, in scene units. [`QueryRay::FAR`] has no limit.
-    pub t_max: f32,
-    /// Time in the shutter interval of the view, from 0 to 1; matters only if instances move.
-    pub time: f32,
-}
-
-impl QueryRay {
-    /// A `t_max` beyond every scene.
-    pub const FAR: f32 = 3e38;
-
-    /// A ray without a limit, at the time when the shutter opens.
-    pub fn new(origin: DVec3, direction: Vec3) -> Self {
-        Self {
-            origin,
-            direction,
-            t_max: Self::FAR,
-            time: 0.0,
-        }
-    }
-
-    /// The two rows that the shader reads; it traces in render space, whose origin is `origin` in world space.
-    fn rows(&self, origin: DVec3) -> [[f32; 4]; 2] {
-        let [x, y, z] = (self.origin - origin).as_vec3().to_array();
-        let [dx, dy, dz] = self.direction.to_array();
-        [[x, y, z, self.t_max], [dx, dy, dz, self.time]]
-    }
-}
-
-/// The closest hit of a ray. [`PackedScene::object_at`] returns the object with these indices.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct QueryHit {
-    /// Distance along the ray, above 0 and below its `t_max`, in scene units.
-    pub t: f32,
-    /// Index of the triangle in [`PackedScene::triangles`], or [`crate::layout::SHAPE`] with the index of a shape.
-    pub primitive: u32,
-    /// Index of an instance of the view, or [`crate::layout::NO_INSTANCE`].
-    pub instance: u32,
-    /// Barycentric weights of the second and third corner of a triangle, rounded to 16 bits. Meaningless for
-    /// shapes.
-    pub weights: [f32; 2],
-}
-
-impl QueryHit {
-    fn of([t, primitive, instance, weights]: [u32; 4]) -> Option<Self> {
-        let weight = |bits: u32| (bits & 0xffff) as f32 / 65_535.0;
-        (primitive != NONE).then(|| Self {
-            t: f32::from_bits(t),
-            primitive,
-            instance,
-            weights: [weight(weights), weight(weights >> 16)],
-        })
-    }
-}
-
-/// The traversal steps of a ray.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct RaySteps {
-    /// Nodes visited, in the TLAS and in BLASes.
-    pub nodes: u32,
-    /// Triangles and shapes tested, without planes.
-    pub primitives: u32,
-}
-
-/// The question that a query answers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RayTest {
-    /// The closest hit.
-    Closest,
-    /// Whether there is any hit.
-    Any,
-}
+/// Rays of a lane of a packet.
+const LANE_RAYS: u32 = 4;
 
 /// Rays on the device, for repeated tracing.
-pub struct RayBatch(Vec<Chunk>);
+pub struct RayBatch {
+    chunks: Vec<Chunk>,
+    coherence: Coherence,
+}
+
+impl RayBatch {
+    /// The same rays with this hint; without one they are [`Coherence::Coherent`].
+    pub fn with_coherence(self, coherence: Coherence) -> Self {
+        Self { coherence, ..self }
+    }
+}
 
 /// The rays of one dispatch.
 struct Chunk {
@@ -124,8 +60,7 @@ impl Chunk {
 /// Traces rays through a view of a packed scene:
 ///
 /// ```no_run
-/// use glam::{DVec3, Vec3};
-/// use glimray::{gpu::Gpu, import, pack, render::{ExecutionPolicy, QueryRay, RayQuery}};
+/// /// use glimray::{gpu::Gpu, import, pack, render::{ExecutionPolicy, QueryRay, RayQuery}};
 ///
 /// let scene = import::load("assets/scenes/spheres.toml".as_ref())?;
 /// let packed = std::sync::Arc::new(pack::scene(&scene)?);
@@ -201,7 +136,7 @@ impl RayQuery {
     /// # Errors
     /// As [`Self::closest_hits`].
     pub fn closest_hits_of(&self, batch: &RayBatch) -> Result<Vec<Option<QueryHit>>, RenderError> {
-        let rows = self.rows(batch, RayTest::Closest, false)?;
+        let rows = self.rows(batch, RayTest::Closest)?;
         Ok(rows.into_iter().map(QueryHit::of).collect())
     }
 
@@ -210,20 +145,45 @@ impl RayQuery {
     /// # Errors
     /// As [`Self::closest_hits`].
     pub fn occluded_of(&self, batch: &RayBatch) -> Result<Vec<bool>, RenderError> {
-        let rows = self.rows(batch, RayTest::Any, false)?;
+        let rows = self.rows(batch, RayTest::Any)?;
         let is_hit = |[_, primitive, ..]: [u32; 4]| primitive != NONE;
         Ok(rows.into_iter().map(is_hit).collect())
     }
 
-    /// The traversal steps of each ray. They do not depend on the adapter's speed, so they show whether a tree
-    /// or a traversal has become better or worse.
+    /// The traversal steps of each ray if it is traced alone, whatever the coherence of the batch. They do not depend on the
+    /// adapter's speed, so they show whether a tree or a traversal has become better or worse.
     ///
     /// # Errors
     /// As [`Self::closest_hits`].
     pub fn steps(&self, batch: &RayBatch, test: RayTest) -> Result<Vec<RaySteps>, RenderError> {
-        let rows = self.rows(batch, test, true)?;
-        let steps = |[_, _, nodes, primitives]: [u32; 4]| RaySteps { nodes, primitives };
-        Ok(rows.into_iter().map(steps).collect())
+        self.counted(batch, test, pipelines::portable(self.fetch))
+    }
+
+    /// For each ray the traversal steps of its packet if all rays are traced in packets of [`Self::packet_rays`], in their
+    /// order and whatever the coherence of the batch: each ray of a packet is tested against every box and primitive on
+    /// its way. `None` if this query traces no packets, or one exceeds its stack.
+    ///
+    /// # Errors
+    /// As [`Self::closest_hits`].
+    pub fn packet_steps(
+        &self,
+        batch: &RayBatch,
+        test: RayTest,
+    ) -> Result<Option<Vec<RaySteps>>, RenderError> {
+        if self.packet_rays().is_none() {
+            return Ok(None);
+        }
+        match self.counted(batch, test, Variant::Packet) {
+            Err(RenderError::PathTooLong(_)) => Ok(None),
+            steps => steps.map(Some),
+        }
+    }
+
+    /// The number of rays of a packet, 32 or 64, if coherent rays are traced in packets: the adapter can do that, the policy
+    /// allows it, and nothing moves while the shutter is open.
+    pub fn packet_rays(&self) -> Option<u32> {
+        let lanes = self.gpu.packet_lanes()?;
+        (self.variant(Coherence::Coherent) == Variant::Packet).then_some(LANE_RAYS * lanes)
     }
 
     /// Traces the rays `passes` times and returns the seconds of one pass, without upload and readback. A GPU's
@@ -239,8 +199,8 @@ impl RayQuery {
         passes: u32,
     ) -> Result<f64, RenderError> {
         let passes = passes.max(1);
-        let seconds = self.with_pipeline(test, false, |pipeline| {
-            let chunks = batch.0.iter();
+        let seconds = self.with_pipeline(batch, test, |pipeline| {
+            let chunks = batch.chunks.iter();
             let seconds = chunks.map(|chunk| self.dispatch(chunk, pipeline, passes, None));
             seconds.sum::<Result<f64, _>>()
         })?;
@@ -253,7 +213,10 @@ impl RayQuery {
     /// The device failed.
     pub fn batch(&self, rays: &[QueryRay]) -> Result<RayBatch, RenderError> {
         let chunks = rays.chunks(MAX_RAYS).map(|rays| self.chunk(rays));
-        Ok(RayBatch(chunks.collect::<Result<_, GpuError>>()?))
+        Ok(RayBatch {
+            chunks: chunks.collect::<Result<_, GpuError>>()?,
+            coherence: Coherence::default(),
+        })
     }
 
     fn chunk(&self, rays: &[QueryRay]) -> Result<Chunk, GpuError> {
@@ -275,38 +238,56 @@ impl RayQuery {
     }
 
     /// The results of all rays, as `scene/query.wesl` stores them.
-    fn rows(
+    fn rows(&self, batch: &RayBatch, test: RayTest) -> Result<Vec<[u32; 4]>, RenderError> {
+        self.with_pipeline(batch, test, |pipeline| self.rows_of(batch, pipeline))
+    }
+
+    fn counted(
         &self,
         batch: &RayBatch,
         test: RayTest,
-        counts_steps: bool,
+        variant: Variant,
+    ) -> Result<Vec<RaySteps>, RenderError> {
+        let rows = self.rows_of(batch, &self.pipeline(test, true, variant)?)?;
+        let steps = |[_, _, nodes, primitives]: [u32; 4]| RaySteps { nodes, primitives };
+        Ok(rows.into_iter().map(steps).collect())
+    }
+
+    fn rows_of(
+        &self,
+        batch: &RayBatch,
+        pipeline: &wgpu::ComputePipeline,
     ) -> Result<Vec<[u32; 4]>, RenderError> {
-        self.with_pipeline(test, counts_steps, |pipeline| {
-            let mut all = Vec::new();
-            for chunk in &batch.0 {
-                self.dispatch(chunk, pipeline, 1, Some(&mut all))?;
-            }
-            Ok(all)
-        })
+        let mut all = Vec::new();
+        for chunk in &batch.chunks {
+            self.dispatch(chunk, pipeline, 1, Some(&mut all))?;
+        }
+        Ok(all)
+    }
+
+    /// The kernel for rays of this coherence.
+    fn variant(&self, coherence: Coherence) -> Variant {
+        match self.as_packets && coherence == Coherence::Coherent {
+            true => pipelines::tracing_variant(&self.gpu, self.fetch, &self.view),
+            false => pipelines::portable(self.fetch),
+        }
     }
 
     /// Calls `trace` with a pipeline, and again with that of the portable kernel if a packet exceeds its stack or
     /// the loop limit of the driver.
     fn with_pipeline<T>(
         &self,
+        batch: &RayBatch,
         test: RayTest,
-        counts_steps: bool,
         mut trace: impl FnMut(&wgpu::ComputePipeline) -> Result<T, RenderError>,
     ) -> Result<T, RenderError> {
-        let portable = pipelines::portable(self.fetch);
-        // Packets have no steps of single rays.
-        let variant = match counts_steps || !self.as_packets {
-            true => portable,
-            false => pipelines::tracing_variant(&self.gpu, self.fetch, &self.view),
-        };
-        match trace(&self.pipeline(test, counts_steps, variant)?) {
+        let (variant, portable) = (
+            self.variant(batch.coherence),
+            pipelines::portable(self.fetch),
+        );
+        match trace(&self.pipeline(test, false, variant)?) {
             Err(RenderError::PathTooLong(_)) if variant != portable => {
-                trace(&self.pipeline(test, counts_steps, portable)?)
+                trace(&self.pipeline(test, false, portable)?)
             }
             traced => traced,
         }

@@ -1,13 +1,14 @@
-//! `glimray bench`: its scenes and ray sets are the same everywhere, its exact counters do not grow, and it
-//! compares runs.
+//! `glimray bench`: its scenes and ray sets are the same everywhere, and its exact counters do not grow.
+
+mod comparing;
+mod packets;
 
 use crate::reference::compare::open_gpu;
-use crate::support::program::Workspace;
 use crate::support::verdict::Verdict;
-use glimray::cli::bench::ray_sets;
+use glimray::cli::bench::ray_sets::{self, RaySet};
 use glimray::cli::bench::scenes::{self, ALL, Detail};
 use glimray::pack;
-use glimray::render::{ExecutionPolicy, RayQuery, RaySteps};
+use glimray::render::{ExecutionPolicy, RayBatch, RayQuery, RaySteps, RayTest};
 use std::sync::Arc;
 
 /// Side of the picture of the small ray sets.
@@ -127,41 +128,56 @@ const STEPS: [(&str, Steps); 6] = [
 
 #[test]
 fn nodes_and_primitives_per_ray_do_not_grow() {
-    let mut verdict = Verdict::on("steps per ray");
-    let mut table = String::new();
-    for (name, expected) in STEPS {
-        table += &format!("\n{name} ");
-        let scene = ALL.iter().find(|scene| scene.name == name).expect(name);
-        let scene = (scene.scene)(Detail::Small);
-        let packed = Arc::new(pack::scene(&scene).expect("packed"));
-        let view = packed.frame(&scene.frame(0.0)).expect("a view");
-        let policy = ExecutionPolicy::default();
-        let query = RayQuery::new(open_gpu(), packed, &view, policy).expect("a query");
-        let sets = ray_sets::of(&scene, SIDE);
+    do_not_grow("steps per ray", &STEPS, |query, batch, test| {
+        query.steps(batch, test).expect("steps")
+    });
+}
+
+/// Fails if the means of what `count` counts are more than 5 % above a table. Then it prints the table of today, to replace
+/// that after a change on purpose.
+fn do_not_grow(
+    what: &str,
+    table: &[(&str, Steps)],
+    count: impl Fn(&RayQuery, &RayBatch, RayTest) -> Vec<RaySteps>,
+) {
+    let mut verdict = Verdict::on(what);
+    let mut today = String::new();
+    for (name, expected) in table {
+        today += &format!("\n{name} ");
+        let (query, sets) = small(name);
         for (set, expected) in sets.iter().zip(expected) {
             let batch = query.batch(&set.rays).expect("a batch");
-            let steps = query.steps(&batch, set.test).expect("steps");
-            let mean = |part: fn(&RaySteps) -> u32| {
-                steps
-                    .iter()
-                    .map(|steps| f64::from(part(steps)))
-                    .sum::<f64>()
-                    / steps.len() as f64
-            };
-            let found = [mean(|steps| steps.nodes), mean(|steps| steps.primitives)];
-            table += &format!("[{:.3}, {:.3}], ", found[0], found[1]);
-            let has_grown = found
-                .iter()
-                .zip(expected)
-                .any(|(found, expected)| *found > GROWTH * expected);
+            let found = means(&count(&query, &batch, set.test));
+            today += &format!("[{:.3}, {:.3}], ", found[0], found[1]);
+            let has_grown =
+                (found.iter().zip(expected)).any(|(found, expected)| *found > GROWTH * expected);
             verdict.that(format!("{name}, {}", set.name), !has_grown, || {
                 format!("[{:.3}, {:.3}], it was {expected:?}", found[0], found[1])
             });
         }
     }
-    // Shown if the test fails, to replace the table after a change on purpose.
-    println!("{table}");
+    println!("{today}");
     verdict.close();
+}
+
+/// A scene at small detail, ready for queries, and its ray sets.
+fn small(name: &str) -> (RayQuery, Vec<RaySet>) {
+    let scene = ALL.iter().find(|scene| scene.name == name).expect(name);
+    let scene = (scene.scene)(Detail::Small);
+    let packed = Arc::new(pack::scene(&scene).expect("packed"));
+    let view = packed.frame(&scene.frame(0.0)).expect("a view");
+    let policy = ExecutionPolicy::default();
+    let query = RayQuery::new(open_gpu(), packed, &view, policy).expect("a query");
+    (query, ray_sets::of(&scene, SIDE))
+}
+
+/// Nodes and primitives, as means over the rays.
+fn means(steps: &[RaySteps]) -> [f64; 2] {
+    let mean = |part: fn(&RaySteps) -> u32| {
+        let sum: f64 = steps.iter().map(|steps| f64::from(part(steps))).sum();
+        sum / steps.len() as f64
+    };
+    [mean(|steps| steps.nodes), mean(|steps| steps.primitives)]
 }
 
 #[test]
@@ -230,98 +246,4 @@ fn the_largest_scenes_are_as_documented() {
     assert_eq!(terrain.triangle_count(), 4_000_000);
     let small = scenes::terrain(Detail::Small);
     assert_eq!(small.triangle_count(), 40_000);
-}
-
-#[test]
-fn a_file_that_is_no_earlier_run_is_refused() {
-    let workspace = Workspace::new();
-    workspace.write(
-        "foreign.json",
-        r#"{"glimray": "0.1.0", "command": "render"}"#,
-    );
-    workspace.write(
-        "quick.json",
-        r#"{"glimray": "0.1.0", "quick": true, "workloads": []}"#,
-    );
-    for (file, why) in [
-        ("missing.json", "missing.json"),
-        ("foreign.json", "no figures of a benchmark"),
-        ("a.scene", "no figures of a benchmark"),
-        ("quick.json", "with --quick"),
-    ] {
-        let run = workspace.run(&format!("bench --compare {file}")).expect(3);
-        run.says(why);
-        run.says("Give a file with the output of `glimray bench --json`.");
-        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
-        assert!(run.stdout.is_empty(), "{file}");
-    }
-}
-
-#[test]
-fn a_name_of_no_measurement_is_refused() {
-    let run = Workspace::new().run("bench --only nonsense").expect(2);
-    run.says("nothing to measure (--only nonsense)");
-    assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
-}
-
-#[test]
-fn a_comparison_marks_counters_that_grew() {
-    let workspace = Workspace::new();
-    let mut old = workspace
-        .run("bench --quick --only sphereflake --json")
-        .expect(0)
-        .json();
-    let scene = old["scenes"][0].clone();
-    assert_eq!(scene["spheres"], 7381);
-    let sets: Vec<_> = scene["rays"]
-        .as_array()
-        .expect("ray sets")
-        .iter()
-        .map(|set| set["set"].clone())
-        .collect();
-    assert_eq!(
-        sets,
-        [
-            "primary",
-            "shadow",
-            "ambient-occlusion",
-            "diffuse",
-            "mirror",
-            "random"
-        ]
-    );
-    for set in scene["rays"].as_array().expect("ray sets") {
-        let rate = &set["mrays_per_second"];
-        let [low, middle, high] =
-            ["min", "median", "max"].map(|name| rate[name].as_f64().expect(name));
-        assert!(0.0 < low && low <= middle && middle <= high, "{set}");
-        assert!(set["nodes_per_ray"].as_f64().expect("nodes") > 0.5, "{set}");
-    }
-    let nodes = scene["rays"][0]["nodes_per_ray"].as_f64().expect("nodes");
-    old["scenes"][0]["rays"][0]["nodes_per_ray"] = (nodes / 1.06).into();
-    let primitives = scene["rays"][0]["primitives_per_ray"]
-        .as_f64()
-        .expect("primitives");
-    old["scenes"][0]["rays"][0]["primitives_per_ray"] = (primitives / 1.04).into();
-    workspace.write("old.json", old.to_string());
-    let run = workspace
-        .run("bench --quick --only sphereflake --compare old.json --json")
-        .expect(0)
-        .json();
-    let compared = run["compared"].as_array().expect("ratios");
-    let of = |name: &str| {
-        let found = compared
-            .iter()
-            .find(|ratio| ratio["figure"] == format!("sphereflake/primary/{name}"));
-        let found = found.unwrap_or_else(|| panic!("{name} in {compared:?}"));
-        (
-            found["ratio"].as_f64().expect("a ratio"),
-            found["grew"].clone(),
-        )
-    };
-    let (ratio, grew) = of("nodes_per_ray");
-    assert!((ratio - 1.06).abs() < 1e-9 && grew == true, "{ratio}");
-    let (ratio, grew) = of("primitives_per_ray");
-    assert!((ratio - 1.04).abs() < 1e-9 && grew == false, "{ratio}");
-    assert!(of("mrays_per_second").1 == false, "a speed is no counter");
 }

@@ -84,6 +84,7 @@ fn packets_of_8_and_of_16_lanes_pass_the_same_tests() {
     const WIDTH: &str = "LP_NATIVE_VECTOR_WIDTH";
     let tests = [
         "pictures::images_buffers_and_packets_give_the_same_bits",
+        "bench::packets::nodes_and_primitives_per_packet_do_not_grow",
         "ray_query::packets_and_single_rays_find_the_same_in_a_deep_tree",
         "golden::golden_pictures_are_as_they_were",
     ];

@@ -6,7 +6,7 @@ use crate::support::random::Random;
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, dvec3};
 use glimray::pack;
-use glimray::render::{ExecutionPolicy, Fetch, QueryHit, QueryRay, RayQuery, RayTest};
+use glimray::render::{Coherence, ExecutionPolicy, Fetch, QueryHit, QueryRay, RayQuery, RayTest};
 use glimray::scene::{Geometry, ObjectRef, Scene};
 use std::sync::Arc;
 
@@ -265,4 +265,32 @@ fn packets_and_single_rays_find_the_same_in_a_deep_tree() {
         "the rays hit spheres"
     );
     assert!(hits(Fetch::Packet) == expected);
+}
+
+#[test]
+fn the_coherence_of_rays_does_not_affect_what_they_hit() {
+    let scene = mixed();
+    let rays = rays(5000);
+    for (fetch, may_trace_packets) in [(Fetch::Auto, true), (Fetch::Image, false)] {
+        let (query, ..) = query(&scene, usize::MAX, fetch);
+        let packets = match open_gpu().traces_packets() && may_trace_packets {
+            true => &[32, 64][..],
+            false => &[],
+        };
+        let is_known = |rays| packets.contains(&rays);
+        assert_eq!(query.packet_rays().is_some(), !packets.is_empty());
+        assert!(query.packet_rays().is_none_or(is_known));
+        let of = |coherence| {
+            let batch = query.batch(&rays).expect("a batch");
+            let batch = batch.with_coherence(coherence);
+            let hits = query.closest_hits_of(&batch).expect("hits");
+            let any = query.occluded_of(&batch).expect("hits");
+            let steps = query.steps(&batch, RayTest::Closest).expect("steps");
+            let packets = query.packet_steps(&batch, RayTest::Closest);
+            (hits, any, steps, packets.expect("steps"))
+        };
+        let coherent = of(Coherence::Coherent);
+        assert_eq!(coherent.3.is_some(), !packets.is_empty());
+        assert!(coherent == of(Coherence::Incoherent), "{fetch:?}");
+    }
 }

@@ -285,9 +285,62 @@ fn an_unknown_choice_is_refused() {
     let cached = Cached::new();
     let message = "error: cannot choose how kernels read the scene (GLIMRAY_FETCH=cards): there is no such choice. Set it \
                    to image, buffer, auto or off.";
-    for line in ["render a.scene --quiet", "doctor"] {
+    for line in [
+        "render a.scene",
+        "animate a.scene -o a_%d.png --frames 1..2",
+        "bench --quick --only course",
+        "explain a.scene --pixel 1,1",
+        "doctor",
+    ] {
         let run = cached.run("cards", line).expect(2);
         assert_eq!(run.stderr.trim_end(), message);
     }
     assert_eq!(cached.workspace.made(), ["many.scene"]);
+}
+
+/// A grid of little triangles, each many times, as binary PLY: more bytes than one binding of lavapipe's buffers holds.
+#[test]
+fn a_choice_that_the_limits_forbid_is_reported() {
+    let limit = open_gpu().adapter().max_binding_bytes;
+    const SIDE: u32 = 60;
+    const TRIANGLE_BYTES: u64 = 48;
+    let cells = u64::from(SIDE * SIDE);
+    let copies = limit / (2 * cells * TRIANGLE_BYTES) + 1;
+    if copies > 1000 {
+        return;
+    }
+    let mut ply = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float \
+         z\nelement face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+        (SIDE + 1) * (SIDE + 1),
+        2 * cells * copies
+    )
+    .into_bytes();
+    for index in 0..(SIDE + 1) * (SIDE + 1) {
+        let place = [index % (SIDE + 1), index / (SIDE + 1), 0];
+        for at in place {
+            ply.extend((at as f32).to_le_bytes());
+        }
+    }
+    for cell in (0..copies).flat_map(|_| 0..SIDE * SIDE) {
+        let first = cell / SIDE * (SIDE + 1) + cell % SIDE;
+        let across = first + SIDE + 2;
+        for corners in [[first, first + 1, across], [first, across, across - 1]] {
+            ply.push(3);
+            for corner in corners {
+                ply.extend(corner.to_le_bytes());
+            }
+        }
+    }
+    let cached = Cached::new();
+    cached.workspace.write("large.ply", ply);
+    let line = "render large.ply --bare --integrator depth --size 32x24 --report - -o large.png";
+    let run = cached.run("buffer", line).expect(0);
+    run.says(
+        "warning: the scene is read from images, not from buffers as GLIMRAY_FETCH says: it is too large for the buffers \
+         of this adapter. `glimray doctor` prints its limits.",
+    );
+    let report = run.json();
+    assert_eq!(report["fetch"]["storage"], "image");
+    assert_eq!(report["fetch"]["reason"], "limits");
 }

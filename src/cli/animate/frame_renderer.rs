@@ -9,6 +9,7 @@ use crate::cli::animate::plan::Plan;
 use crate::cli::animate::target::Files;
 use crate::cli::animate::{Frames, Sequence};
 use crate::cli::args::LayerFlags;
+use crate::cli::device;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::layers::Finished;
 use crate::cli::progress::FrameProgress;
@@ -214,6 +215,7 @@ impl<'a> FrameRenderer<'a> {
                 };
                 let scene = self.scene.clone();
                 let renderer = Renderer::new(gpu, scene, view, settings, policy)?;
+                device::warn_of_storage(&renderer, &tuning);
                 self.fetch = Some(FetchReport::new(&renderer, &tuning));
                 empty.insert(renderer)
             }

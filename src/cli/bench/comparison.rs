@@ -13,7 +13,20 @@ const GROWTH: f64 = 1.05;
 
 /// An earlier run.
 pub struct Baseline {
+    conditions: Vec<Condition>,
     figures: BTreeMap<String, f64>,
+}
+
+/// What a run was made with.
+struct Condition {
+    what: &'static str,
+    value: Value,
+}
+
+/// Two runs side by side.
+pub struct Comparison {
+    pub ratios: Vec<Ratio>,
+    pub sides: Sides,
 }
 
 /// A figure of both runs.
@@ -23,10 +36,27 @@ pub struct Ratio {
     figure: String,
     old: f64,
     new: f64,
-    /// New over old.
-    ratio: f64,
+    /// New over old; null if the old one is 0.
+    ratio: Option<f64>,
     /// Whether it is an exact counter that grew by more than 5 %.
     grew: bool,
+}
+
+/// What only one of two runs has.
+#[derive(Debug, Serialize)]
+pub struct Sides {
+    /// Conditions that are not the same, so that the figures may differ for that reason.
+    differences: Vec<Difference>,
+    /// Figures that this run should have too, as it was to measure their scene or workload.
+    only_old: Vec<String>,
+    only_new: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct Difference {
+    what: &'static str,
+    old: Value,
+    new: Value,
 }
 
 impl Baseline {
@@ -52,25 +82,67 @@ impl Baseline {
             return Err(refused("only one of the two runs is with --quick"));
         }
         Ok(Self {
+            conditions: conditions(&run),
             figures: figures(&run),
         })
     }
 
-    /// The ratios of all figures that both runs have.
-    pub fn ratios(&self, run: &Value) -> Vec<Ratio> {
+    /// Compares a run that measures what `is_selected` by its name. A figure that is 0 in both runs has no ratio.
+    pub fn compare(&self, run: &Value, is_selected: impl Fn(&str) -> bool) -> Comparison {
+        let new = figures(run);
+        let is_selected = |figure: &str| is_selected(figure.split('/').next().unwrap_or_default());
+        let missing = |from: &BTreeMap<String, f64>, others: &BTreeMap<String, f64>| {
+            let missing = from.keys().filter(|figure| !others.contains_key(*figure));
+            missing.cloned().collect::<Vec<_>>()
+        };
+        let mut only_old = missing(&self.figures, &new);
+        only_old.retain(|figure| is_selected(figure));
+        let differences = self.conditions.iter().zip(conditions(run));
+        let differences = differences.filter(|(old, new)| old.value != new.value);
+        let sides = Sides {
+            differences: differences
+                .map(|(old, new)| Difference {
+                    what: old.what,
+                    old: old.value.clone(),
+                    new: new.value,
+                })
+                .collect(),
+            only_old,
+            only_new: missing(&new, &self.figures),
+        };
         let ratio = |(figure, new): (String, f64)| {
             let old = *self.figures.get(&figure)?;
-            let ratio = new / old;
-            Some(Ratio {
-                grew: is_counter(&figure) && ratio > GROWTH,
+            let is_growth = is_counter(&figure) && new > GROWTH * old;
+            (old != 0.0 || new != 0.0).then(|| Ratio {
+                grew: is_growth,
                 figure,
                 old,
                 new,
-                ratio,
+                ratio: (old != 0.0).then(|| new / old),
             })
         };
-        figures(run).into_iter().filter_map(ratio).collect()
+        Comparison {
+            ratios: new.into_iter().filter_map(ratio).collect(),
+            sides,
+        }
     }
+}
+
+/// What a run was made with; null where it does not say.
+fn conditions(run: &Value) -> Vec<Condition> {
+    let adapter = &run["adapter"];
+    let all = [
+        ("version", &run["glimray"]),
+        ("adapter", &adapter["name"]),
+        ("backend", &adapter["backend"]),
+        ("driver", &adapter["driver"]),
+        ("repeats", &run["repeats"]),
+    ];
+    let condition = |(what, value): (_, &Value)| Condition {
+        what,
+        value: value.clone(),
+    };
+    all.map(condition).into()
 }
 
 /// The figures of a run that can be compared, by name. A figure with a spread is its median.
@@ -123,27 +195,60 @@ fn is_figure(key: &str) -> bool {
 
 /// Whether a figure is the same in every run of one version.
 fn is_counter(key: &str) -> bool {
-    key.ends_with("_per_ray") || key.ends_with("_per_primitive")
+    let kinds = ["_per_ray", "_per_packet", "_per_primitive"];
+    kinds.iter().any(|kind| key.ends_with(kind))
 }
 
-/// A table for people.
-pub fn text(path: &Path, ratios: &[Ratio]) -> String {
-    let mut text = format!(
-        "\nCompared with {} (`!`: a counter that grew by more than 5 %)\n{:<56} {:>10} {:>10} {:>7}\n",
-        path.display(),
-        "figure",
-        "old",
-        "new",
-        "ratio"
-    );
-    for ratio in ratios {
-        let mark = if ratio.grew { " !" } else { "" };
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{:<56} {:>10.4} {:>10.4} {:>7.3}{mark}",
-            ratio.figure, ratio.old, ratio.new, ratio.ratio
+impl Comparison {
+    /// A table for people.
+    pub fn text(&self, path: &Path) -> String {
+        let mut text = format!(
+            "\nCompared with {} (`!`: a counter that grew by more than 5 %)\n{}{:<56} {:>10} {:>10} {:>7}\n",
+            path.display(),
+            self.sides.text(),
+            "figure",
+            "old",
+            "new",
+            "ratio"
         );
+        for ratio in &self.ratios {
+            let mark = if ratio.grew { " !" } else { "" };
+            let quotient = match ratio.ratio {
+                Some(quotient) => format!("{quotient:.3}"),
+                None => "-".into(),
+            };
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "{:<56} {:>10.4} {:>10.4} {quotient:>7}{mark}",
+                ratio.figure, ratio.old, ratio.new
+            );
+        }
+        text
     }
-    text
+}
+
+impl Sides {
+    /// A line for each kind of difference that there is.
+    fn text(&self) -> String {
+        let plain = |value: &Value| match value {
+            Value::String(text) => text.clone(),
+            Value::Null => "unknown".into(),
+            other => other.to_string(),
+        };
+        let difference = |Difference { what, old, new }: &Difference| {
+            format!("{what} {}, now {}", plain(old), plain(new))
+        };
+        let differences: Vec<_> = self.differences.iter().map(difference).collect();
+        let mut text = String::new();
+        if !differences.is_empty() {
+            text += &format!("The runs differ: {}.\n", differences.join("; "));
+        }
+        for (side, figures) in [("old", &self.only_old), ("new", &self.only_new)] {
+            if !figures.is_empty() {
+                text += &format!("Only in the {side} run: {}\n", figures.join(", "));
+            }
+        }
+        text
+    }
 }

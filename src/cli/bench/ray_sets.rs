@@ -3,7 +3,7 @@
 
 use super::random::Random;
 use super::walk::{Found, Walker};
-use crate::render::{QueryRay, RayTest};
+use crate::render::{Coherence, QueryRay, RayTest};
 use crate::scene::{LightKind, Scene};
 use glam::{DVec3, dvec3};
 
@@ -21,6 +21,8 @@ pub struct RaySet {
     pub name: &'static str,
     /// The question that they answer.
     pub test: RayTest,
+    /// Incoherent if its rays are faster alone, by measurement (benches/LOG.md).
+    pub coherence: Coherence,
     /// The rays, in order.
     pub rays: Vec<QueryRay>,
 }
@@ -70,6 +72,7 @@ pub fn of(scene: &Scene, side: u32) -> Vec<RaySet> {
     let from_points = |name, test, ray: &dyn Fn(&Point) -> QueryRay| RaySet {
         name,
         test,
+        coherence: Coherence::Coherent,
         rays: points.iter().map(ray).collect(),
     };
     let light = scene.lights.first().map(|light| light.kind);
@@ -78,6 +81,7 @@ pub fn of(scene: &Scene, side: u32) -> Vec<RaySet> {
         RaySet {
             name: "primary",
             test: RayTest::Closest,
+            coherence: Coherence::Coherent,
             rays: primary,
         },
         from_points("shadow", RayTest::Any, &|point| shadow(point, light)),
@@ -95,6 +99,7 @@ pub fn of(scene: &Scene, side: u32) -> Vec<RaySet> {
         RaySet {
             name: "random",
             test: RayTest::Closest,
+            coherence: Coherence::Incoherent,
             rays: (0..u64::from(side * side))
                 .map(|index| {
                     let mut random = Random::of(3, index);

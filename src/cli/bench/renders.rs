@@ -69,17 +69,28 @@ impl Renders {
         }
     }
 
-    /// Renders the workload once more. Counting rays costs time, so before the first run another one counts them;
-    /// it also fills caches.
+    /// Renders the workload once more. Counting rays costs time, so before the first run another one counts them. That one
+    /// has a kernel of its own, so after it the kernel that is timed runs once too: drivers keep what they compile.
     ///
     /// # Errors
     /// Rendering failed.
     pub fn run(&mut self, arguments: &BenchArgs) -> Result<(), AppError> {
-        if self.rays.is_none() {
-            self.rays = render(&self.workload, arguments, true)?.rays;
+        self.run_with(|workload, purpose| {
+            let rendered = render(workload, arguments, purpose)?;
+            Ok((rendered.times, rendered.rays))
+        })
+    }
+
+    fn run_with(
+        &mut self,
+        mut render: impl FnMut(&Workload, Purpose) -> Result<(Times, Option<Rays>), AppError>,
+    ) -> Result<(), AppError> {
+        if self.times.is_empty() {
+            (_, self.rays) = render(&self.workload, Purpose::Count)?;
+            render(&self.workload, Purpose::Warm)?;
         }
-        let rendered = render(&self.workload, arguments, false)?;
-        self.times.push(rendered.times);
+        let (times, _) = render(&self.workload, Purpose::Time)?;
+        self.times.push(times);
         Ok(())
     }
 
@@ -112,6 +123,16 @@ impl Renders {
     }
 }
 
+/// What a render is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Counts rays, which a kernel of its own does.
+    Count,
+    /// Runs the kernel that is timed, for the first part of the picture.
+    Warm,
+    Time,
+}
+
 /// The results of one render.
 pub struct Rendered {
     pub times: Times,
@@ -128,7 +149,7 @@ pub struct Rendered {
 pub fn render(
     workload: &Workload,
     arguments: &BenchArgs,
-    count_rays: bool,
+    purpose: Purpose,
 ) -> Result<Rendered, AppError> {
     let started = Instant::now();
     let gpu = Gpu::new(&arguments.device.choice())?;
@@ -141,12 +162,17 @@ pub fn render(
         size: workload.size,
         ..RenderSettings::from(&scene.output)
     };
-    let policy = tuning::with_known(&gpu, job::policy(&arguments.device, count_rays))?;
+    let policy = job::policy(&arguments.device, purpose == Purpose::Count);
+    let policy = tuning::with_known(&gpu, policy)?;
     let packed = Arc::new(pack::scene_with(scene, workload.most_baked)?);
     let view = packed.view(&scene.motion_samples(shutter_interval.0, shutter_interval.1))?;
     let mut renderer = Renderer::new(gpu, packed.clone(), &view, settings, policy)?;
+    // Drivers compile a kernel at the latest when it first runs.
     while !renderer.is_done() {
         renderer.step()?;
+        if purpose == Purpose::Warm {
+            break;
+        }
     }
     renderer.develop(&Tone::LINEAR)?;
     let stats = renderer.stats();
@@ -185,5 +211,43 @@ impl Row {
             self.trace_spread.min,
             self.trace_spread.max,
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Purpose, Renders, Times};
+    use crate::cli::bench::workloads::Workload;
+    use crate::render::Rays;
+    use crate::scene::Scene;
+
+    /// A driver that takes long for the first render with each kernel: that which counts rays, and that which does not.
+    #[test]
+    fn a_render_is_timed_with_a_kernel_that_the_driver_knows() {
+        let mut renders = Renders::new(Workload::new("a", Scene::default(), (8, 8)));
+        let mut known = Vec::new();
+        for _ in 0..3 {
+            let run = renders.run_with(|_, purpose| {
+                let kernel = purpose == Purpose::Count;
+                let compile = if known.contains(&kernel) { 0.1 } else { 1.0 };
+                known.push(kernel);
+                let times = Times {
+                    bvh: 0.0,
+                    compile,
+                    trace: 1.0,
+                    total: compile + 1.0,
+                };
+                let rays = kernel.then(|| Rays {
+                    primary: 7,
+                    ..Rays::default()
+                });
+                Ok((times, rays))
+            });
+            run.expect("a run");
+        }
+        let row = renders.row();
+        assert_eq!(row.primary_rays, 7);
+        assert_eq!((row.compile_seconds, row.total_spread.max), (0.1, 1.1));
+        assert_eq!(known.len(), 5);
     }
 }

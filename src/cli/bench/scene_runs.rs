@@ -2,7 +2,7 @@
 
 use super::figure::Figure;
 use super::ray_sets::{self, RaySet, fnv};
-use super::renders::{self, Times};
+use super::renders::{self, Purpose, Times};
 use super::scenes::{Detail, Procedural};
 use super::workloads::Workload;
 use crate::app::error::AppError;
@@ -12,7 +12,7 @@ use crate::cli::job;
 use crate::gpu::Gpu;
 use crate::import::{self, Memory};
 use crate::pack::{PackedScene, PackedView};
-use crate::render::{RayBatch, RayQuery, RayTest};
+use crate::render::{Coherence, RayBatch, RayQuery, RaySteps, RayTest};
 use crate::scene::Scene;
 use serde::Serialize;
 use std::fmt::Write;
@@ -55,9 +55,18 @@ struct Set {
 struct Counts {
     hits: usize,
     hit_checksum: u64,
-    nodes_per_ray: f64,
-    primitives_per_ray: f64,
+    per_ray: Steps,
+    /// `None` where rays are not traced in packets.
+    per_packet: Option<Steps>,
+    packet_rays: Option<u32>,
     passes: u32,
+}
+
+/// Means over the rays.
+#[derive(Clone, Copy)]
+struct Steps {
+    nodes: f64,
+    primitives: f64,
 }
 
 /// The figures of a scene.
@@ -98,9 +107,16 @@ struct SetRow {
     hit_checksum: String,
     /// Millions of rays per second.
     mrays_per_second: Figure,
-    /// Exact, like the following.
+    /// How those were traced: "packet", or "single" for rays one by one.
+    walk: &'static str,
+    /// Of rays one by one. Exact, like the following.
     nodes_per_ray: f64,
     primitives_per_ray: f64,
+    /// Rays of a packet; null where none are traced, as the next.
+    packet_rays: Option<u32>,
+    /// Of a packet: the mean over the rays of what their packets visited and tested.
+    nodes_per_packet: Option<f64>,
+    primitives_per_packet: Option<f64>,
 }
 
 impl SceneRuns {
@@ -136,7 +152,10 @@ impl SceneRuns {
             import::load_from(file, FILE, &import::Options::default())?;
             self.loads.push(started.elapsed().as_secs_f64());
         }
-        let rendered = renders::render(&self.workload, arguments, false)?;
+        if self.times.is_empty() {
+            renders::render(&self.workload, arguments, Purpose::Warm)?;
+        }
+        let rendered = renders::render(&self.workload, arguments, Purpose::Time)?;
         self.times.push(rendered.times);
         let (packed, view) = (rendered.packed, rendered.view);
         (self.tree_bytes, self.all_bytes) = bytes(&packed, &view);
@@ -175,6 +194,7 @@ impl SceneRuns {
 impl Set {
     fn run(&mut self, query: &RayQuery) -> Result<(), AppError> {
         let batch = query.batch(&self.set.rays)?;
+        let batch = batch.with_coherence(self.set.coherence);
         let counts = match self.counts {
             Some(counts) => counts,
             None => *self.counts.insert(counts(query, &batch, self.set.test)?),
@@ -194,9 +214,29 @@ impl Set {
             hits: counts.hits,
             hit_checksum: format!("{:016x}", counts.hit_checksum),
             mrays_per_second: Figure::of(self.mrays.iter().copied()),
-            nodes_per_ray: counts.nodes_per_ray,
-            primitives_per_ray: counts.primitives_per_ray,
+            walk: match (self.set.coherence, counts.per_packet) {
+                (Coherence::Coherent, Some(_)) => "packet",
+                _ => "single",
+            },
+            nodes_per_ray: counts.per_ray.nodes,
+            primitives_per_ray: counts.per_ray.primitives,
+            packet_rays: counts.packet_rays,
+            nodes_per_packet: counts.per_packet.map(|steps| steps.nodes),
+            primitives_per_packet: counts.per_packet.map(|steps| steps.primitives),
         })
+    }
+}
+
+impl Steps {
+    fn mean(all: &[RaySteps]) -> Self {
+        let mean = |part: fn(&RaySteps) -> u32| {
+            let sum: u64 = all.iter().map(|steps| u64::from(part(steps))).sum();
+            sum as f64 / all.len().max(1) as f64
+        };
+        Self {
+            nodes: mean(|steps| steps.nodes),
+            primitives: mean(|steps| steps.primitives),
+        }
     }
 }
 
@@ -211,18 +251,17 @@ fn counts(query: &RayQuery, batch: &RayBatch, test: RayTest) -> Result<Counts, A
             hits.map(|is_hit| is_hit.then_some(0)).collect()
         }
     };
-    let steps = query.steps(batch, test)?;
-    let mean = |part: fn(&crate::render::RaySteps) -> u32| {
-        let sum: u64 = steps.iter().map(|steps| u64::from(part(steps))).sum();
-        sum as f64 / steps.len().max(1) as f64
-    };
+    let per_ray = Steps::mean(&query.steps(batch, test)?);
+    let per_packet = query.packet_steps(batch, test)?;
+    let per_packet = per_packet.map(|steps| Steps::mean(&steps));
     let seconds = query.seconds(batch, test, 1)?;
     let words = hits.iter().map(|hit| hit.unwrap_or(u32::MAX));
     Ok(Counts {
         hits: hits.iter().flatten().count(),
         hit_checksum: fnv(words.flat_map(u32::to_le_bytes)),
-        nodes_per_ray: mean(|steps| steps.nodes),
-        primitives_per_ray: mean(|steps| steps.primitives),
+        per_ray,
+        per_packet,
+        packet_rays: query.packet_rays(),
         passes: (LEAST_SECONDS / seconds).clamp(1.0, MOST_PASSES).ceil() as u32,
     })
 }
@@ -269,7 +308,7 @@ impl Row {
         };
         let mut text = format!(
             "\n{}: {objects}; {load}build {:.2} million primitives/s; {:.0} bytes per primitive, {:.0} with vertices and materials; \
-             render {}×{} {:.3} s, of which tracing {:.3} s\n{:<20} {:>9} {:>9} {:>9}  {:<17} {:>9} {:>15}\n",
+             render {}×{} {:.3} s, of which tracing {:.3} s\n{:<17} {:>9} {:>9} {:>9}  {:<15} {:<6} {:>9} {:>10} {:>12} {:>10}\n",
             self.name,
             self.build_mprimitives_per_second,
             self.bytes_per_primitive,
@@ -283,21 +322,31 @@ impl Row {
             "hits",
             "Mrays/s",
             "min–max",
+            "walk",
             "nodes/ray",
-            "primitives/ray"
+            "primitives",
+            "nodes/packet",
+            "primitives"
         );
+        let per_packet = |steps: Option<f64>| match steps {
+            Some(steps) => format!("{steps:.3}"),
+            None => "-".into(),
+        };
         for row in &self.rays {
             let Figure { median, min, max } = row.mrays_per_second;
             let _ = writeln!(
                 text,
-                "{:<20} {:>9} {:>9} {:>9.2}  {:<17} {:>9.3} {:>15.3}",
+                "{:<17} {:>9} {:>9} {:>9.2}  {:<15} {:<6} {:>9.3} {:>10.3} {:>12} {:>10}",
                 row.set,
                 row.rays,
                 row.hits,
                 median,
                 format!("{min:.2}–{max:.2}"),
+                row.walk,
                 row.nodes_per_ray,
                 row.primitives_per_ray,
+                per_packet(row.nodes_per_packet),
+                per_packet(row.primitives_per_packet),
             );
         }
         text

@@ -12,10 +12,10 @@ use crate::app::error::AppError;
 use crate::app::overrides::picture_size;
 use crate::cli::animate::Timeline;
 use crate::cli::args::FarmPlanArgs;
+use crate::cli::device;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job::Job;
 use crate::cli::memory;
-use crate::gpu::Gpu;
 use crate::import::{self, EnvironmentSource};
 use crate::output::OutputError;
 use crate::pack;
@@ -83,7 +83,7 @@ pub fn run(
     let settings = job.settings();
     let path = arguments.scene.display().to_string();
     memory::check_scene(&job.scene, &path, picture_size(&settings)?)?;
-    let gpu = Gpu::new(&arguments.device.choice())?;
+    let gpu = device::open(&arguments.device)?;
     job.announce("a sample of ", &settings, gpu.adapter());
     let costs = measure(&job, &settings, gpu, &shutters, (started, &interrupt))?;
     let work = Work {
