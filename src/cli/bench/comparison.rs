@@ -252,3 +252,41 @@ impl Sides {
         text
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Baseline, conditions, figures};
+    use serde_json::json;
+    use std::path::Path;
+
+    /// The demo has no triangles, whose rate is 0 in every run.
+    #[test]
+    fn figures_without_a_ratio_are_no_numbers() {
+        let run = |hairs: f64, nodes: f64| {
+            json!({"workloads": [{"name": "demo", "bvh_mtriangles_per_second": 0.0}], "scenes": [{"name": "hair", "rays": [
+                {"set": "random", "primitives_per_ray": hairs, "nodes_per_packet": nodes}
+            ]}]})
+        };
+        let old = run(0.0, 2.0);
+        let baseline = Baseline {
+            conditions: conditions(&old),
+            figures: figures(&old),
+        };
+        let comparison = baseline.compare(&run(0.5, 3.0), |_| true);
+        let ratios = comparison.ratios.iter();
+        let ratios: Vec<_> = ratios
+            .map(|ratio| (ratio.figure.as_str(), ratio.ratio, ratio.grew))
+            .collect();
+        let expected = [
+            ("hair/random/nodes_per_packet", Some(1.5), true),
+            ("hair/random/primitives_per_ray", None, true),
+        ];
+        assert_eq!(ratios, expected);
+        let text = comparison.text(Path::new("old.json"));
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+        assert!(
+            !text.contains("Only in") && !text.contains("differ"),
+            "{text}"
+        );
+    }
+}
