@@ -95,7 +95,7 @@
 //! | [`layout`] | the structs and tags that shaders also see | |
 //! | [`pack`] | `Scene` → arrays for the GPU; no device needed | `scene`, `bvh`, `layout` |
 //! | [`gpu`] | the device, its memory, its loss, its errors | |
-//! | [`render`] | steps, films that are written and merged, adaptive rounds, developing, ray trees | `pack`, `layout`, `gpu`, `image`, `scene` |
+//! | [`render`] | steps, films that are written and merged, adaptive rounds, developing, ray trees | `pack`, `layout`, `gpu`, `image`, `scene`, `threads` |
 //! | [`export`] | `Scene` → native scene file | `scene` |
 //! | [`image`](mod@image) | a finished picture in memory | |
 //! | [`output`] | `Image` → file, frames → video, complete or absent | `image` |

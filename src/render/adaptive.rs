@@ -1,16 +1,22 @@
 //! Adaptive sampling: decides after each round which pixels need more samples.
 
+mod addition;
+mod choice;
 mod saved;
+mod statistics;
+#[cfg(test)]
+mod tests;
 
 use super::{
     Integrator,
     film_tile::FilmTile,
     layers::{self, COUNT, FIRST, Layer, RADIANCE, SQUARES},
-    luminance::luminance,
     settings::RenderSettings,
     sums::PixelRows,
 };
-use std::{collections::BTreeMap, ops::Range};
+use bytemuck::allocation::zeroed_vec;
+use statistics::{Estimate, Measure, PixelStatistics, compressed};
+use std::ops::Range;
 
 /// Samples in the first round; each later round doubles the samples of a pixel.
 const FIRST_SAMPLES: u32 = 4;
@@ -18,12 +24,12 @@ const FIRST_SAMPLES: u32 = 4;
 /// The same for paths: few of them find a small lamp, and those that do not agree with each other.
 const FIRST_PATHS: u32 = 16;
 
-/// A pixel with this many times fewer samples than a noisy neighbour needs more.
-const BEHIND: u32 = 4;
-
 /// Rounds in which pixels compare with their neighbours. A difference propagates by one pixel per round, so
 /// this is its maximum distance and the width of the margin around a crop.
 const NEIGHBOUR_ROUNDS: u32 = 32;
+
+/// Pixels are considered in square groups with this side.
+const GROUP_SIDE: usize = 8;
 
 /// The accumulated statistics of all rounds, for each pixel of the region.
 ///
@@ -37,9 +43,7 @@ pub struct Adaptive {
     region: [u32; 4],
     /// The requested part, in the same coordinates.
     crop: [u32; 4],
-    noise: f64,
-    /// The brightness of a luminance, on which noise is measured.
-    brightness: fn(f64) -> f64,
+    measure: Measure,
     samples: u32,
     /// Samples in the first round.
     first_samples: u32,
@@ -51,18 +55,12 @@ pub struct Adaptive {
     pixels: Vec<PixelStatistics>,
     /// The rows of all pixels as in film tiles, for films with features or opacity; otherwise empty.
     features: Vec<[f64; 4]>,
+    /// What the samples of all pixels say.
+    estimates: Vec<Estimate>,
+    /// For each group of pixels whether the last round sampled some of it.
+    sampled: Vec<bool>,
     /// The range of samples of the most sampled pixels in this round.
     front: Range<u32>,
-}
-
-/// The statistics of a pixel.
-#[derive(Clone, Copy, Debug, Default)]
-struct PixelStatistics {
-    sum: [f64; 3],
-    weight: f64,
-    /// Sum of squared luminance.
-    squares: f64,
-    count: u32,
 }
 
 impl Adaptive {
@@ -77,14 +75,16 @@ impl Adaptive {
         let has_rounds = settings.samples > first_samples;
         let margin = if has_rounds { NEIGHBOUR_ROUNDS } else { 0 };
         let region = widened(crop, margin, settings.size);
-        let [.., width, height] = region;
+        let [width, height] = [region[2], region[3]].map(|length| length as usize);
         let side = tile_side as usize;
         Self {
             region,
             crop,
             rounds: 0,
-            noise: f64::from(settings.noise),
-            brightness,
+            measure: Measure {
+                noise: f64::from(settings.noise),
+                brightness,
+            },
             samples: settings.samples,
             first_samples,
             // As many rows as without features.
@@ -93,12 +93,14 @@ impl Adaptive {
             features: match settings.has_features() || settings.has_opacity() {
                 true => {
                     let rows = layers::rows(layers::of_sampling(settings));
-                    vec![[0.0; 4]; rows * width as usize * height as usize]
+                    zeroed_vec(rows * width * height)
                 }
                 false => Vec::new(),
             },
             front: 0..first_samples,
-            pixels: vec![PixelStatistics::default(); width as usize * height as usize],
+            pixels: zeroed_vec(width * height),
+            estimates: zeroed_vec(width * height),
+            sampled: vec![true; width.div_ceil(GROUP_SIDE) * height.div_ceil(GROUP_SIDE)],
         }
     }
 
@@ -121,17 +123,8 @@ impl Adaptive {
     /// round doubles the samples of a pixel.
     pub fn next_round(&mut self) -> Vec<FilmTile> {
         self.rounds += 1;
-        let [x0, y0, width, height] = self.region;
-        let groups = |length: u32| 0..length.div_ceil(8);
-        let mut unfinished: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
-        for (ty, tx) in groups(height).flat_map(|y| groups(width).map(move |x| (y, x))) {
-            for (y, x) in (0..8).flat_map(|y| (0..8).map(move |x| (8 * ty + y, 8 * tx + x))) {
-                if x < width && y < height && self.needs_more_samples(x, y) {
-                    let list = unfinished.entry(self.statistics(x, y).count).or_default();
-                    list.push([x0 + x, y0 + y]);
-                }
-            }
-        }
+        let unfinished = self.unfinished_pixels();
+        self.sampled.fill(false);
         if let Some((&count, _)) = unfinished.last_key_value() {
             self.front = self.front.end..(2 * count).min(self.samples).max(self.front.end);
         }
@@ -145,11 +138,12 @@ impl Adaptive {
         (f64::from(start) + fraction * f64::from(end - start)) / f64::from(self.samples)
     }
 
-    fn tiles(&self, pixels: Vec<[u32; 2]>, samples: Range<u32>) -> Vec<FilmTile> {
-        let lists = pixels.chunks(self.tile_pixels);
-        lists
-            .map(|list| FilmTile::list(list.to_vec(), samples.clone(), self.layers))
-            .collect()
+    fn tiles(&self, mut pixels: Vec<[u32; 2]>, samples: Range<u32>) -> Vec<FilmTile> {
+        let starts = (self.tile_pixels..pixels.len()).step_by(self.tile_pixels);
+        let mut lists: Vec<_> = starts.rev().map(|start| pixels.split_off(start)).collect();
+        lists.push(pixels);
+        let tile = |list| FilmTile::list(list, samples.clone(), self.layers);
+        lists.into_iter().rev().map(tile).collect()
     }
 
     /// Adds the samples of a finished round.
@@ -167,32 +161,6 @@ impl Adaptive {
     /// Whether the first round, in which all pixels get the same number of samples, is not finished.
     pub fn is_in_first_round(&self) -> bool {
         self.rounds == 0
-    }
-
-    /// Adds the samples of the pixels whose sum of weights is `counted`.
-    fn add(&mut self, tiles: &[FilmTile], counted: impl Fn(f64) -> bool) {
-        let squares = layers::row_of(self.layers, &SQUARES).unwrap_or_default();
-        for tile in tiles {
-            let sample_count = tile.samples.end - tile.samples.start;
-            let rows = tile.totals();
-            let pixels = rows.chunks_exact(tile.rows_per_pixel());
-            let sampled =
-                (tile.places().iter().zip(pixels)).filter(|(_, rows)| counted(rows[0][3]));
-            for (place, rows) in sampled {
-                let index = self.index(*place);
-                let statistics = &mut self.pixels[index];
-                for (sum, row) in statistics.sum.iter_mut().zip(rows[0]) {
-                    *sum += row;
-                }
-                statistics.weight += rows[0][3];
-                statistics.squares += rows[squares][0];
-                statistics.count += sample_count;
-                if !self.features.is_empty() {
-                    let own = &mut self.features[index * rows.len()..][..rows.len()];
-                    layers::pixel_rows(self.layers).add_rounded(own, rows);
-                }
-            }
-        }
     }
 
     /// The mean of a pixel, in the format of a film with one sample; zeros without samples.
@@ -250,59 +218,15 @@ impl Adaptive {
         self.pixels[self.index(pixel)].count
     }
 
+    /// Groups across and down.
+    fn group_counts(&self) -> [usize; 2] {
+        let [.., width, height] = self.region;
+        [width, height].map(|length| (length as usize).div_ceil(GROUP_SIDE))
+    }
+
     fn index(&self, [x, y]: [u32; 2]) -> usize {
         let [x0, y0, width, _] = self.region;
         (y - y0) as usize * width as usize + (x - x0) as usize
-    }
-
-    /// Whether a pixel needs another round: its own error is too large, or it may have missed something that
-    /// its neighbours found. A few samples can all miss the same feature and then agree. After the first round
-    /// a difference from a neighbour is therefore enough; later the neighbour must also be noisy and have many
-    /// more samples.
-    fn needs_more_samples(&self, x: u32, y: u32) -> bool {
-        let statistics = self.statistics(x, y);
-        let rounds_left = NEIGHBOUR_ROUNDS.saturating_sub(self.rounds);
-        if statistics.count >= self.samples || self.steps_to_crop(x, y) > rounds_left {
-            return false;
-        }
-        let brightness = |of: &PixelStatistics| (self.brightness)(of.luminance());
-        let missed = |other: &PixelStatistics| {
-            let differs = (brightness(other) - brightness(statistics)).abs() > self.noise;
-            let is_ahead = other.count >= BEHIND * statistics.count && self.is_noisy(other);
-            differs && (statistics.count <= self.first_samples || is_ahead)
-        };
-        let looks_at_neighbours = self.rounds <= NEIGHBOUR_ROUNDS;
-        self.is_noisy(statistics) || (looks_at_neighbours && self.around(x, y).any(missed))
-    }
-
-    /// Whether one standard error changes the brightness of a pixel by more than the threshold.
-    fn is_noisy(&self, statistics: &PixelStatistics) -> bool {
-        let mean = statistics.luminance();
-        let change = (self.brightness)(mean + statistics.error()) - (self.brightness)(mean);
-        change > self.noise
-    }
-
-    /// Distance in pixels from a pixel of the region to the crop; 0 inside it.
-    fn steps_to_crop(&self, x: u32, y: u32) -> u32 {
-        let [x0, y0, ..] = self.region;
-        let [left, top, width, height] = self.crop;
-        let beyond = |at: u32, start: u32, length: u32| {
-            let last = start + length - 1;
-            start.saturating_sub(at).max(at.saturating_sub(last))
-        };
-        beyond(x0 + x, left, width).max(beyond(y0 + y, top, height))
-    }
-
-    /// The pixel and its neighbours.
-    fn around(&self, x: u32, y: u32) -> impl Iterator<Item = &PixelStatistics> {
-        let [.., width, height] = self.region;
-        let near =
-            |center: u32, length: u32| center.saturating_sub(1)..=(center + 1).min(length - 1);
-        near(y, height).flat_map(move |y| near(x, width).map(move |x| self.statistics(x, y)))
-    }
-
-    fn statistics(&self, x: u32, y: u32) -> &PixelStatistics {
-        &self.pixels[y as usize * self.region[2] as usize + x as usize]
     }
 }
 
@@ -315,34 +239,4 @@ fn widened([x, y, width, height]: [u32; 4], margin: u32, size: (u32, u32)) -> [u
     };
     let ((x, width), (y, height)) = (along(x, width, size.0), along(y, height, size.1));
     [x, y, width, height]
-}
-
-impl PixelStatistics {
-    /// The factor from sum to mean. Weights of both signs may cancel; the remainder is then meaningless, as in
-    /// the shader that develops (lib/filter.wesl).
-    fn scale(&self) -> f64 {
-        if self.weight.abs() > 0.5 {
-            1.0 / self.weight
-        } else {
-            0.0
-        }
-    }
-
-    fn luminance(&self) -> f64 {
-        (luminance(self.sum) * self.scale()).max(0.0)
-    }
-
-    /// The standard error of the luminance.
-    fn error(&self) -> f64 {
-        let count = f64::from(self.count);
-        let mean = self.luminance();
-        let variance = (self.squares / count - mean * mean).max(0.0) / (count - 1.0).max(1.0);
-        variance.sqrt()
-    }
-}
-
-/// Brightness for pictures of any range: as the square root of a small luminance, which is close to what the eye sees,
-/// and 1 for an infinite one, since tone curves show all highlights as white.
-fn compressed(luminance: f64) -> f64 {
-    (luminance / (1.0 + luminance)).sqrt()
 }

@@ -285,9 +285,7 @@ pub fn develop_sums(
     };
     let sum = |[px, py]: [u32; 2]| sums[(py - y) as usize * width as usize + (px - x) as usize];
     for tile in tiles {
-        let pixels = (0..tile.pixel_count()).map(|index| tile.pixel_at(index));
-        let rows: Vec<_> = pixels.map(|pixel| pixel.map_or([0.0; 4], sum)).collect();
-        gpu.write(&film, 0, cast_slice(&rows))?;
+        gpu.write(&film, 0, cast_slice(&tile.rows_of(sum)))?;
         developer.develop(context, &tile, &settings, tone, &mut image)?;
     }
     Ok(image)

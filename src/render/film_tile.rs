@@ -6,8 +6,9 @@
 
 use super::{
     layers::{self, Layer, SQUARES},
-    sums::{PixelRows, SAMPLE_BLOCK, Sums},
+    sums::{PixelRows, SAMPLE_BLOCK, Sums, Totals},
 };
+use crate::threads;
 use std::ops::Range;
 
 /// Pixels of a workgroup.
@@ -128,11 +129,18 @@ impl FilmTile {
     /// Sets all sums to zero.
     pub fn reset_sums(&mut self) {
         self.sums.clear();
-        self.sums.resize(self.row_count(), [0.0; 4]);
-        let pixels = self.sums.chunks_exact_mut(self.rows.count);
-        for (rows, [x, y]) in pixels.zip(&self.places) {
-            rows[self.place_row] = [0.0, *x as f32, *y as f32, 1.0];
+        match self.sums.capacity() {
+            // Zeros from the system, which all threads touch.
+            0 => self.sums = vec![[0.0; 4]; self.row_count()],
+            _ => self.sums.resize(self.row_count(), [0.0; 4]),
         }
+        let len = threads::chunk_len(self.places.len());
+        let sums = self.sums.chunks_mut(self.rows.count * len);
+        threads::for_each(sums.zip(self.places.chunks(len)), |(sums, places)| {
+            for (rows, [x, y]) in sums.chunks_exact_mut(self.rows.count).zip(places) {
+                rows[self.place_row] = [0.0, *x as f32, *y as f32, 1.0];
+            }
+        });
     }
 
     /// Whether all film rows are zeros, as before the first sample of a rectangle.
@@ -141,19 +149,42 @@ impl FilmTile {
         rows.iter().all(|row| *row == [0; 4])
     }
 
-    /// The position in the picture of a film index of a rectangle; `None` for padding. The order is that of the
-    /// shader (scene/block.wesl).
-    pub fn pixel_at(&self, film_index: usize) -> Option<[u32; 2]> {
-        let (index, lane) = (
-            film_index / GROUP_PIXELS,
-            (film_index % GROUP_PIXELS) as u32,
-        );
-        let group =
-            (index as u64 * u64::from(self.group_stride()) % u64::from(self.group_count())) as u32;
+    /// The positions in the picture of the pixels of a rectangle, in film order; `None` for padding. The order is that
+    /// of the shader (scene/block.wesl).
+    pub fn pixels(&self) -> impl Iterator<Item = Option<[u32; 2]>> {
+        self.pixels_from(0)
+    }
+
+    /// Those from a workgroup on.
+    fn pixels_from(&self, group: usize) -> impl Iterator<Item = Option<[u32; 2]>> {
+        let (count, columns) = (self.group_count(), self.group_columns());
+        let stride = u64::from(self.group_stride());
+        (group as u64..u64::from(count)).flat_map(move |index| {
+            let group = (index * stride % u64::from(count)) as u32;
+            let corner = [group % columns, group / columns].map(|at| at * GROUP_SIDE);
+            (0..GROUP_PIXELS as u32).map(move |lane| self.pixel_of(corner, lane))
+        })
+    }
+
+    /// The pixel of a lane in the workgroup with this corner, unless it is padding.
+    fn pixel_of(&self, corner: [u32; 2], lane: u32) -> Option<[u32; 2]> {
         let bit = |shift: u32, to: u32| ((lane >> shift) & 1) << to;
-        let x = group % self.group_columns() * GROUP_SIDE + (bit(0, 0) | bit(2, 1) | bit(4, 2));
-        let y = group / self.group_columns() * GROUP_SIDE + (bit(1, 0) | bit(3, 1) | bit(5, 2));
+        let x = corner[0] + (bit(0, 0) | bit(2, 1) | bit(4, 2));
+        let y = corner[1] + (bit(1, 0) | bit(3, 1) | bit(5, 2));
         (x < self.width && y < self.height).then_some([self.x + x, self.y + y])
+    }
+
+    /// A row for each pixel of a rectangle, in film order; zeros for padding.
+    pub fn rows_of(&self, row: impl Fn([u32; 2]) -> [f32; 4] + Sync) -> Vec<[f32; 4]> {
+        let mut rows = vec![[0.0; 4]; self.pixel_count()];
+        let groups = threads::chunk_len(rows.len()).div_ceil(GROUP_PIXELS);
+        let chunks = rows.chunks_mut(groups * GROUP_PIXELS).enumerate();
+        threads::for_each(chunks, |(index, rows)| {
+            for (own, pixel) in rows.iter_mut().zip(self.pixels_from(index * groups)) {
+                *own = pixel.map_or([0.0; 4], &row);
+            }
+        });
+        rows
     }
 
     /// The number of blocks that are in [`Self::closed`] before `sample` is taken, a sample after the first: the last
@@ -177,11 +208,14 @@ impl FilmTile {
         }
     }
 
-    /// The film rows of all blocks together. For a list, the rows with positions are summed as well and
-    /// therefore meaningless.
-    pub fn totals(&self) -> Vec<[f64; 4]> {
-        self.all_sums()
-            .map_or_else(Vec::new, |sums| sums.rounded(self.rows))
+    /// The film rows of all blocks together, `None` before the first sample. For a list, the rows with positions are
+    /// summed as well and therefore meaningless.
+    pub fn totals(&self) -> Option<Totals<'_>> {
+        match &self.closed {
+            None if self.sums.is_empty() => None,
+            None => Some(Totals::Block(&self.sums)),
+            Some(_) => self.all_sums().map(Totals::Blocks),
+        }
     }
 
     /// The rows for `develop`: sums and weights of a single block, otherwise means with a weight of 1.

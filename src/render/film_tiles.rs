@@ -44,10 +44,11 @@ impl FilmTiles {
         tiles.largest = tiles.largest_row_count();
         if let Some(adaptive) = &tiles.adaptive {
             // In workgroup order, so that neighbouring pixels stay together.
-            let rectangles = tiles.list.iter();
-            let pixels = rectangles
-                .flat_map(|tile| (0..tile.pixel_count()).filter_map(|index| tile.pixel_at(index)));
-            tiles.list = adaptive.first_round(pixels.collect());
+            let mut pixels = Vec::with_capacity(tiles.list.iter().map(FilmTile::pixel_count).sum());
+            for tile in &tiles.list {
+                tile.pixels().flatten().for_each(|pixel| pixels.push(pixel));
+            }
+            tiles.list = adaptive.first_round(pixels);
             tiles.largest = tiles.largest.max(tiles.largest_row_count());
         }
         tiles
@@ -84,8 +85,7 @@ impl FilmTiles {
             false => Cow::Owned(adaptive.with_part_of_round(&self.list)),
         };
         let means = |tile: FilmTile| {
-            let mean = |index| tile.pixel_at(index).map_or([0.0; 4], |at| so_far.mean(at));
-            let rows = (0..tile.pixel_count()).map(mean).collect();
+            let rows = tile.rows_of(|pixel| so_far.mean(pixel));
             (tile, rows)
         };
         rectangles(adaptive.crop(), tile_side, 0..0, PixelRows::ONE)
@@ -189,8 +189,8 @@ fn piece(tile: &FilmTile, samples: Range<u32>, sums: &Sums) -> Piece {
     let rows = tile.rows_per_pixel();
     let pixels = tile.sampled_pixels() as usize;
     let mut ordered = Sums::zeros(rows * pixels, matches!(sums, Sums::Block(_)));
-    for index in 0..tile.pixel_count() {
-        if let Some([x, y]) = tile.pixel_at(index) {
+    for (index, pixel) in tile.pixels().enumerate() {
+        if let Some([x, y]) = pixel {
             let to = (y - tile.y) as usize * tile.width as usize + (x - tile.x) as usize;
             ordered.add(rows * to, sums, rows * index, rows, tile.pixel_rows());
         }

@@ -46,16 +46,20 @@ impl PixelRows {
     }
 
     /// Adds rounded rows of a pixel.
-    pub fn add_rounded(self, own: &mut [[f64; 4]], other: &[[f64; 4]]) {
+    pub fn add_rounded(self, own: &mut [[f64; 4]], other: impl Fn(usize) -> [f64; 4]) {
         let (sums, nearest) = own.split_at_mut(self.sums());
-        for (own, other) in sums.iter_mut().flatten().zip(other.iter().flatten()) {
-            *own += other;
+        for (index, own) in sums.iter_mut().enumerate() {
+            for (own, other) in own.iter_mut().zip(other(index)) {
+                *own += other;
+            }
         }
-        let other = &other[self.sums()..];
-        if let (Some(own), Some(first)) = (nearest.first(), other.first())
-            && (first[0], -first[1]) > (own[0], -own[1])
+        let order = |[nearness, sample, ..]: [f64; 4]| (nearness, -sample);
+        if let Some(&first) = nearest.first()
+            && order(other(self.sums())) > order(first)
         {
-            nearest.copy_from_slice(other);
+            for (index, row) in nearest.iter_mut().enumerate() {
+                *row = other(self.sums() + index);
+            }
         }
     }
 
@@ -160,14 +164,42 @@ impl Sums {
 
     /// The sums in f64.
     pub fn rounded(&self, rows: PixelRows) -> Vec<[f64; 4]> {
+        let len = match self {
+            Self::Block(block) => block.len(),
+            Self::Totals(totals) => totals.len(),
+        };
+        (0..len)
+            .map(|index| self.rounded_row(index, rows))
+            .collect()
+    }
+
+    /// A row in f64.
+    fn rounded_row(&self, index: usize, rows: PixelRows) -> [f64; 4] {
         match self {
-            Self::Block(block) => block.iter().map(|row| row.map(f64::from)).collect(),
-            Self::Totals(totals) => (totals.iter().enumerate())
-                .map(|(index, row)| match index % rows.count < rows.sums() {
-                    true => row.map(|sum| sum as f64 * UNIT),
-                    false => row.map(|bits| f64::from(f32::from_bits(bits as u32))),
-                })
-                .collect(),
+            Self::Block(block) => block[index].map(f64::from),
+            Self::Totals(totals) if index % rows.count < rows.sums() => {
+                totals[index].map(|sum| sum as f64 * UNIT)
+            }
+            Self::Totals(totals) => {
+                totals[index].map(|bits| f64::from(f32::from_bits(bits as u32)))
+            }
+        }
+    }
+}
+
+/// The sums of all blocks of a film tile. Those of a single block are not copied.
+pub enum Totals<'a> {
+    /// As added by the GPU.
+    Block(&'a [[f32; 4]]),
+    Blocks(Sums),
+}
+
+impl Totals<'_> {
+    /// A row in f64.
+    pub fn row(&self, index: usize, rows: PixelRows) -> [f64; 4] {
+        match self {
+            Self::Block(block) => block[index].map(f64::from),
+            Self::Blocks(sums) => sums.rounded_row(index, rows),
         }
     }
 }

@@ -25,7 +25,9 @@ const MODULES: &[(&str, &[&str])] = &[
     ("pack", &["clock", "scene", "bvh", "layout"]),
     (
         "render",
-        &["clock", "random", "scene", "pack", "layout", "gpu", "image"],
+        &[
+            "clock", "random", "scene", "threads", "pack", "layout", "gpu", "image",
+        ],
     ),
     ("output", &["image"]),
     (

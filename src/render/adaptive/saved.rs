@@ -2,7 +2,10 @@
 //! pixels of the round follow from them.
 
 use super::{Adaptive, FilmTile, PixelStatistics};
-use crate::render::binary::{ReadError, Reader, Writer};
+use crate::{
+    render::binary::{ReadError, Reader, Writer},
+    threads,
+};
 use std::io::{self, Read, Write};
 
 /// More rounds than there can be: each doubles the samples.
@@ -45,7 +48,10 @@ impl Adaptive {
             return damaged("its features are not finite");
         }
         self.features = features.as_chunks().0.to_vec();
-        // As before the round.
+        // As before the round. The last one may have sampled any group.
+        let estimate = |index: usize| self.measure.estimate(&self.pixels[index]);
+        self.estimates = threads::collect(self.pixels.len(), estimate);
+        self.sampled.fill(true);
         self.rounds = rounds - 1;
         self.front = front..front;
         Ok(Some(self.next_round()))
