@@ -167,7 +167,8 @@ pub struct DevelopFlags {
     /// Tone curve [default: the scene's, else agx for paths and none for whitted; none for .exr, .hdr and debug views]
     #[arg(long, value_parser = values::one_of(&TONES))]
     pub tone: Option<ToneCurve>,
-    /// Transfer function [default: the scene's, else srgb; linear for .exr, .hdr and debug views]
+    /// Transfer function [default: the scene's, else srgb; srgb too where paths bring agx to a scene for whitted; linear for
+    /// .exr, .hdr and debug views]
     #[arg(long, value_parser = values::one_of(&TRANSFERS))]
     pub transfer: Option<Transfer>,
     /// Denoise the picture; films and, with --layers, the layer beauty keep the noise
