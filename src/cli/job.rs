@@ -83,7 +83,7 @@ impl Job<'_> {
             true => self
                 .layers
                 .finish(&renderer.film()?, renderer.gpu(), tone)?,
-            false => Finished::plain(renderer.develop(tone)?),
+            false => Finished::plain(renderer.develop(tone)?, settings.has_opacity()),
         };
         Ok(finished.placed(settings.region(), settings.size))
     }
