@@ -9,6 +9,7 @@ use crate::app::value_names::{BSDF_MODELS, INTEGRATORS};
 use crate::cli::args::{DeviceFlags, LayerFlags, LogFlags, PictureFlags};
 use crate::cli::destination;
 use crate::cli::device;
+use crate::cli::idle_flags;
 use crate::cli::layers::Finished;
 use crate::cli::memory;
 use crate::cli::report;
@@ -56,11 +57,12 @@ impl Job<'_> {
         Console::new(self.log.quiet, self.log.verbose)
     }
 
-    /// Warns about skipped parts of the scene and about missing lights.
+    /// Warns about skipped parts of the scene, missing lights and flags without effect.
     pub fn warn_of_skipped(&self) {
         for skipped in &self.scene.skipped {
             console::warning(skipped);
         }
+        idle_flags::warn(self.picture, &self.settings());
         // Only paths find the light of the background on every surface.
         let is_path = self.settings().integrator == Integrator::Path;
         if self.scene.is_unlit() && !(is_path && self.scene.background.shines()) {
