@@ -16,6 +16,7 @@ pub mod exit;
 mod explain;
 #[cfg(feature = "archive")]
 mod farm;
+mod idle_flags;
 mod inspect;
 mod interrupt;
 mod job;

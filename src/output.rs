@@ -40,6 +40,9 @@ pub struct SaveOptions {
     pub follow_links: bool,
     /// Where the image lies in a larger one, which OpenEXR files tell; `None` if it is all of it.
     pub place: Option<Place>,
+    /// Whether the file has opacity even if every pixel is opaque, where the format supports it. Without it the file has
+    /// opacity if some pixel is not opaque.
+    pub opacity: bool,
 }
 
 /// The place of an image in a larger one.
@@ -52,7 +55,8 @@ pub struct Place {
 }
 
 impl Default for SaveOptions {
-    /// Format by extension, quality 90, replacing existing files, following links, and no larger image.
+    /// Format by extension, quality 90, replacing existing files, following links, no larger image, and opacity if some
+    /// pixel is not opaque.
     fn default() -> Self {
         Self {
             format: None,
@@ -60,6 +64,7 @@ impl Default for SaveOptions {
             clobber: true,
             follow_links: true,
             place: None,
+            opacity: false,
         }
     }
 }

@@ -91,3 +91,10 @@ fn place(path: &Path) -> Option<PathBuf> {
 pub fn is_same(a: &Path, b: &Path) -> bool {
     a == b || FileId::of(a).is_same(&FileId::of(b))
 }
+
+/// Whether a file of this name may be a model, to which what it lacks is added, and not a whole scene. An archive may.
+pub fn may_be_model(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default();
+    let is = |other: &&str| ending.eq_ignore_ascii_case(other);
+    !["toml", "scene", "nff"].iter().any(is)
+}

@@ -86,8 +86,8 @@ pub static LAYERS: ValueNames<PictureLayer> = ValueNames(&[
 ]);
 
 impl PictureLayer {
-    /// Its channels, for a picture with these features.
-    pub fn of(self, beauty: &Image, features: &Features) -> ImageLayer {
+    /// Its channels, for a picture with these features. `opacity` tells whether that has opacity.
+    pub fn of(self, beauty: &Image, opacity: bool, features: &Features) -> ImageLayer {
         let layer =
             |names: &[&'static str], is_half: bool, value: fn(&PixelFeatures, usize) -> f32| {
                 let channel = |(index, name): (usize, &&'static str)| Channel {
@@ -103,7 +103,7 @@ impl PictureLayer {
         const RGB: &[&str] = &["R", "G", "B"];
         const XYZ: &[&str] = &["X", "Y", "Z"];
         match self {
-            Self::Beauty => color("", beauty),
+            Self::Beauty => color("", beauty, opacity),
             Self::Albedo => layer(RGB, true, |pixel, index| pixel.albedo[index]),
             Self::Normal => layer(XYZ, true, |pixel, index| pixel.normal[index]),
             Self::Depth => layer(&["Z"], false, |pixel, _| pixel.depth),
@@ -120,11 +120,11 @@ impl PictureLayer {
     }
 }
 
-/// A layer of colours; where some pixel is not opaque with opacity, by which colours are multiplied, as OpenEXR asks.
-pub fn color(name: &'static str, image: &Image) -> ImageLayer {
-    let names: &[&str] = match image.is_opaque() {
-        true => &["R", "G", "B"],
-        false => &["R", "G", "B", "A"],
+/// A layer of colours; with opacity those are multiplied by it, as OpenEXR asks.
+pub fn color(name: &'static str, image: &Image, opacity: bool) -> ImageLayer {
+    let names: &[&str] = match opacity {
+        true => &["R", "G", "B", "A"],
+        false => &["R", "G", "B"],
     };
     let channel = |(index, name): (usize, &&'static str)| Channel {
         name,

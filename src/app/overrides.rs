@@ -213,11 +213,17 @@ impl ToneOverrides {
             is_auto: default.auto_exposure,
             stops: default.exposure_ev,
         });
+        // A curve in place of the usual one leaves the transfer function to the scene.
+        let is_other = self.curve.is_some_and(|curve| curve != default.curve);
+        let transfer = match is_other && !linear_format && shows == Shows::Radiance {
+            true => scene.transfer,
+            false => default.transfer,
+        };
         let tone = Tone {
             exposure_ev: exposure.stops,
             auto_exposure: exposure.is_auto && shows == Shows::Radiance,
             curve: self.curve.unwrap_or(default.curve),
-            transfer: self.transfer.unwrap_or(default.transfer),
+            transfer: self.transfer.unwrap_or(transfer),
             levels: Levels::Raw,
             denoise: self.denoise,
         };

@@ -25,6 +25,7 @@ use crate::app::clock::Clock;
 use crate::app::error::AppError;
 use crate::app::overrides::picture_size;
 use crate::cli::args::{AnimateArgs, LogFlags, SequenceFlags};
+use crate::cli::idle_flags;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job::{Job, Outcome};
 use crate::cli::progress::FrameProgress;
@@ -75,9 +76,11 @@ pub fn with_report(
 }
 
 fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {
+    idle_flags::check(&arguments.reading, &arguments.scene)?;
     let size = arguments.picture.size.size;
     let options = arguments.reading.import_options(
         arguments.camera.model_axis(),
+        arguments.camera.has_background(),
         size,
         arguments.picture.integrator,
     );

@@ -4,6 +4,7 @@ use crate::app::console;
 use crate::app::error::AppError;
 use crate::app::scene_file::save;
 use crate::cli::args::ConvertArgs;
+use crate::cli::idle_flags;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::scene_file;
 use crate::import::{Baking, Options};
@@ -11,9 +12,10 @@ use std::path::PathBuf;
 
 pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
     Interrupt::install()?;
+    idle_flags::check(&arguments.reading, &arguments.scene)?;
     let options = Options {
         baking: Baking::Never,
-        ..(arguments.reading).import_options(arguments.axis.up, None, None)
+        ..(arguments.reading).import_options(arguments.axis.up, false, None, None)
     };
     let (scene, inputs) = scene_file::load(&arguments.scene, &options, arguments.reading.strict);
     let scene = scene?;

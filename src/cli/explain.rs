@@ -8,6 +8,7 @@ use crate::app::value_names::INTEGRATORS;
 use crate::app::{ray_lines, ray_text};
 use crate::cli::args::ExplainArgs;
 use crate::cli::device;
+use crate::cli::idle_flags;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job;
 use crate::cli::memory;
@@ -18,9 +19,11 @@ use std::ops::Range;
 
 pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     Interrupt::install()?;
+    idle_flags::check(&arguments.reading, &arguments.scene)?;
     let size = arguments.picture.size.size;
     let options = (arguments.reading).import_options(
         arguments.camera.model_axis(),
+        arguments.camera.has_background(),
         size,
         arguments.picture.integrator,
     );
@@ -39,6 +42,7 @@ pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     for skipped in &scene.skipped {
         console::warning(skipped);
     }
+    idle_flags::warn(&arguments.picture, &settings);
     let clock = Clock::new(&scene.output, &arguments.motion.overrides());
     let shutter = clock.moment(&arguments.moment.moment());
     memory::check_scene(

@@ -8,6 +8,7 @@ use crate::app::console;
 use crate::app::error::AppError;
 use crate::app::value_names::{TONES, TRANSFERS};
 use crate::cli::args::InspectArgs;
+use crate::cli::idle_flags;
 use crate::cli::job::UNLIT;
 use crate::cli::report::SceneReport;
 use crate::cli::scene_file;
@@ -22,9 +23,10 @@ use std::fmt::{self, Write};
 const MAX_LISTED: usize = 20;
 
 pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
+    idle_flags::check(&arguments.reading, &arguments.scene)?;
     let options = Options {
         baking: Baking::Never,
-        ..(arguments.reading).import_options(arguments.axis.up, None, None)
+        ..(arguments.reading).import_options(arguments.axis.up, false, None, None)
     };
     let scene = scene_file::load(&arguments.scene, &options, arguments.reading.strict).0?;
     let path = arguments.scene.display().to_string();

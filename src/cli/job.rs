@@ -5,10 +5,11 @@ use crate::app::console;
 use crate::app::console::Console;
 use crate::app::error::AppError;
 use crate::app::inputs;
-use crate::app::value_names::INTEGRATORS;
+use crate::app::value_names::{BSDF_MODELS, INTEGRATORS};
 use crate::cli::args::{DeviceFlags, LayerFlags, LogFlags, PictureFlags};
 use crate::cli::destination;
 use crate::cli::device;
+use crate::cli::idle_flags;
 use crate::cli::layers::Finished;
 use crate::cli::memory;
 use crate::cli::report;
@@ -56,11 +57,12 @@ impl Job<'_> {
         Console::new(self.log.quiet, self.log.verbose)
     }
 
-    /// Warns about skipped parts of the scene and about missing lights.
+    /// Warns about skipped parts of the scene, missing lights and flags without effect.
     pub fn warn_of_skipped(&self) {
         for skipped in &self.scene.skipped {
             console::warning(skipped);
         }
+        idle_flags::warn(self.picture, &self.settings());
         // Only paths find the light of the background on every surface.
         let is_path = self.settings().integrator == Integrator::Path;
         if self.scene.is_unlit() && !(is_path && self.scene.background.shines()) {
@@ -83,7 +85,7 @@ impl Job<'_> {
             true => self
                 .layers
                 .finish(&renderer.film()?, renderer.gpu(), tone)?,
-            false => Finished::plain(renderer.develop(tone)?),
+            false => Finished::plain(renderer.develop(tone)?, settings.has_opacity()),
         };
         Ok(finished.placed(settings.region(), settings.size))
     }
@@ -135,6 +137,7 @@ impl Job<'_> {
 
     /// The `image` part of the report.
     pub fn image(&self, path: &Path, settings: &RenderSettings, size: (u32, u32)) -> ImageReport {
+        let of_paths = settings.integrator == Integrator::Path;
         ImageReport {
             path: path.display().to_string(),
             width: size.0,
@@ -144,6 +147,10 @@ impl Job<'_> {
             integrator: INTEGRATORS.name(&settings.integrator),
             max_depth: settings.max_depth,
             seed: settings.seed,
+            transparent_shadows: of_paths.then_some(settings.transparent_shadows),
+            clamp_indirect: settings.clamp_indirect.filter(|_| of_paths),
+            bsdf: of_paths.then(|| BSDF_MODELS.name(&settings.bsdf)),
+            denoise: self.picture.develop.denoise,
         }
     }
 
@@ -320,6 +327,15 @@ fn details(console: Console, report: &Report) {
          upload {upload:.3}, trace {trace:.3}, develop {develop:.3}, denoise {denoise:.3}, \
          write {write:.3}"
     ));
+    if let Some(sentence) = report.image.sentence() {
+        console.detail(sentence);
+    }
+    if let Some(cut) = report.energy_cut {
+        let percent = 100.0 * cut;
+        console.detail(format_args!(
+            "the limit of bounces and clamps removed about {percent:.2} % of the light"
+        ));
+    }
     if let Some(fetch) = &report.fetch {
         console.detail(format_args!("{}", fetch.sentence()));
     }

@@ -18,16 +18,19 @@ pub struct Finished {
     layers: Option<LayeredImage>,
     denoise_seconds: Option<f64>,
     place: Option<Place>,
+    /// Whether its file has opacity, whatever its pixels are.
+    opacity: bool,
 }
 
 impl Finished {
-    /// A picture of one layer.
-    pub fn plain(image: Image) -> Self {
+    /// A picture of one layer. `opacity` tells whether the settings that it was rendered with give it opacity.
+    pub fn plain(image: Image, opacity: bool) -> Self {
         Self {
             image,
             layers: None,
             denoise_seconds: None,
             place: None,
+            opacity,
         }
     }
 
@@ -65,6 +68,7 @@ impl Finished {
     fn options(&self, options: &SaveOptions) -> SaveOptions {
         SaveOptions {
             place: self.place,
+            opacity: self.opacity,
             ..options.clone()
         }
     }
@@ -104,8 +108,9 @@ impl LayerFlags {
     /// # Errors
     /// The film has no features, or the device failed.
     pub fn finish(&self, film: &Film, gpu: &Gpu, tone: &Tone) -> Result<Finished, AppError> {
+        let opacity = film.header().has_opacity();
         if !tone.denoise && self.layers.is_empty() {
-            return Ok(Finished::plain(film.develop(gpu, tone)?));
+            return Ok(Finished::plain(film.develop(gpu, tone)?, opacity));
         }
         let Some(features) = film.features() else {
             return Err(AppError::Usage(
@@ -113,19 +118,19 @@ impl LayerFlags {
                     .into(),
             ));
         };
-        let mut finished = Finished::plain(film.develop(gpu, tone)?);
+        let mut finished = Finished::plain(film.develop(gpu, tone)?, opacity);
         // In the order of the table, each once.
         let known = LAYERS.0.iter().map(|(.., layer)| layer);
         let wanted = known.filter(|layer| self.layers.contains(layer));
         let mut layers: Vec<_> = wanted
-            .map(|layer| layer.of(&finished.image, &features))
+            .map(|layer| layer.of(&finished.image, opacity, &features))
             .collect();
         if tone.denoise {
             let started = Instant::now();
             let denoised = features.picture().denoised(gpu, &features)?;
             finished.denoise_seconds = Some(started.elapsed().as_secs_f64());
             finished.image = tone.develop(gpu, &denoised)?;
-            layers.push(color("denoised", &finished.image));
+            layers.push(color("denoised", &finished.image, opacity));
         }
         finished.layers = (!self.layers.is_empty()).then_some(LayeredImage {
             width: features.width,

@@ -4,6 +4,7 @@ use crate::app::clock::Clock;
 use crate::app::error::AppError;
 use crate::cli::args::RenderArgs;
 use crate::cli::destination::Destination;
+use crate::cli::idle_flags;
 use crate::cli::job;
 use crate::cli::job::Job;
 use crate::cli::picture;
@@ -26,9 +27,11 @@ fn render(
     destination: &Destination,
     draft: &mut Draft,
 ) -> Result<(), AppError> {
+    idle_flags::check(&arguments.reading, &arguments.scene)?;
     let size = arguments.picture.size.size;
     let options = arguments.reading.import_options(
         arguments.camera.model_axis(),
+        arguments.camera.has_background(),
         size,
         arguments.picture.integrator,
     );

@@ -39,7 +39,7 @@ pub struct Report {
     /// Number of paths; present for path-traced pictures, as the next.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub paths: Option<u64>,
-    /// The estimated share of the light that the limit of bounces removed.
+    /// The estimated share of the light that the limit of bounces and clamps removed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_cut: Option<f64>,
     pub memory: Memory,
@@ -131,6 +131,31 @@ pub struct ImageReport {
     /// Bounces after the first hit.
     pub max_depth: u32,
     pub seed: u32,
+    /// Whether all glass filters shadow rays in straight lines, which loses caustics; null unless paths are traced, as the
+    /// next two.
+    pub transparent_shadows: Option<bool>,
+    /// The radiance to which indirect light is clamped; null without a limit too.
+    pub clamp_indirect: Option<f32>,
+    /// How metallic-roughness materials scatter.
+    pub bsdf: Option<&'static str>,
+    /// Whether the picture is denoised.
+    pub denoise: bool,
+}
+
+impl ImageReport {
+    /// How paths were traced, for people; `None` if none were.
+    pub fn sentence(&self) -> Option<String> {
+        let bsdf = self.bsdf?;
+        let shadows = match self.transparent_shadows {
+            Some(true) => "all glass lets shadow rays pass, without caustics",
+            _ => "smooth thin walls let shadow rays pass",
+        };
+        let clamp = match self.clamp_indirect {
+            Some(limit) => format!("indirect light is clamped to {limit}"),
+            None => "no light is clamped".to_owned(),
+        };
+        Some(format!("paths: BSDF {bsdf}; {shadows}; {clamp}"))
+    }
 }
 
 #[derive(Debug, Serialize)]

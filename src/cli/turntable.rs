@@ -5,6 +5,7 @@ use crate::app::error::AppError;
 use crate::cli::animate;
 use crate::cli::animate::{Sequence, Target, Timeline};
 use crate::cli::args::{LayerFlags, MotionFlags, Range, RangeFlags, TurnFlags, TurntableArgs};
+use crate::cli::idle_flags;
 use crate::cli::job::Job;
 use crate::cli::report::Draft;
 use crate::scene::{self, Background, Scene, Turntable};
@@ -27,11 +28,14 @@ pub fn run(arguments: &TurntableArgs, started: Instant) -> Result<(), AppError> 
 }
 
 fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {
+    idle_flags::check(&arguments.reading, &arguments.scene)?;
     let size = arguments.picture.size.size;
-    let options =
-        arguments
-            .reading
-            .import_options(arguments.axis.up, size, arguments.picture.integrator);
+    let options = arguments.reading.import_options(
+        arguments.axis.up,
+        false,
+        size,
+        arguments.picture.integrator,
+    );
     let mut scene = draft.load(&arguments.scene, &options, arguments.reading.strict)?;
     let turn = &arguments.turn;
     if scene.output.samples == 1 {

@@ -46,6 +46,7 @@ fn request_of(arguments: &ViewArgs) -> ViewRequest {
             baking: Baking::Never,
             ..(arguments.reading).import_options(
                 arguments.camera.model_axis(),
+                arguments.camera.has_background(),
                 arguments.picture.size.size,
                 arguments.picture.integrator,
             )

@@ -9,16 +9,17 @@ use ::image::codecs::{
 use ::image::{DynamicImage, ImageBuffer, Pixel, Rgb, Rgba};
 use std::io::Cursor;
 
-/// The contents of the file. Opacity is kept if the format supports it and any pixel is not opaque.
+/// The contents of the file. It has opacity if the format supports it, and either the options ask for it or any pixel is
+/// not opaque.
 pub(super) fn encode(
     image: &Image,
     format: Format,
     options: &SaveOptions,
 ) -> Result<Vec<u8>, OutputError> {
     if let (Format::Exr, Some(place)) = (format, options.place) {
-        return layered::encode(&layered::plain(image), Some(place));
+        return layered::encode(&layered::plain(image, options.opacity), Some(place));
     }
-    let alpha = format.has_opacity() && !image.is_opaque();
+    let alpha = format.has_opacity() && (options.opacity || !image.is_opaque());
     let pixels = match (format, alpha) {
         (Format::Png, true) => raster(image, |p| Rgba(p.map(level))),
         (Format::Png | Format::Jpeg, _) => raster(image, |p| Rgb(rgb(p).map(level))),

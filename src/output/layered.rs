@@ -73,11 +73,11 @@ pub fn save_layers_to_stdout(
         .map_err(|source| OutputError::Stdout { source })
 }
 
-/// An image of one layer in 32-bit floats, with opacity if some pixel is not opaque.
-pub(super) fn plain(image: &crate::image::Image) -> LayeredImage {
-    let names: &[&str] = match image.is_opaque() {
-        true => &["R", "G", "B"],
-        false => &["R", "G", "B", "A"],
+/// An image of one layer in 32-bit floats, with opacity if that is asked for or some pixel is not opaque.
+pub(super) fn plain(image: &crate::image::Image, opacity: bool) -> LayeredImage {
+    let names: &[&str] = match opacity || !image.is_opaque() {
+        true => &["R", "G", "B", "A"],
+        false => &["R", "G", "B"],
     };
     let channel = |(index, name): (usize, &&'static str)| Channel {
         name,

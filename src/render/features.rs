@@ -9,6 +9,7 @@ use super::{
 use crate::image::Image;
 use crate::pack::{PackedScene, PackedView};
 use crate::scene::ObjectRef;
+use glam::DVec3;
 
 /// What the pixels of a rectangle show besides the picture.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -102,7 +103,8 @@ impl Places {
         })
     }
 
-    /// The features of a pixel from its rows. `samples` is their number where no row counts them.
+    /// The features of a pixel from its rows, with the position as it is there. `samples` is their number where no row
+    /// counts them.
     pub fn pixel(&self, rows: &[[f64; 4]], samples: f64) -> PixelFeatures {
         let weight = rows[0][3];
         // Weights of both signs may cancel (lib/filter.wesl).
@@ -185,6 +187,8 @@ impl Renderer {
                     let [.., low, high] = rows[places.first + 2];
                     let primitive = low as u32 | (high as u32) << 16;
                     pixel.object = number_of(&self.scene, &self.view, primitive, instance as u32);
+                    let [x, y, z, _] = rows[places.first + 1];
+                    pixel.position = single(in_world(&self.scene, [x, y, z]));
                 }
                 pixels[at as usize] = pixel;
             }
@@ -195,6 +199,11 @@ impl Renderer {
             pixels,
         })
     }
+}
+
+/// A point in world space, from one in render space.
+pub fn in_world(scene: &PackedScene, point: [f64; 3]) -> [f64; 3] {
+    (scene.origin + DVec3::from(point)).into()
 }
 
 /// The number of the object of a hit, from 1: the instances of meshes in the scene's order, then its shapes, then its

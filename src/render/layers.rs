@@ -69,8 +69,8 @@ pub const DIRECT: Layer = mean("direct");
 pub const EMISSION: Layer = mean("emission");
 
 /// The first surface. The rows are: nearness, sample, material and instance; position and depth; texture coordinates,
-/// and the lower and the upper half of the primitive's index. A film has the object in place of the instance. Numbers
-/// of materials and objects count from 1, 0 is none.
+/// and the lower and the upper half of the primitive's index. Positions are in render space. A film has them in world
+/// space, and the object in place of the instance. Numbers of materials and objects count from 1, 0 is none.
 pub const FIRST: Layer = Layer {
     name: "first",
     rows: 3,

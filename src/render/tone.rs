@@ -66,12 +66,17 @@ impl Tone {
 
     /// The tone of a scene for pictures of radiance by an integrator.
     pub fn of_scene(output: &OutputDefaults, integrator: Integrator) -> Self {
-        let curve = (output.tone).unwrap_or(LightTransport::from(integrator).tone());
+        let transport = LightTransport::from(integrator);
         Self {
             exposure_ev: output.exposure_ev,
             auto_exposure: output.auto_exposure,
-            curve,
-            transfer: output.transfer,
+            curve: output.tone.unwrap_or(transport.tone()),
+            // AgX is made for sRGB. A scene for the classical integrator that names no curve has its transfer function for
+            // pictures without one, as in the course's format.
+            transfer: match (output.tone, output.integrator, transport) {
+                (None, LightTransport::Whitted, LightTransport::Path) => Transfer::Srgb,
+                _ => output.transfer,
+            },
             ..Self::LINEAR
         }
     }

@@ -29,7 +29,8 @@ pub struct OutputDefaults {
     pub auto_exposure: bool,
     /// Tone curve, applied after the exposure; `None`: [`LightTransport::tone`].
     pub tone: Option<ToneCurve>,
-    /// Transfer function, applied last.
+    /// Transfer function, applied last. Without [`Self::tone`] it belongs to the tone curve of [`Self::integrator`]: paths
+    /// that are traced in place of classical rays are shown with AgX and sRGB.
     pub transfer: Transfer,
     /// Frames per second of an animation, above 0.
     pub fps: f64,

@@ -13,7 +13,7 @@ use glimray::render::{
 use glimray::scene::{Background, Filter, Scene};
 
 /// A finished renderer.
-fn traced(scene: &Scene, wanted: &impl Wanted) -> Renderer {
+pub fn traced(scene: &Scene, wanted: &impl Wanted) -> Renderer {
     let mut renderer = start(scene, wanted).expect("a renderer");
     while !renderer.is_done() {
         renderer.step().expect("a step");

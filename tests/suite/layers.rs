@@ -1,6 +1,6 @@
 //! The layers of pictures: closed forms, exact merging, and the channels of files.
 
-use crate::film::{bytes, cut, film, merged, stratified};
+use crate::film::{bytes, cut, film, merged, stratified, traced};
 use crate::reference::compare::{sized, sliced};
 use crate::reference::scenes::{self, Build};
 use crate::support::program::Workspace;
@@ -9,6 +9,7 @@ use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
 use glam::{DVec3, Vec3, dvec3, vec3};
 use glimray::render::{Features, Film, Integrator, PixelFeatures, RenderSettings, Slicing};
 use glimray::scene::{Antialias, Background, Camera, Filter, Light, LightKind, Material, Scene};
+use std::collections::BTreeMap;
 
 fn featured(settings: RenderSettings) -> RenderSettings {
     RenderSettings {
@@ -28,13 +29,16 @@ fn features(scene: &Scene, settings: &RenderSettings) -> Features {
     film(scene, settings).features().expect("features")
 }
 
-/// Two balls on the axis of the camera at the origin, in front of a sky: a matte one, and behind the camera another
-/// that a mirror may show.
+/// Where the camera of [`balls`] is: not at the origin, from which rays are traced.
+const EYE: DVec3 = DVec3::new(1.5, -0.75, 2.25);
+
+/// Two balls on the axis of the camera, in front of a sky: a matte one, and behind the camera another that a mirror may
+/// show.
 fn balls(front: Material) -> Scene {
     let mut scene = Scene {
         cameras: vec![Camera {
-            look_from: DVec3::ZERO,
-            look_at: -DVec3::Z,
+            look_from: EYE,
+            look_at: EYE - DVec3::Z,
             fov_y: 0.6,
             ..Camera::default()
         }],
@@ -48,8 +52,8 @@ fn balls(front: Material) -> Scene {
         background: Background::Color(vec3(0.2, 0.3, 0.4)),
         ..Scene::default()
     };
-    scene.add_sphere(dvec3(0.0, 0.0, 60.0), 50.0, 0);
-    scene.add_sphere(dvec3(0.0, 0.0, -6.0), 1.0, 1);
+    scene.add_sphere(EYE + dvec3(0.0, 0.0, 60.0), 50.0, 0);
+    scene.add_sphere(EYE + dvec3(0.0, 0.0, -6.0), 1.0, 1);
     scene
 }
 
@@ -83,8 +87,8 @@ fn the_first_surface_is_where_the_ray_meets_the_ball() {
             let off = 36.0 - nearest * nearest;
             if off < 0.99 {
                 let depth = nearest - (1.0 - off).sqrt();
-                let point = depth * ray;
-                let normal = point - dvec3(0.0, 0.0, -6.0);
+                let point = EYE + depth * ray;
+                let normal = depth * ray - dvec3(0.0, 0.0, -6.0);
                 assert!((f64::from(pixel.depth) - depth).abs() < 1e-4, "{pixel:?}");
                 assert!(far(pixel.position, point.as_vec3()) < 1e-4, "{pixel:?}");
                 assert!(far(pixel.normal, normal.as_vec3()) < 1e-3, "{pixel:?}");
@@ -101,6 +105,42 @@ fn the_first_surface_is_where_the_ray_meets_the_ball() {
             }
         }
         assert!(hits > 100 && misses > 100, "{hits} and {misses}");
+    }
+}
+
+/// Films and renderers tell the same point, and so does the ray query of `explain`, which is traced on its own.
+#[test]
+fn positions_are_those_that_are_explained() {
+    // Its camera is at (0, 0, 6).
+    let folder = Workspace::moving();
+    let flags = "--size 9x7 --integrator path";
+    folder
+        .run(&format!(
+            "render a.toml {flags} --samples 1 --layers position -o a.exr"
+        ))
+        .expect(0);
+    let explained = folder
+        .run(&format!(
+            "explain a.toml {flags} --samples 1 --pixel 2,3 --json"
+        ))
+        .expect(0);
+    let tree = explained.json();
+    let hit = &tree["samples"][0]["rays"][0]["hit"]["position"];
+    let image = channels(&folder, "a.exr");
+    for (axis, name) in ["position.X", "position.Y", "position.Z"]
+        .iter()
+        .enumerate()
+    {
+        let expected = hit[axis].as_f64().expect("a hit");
+        let found = f64::from(image[*name][3 * 9 + 2]);
+        assert!((found - expected).abs() < 1e-5, "{found} and {expected}");
+    }
+
+    let scene = balls(matte());
+    for samples in [1, 150] {
+        let mut renderer = traced(&scene, &paths(stratified(samples, (7, 5))));
+        let of_film = renderer.film().expect("a film").features();
+        assert_eq!(renderer.features().ok(), of_film, "{samples} samples");
     }
 }
 
@@ -234,6 +274,17 @@ fn features_do_not_change_the_picture() {
         developed(&found).expect("a picture"),
         developed(&expected).expect("a picture")
     );
+}
+
+/// The channels of an OpenEXR file of one part, by name.
+fn channels(folder: &Workspace, name: &str) -> BTreeMap<String, Vec<f32>> {
+    let image = exr::prelude::read_first_flat_layer_from_file(folder.path(name));
+    let channels = image.expect("an OpenEXR file").layer_data.channel_data;
+    let values = channels.list.iter().map(|channel| {
+        let values = channel.sample_data.values_as_f32().collect();
+        (channel.name.to_string(), values)
+    });
+    values.collect()
 }
 
 const ALL: &str = "beauty,albedo,normal,depth,position,uv,object,material,direct,indirect,emission,variance,samples";

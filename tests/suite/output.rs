@@ -137,6 +137,29 @@ fn png_stores_opacity_if_there_is_any() {
 }
 
 #[test]
+fn an_opaque_picture_keeps_its_opacity_if_that_is_asked_for() {
+    let folder = folder();
+    let options = SaveOptions {
+        opacity: true,
+        ..SaveOptions::default()
+    };
+    for (name, colors) in [
+        ("a.png", image::ColorType::Rgba8),
+        ("a.exr", image::ColorType::Rgba32F),
+        ("a.jpg", image::ColorType::Rgb8),
+        ("a.hdr", image::ColorType::Rgb32F),
+    ] {
+        let path = folder.path().join(name);
+        output::save_with(&path, &sample(3, 3), &options).expect("saved");
+        assert_eq!(
+            image::open(&path).expect("a picture").color(),
+            colors,
+            "{name}"
+        );
+    }
+}
+
+#[test]
 fn values_outside_the_range_are_clamped_and_nan_becomes_black() {
     let folder = folder();
     let path = folder.path().join("a.png");

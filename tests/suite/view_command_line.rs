@@ -238,6 +238,24 @@ fn every_setting_that_a_pixel_depends_on_is_in_the_line() {
     }
 }
 
+/// `--background` leaves out the ground of a model that did not ask for it, but the window keeps it.
+#[test]
+fn a_background_in_the_line_does_not_take_the_ground_away() {
+    for (path, staged, ground) in [
+        ("m.obj", true, true),
+        ("m.obj", false, false),
+        ("a.toml", true, false),
+    ] {
+        let mut screen = Screen::of(scene());
+        screen.path = path.into();
+        screen.scene.staged = staged;
+        assert!(!screen.check().contains("ground="));
+        screen.background = Background::Color(vec3(0.1, 0.2, 0.3));
+        let line = screen.check();
+        assert_eq!(line.contains("--ground=surface"), ground, "{line}");
+    }
+}
+
 #[test]
 fn several_differences_at_once_come_back_too() {
     let mut screen = Screen::of(scene());

@@ -115,6 +115,7 @@ impl Target {
                     clobber: true,
                     follow_links: false,
                     place: None,
+                    opacity: false,
                 },
             }),
             path,

@@ -1,7 +1,11 @@
 //! Flags that several commands share, grouped as in their help.
 
+mod log;
+
+pub use log::{LogFlags, ProgressMode};
+
 use super::checkpoint::CheckpointFlags;
-use super::values::{self, BACKENDS, FORMATS, GROUNDS, PROGRESS, Up};
+use super::values::{self, BACKENDS, FORMATS, GROUNDS, Up};
 use crate::app::layers::{LAYERS, PictureLayer};
 use crate::app::overrides::{
     BackgroundChoice, CameraOverrides, Exposure, PictureOverrides, ToneOverrides,
@@ -167,7 +171,8 @@ pub struct DevelopFlags {
     /// Tone curve [default: the scene's, else agx for paths and none for whitted; none for .exr, .hdr and debug views]
     #[arg(long, value_parser = values::one_of(&TONES))]
     pub tone: Option<ToneCurve>,
-    /// Transfer function [default: the scene's, else srgb; linear for .exr, .hdr and debug views]
+    /// Transfer function [default: the scene's, else srgb; srgb too where paths bring agx to a scene for whitted; linear for
+    /// .exr, .hdr and debug views]
     #[arg(long, value_parser = values::one_of(&TRANSFERS))]
     pub transfer: Option<Transfer>,
     /// Denoise the picture; films and, with --layers, the layer beauty keep the noise
@@ -204,6 +209,7 @@ pub struct CameraFlags {
     ///
     /// Beside --environment, the camera sees the colour where there is nothing, also through clear glass, and the
     /// environment lights the scene and shows in mirrors. With transparent, the picture has an alpha channel (.png, .exr).
+    /// With any background, models get no ground unless --ground asks for one.
     #[arg(long, value_name = "R,G,B|transparent", allow_hyphen_values = true, value_parser = values::background)]
     pub background: Option<BackgroundChoice>,
 }
@@ -253,11 +259,11 @@ pub struct SceneFlags {
     /// Add no background to a model without lights; where paths are traced, lights take the place of the sky
     #[arg(long)]
     pub no_background: bool,
-    /// Add no ground to a model without lights
+    /// Add no ground to a model without lights; --background leaves it out too
     #[arg(long)]
     pub no_ground: bool,
     /// The ground below a model: a surface, or only the shadow on it, with a transparent background
-    /// [default: a surface below models without lights]
+    /// [default: a surface below models without lights, if no background is given]
     #[arg(long, value_parser = values::one_of(&GROUNDS), conflicts_with_all = ["no_ground", "bare"])]
     pub ground: Option<import::Ground>,
 }
@@ -272,10 +278,12 @@ pub struct AxisFlags {
 }
 
 impl SceneFlags {
-    /// `up` is the axis of a model that points up; `size` and `integrator` are those of the picture, if they are known.
+    /// `up` is the axis of a model that points up; `has_background` tells whether a background was asked for, which
+    /// leaves out the ground that was not; `size` and `integrator` are those of the picture, if they are known.
     pub fn import_options(
         &self,
         up: Option<import::Axis>,
+        has_background: bool,
         size: Option<(u32, u32)>,
         integrator: Option<Integrator>,
     ) -> import::Options {
@@ -284,7 +292,7 @@ impl SceneFlags {
             lights: !self.bare && !self.no_lights,
             background: !self.bare && !self.no_background,
             ground: match self.ground {
-                None if self.bare || self.no_ground => import::Ground::None,
+                None if self.bare || self.no_ground || has_background => import::Ground::None,
                 given => given.unwrap_or(import::Ground::Default),
             },
         };
@@ -385,6 +393,11 @@ impl CameraFlags {
         self.up.and_then(Up::axis)
     }
 
+    /// Whether it asks for a background.
+    pub fn has_background(&self) -> bool {
+        self.background.is_some()
+    }
+
     /// Those of a command that reads its scene with these flags.
     pub fn overrides(&self, reading: &SceneFlags) -> CameraOverrides {
         CameraOverrides {
@@ -414,37 +427,4 @@ impl DeviceFlags {
     pub fn memory_limit_bytes(&self) -> u64 {
         self.memory_limit << 20
     }
-}
-
-/// Messages, progress and the report.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Messages")]
-pub struct LogFlags {
-    /// Write a JSON report to this file; `-` is standard output
-    ///
-    /// It has counts, settings, the adapter, times in seconds and memory in bytes. A run that fails writes
-    /// one too, with its error and exit code.
-    #[arg(long, value_name = "FILE.json")]
-    pub report: Option<PathBuf>,
-    /// Count the rays of each kind for the report, at a small cost in speed
-    #[arg(long)]
-    pub count_rays: bool,
-    /// Progress display on standard error; with json, every message there is a JSON line
-    #[arg(long, default_value = "auto", value_parser = values::one_of(&PROGRESS))]
-    pub progress: ProgressMode,
-    /// Print only warnings and errors
-    #[arg(short, long, conflicts_with = "verbose")]
-    pub quiet: bool,
-    /// Also print times and sizes
-    #[arg(short, long)]
-    pub verbose: bool,
-}
-
-/// How progress is displayed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ProgressMode {
-    Auto,
-    Bar,
-    Json,
-    None,
 }

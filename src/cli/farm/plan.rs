@@ -13,6 +13,7 @@ use crate::app::overrides::picture_size;
 use crate::cli::animate::Timeline;
 use crate::cli::args::FarmPlanArgs;
 use crate::cli::device;
+use crate::cli::idle_flags;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job::Job;
 use crate::cli::memory;
@@ -46,9 +47,11 @@ pub fn run(
     if arguments.simulate.is_empty() {
         check_free(&folder)?;
     }
+    idle_flags::check(&arguments.reading, &arguments.scene)?;
     let size = arguments.picture.size.size;
     let options = arguments.reading.import_options(
         arguments.camera.model_axis(),
+        arguments.camera.has_background(),
         size,
         arguments.picture.integrator,
     );

@@ -128,6 +128,7 @@ impl<'a> Draft<'a> {
             None => json!({
                 "path": self.image_path.display().to_string(), "width": null, "height": null,
                 "samples": null, "integrator": null, "max_depth": null, "seed": null,
+                "transparent_shadows": null, "clamp_indirect": null, "bsdf": null, "denoise": null,
             }),
         };
         image["mean_samples"] = Value::Null;

@@ -5,7 +5,9 @@ use super::{
     coverage::{Coverage, SampleSet},
 };
 use crate::render::{
-    Fingerprint, RenderError, RenderSettings, Renderer, Tone, features::number_of, layers,
+    Fingerprint, RenderError, RenderSettings, Renderer, Tone,
+    features::{in_world, number_of},
+    layers,
     sums::Sums,
 };
 
@@ -22,12 +24,10 @@ impl Renderer {
         let layers = header.layers;
         let mut film = self.tiles.film(header, done, sample)?;
         if let Some(first) = layers::row_of(layers, &layers::FIRST) {
-            let number =
-                |primitive, instance| number_of(&self.scene, &self.view, primitive, instance);
             let rows = layers::rows(layers);
             film.sums
                 .iter_mut()
-                .for_each(|sums| name_objects(sums, rows, first, number));
+                .for_each(|sums| self.detach(sums, rows, first));
         }
         Ok(film)
     }
@@ -56,30 +56,46 @@ impl Renderer {
             adapters: [self.adapter().identity()].into(),
         }
     }
-}
 
-/// Replaces the instance and the primitive of the first surface by the number of its object.
-fn name_objects(sums: &mut Sums, rows: usize, first: usize, number: impl Fn(u32, u32) -> u32) {
-    let named = |material: f32, [instance, low, high]: [f32; 3]| match material == 0.0 {
-        true => 0.0,
-        false => number(low as u32 | (high as u32) << 16, instance as u32) as f32,
-    };
-    match sums {
-        Sums::Block(block) => {
-            for pixel in block.chunks_exact_mut(rows) {
-                let [.., low, high] = pixel[first + 2];
-                let [.., material, instance] = pixel[first];
-                pixel[first][3] = named(material, [instance, low, high]);
-                pixel[first + 2][2..].fill(0.0);
+    /// Makes the first surfaces of pixels independent of the packed scene: replaces the instance and the primitive by
+    /// the number of the object, and the position in render space by that in world space.
+    fn detach(&self, sums: &mut Sums, rows: usize, first: usize) {
+        let object = |[instance, low, high]: [f32; 3]| {
+            let primitive = low as u32 | (high as u32) << 16;
+            number_of(&self.scene, &self.view, primitive, instance as u32) as f32
+        };
+        let in_world =
+            |point: [f32; 3]| in_world(&self.scene, point.map(f64::from)).map(|at| at as f32);
+        match sums {
+            Sums::Block(block) => {
+                for pixel in block.chunks_exact_mut(rows) {
+                    let [.., material, instance] = pixel[first];
+                    let [x, y, z, depth] = pixel[first + 1];
+                    let [.., low, high] = pixel[first + 2];
+                    pixel[first][3] = 0.0;
+                    if material != 0.0 {
+                        pixel[first][3] = object([instance, low, high]);
+                        let [x, y, z] = in_world([x, y, z]);
+                        pixel[first + 1] = [x, y, z, depth];
+                    }
+                    pixel[first + 2][2..].fill(0.0);
+                }
             }
-        }
-        Sums::Totals(totals) => {
-            let float = |bits: i128| f32::from_bits(bits as u32);
-            for pixel in totals.chunks_exact_mut(rows) {
-                let [.., low, high] = pixel[first + 2].map(float);
-                let [.., material, instance] = pixel[first].map(float);
-                pixel[first][3] = named(material, [instance, low, high]).to_bits().into();
-                pixel[first + 2][2..].fill(0);
+            Sums::Totals(totals) => {
+                let float = |bits: i128| f32::from_bits(bits as u32);
+                let bits = |number: f32| i128::from(number.to_bits());
+                for pixel in totals.chunks_exact_mut(rows) {
+                    let [.., material, instance] = pixel[first].map(float);
+                    let [x, y, z, depth] = pixel[first + 1].map(float);
+                    let [.., low, high] = pixel[first + 2].map(float);
+                    pixel[first][3] = 0;
+                    if material != 0.0 {
+                        pixel[first][3] = bits(object([instance, low, high]));
+                        let [x, y, z] = in_world([x, y, z]);
+                        pixel[first + 1] = [x, y, z, depth].map(bits);
+                    }
+                    pixel[first + 2][2..].fill(0);
+                }
             }
         }
     }

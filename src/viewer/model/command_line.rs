@@ -6,6 +6,7 @@
 mod flags;
 
 use crate::app::clock::Clock;
+use crate::app::inputs::may_be_model;
 use crate::app::window::{ParsePicture, PictureRequest};
 use crate::import::{EnvironmentSource, Ground, Staging};
 use crate::render::{RenderSettings, Tone};
@@ -159,6 +160,12 @@ pub fn copy(shown: &Shown) -> CommandLine {
         if outcome(shown.parse, &arguments, &scene).is_err() {
             arguments.truncate(length);
         }
+    }
+    // A background leaves out the ground that a model got without asking.
+    let has_background = arguments.iter().any(|argument| argument == "--background");
+    let stands = staging.ground == Ground::Default && shown.scene.staged;
+    if has_background && stands && may_be_model(shown.path) {
+        arguments.push("--ground=surface".to_owned());
     }
     if let Ok(parsed) = outcome(shown.parse, &arguments, &scene) {
         left_out.extend(flags::all(shown, &scene, &parsed).map(|d| d.what.to_owned()));

@@ -130,6 +130,8 @@ pub struct Target {
     pub quality: u8,
     /// Whether an existing file may be replaced.
     pub replaces: bool,
+    /// Whether the picture has opacity, whatever its pixels are.
+    pub opacity: bool,
 }
 
 /// The size of a picture that is saved.
@@ -267,6 +269,8 @@ impl SaveDialog {
             path,
             format,
             quality: self.quality,
+            // Known when the picture is taken.
+            opacity: false,
         })
     }
 

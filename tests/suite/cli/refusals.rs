@@ -158,3 +158,67 @@ fn outputs_that_cannot_be_written_exit_4_before_any_rendering() {
     assert_eq!(fs::read(workspace.path("old.png")).expect("a file"), b"old");
     assert_eq!(workspace.made(), ["old.png"]);
 }
+
+/// The same flags may be given for several pictures, so those that change nothing are no errors.
+#[test]
+fn flags_without_effect_get_a_line() {
+    let workspace = Workspace::new();
+    for (flags, why) in [
+        (
+            "--integrator whitted --clamp-indirect 1",
+            "--clamp-indirect has no effect (--integrator whitted)",
+        ),
+        (
+            "--integrator normals --bsdf spec",
+            "--bsdf has no effect (--integrator normals)",
+        ),
+        (
+            "--transparent-shadows",
+            "--transparent-shadows has no effect (--integrator whitted)",
+        ),
+        (
+            "--noise 0.1 --samples 4",
+            "--noise has no effect (--antialias stratified)",
+        ),
+        ("--bare", "--bare has no effect (a.scene)"),
+        ("--no-lights", "--no-lights has no effect (a.scene)"),
+        ("--no-background", "--no-background has no effect (a.scene)"),
+        ("--no-ground", "--no-ground has no effect (a.scene)"),
+    ] {
+        let run = workspace.run(&format!(
+            "render a.scene --size 8x8 --quiet {flags} -o a.png"
+        ));
+        let run = run.expect(0);
+        run.says(why);
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    }
+    for flags in [
+        "--integrator path --clamp-indirect 1 --bsdf spec --transparent-shadows",
+        "--antialias adaptive --samples 4 --noise 0.1",
+    ] {
+        let run = workspace.run(&format!(
+            "render a.scene --size 8x8 --quiet {flags} -o a.png"
+        ));
+        assert_eq!(run.expect(0).stderr, "");
+    }
+    workspace.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let run = workspace.run("render m.obj --size 8x8 --quiet --no-ground -o a.png");
+    assert_eq!(run.expect(0).stderr, "");
+}
+
+#[test]
+fn only_models_get_a_ground() {
+    let workspace = Workspace::new();
+    for command in [
+        "render",
+        "explain --pixel 1,1",
+        "inspect",
+        "convert",
+        "turntable",
+    ] {
+        for ground in ["surface", "shadow"] {
+            let run = workspace.run(&format!("{command} a.scene --ground {ground}"));
+            run.expect(2).says("only models get one");
+        }
+    }
+}

@@ -84,3 +84,120 @@ fn gltf_models_are_path_traced_unless_the_command_line_says_otherwise() {
         assert_eq!(image["max_depth"], depth, "{command}");
     }
 }
+
+/// A triangle in the middle of the picture. Its sides leave the lower corners free, where the ground would be.
+const TRIANGLE: &str = "v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
+
+#[test]
+fn a_background_leaves_out_the_ground_that_was_not_asked_for() {
+    let workspace = Workspace::new();
+    workspace.write("m.obj", TRIANGLE);
+    let corner = |flags: &str| {
+        let line = format!("render m.obj --size 24x18 --samples 2 --tone none {flags} -o m.png");
+        workspace.run(&line).expect(0);
+        let picture = image::open(workspace.path("m.png")).expect("a picture");
+        let picture = picture.into_rgba8();
+        assert_eq!(picture.get_pixel(12, 9).0[3], 255, "the model, {flags}");
+        [0, 23].map(|x| picture.get_pixel(x, 17).0)
+    };
+    let path = "--integrator path --background";
+    assert_eq!(corner(&format!("{path} transparent")), [[0; 4]; 2]);
+    let white = format!("{path} 1,1,1 --environment sky");
+    assert_eq!(corner(&white), [[255; 4]; 2]);
+    let blue = [[0, 0, 255, 255]; 2];
+    assert_eq!(corner("--integrator whitted --background 0,0,1"), blue);
+    for [_, _, _, opacity] in corner(&format!("{path} transparent --ground surface")) {
+        assert_eq!(opacity, 255, "the ground that was asked for");
+    }
+    for [r, _, b, _] in corner("--integrator whitted --background 0,0,1 --ground surface") {
+        assert!(r > 0 && b < 255, "a grey ground");
+    }
+}
+
+/// A ball that fills the picture, which is therefore opaque.
+const NEAR: &str = "--look-from 0,0,-1.9 --look-at 0,0,-3 --size 8x8 --samples 2 --integrator path";
+
+#[test]
+fn transparent_pictures_have_an_alpha_channel_even_where_all_is_opaque() {
+    let workspace = Workspace::new();
+    let run = |line: &str| workspace.run(line).expect(0);
+    let colors = |name: &str| {
+        let picture = image::open(workspace.path(name)).expect("a picture");
+        // Of a crop, the reader adds what is missing of the whole picture.
+        let mut pixels = picture
+            .to_rgba32f()
+            .into_vec()
+            .into_iter()
+            .skip(3)
+            .step_by(4);
+        assert!(
+            name == "crop.exr" || pixels.all(|opacity| opacity == 1.0),
+            "{name}"
+        );
+        picture.color()
+    };
+    let clear = "--background transparent";
+    run(&format!("render a.scene {NEAR} -o plain.png"));
+    assert_eq!(colors("plain.png"), image::ColorType::Rgb8);
+    run(&format!("render a.scene {NEAR} -o plain.exr"));
+    assert_eq!(colors("plain.exr"), image::ColorType::Rgb32F);
+    for (name, flags) in [
+        ("a", ""),
+        ("denoised", "--denoise"),
+        ("crop", "--crop 1,1,5,6"),
+    ] {
+        run(&format!(
+            "render a.scene {NEAR} {clear} {flags} -o {name}.png"
+        ));
+        assert_eq!(colors(&format!("{name}.png")), image::ColorType::Rgba8);
+        run(&format!(
+            "render a.scene {NEAR} {clear} {flags} -o {name}.exr"
+        ));
+        assert_eq!(colors(&format!("{name}.exr")), image::ColorType::Rgba32F);
+    }
+    let layers = "--layers beauty,depth --denoise";
+    run(&format!(
+        "render a.scene {NEAR} {clear} {layers} -o layers.exr"
+    ));
+    assert_eq!(colors("layers.exr"), image::ColorType::Rgba32F);
+    run(&format!("render a.scene {NEAR} {clear} -o a.film"));
+    run("merge a.film -o merged.png");
+    assert!(workspace.read("merged.png") == workspace.read("a.png"));
+    run(&format!(
+        "animate a.scene {NEAR} {clear} --frames 0 -o f_%d.png"
+    ));
+    assert_eq!(colors("f_0.png"), image::ColorType::Rgba8);
+}
+
+/// The course's format has linear values for pictures without a tone curve; AgX is made for sRGB.
+#[test]
+fn the_curve_of_paths_comes_with_its_transfer_function() {
+    let workspace = Workspace::new();
+    let native = "[output]\nintegrator = \"path\"\ntransfer = \"linear\"\n\
+        [[objects]]\nsphere = { center = [0, 0, -3], radius = 1 }\n";
+    workspace.write("linear.toml", native);
+    let picture = |flags: &str| {
+        let line =
+            format!("render {flags} --size 12x9 --samples 2 --background 0.2,0.3,0.4 -o p.png");
+        workspace.run(&line).expect(0);
+        workspace.read("p.png")
+    };
+    for (usual, said) in [
+        ("a.scene --integrator path", "--tone agx --transfer srgb"),
+        ("a.scene --integrator path --tone agx", "--transfer srgb"),
+        ("a.scene --integrator path --transfer linear", "--tone agx"),
+        ("a.scene --integrator path --tone none", "--transfer linear"),
+        (
+            "a.scene --integrator whitted",
+            "--tone none --transfer linear",
+        ),
+        ("linear.toml", "--tone agx --transfer linear"),
+    ] {
+        assert!(
+            picture(usual) == picture(&format!("{usual} {said}")),
+            "{usual}"
+        );
+    }
+    let washed = picture("a.scene --integrator path --transfer linear");
+    assert!(picture("a.scene --integrator path") != washed);
+}

@@ -1,7 +1,7 @@
 //! The fields of the report.
 
 use crate::support::program::Workspace;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::fs;
 
 /// The names of all fields, such as `outer.inner`.
@@ -27,8 +27,8 @@ fn the_report_has_the_promised_fields() {
     let report: Value = serde_json::from_str(&text).expect("JSON");
     let promised = "adapter.backend adapter.device_type adapter.driver adapter.name command \
         cut_off_trees error fetch.buffer_seconds fetch.image_seconds fetch.reason fetch.seconds fetch.storage \
-        glimray image.height image.integrator image.max_depth image.mean_samples image.path image.samples image.seed \
-        image.width memory.gpu_bytes memory.host_peak_bytes nonfinite_samples rays.primary \
+        glimray image.bsdf image.clamp_indirect image.denoise image.height image.integrator image.max_depth \
+        image.mean_samples image.path image.samples image.seed image.transparent_shadows image.width memory.gpu_bytes memory.host_peak_bytes nonfinite_samples rays.primary \
         rays.primary_hits rays.reflection rays.reflection_hits rays.refraction \
         rays.refraction_hits rays.shadow rays.shadow_blocked scene.instances scene.lights \
         scene.materials scene.path scene.shapes scene.skipped scene.spheres scene.triangles \
@@ -56,4 +56,30 @@ fn rays_are_null_unless_counted_and_the_report_can_go_to_standard_output() {
         .run("render a.scene --size 8x8 --report - -o a.png")
         .expect(0);
     assert_eq!(run.json()["rays"], Value::Null);
+}
+
+/// Whoever has the picture and its report can tell what is missing in the light.
+#[test]
+fn the_report_says_what_the_light_of_paths_lacks() {
+    let workspace = Workspace::new();
+    let render = |flags: &str| {
+        let line =
+            format!("render a.scene --size 8x8 --samples 2 {flags} --report r.json -o a.png");
+        let run = workspace.run(&line).expect(0);
+        let report: Value = serde_json::from_slice(&workspace.read("r.json")).expect("JSON");
+        let image = &report["image"];
+        let names = ["transparent_shadows", "clamp_indirect", "bsdf", "denoise"];
+        (json!(names.map(|name| &image[name])), run)
+    };
+    let path = "--integrator path";
+    let biased = "--transparent-shadows --clamp-indirect 2.5 --bsdf spec --denoise -v";
+    let (said, run) = render(&format!("{path} {biased}"));
+    assert_eq!(said, json!([true, 2.5, "spec", true]));
+    let text = "paths: BSDF spec; all glass lets shadow rays pass, without caustics; indirect light is clamped to 2.5";
+    run.says(text);
+    run.says("removed about ");
+    let (said, _) = render(path);
+    assert_eq!(said, json!([false, null, "full", false]));
+    let (said, _) = render("--integrator whitted");
+    assert_eq!(said, json!([null, null, null, false]));
 }

@@ -138,12 +138,13 @@ pub fn size_of(session: &Session, size: SaveSize) -> Option<(u32, u32)> {
 }
 
 /// Renders the picture at another size on a thread of its own, and writes it.
-fn render(session: &mut Session, target: Target, size: (u32, u32)) {
+fn render(session: &mut Session, mut target: Target, size: (u32, u32)) {
     let integrator = session.view.settings.integrator;
     let Some(mut order) = session.order(integrator) else {
         return;
     };
     order.settings = session.view.settings_at(size, integrator);
+    target.opacity = order.settings.has_opacity();
     let tone = match target.format.is_linear() {
         true => (session.request.overrides.tone).tone(&order.scene.output, integrator, true),
         false => order.tone,
@@ -183,6 +184,7 @@ fn write_file(image: &Image, target: &Target, how_far: &str) -> Result<String, S
         format: Some(target.format),
         quality: target.quality,
         clobber: target.replaces,
+        opacity: target.opacity,
         ..SaveOptions::default()
     };
     match output::save_with(&target.path, image, &options) {
@@ -221,6 +223,7 @@ fn capture(frame: &mut FrameRenderer, target: Target, waits: Option<u32>, linear
     match frame.image(&tone) {
         Ok((image, samples)) => {
             captured.samples = samples;
+            captured.target.opacity = frame.settings().has_opacity();
             captured.image = Ok(Some(image));
         }
         Err(error) => captured.image = Err(advice::render(&error)),
