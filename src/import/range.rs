@@ -64,8 +64,12 @@ pub(super) fn limit(scene: &mut Scene) {
             counts.radiance(bottom);
             counts.radiance(top);
         }
-        Background::Picture { strength, .. } => {
-            lower_number(strength, RADIANCE, &mut counts.radiances);
+        Background::Picture {
+            strength, picture, ..
+        } => {
+            // Its brightest texel is in proportion to its scale.
+            let most = RADIANCE / scene.pictures[*picture].texels.scale();
+            lower_number(strength, most, &mut counts.radiances);
         }
     }
     counts.tracks(scene);
