@@ -63,7 +63,7 @@ impl Job<'_> {
         }
         // Only paths find the light of the background on every surface.
         let is_path = self.settings().integrator == Integrator::Path;
-        if self.scene.is_unlit() && !(is_path && self.scene.background.shines()) {
+        if self.scene.is_unlit() && !(is_path && self.scene.background_shines()) {
             console::warning(UNLIT);
         }
     }
