@@ -255,7 +255,7 @@ fn pack(
     let before = previous.map_or(&[][..], |previous| &previous.packed_pictures);
     let (packed_pictures, pictures) = picture::pictures(scene, before)?;
     let before = previous.and_then(|previous| previous.environment.as_ref());
-    let environment = environment::of_scene(scene, before);
+    let environment = environment::of_scene(scene, &packed_pictures, before);
     let table = environment.iter().map(|table| table.words.clone());
     let words = packed_pictures.iter().map(|packed| packed.words.clone());
     let albedos = [albedo_words()];

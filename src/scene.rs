@@ -56,7 +56,10 @@ pub use object::ObjectRef;
 pub use output::{
     Antialias, Backdrop, Filter, LightTransport, OutputDefaults, Shutter, ToneCurve, Transfer,
 };
-pub use picture::{MAX_PICTURE_BYTES, Origin, Picture, SrgbCurve, Texels, linear_from_srgb};
+pub use picture::{
+    LARGEST_TEXEL, MAX_PICTURE_BYTES, Origin, Picture, SrgbCurve, Texels, linear_from_srgb,
+};
+pub(crate) use picture::{SMALLEST_TEXEL, scale_of};
 pub use shape::{CanonicalShape, Geometry, Shape};
 pub use texture::{Minify, Pattern, Space, Texture, UvTransform, Wrap};
 pub use transform::{Transform, angles, rotation};

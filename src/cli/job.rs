@@ -65,7 +65,7 @@ impl Job<'_> {
         idle_flags::warn(self.picture, &self.settings());
         // Only paths find the light of the background on every surface.
         let is_path = self.settings().integrator == Integrator::Path;
-        if self.scene.is_unlit() && !(is_path && self.scene.background.shines()) {
+        if self.scene.is_unlit() && !(is_path && self.scene.background_shines()) {
             console::warning(UNLIT);
         }
     }

@@ -27,6 +27,7 @@ mod skins;
 mod store;
 mod textures;
 mod uv_sets;
+mod values;
 
 use super::budget::Budget;
 use super::error::{ImportError, one_line};

@@ -7,8 +7,11 @@ mod complete;
 mod height;
 #[cfg(feature = "basis")]
 mod ktx2;
+mod luminance;
+mod repair;
 mod store;
 
+pub(super) use repair::Repairs;
 pub(super) use store::{Pictures, Place, Read};
 
 use super::error::{Fault, ImportError, one_line};
@@ -43,6 +46,8 @@ const MAX_DECODED_BYTES: u64 = MAX_TEXELS * 16;
 pub(super) enum Role {
     /// Colours in sRGB.
     Color,
+    /// The same around the whole scene: twice as wide as high. Floats may be above [`crate::scene::LARGEST_TEXEL`].
+    Environment,
     /// Numbers, such as the coordinates of normals.
     Data,
     /// The height of a surface, white above black by the width of a texel: becomes the normal map of that surface.
@@ -136,10 +141,16 @@ pub(super) fn reader(
     }
 }
 
-/// The pictures of the image in `bytes` for each role; messages call it `name`.
-fn decode(bytes: &[u8], name: &str, roles: &[Role]) -> Result<Vec<Picture>, Refused> {
+/// The pictures of the image in `bytes` for each role, and what was repaired; messages call it `name`.
+fn decode(bytes: &[u8], name: &str, roles: &[Role]) -> Result<Vec<(Picture, Repairs)>, Refused> {
     let image = open(bytes, name)?;
     let (width, height) = (image.width(), image.height());
+    if roles.contains(&Role::Environment) && u64::from(width) != 2 * u64::from(height) {
+        let why = format!(
+            "has {width} × {height} texels, but an environment must be twice as wide as high"
+        );
+        return Err(Unfit { name }.as_it_is(&why, "Name an equirectangular panorama"));
+    }
     let plain = |texels| Picture {
         width,
         height,
@@ -147,13 +158,15 @@ fn decode(bytes: &[u8], name: &str, roles: &[Role]) -> Result<Vec<Picture>, Refu
         origin: Origin::Texels,
     };
     let picture = |image, role| {
-        let texels = texels(image, role);
+        let (texels, repairs) = texels(image, role);
         let amount = match role {
             Role::Height => 1.0,
             Role::Depth => -1.0,
-            Role::Color | Role::Data | Role::Alpha => return plain(texels),
+            Role::Color | Role::Environment | Role::Data | Role::Alpha => {
+                return (plain(texels), repairs);
+            }
         };
-        match height::normals(&texels, [width, height], amount) {
+        let picture = match height::normals(&texels, [width, height], amount) {
             None => plain(texels),
             Some(normals) => Picture {
                 origin: Origin::Heights {
@@ -162,56 +175,28 @@ fn decode(bytes: &[u8], name: &str, roles: &[Role]) -> Result<Vec<Picture>, Refu
                 },
                 ..plain(normals)
             },
-        }
+        };
+        (picture, repairs)
     };
     let Some((last, others)) = roles.split_last() else {
         return Ok(Vec::new());
     };
-    let mut pictures: Vec<Picture> = (others.iter())
+    let mut pictures: Vec<_> = (others.iter())
         .map(|&role| picture(image.clone(), role))
         .collect();
     pictures.push(picture(image, *last));
     Ok(pictures)
 }
 
-/// The picture of the environment in `bytes`, which messages call `name`, and how many of its texels were not finite or
-/// below 0: they became 0.
+/// The picture of the environment in `bytes`, which messages call `name`, and what was repaired.
 ///
 /// # Errors
 /// It is empty, damaged, too large, of an unsupported kind, or not twice as wide as high.
 #[cfg(not(target_arch = "wasm32"))]
-pub(super) fn environment(bytes: &[u8], name: &str) -> Result<(Picture, usize), Refused> {
-    let unfit = Unfit { name };
-    if bytes.is_empty() {
-        return Err(unfit.damaged("is empty"));
-    }
-    let mut image = open(bytes, name)?;
-    let (width, height) = (image.width(), image.height());
-    if u64::from(width) != 2 * u64::from(height) {
-        let why = format!("has {width} × {height} texels, but must be twice as wide as high");
-        return Err(unfit.as_it_is(&why, "Name an equirectangular panorama"));
-    }
-    let mut repaired = 0;
-    let mut repair = |texel: &mut [f32]| {
-        if texel.iter().any(|c| !c.is_finite() || *c < 0.0) {
-            texel.fill(0.0);
-            repaired += 1;
-        }
-    };
-    match &mut image {
-        DynamicImage::ImageRgb32F(texels) => texels.pixels_mut().for_each(|p| repair(&mut p.0)),
-        DynamicImage::ImageRgba32F(texels) => {
-            texels.pixels_mut().for_each(|p| repair(&mut p.0[..3]));
-        }
-        _ => {}
-    }
-    let picture = Picture {
-        width,
-        height,
-        texels: texels(image, Role::Color),
-        origin: Origin::Texels,
-    };
-    Ok((picture, repaired))
+pub(super) fn environment(bytes: &[u8], name: &str) -> Result<(Picture, Repairs), Refused> {
+    let mut pictures = decode(bytes, name, &[Role::Environment])?;
+    let gone = || Refused::unreadable(format!("{name} was not decoded"));
+    pictures.pop().ok_or_else(gone)
 }
 
 /// The number of texels that the header of an image announces, times four if it has floats; 0 if it is invalid.
@@ -273,6 +258,9 @@ impl Unfit<'_> {
 /// The image in `bytes`, which messages call `name`.
 fn open(bytes: &[u8], name: &str) -> Result<DynamicImage, Refused> {
     let unfit = Unfit { name };
+    if bytes.is_empty() {
+        return Err(unfit.damaged("is empty"));
+    }
     #[cfg(feature = "basis")]
     if bytes.starts_with(ktx2::MAGIC) {
         let refuse = |fault| match fault {
@@ -282,6 +270,9 @@ fn open(bytes: &[u8], name: &str) -> Result<DynamicImage, Refused> {
         let (width, height) = ktx2::dimensions(bytes).map_err(refuse)?;
         unfit.count(width, height)?;
         return ktx2::decode(bytes, (width, height)).map_err(refuse);
+    }
+    if let Some(grey) = luminance::open(bytes, &unfit) {
+        return grey;
     }
     let reader = || {
         let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
@@ -308,25 +299,25 @@ fn open(bytes: &[u8], name: &str) -> Result<DynamicImage, Refused> {
     body.decode().map_err(explain)
 }
 
-/// The texels of `image`, row by row from the top left. Floats are finite and 0 or more.
-fn texels(image: DynamicImage, role: Role) -> Texels {
+/// The texels of `image`, row by row from the top left, and what was repaired. Floats are finite and 0 or more.
+fn texels(image: DynamicImage, role: Role) -> (Texels, Repairs) {
     let channels = usize::from(image.color().channel_count());
     let is_narrow = usize::from(image.color().bytes_per_pixel()) == channels;
     if role == Role::Alpha {
         let white = |alpha| [u8::MAX, u8::MAX, u8::MAX, alpha];
-        return Texels::Linear8(match image.color().has_alpha() {
+        let texels = match image.color().has_alpha() {
             true => image.into_rgba8().pixels().map(|p| white(p.0[3])).collect(),
             false => image.into_luma8().pixels().map(|p| white(p.0[0])).collect(),
-        });
+        };
+        return (Texels::Linear8(texels), Repairs::default());
     }
-    match image {
+    let texels = match image {
         DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
-            let value = |c: f32| if c > 0.0 { c.min(f32::MAX) } else { 0.0 };
-            let texel = |p: &image::Rgba<f32>| {
-                let [r, g, b, a] = p.0.map(value);
-                Vec4::new(r, g, b, a.min(1.0))
-            };
-            Texels::Float(image.into_rgba32f().pixels().map(texel).collect())
+            let width = image.width();
+            let pixels = image.into_rgba32f();
+            let mut texels: Vec<Vec4> = pixels.pixels().map(|p| Vec4::from(p.0)).collect();
+            let repairs = repair::repair(&mut texels, width, role);
+            return (Texels::Float(texels), repairs);
         }
         image if is_narrow => {
             let texel = |p: &[u8]| match *p {
@@ -337,7 +328,7 @@ fn texels(image: DynamicImage, role: Role) -> Texels {
             };
             let texels = image.as_bytes().chunks_exact(channels).map(texel);
             match role {
-                Role::Color => Texels::Srgb8(texels.collect()),
+                Role::Color | Role::Environment => Texels::Srgb8(texels.collect()),
                 Role::Data | Role::Alpha | Role::Height | Role::Depth => {
                     Texels::Linear8(texels.collect())
                 }
@@ -347,7 +338,7 @@ fn texels(image: DynamicImage, role: Role) -> Texels {
             let value = |code: u16| f64::from(code) / f64::from(u16::MAX);
             let curve: Vec<f32> = (0..=u16::MAX)
                 .map(|code| match role {
-                    Role::Color => linear_from_srgb(value(code)) as f32,
+                    Role::Color | Role::Environment => linear_from_srgb(value(code)) as f32,
                     _ => value(code) as f32,
                 })
                 .collect();
@@ -358,7 +349,8 @@ fn texels(image: DynamicImage, role: Role) -> Texels {
             };
             Texels::Float(image.into_rgba16().pixels().map(texel).collect())
         }
-    }
+    };
+    (texels, Repairs::default())
 }
 
 /// A decoder's message as a clause on one line.

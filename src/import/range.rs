@@ -15,14 +15,23 @@ const COEFFICIENT: f32 = 1e3;
 
 /// Limit of radiance: of the background, ambient light, emission, lights without attenuation, and images,
 /// which may be the background.
-const RADIANCE: f32 = 1e12;
+pub(super) const RADIANCE: f32 = 1e12;
 
 /// Limit of lights with attenuation and of the surfaces of area lights. The Sun at its distance in metres
 /// needs 2e25.
 const INTENSITY: f32 = 1e30;
 
 /// Range of indices of refraction, whose squares must not overflow.
-const IOR: (f32, f32) = (1e-6, 1e6);
+pub(super) const IOR: (f32, f32) = (1e-6, 1e6);
+
+/// Limit of the indices of refraction of thin films.
+pub(super) const FILM_IOR: f32 = 100.0;
+
+/// Limit of the thickness of thin films in nanometres: a millimetre.
+pub(super) const FILM_THICKNESS: f32 = 1e6;
+
+/// Limit of dispersion, 20 divided by Abbe's number, which is about 20 to 90 for glass.
+pub(super) const DISPERSION: f32 = 100.0;
 
 /// Clamps the colours of `scene` and notes how many were out of range.
 pub(super) fn limit(scene: &mut Scene) {
@@ -55,8 +64,12 @@ pub(super) fn limit(scene: &mut Scene) {
             counts.radiance(bottom);
             counts.radiance(top);
         }
-        Background::Picture { strength, .. } => {
-            lower_number(strength, RADIANCE, &mut counts.radiances);
+        Background::Picture {
+            strength, picture, ..
+        } => {
+            // Its brightest texel is in proportion to its scale.
+            let most = RADIANCE / scene.pictures[*picture].texels.scale();
+            lower_number(strength, most, &mut counts.radiances);
         }
     }
     counts.tracks(scene);

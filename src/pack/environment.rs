@@ -3,10 +3,10 @@
 //! It is a tree of sums over a grid of directions, see `shaders/lib/quad_warp.wesl`: the word of the root, the words of
 //! each level row by row from the lowest elevation on, and then the density of each cell as a float.
 
+use super::picture::PackedPicture;
 use super::{PackedScene, light_cluster::LUMINANCE};
-use crate::scene::{Background, Picture, Scene};
+use crate::scene::{Background, LARGEST_TEXEL, Picture, Scene};
 use glam::Vec3;
-use half::f16;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -32,6 +32,8 @@ pub struct Environment {
     /// Its index in the scene.
     index: usize,
     picture: Arc<Picture>,
+    /// The largest value of its texels that is shown.
+    largest: f32,
     /// Tree and densities.
     pub words: Arc<[u32]>,
     /// Columns of the grid.
@@ -42,23 +44,31 @@ pub struct Environment {
 
 /// The table of the scene's background; `None` if that is no picture, or one that is as bright everywhere. The table
 /// `before` is reused if it is of the same picture.
-pub fn of_scene(scene: &Scene, before: Option<&Environment>) -> Option<Environment> {
+pub fn of_scene(
+    scene: &Scene,
+    packed: &[PackedPicture],
+    before: Option<&Environment>,
+) -> Option<Environment> {
     let Background::Picture { picture: index, .. } = scene.background else {
         return None;
     };
     let picture = &scene.pictures[index];
-    if let Some(known) = before.filter(|known| Arc::ptr_eq(&known.picture, picture)) {
+    let largest = LARGEST_TEXEL * packed[index].scale;
+    let is_same =
+        |known: &&Environment| Arc::ptr_eq(&known.picture, picture) && known.largest == largest;
+    if let Some(known) = before.filter(is_same) {
         return Some(Environment {
             index,
             ..known.clone()
         });
     }
     let levels = (picture.height.next_power_of_two().ilog2() + FINER_LEVELS).min(MAX_LEVELS);
-    let mut weights = weights(picture, levels);
+    let mut weights = weights(picture, largest, levels);
     let part = compensate(&mut weights, levels);
     (part > LEAST_PART).then(|| Environment {
         index,
         picture: picture.clone(),
+        largest,
         words: words(weights, levels).into(),
         width: 2 << levels,
         part,
@@ -142,10 +152,10 @@ fn spreads(from: u32, to: u32, wraps: bool) -> Vec<Spread> {
 
 /// The luminance that each cell of the grid sends, up to a common factor, row by row from the lowest elevation on.
 /// The picture is interpolated as lookups do, so that no cell that looks bright anywhere is without weight.
-fn weights(picture: &Picture, levels: u32) -> Vec<f64> {
+fn weights(picture: &Picture, largest: f32, levels: u32) -> Vec<f64> {
     let (width, height) = (picture.width as usize, picture.height as usize);
     let (columns, rows) = (2_usize << levels, 1_usize << levels);
-    let largest = Vec3::splat(f16::MAX.to_f32());
+    let largest = Vec3::splat(largest);
     let luminance = |texel: glam::Vec4| LUMINANCE.dot(texel.truncate().min(largest));
     let texels: Vec<f32> = picture.linear().map(luminance).collect();
     let across = spreads(picture.width, columns as u32, true);

@@ -258,7 +258,7 @@ impl PackedScene {
                 strength,
                 rotation,
             } => {
-                frame.background = [strength; 3];
+                frame.background = [strength * self.packed_pictures[picture].scale; 3];
                 frame.background_rotation = rotation as f32;
                 [
                     frame.background_picture,

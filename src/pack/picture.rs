@@ -3,7 +3,7 @@
 use super::PackError;
 use crate::{
     layout::{PICTURE_HALF, PICTURE_SRGB},
-    scene::{Pattern, Picture, Scene, Texels},
+    scene::{LARGEST_TEXEL, Pattern, Picture, Scene, Texels},
 };
 use glam::Vec4;
 use half::f16;
@@ -21,6 +21,10 @@ pub struct PackedPicture {
     pub words: Arc<[u32]>,
     /// 1 without a mipmap.
     level_count: u32,
+    /// Whether no texture shows it, so that its colours may be divided by a scale.
+    may_scale: bool,
+    /// What the colours of its words are multiplied with, a power of two.
+    pub scale: f32,
 }
 
 /// All pictures of a scene, and for each the first word with its `PICTURE_` bits, width and height. Pictures that
@@ -30,13 +34,16 @@ pub fn pictures(
     before: &[PackedPicture],
 ) -> Result<(Vec<PackedPicture>, Vec<[u32; 3]>), PackError> {
     let mut level_counts = vec![1; scene.pictures.len()];
+    let mut may_scale = vec![true; scene.pictures.len()];
     for texture in &scene.textures {
         if let Pattern::Picture {
             picture, minify, ..
         } = texture.pattern
-            && minify.has_levels()
         {
-            level_counts[picture] = scene.pictures[picture].level_count();
+            may_scale[picture] = false;
+            if minify.has_levels() {
+                level_counts[picture] = scene.pictures[picture].level_count();
+            }
         }
     }
     let count = (scene.pictures.iter().zip(&level_counts))
@@ -52,15 +59,26 @@ pub fn pictures(
     let mut next = 0;
     let mut pictures = Vec::with_capacity(scene.pictures.len());
     let mut places = Vec::with_capacity(scene.pictures.len());
-    for (picture, level_count) in scene.pictures.iter().zip(level_counts) {
+    let kinds = level_counts.into_iter().zip(may_scale);
+    for (picture, (level_count, may_scale)) in scene.pictures.iter().zip(kinds) {
         let is_same = |known: &&PackedPicture| {
-            Arc::ptr_eq(&known.picture, picture) && known.level_count == level_count
+            Arc::ptr_eq(&known.picture, picture)
+                && (known.level_count, known.may_scale) == (level_count, may_scale)
         };
         let known = before.iter().find(is_same).cloned();
-        let packed = known.unwrap_or_else(|| PackedPicture {
-            picture: picture.clone(),
-            words: words(picture, level_count),
-            level_count,
+        let packed = known.unwrap_or_else(|| {
+            let scale = if may_scale {
+                picture.texels.scale()
+            } else {
+                1.0
+            };
+            PackedPicture {
+                picture: picture.clone(),
+                words: words(picture, level_count, scale),
+                level_count,
+                may_scale,
+                scale,
+            }
         });
         let format = match &picture.texels {
             Texels::Srgb8(_) => PICTURE_SRGB,
@@ -89,18 +107,18 @@ fn word_count(picture: &Picture, level_count: u32) -> usize {
 }
 
 /// The words of a picture: see [`PackedPicture::words`].
-fn words(picture: &Picture, level_count: u32) -> Arc<[u32]> {
+fn words(picture: &Picture, level_count: u32, scale: f32) -> Arc<[u32]> {
     if level_count == 1 {
-        return texel_words(&picture.texels).collect();
+        return texel_words(&picture.texels, scale).collect();
     }
     let levels = picture.levels();
     let mut starts = Vec::with_capacity(levels.len());
     let mut words = vec![0; levels.len()];
     words.reserve_exact(word_count(picture, level_count) - words.len());
-    words.extend(texel_words(&picture.texels));
+    words.extend(texel_words(&picture.texels, scale));
     for level in &levels {
         starts.push((words.len() - levels.len()) as u32);
-        words.extend(texel_words(level));
+        words.extend(texel_words(level, scale));
     }
     for (word, start) in words.iter_mut().zip(starts.into_iter().rev()) {
         *word = start;
@@ -108,11 +126,12 @@ fn words(picture: &Picture, level_count: u32) -> Arc<[u32]> {
     words.into()
 }
 
-/// The words of texels.
-fn texel_words(texels: &Texels) -> impl Iterator<Item = u32> {
-    let half = |value: f32| u32::from(f16::from_f32(value.min(f16::MAX.to_f32())).to_bits());
+/// The words of texels whose colours are divided by `scale`.
+fn texel_words(texels: &Texels, scale: f32) -> impl Iterator<Item = u32> {
+    let half = |value: f32| u32::from(f16::from_f32(value.min(LARGEST_TEXEL)).to_bits());
     let halves = move |texel: &Vec4| {
-        let [r, g, b, a] = texel.to_array().map(half);
+        let color = texel.truncate() / scale;
+        let [r, g, b, a] = color.extend(texel.w).to_array().map(half);
         [r | g << 16, b | a << 16]
     };
     let (bytes, floats) = match texels {

@@ -1,7 +1,8 @@
 //! Default samples per pixel, and whether a scene has any light.
 
 use super::{
-    Background, LightProperty, LightTransport, MaterialProperty, OutputDefaults, Scene, Target,
+    Background, LightProperty, LightTransport, Material, MaterialProperty, OutputDefaults, Pattern,
+    Scene, Target,
 };
 use glam::Vec3;
 
@@ -46,9 +47,9 @@ impl Scene {
         let has_ambient = is_lit(self.ambient)
             && (any_material(|material| material.ambient)
                 || changes(|t| matches!(t, Target::Material(_, MaterialProperty::Ambient))));
-        let emits = any_material(|material| material.emission)
+        let emits = (self.materials.iter()).any(|material| self.emits(material))
             || changes(|target| matches!(target, Target::Material(_, MaterialProperty::Emission)));
-        let shows_background = self.background.shines()
+        let shows_background = self.background_shines()
             && (any_material(|material| material.reflect + material.transmit)
                 || changes(|target| {
                     use MaterialProperty::{Reflect, Transmit};
@@ -60,16 +61,29 @@ impl Scene {
         let has_surfaces = !(self.shapes.is_empty() && self.instances.is_empty());
         has_surfaces && !(has_lights || has_ambient || emits || shows_background)
     }
-}
 
-impl Background {
-    /// Whether it is not black, as far as that is known without looking into its picture.
-    pub fn shines(&self) -> bool {
+    /// Whether the background is not black.
+    pub fn background_shines(&self) -> bool {
         let is_lit = |color: &Vec3| color.max_element() > 0.0;
-        match self {
-            Self::Color(color) => is_lit(color),
-            Self::Gradient { bottom, top } => is_lit(bottom) || is_lit(top),
-            Self::Picture { strength, .. } => *strength > 0.0,
+        match &self.background {
+            Background::Color(color) => is_lit(color),
+            Background::Gradient { bottom, top } => is_lit(bottom) || is_lit(top),
+            Background::Picture {
+                strength, picture, ..
+            } => *strength > 0.0 && !self.pictures[*picture].texels.is_black(),
         }
+    }
+
+    /// Whether a material has an emission that its texture does not make black.
+    fn emits(&self, material: &Material) -> bool {
+        let is_black = |texture: usize| match self.textures[texture].pattern {
+            Pattern::Checker { a, b }
+            | Pattern::Stripes { a, b }
+            | Pattern::Gradient { a, b }
+            | Pattern::Noise { a, b, .. } => a.max(b).max_element() <= 0.0,
+            Pattern::Picture { picture, .. } => self.pictures[picture].texels.is_black(),
+        };
+        let is_lit = material.emission.max_element() > 0.0;
+        is_lit && !material.textures.emission.is_some_and(is_black)
     }
 }

@@ -7,6 +7,12 @@ use std::sync::Arc;
 /// With smaller copies for minification they fit into the array that WebGPU guarantees.
 pub const MAX_PICTURE_BYTES: usize = 11 << 28;
 
+/// The largest value of a texel of a texture: the GPU has half floats. Pictures in the background may have larger ones.
+pub const LARGEST_TEXEL: f32 = 65504.0;
+
+/// Half of the smallest half float above 0: values up to it become 0.
+pub(crate) const SMALLEST_TEXEL: f32 = 1.0 / (1 << 25) as f32;
+
 /// An image in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
@@ -90,6 +96,29 @@ impl Texels {
         }
     }
 
+    /// The power of two by which colours are divided so that the brightest is at most [`LARGEST_TEXEL`]; 1 if it is.
+    pub fn scale(&self) -> f32 {
+        match self {
+            Self::Srgb8(_) | Self::Linear8(_) => 1.0,
+            Self::Float(texels) => {
+                scale_of(texels.iter().map(|texel| texel.truncate().max_element()))
+            }
+        }
+    }
+
+    /// Whether no texel has light that is left as half float.
+    pub fn is_black(&self) -> bool {
+        match self {
+            Self::Srgb8(texels) | Self::Linear8(texels) => {
+                texels.iter().all(|texel| texel[..3] == [0; 3])
+            }
+            Self::Float(texels) => {
+                let is_black = |texel: &Vec4| texel.truncate().max_element() <= SMALLEST_TEXEL;
+                texels.iter().all(is_black)
+            }
+        }
+    }
+
     /// Whether there is no texel.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -116,6 +145,16 @@ impl Texels {
             Self::Float(texels) => texels[index],
         }
     }
+}
+
+/// The scale of texels whose brightest channels have these values: [`Texels::scale`].
+pub(crate) fn scale_of(values: impl Iterator<Item = f32>) -> f32 {
+    let largest = values.fold(0.0, f32::max);
+    let mut scale = 1.0;
+    while largest / scale > LARGEST_TEXEL {
+        scale *= 2.0;
+    }
+    scale
 }
 
 /// The transfer function of sRGB (IEC 61966-2-1) between 8-bit codes and linear values.

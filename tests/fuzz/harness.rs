@@ -153,7 +153,7 @@ pub fn poses(bytes: &[u8]) {
 
 /// An image.
 pub fn picture(bytes: &[u8]) {
-    let named: &[u8] = b"background = { picture = 'a.png' }\n";
+    let named: &[u8] = b"textures.t = { picture = 'a.png' }\n";
     read(&[("a.toml", named), ("a.png", bytes)], "a.toml");
 }
 

@@ -9,8 +9,8 @@ use glimray::import::{self, Environment, EnvironmentSource, ImportError, Options
 use glimray::pack;
 use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{
-    Antialias, Attenuation, Background, Camera, Light, LightKind, LightTransport, Material,
-    Picture, Scene, sky,
+    Antialias, Attenuation, Background, Camera, Light, LightKind, LightTransport, Material, Minify,
+    Pattern, Picture, Scene, Space, Texture, Wrap, sky,
 };
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path;
@@ -492,7 +492,11 @@ fn files_of_environments_replace_the_background_or_are_refused() {
     for name in ["nan.exr", "negative.exr", "infinite.exr"] {
         let scene = load(name).expect("a scene");
         assert_eq!(scene.skipped.len(), 1, "{name}: {:?}", scene.skipped);
-        assert!(scene.skipped[0].contains("1 texels"), "{:?}", scene.skipped);
+        assert!(
+            scene.skipped[0].contains("1 texel of"),
+            "{:?}",
+            scene.skipped
+        );
         let texels: Vec<_> = scene.pictures[0].linear().collect();
         assert_eq!(texels[1].truncate(), Vec3::ZERO, "{name}");
         assert_eq!(texels[2].truncate(), Vec3::splat(0.5), "{name}");
@@ -510,6 +514,140 @@ fn files_of_environments_replace_the_background_or_are_refused() {
     }
     let error = load("missing.hdr").expect_err("an error");
     assert!(matches!(error, ImportError::Unreadable(_)), "{error:?}");
+}
+
+/// The lines about a picture as the environment of a scene, and as the background that the scene names: what was skipped,
+/// or why it is refused.
+fn both_ways(file: &str, texel: impl Fn(u32, u32) -> f32, size: [u32; 2]) -> [Vec<String>; 2] {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(file);
+    let [width, height] = size;
+    let image =
+        image::Rgb32FImage::from_fn(width, height, |x, y| image::Rgb([0.5, texel(x, y), 0.5]));
+    image.save(&path).expect("a picture");
+    let scene = folder.path().join("scene.toml");
+    let named = format!("background = {{ picture = '{file}' }}\n");
+    let environment = Environment {
+        source: Some(EnvironmentSource::File(path)),
+        ..Environment::default()
+    };
+    [(BALL, environment), (&named, Environment::default())].map(|(text, environment)| {
+        std::fs::write(&scene, text).expect("a scene");
+        let options = Options {
+            environment,
+            ..Options::default()
+        };
+        match import::load_with(&scene, &options) {
+            Ok(scene) => scene.skipped.clone(),
+            Err(error) => {
+                // Without the place.
+                let line = error.to_string();
+                vec![line.split_once("): ").expect("a place").1.to_owned()]
+            }
+        }
+    })
+}
+
+#[test]
+fn pictures_of_backgrounds_are_checked_as_environments_are() {
+    let mut verdict = Verdict::on("pictures of backgrounds");
+    let at = |bad: f32| move |x: u32, y: u32| if (x, y) == (1, 0) { bad } else { 0.5 };
+    let bad = "infinite, negative or not a number and are black";
+    let cases: [(_, Box<dyn Fn(u32, u32) -> f32>, _, _); 8] = [
+        ("good", Box::new(at(0.5)), [8, 4], ""),
+        (
+            "nan",
+            Box::new(at(f32::NAN)),
+            [8, 4],
+            "1 texel of `nan.exr` was infinite",
+        ),
+        ("infinite", Box::new(at(f32::INFINITY)), [8, 4], bad),
+        (
+            "negative",
+            Box::new(|_, _| -1.0),
+            [8, 4],
+            "all 32 texels of `negative.exr` were",
+        ),
+        (
+            "square",
+            Box::new(at(0.5)),
+            [8, 8],
+            "has 8 × 8 texels, but an environment must be",
+        ),
+        ("tall", Box::new(at(0.5)), [4, 16], "twice as wide as high"),
+        ("odd", Box::new(at(0.5)), [9, 4], "twice as wide as high"),
+        (
+            "huge",
+            Box::new(at(3e38)),
+            [8, 4],
+            "1 texel of `huge.exr` was cut to 1e12",
+        ),
+    ];
+    for (name, texel, size, expected) in cases {
+        let [asked, named] = both_ways(&format!("{name}.exr"), texel, size);
+        let is_told = match expected {
+            "" => named.is_empty(),
+            part => named.iter().any(|line| line.contains(part)),
+        };
+        verdict.that(name, asked == named && is_told, || {
+            format!("{asked:?}, {named:?}")
+        });
+    }
+    verdict.close();
+    // A sky of 0.5 cannot be kept beside a sun of 1e12 in half floats.
+    let [asked, _] = both_ways("dark.exr", at(1e12), [8, 4]);
+    assert_eq!(asked.len(), 1, "{asked:?}");
+    assert!(asked[0].contains("too dark"), "{asked:?}");
+}
+
+/// Half floats end at 65,504.
+#[test]
+fn a_sun_brighter_than_half_floats_has_all_its_light() {
+    let mut verdict = Verdict::on("suns");
+    for sun in [6e4, 1e5, 1e6, 1e7] {
+        let at = |x, y| if (x, y) == (20, 8) { sun } else { 0.1 };
+        let picture = grey(64, 32, at);
+        let expected = 1.5 * ALBEDO / PI * irradiance(&picture, DVec3::Y, 0.0);
+        let found = mean(&greys(
+            &plane_under(picture, DVec3::Y, 0.0),
+            &paths(256, 24),
+        ));
+        verdict.that(
+            format!("sun of {sun}"),
+            (found / expected - 1.0).abs() < 0.005,
+            || format!("{found}, expected {expected}"),
+        );
+    }
+    verdict.close();
+}
+
+#[test]
+fn only_pictures_brighter_than_half_floats_are_scaled() {
+    let strength = |sun: f32, has_texture: bool| {
+        let mut scene = plane_under(grey(4, 2, |x, _| sun * x as f32 / 3.0), DVec3::Y, 0.0);
+        if has_texture {
+            scene.textures.push(Texture {
+                pattern: Pattern::Picture {
+                    picture: 0,
+                    nearest: false,
+                    minify: Minify::default(),
+                    wrap: [Wrap::Repeat; 2],
+                },
+                space: Space::Uv,
+                pattern_from_space: glam::DAffine3::IDENTITY,
+            });
+        }
+        let packed = pack::scene(&scene).expect("a packed scene");
+        let frame = packed.frame(&scene.frame(0.0)).expect("a view").frame;
+        let words = packed.texels.iter().copied().take(8).collect::<Vec<u32>>();
+        let brightest = half::f16::from_bits((words[6] & 0xffff) as u16).to_f32();
+        (frame.background[0], brightest)
+    };
+    assert_eq!(strength(65504.0, false), (1.5, 65504.0));
+    assert_eq!(strength(65536.0, false), (3.0, 32768.0));
+    assert_eq!(strength(1_048_576.0, false), (1.5 * 32.0, 32768.0));
+    // Textures have no factor for it.
+    assert_eq!(strength(1_048_576.0, true).0, 1.5);
 }
 
 #[test]

@@ -420,6 +420,8 @@ pub struct Light {
     #[serde(rename = "type")]
     pub kind: String,
     #[serde(default)]
+    pub name: Option<String>,
+    #[serde(default)]
     pub color: Option<[f64; 3]>,
     #[serde(default)]
     pub intensity: Option<f64>,

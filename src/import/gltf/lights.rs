@@ -4,10 +4,18 @@
 //! they are used as numbers: light of 1 lux gives a white diffuse surface that faces it the radiance 1/π.
 
 use super::Reader;
+use super::document::Spot;
+use super::values::Checked;
 use crate::import::error::ImportError;
 use crate::scene::{Attenuation, Light, LightKind};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+/// Least and most of the intensity of a light.
+const INTENSITY: [f64; 2] = [0.0, 1e30];
+
+/// The narrowest cone in radians whose cosine as f32 is not 1.
+const NARROWEST: f64 = 1e-3;
 
 impl Reader<'_> {
     /// Adds the light `index` at node `node` of the scene.
@@ -21,22 +29,18 @@ impl Reader<'_> {
         let lights = lights.map_or(&[][..], |it| &it.lights);
         let light = self.blame.get(lights, index, "lights", here)?;
         let place = format!("lights[{index}]");
+        let mut values = Checked::new(&mut self.notes, &place, light.name.as_deref());
         // Lights are at the origin of their node and shine along −Z.
         let (position, direction) = (DVec3::ZERO, DVec3::NEG_Z);
         let kind = match light.kind.as_str() {
             "point" => LightKind::Point { position },
             "directional" => LightKind::Directional { direction },
             "spot" => {
-                let cone = light.spot.as_ref();
-                let outer = cone
-                    .and_then(|cone| cone.outer_cone_angle)
-                    .unwrap_or(FRAC_PI_4);
-                let outer = outer.clamp(1e-6, FRAC_PI_2);
-                let inner = cone.map_or(0.0, |cone| cone.inner_cone_angle);
+                let [inner, outer] = cone(light.spot.as_ref(), &mut values);
                 LightKind::Spot {
                     position,
                     direction,
-                    inner: inner.clamp(0.0, outer),
+                    inner,
                     outer,
                 }
             }
@@ -47,15 +51,13 @@ impl Reader<'_> {
                     .bad(place, format_args!("the type {name} is unknown")));
             }
         };
-        let amount = |x: f64| x.clamp(0.0, 1e30);
-        let intensity = amount(light.intensity.unwrap_or(1.0)) / PI;
-        let color = light
-            .color
-            .unwrap_or([1.0; 3])
-            .map(|c| amount(c) * intensity);
+        let intensity = values.number("intensity", light.intensity, 1.0, INTENSITY);
+        let color = values.numbers("color", light.color.unwrap_or([1.0; 3]), INTENSITY);
+        let color = color.map(|channel| channel * intensity / PI);
+        let color = values.numbers("color times intensity / π", color, INTENSITY);
         self.scene.lights.push(Light {
             kind,
-            color: Vec3::from(color.map(|c| c.min(1e30) as f32)),
+            color: DVec3::from(color).as_vec3(),
             attenuation: match kind {
                 LightKind::Directional { .. } => Attenuation::None,
                 _ => Attenuation::InverseSquare,
@@ -66,4 +68,22 @@ impl Reader<'_> {
         self.lights.push(index);
         Ok(())
     }
+}
+
+/// The angles from the axis of a spot up to which it has its full intensity, and beyond which it is dark.
+fn cone(cone: Option<&Spot>, values: &mut Checked) -> [f64; 2] {
+    const OUTER: &str = "spot.outerConeAngle";
+    let outer = match cone.and_then(|cone| cone.outer_cone_angle) {
+        None => FRAC_PI_4,
+        Some(angle) if angle > 0.0 => {
+            values.number(OUTER, Some(angle), angle, [NARROWEST, FRAC_PI_2])
+        }
+        Some(angle) => {
+            values.repaired(OUTER, &[angle], "it must be above 0", "the default of π/4");
+            FRAC_PI_4
+        }
+    };
+    let inner = cone.map_or(0.0, |cone| cone.inner_cone_angle);
+    let inner = values.number("spot.innerConeAngle", Some(inner), inner, [0.0, outer]);
+    [inner, outer]
 }

@@ -5,15 +5,19 @@ use super::Reader;
 use super::document::{Material as Source, Primitive};
 use super::document_materials::{AlphaMode, Extensions};
 use super::map_kinds::{ShownBy, all_maps};
-use crate::import::budget;
+use super::values::{Checked, MOST};
 use crate::import::error::ImportError;
+use crate::import::{budget, range};
 use crate::scene::{Coverage, LayerTextures, Material, MetallicRoughness};
-use glam::{Vec3, Vec4};
+use glam::{DVec3, Vec3, Vec4};
 use std::collections::HashSet;
 use std::sync::Arc;
 
 /// Number of different vertex colours of a primitive from which they are rounded to 32 levels per channel.
 const MANY_COLORS: usize = 8192;
+
+/// Least and most of the factor on the slopes of normal maps.
+pub(super) const NORMAL_SCALE: [f64; 2] = [0.0, 1e3];
 
 /// The material of a primitive: its number in the file, `None` for glTF's default material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -138,8 +142,9 @@ impl Reader<'_> {
 
     /// `materials[index]`, which is `source`, with its pictures.
     fn surface(&mut self, source: &Source, index: usize) -> Result<Surface, ImportError> {
-        let model = model(source);
         let here = format!("materials[{index}]");
+        let mut values = Checked::new(&mut self.notes, &here, source.name.as_deref());
+        let model = model(source, &mut values);
         self.note_maps(source, &here)?;
         let is_anisotropic = model.anisotropy > 0.0;
         let sets = self.sets_of(source, index, &model)?;
@@ -185,109 +190,132 @@ fn code(color: Vec4, levels: f32) -> u32 {
     u32::from_le_bytes([channel(color.x), channel(color.y), channel(color.z), 0])
 }
 
-/// A number in 0..=1.
-fn unit(value: Option<f64>, default: f64) -> f32 {
-    value.unwrap_or(default).clamp(0.0, 1.0) as f32
-}
-
-/// A number in `least`..=1e12.
-fn amount(value: Option<f64>, default: f64, least: f64) -> f32 {
-    value.unwrap_or(default).clamp(least, 1e12) as f32
-}
-
-/// A colour in 0..=1.
-fn unit_color(value: Option<[f64; 3]>, default: Vec3) -> Vec3 {
-    value.map_or(default, |c| Vec3::from(c.map(|x| unit(Some(x), 0.0))))
-}
-
 /// The parameters of a material.
-fn model(source: &Source) -> MetallicRoughness {
+fn model(source: &Source, values: &mut Checked) -> MetallicRoughness {
     let none = Extensions::default();
     let extensions = source.extensions.as_deref().unwrap_or(&none);
     let mut model = MetallicRoughness::default();
     if let Some(pbr) = &source.pbr_metallic_roughness {
-        let [r, g, b, a] = pbr.base_color_factor.unwrap_or([1.0; 4]);
-        model.base_color = unit_color(Some([r, g, b]), Vec3::ONE);
-        model.alpha = unit(Some(a), 1.0);
-        model.metallic = unit(pbr.metallic_factor, 1.0);
-        model.roughness = unit(pbr.roughness_factor, 1.0);
+        let color = pbr.base_color_factor.unwrap_or([1.0; 4]);
+        let [r, g, b, a] = values.numbers("baseColorFactor", color, [0.0, 1.0]);
+        model.base_color = DVec3::new(r, g, b).as_vec3();
+        model.alpha = a as f32;
+        model.metallic = values.unit("metallicFactor", pbr.metallic_factor, 1.0);
+        model.roughness = values.unit("roughnessFactor", pbr.roughness_factor, 1.0);
     }
     if let Some(older) = &extensions.specular_glossiness {
-        let [r, g, b, a] = older.diffuse_factor.unwrap_or([1.0; 4]);
-        model.base_color = unit_color(Some([r, g, b]), Vec3::ONE);
-        model.alpha = unit(Some(a), 1.0);
+        let color = older.diffuse_factor.unwrap_or([1.0; 4]);
+        let [r, g, b, a] = values.numbers("diffuseFactor", color, [0.0, 1.0]);
+        model.base_color = DVec3::new(r, g, b).as_vec3();
+        model.alpha = a as f32;
         model.metallic = 0.0;
-        model.roughness = 1.0 - unit(older.glossiness_factor, 1.0);
+        model.roughness = 1.0 - values.unit("glossinessFactor", older.glossiness_factor, 1.0);
         // F₀ of the default index of refraction is 0.04.
-        model.specular_color = unit_color(older.specular_factor, Vec3::ONE) / 0.04;
+        let specular = values.unit_color("specularFactor", older.specular_factor, Vec3::ONE);
+        model.specular_color = specular / 0.04;
     }
     model.coverage = match source.alpha_mode {
         AlphaMode::Opaque => Coverage::Opaque,
-        AlphaMode::Mask => Coverage::Mask(unit(source.alpha_cutoff, 0.5)),
+        AlphaMode::Mask => Coverage::Mask(values.unit("alphaCutoff", source.alpha_cutoff, 0.5)),
         AlphaMode::Blend => Coverage::Blend,
     };
     if model.coverage == Coverage::Opaque {
         model.alpha = 1.0;
     }
     model.unlit = extensions.unlit.is_some();
-    let strength = extensions.emissive_strength.as_ref();
-    let strength = amount(strength.and_then(|it| it.emissive_strength), 1.0, 0.0);
     if !model.unlit {
-        model.emission = strength * unit_color(source.emissive_factor, Vec3::ZERO);
+        let strength = extensions.emissive_strength.as_ref();
+        let strength = strength.and_then(|it| it.emissive_strength);
+        let strength = values.amount("emissiveStrength", strength, 1.0, 0.0);
+        let color = values.unit_color("emissiveFactor", source.emissive_factor, Vec3::ZERO);
+        model.emission = strength * color;
     }
     if let Some(it) = &extensions.ior {
+        let most = f64::from(range::IOR.1);
         // 0 means that reflection is total, for materials converted from others.
         model.ior = match it.ior {
-            Some(0.0) => 1e6,
-            value => amount(value, 1.5, 1.0),
+            Some(0.0) => range::IOR.1,
+            value => values.number("ior", value, 1.5, [1.0, most]) as f32,
         };
     }
     if let Some(it) = &extensions.specular {
-        model.specular = unit(it.specular_factor, 1.0);
+        model.specular = values.unit("specularFactor", it.specular_factor, 1.0);
         let color = it.specular_color_factor.unwrap_or([1.0; 3]);
-        model.specular_color = Vec3::from(color.map(|x| amount(Some(x), 1.0, 0.0)));
+        let color = values.numbers("specularColorFactor", color, [0.0, MOST]);
+        model.specular_color = DVec3::from(color).as_vec3();
     }
     if let Some(it) = &extensions.transmission {
-        model.transmission = unit(it.transmission_factor, 0.0);
+        model.transmission = values.unit("transmissionFactor", it.transmission_factor, 0.0);
     }
     if let Some(it) = &extensions.volume {
-        model.thickness = amount(it.thickness_factor, 0.0, 0.0);
-        model.attenuation_color = unit_color(it.attenuation_color, Vec3::ONE);
-        let distance = it.attenuation_distance.filter(|distance| *distance > 0.0);
-        model.attenuation_distance = distance.map_or(f32::INFINITY, |d| amount(Some(d), d, 1e-9));
+        model.thickness = values.amount("thicknessFactor", it.thickness_factor, 0.0, 0.0);
+        let color = it.attenuation_color;
+        model.attenuation_color = values.unit_color("attenuationColor", color, Vec3::ONE);
+        model.attenuation_distance = attenuation_distance(it.attenuation_distance, values);
     }
     if let Some(it) = &extensions.clearcoat {
-        model.clearcoat = unit(it.clearcoat_factor, 0.0);
-        model.clearcoat_roughness = unit(it.clearcoat_roughness_factor, 0.0);
-        let scale = it
-            .clearcoat_normal_texture
-            .as_ref()
-            .and_then(|map| map.scale);
-        model.clearcoat_normal_scale = scale.unwrap_or(1.0).clamp(0.0, 1e3) as f32;
+        model.clearcoat = values.unit("clearcoatFactor", it.clearcoat_factor, 0.0);
+        let roughness = it.clearcoat_roughness_factor;
+        model.clearcoat_roughness = values.unit("clearcoatRoughnessFactor", roughness, 0.0);
+        let map = it.clearcoat_normal_texture.as_ref();
+        let scale = map.and_then(|map| map.scale);
+        model.clearcoat_normal_scale =
+            values.number("clearcoatNormalTexture.scale", scale, 1.0, NORMAL_SCALE) as f32;
     }
     if let Some(it) = &extensions.sheen {
-        model.sheen_color = unit_color(it.sheen_color_factor, Vec3::ZERO);
-        model.sheen_roughness = unit(it.sheen_roughness_factor, 0.0);
+        model.sheen_color =
+            values.unit_color("sheenColorFactor", it.sheen_color_factor, Vec3::ZERO);
+        let roughness = it.sheen_roughness_factor;
+        model.sheen_roughness = values.unit("sheenRoughnessFactor", roughness, 0.0);
     }
     if let Some(it) = &extensions.anisotropy {
-        model.anisotropy = unit(it.anisotropy_strength, 0.0);
-        model.anisotropy_rotation = amount(it.anisotropy_rotation, 0.0, -1e12);
+        model.anisotropy = values.unit("anisotropyStrength", it.anisotropy_strength, 0.0);
+        let rotation = it.anisotropy_rotation;
+        model.anisotropy_rotation = values.amount("anisotropyRotation", rotation, 0.0, -MOST);
     }
     if let Some(it) = &extensions.iridescence {
-        model.iridescence = unit(it.iridescence_factor, 0.0);
-        model.iridescence_ior = amount(it.iridescence_ior, 1.3, 1.0);
-        model.iridescence_thickness = [
-            amount(it.iridescence_thickness_minimum, 100.0, 0.0),
-            amount(it.iridescence_thickness_maximum, 400.0, 0.0),
-        ];
+        model.iridescence = values.unit("iridescenceFactor", it.iridescence_factor, 0.0);
+        let indices = [1.0, f64::from(range::FILM_IOR)];
+        model.iridescence_ior =
+            values.number("iridescenceIor", it.iridescence_ior, 1.3, indices) as f32;
+        let nanometres = [0.0, f64::from(range::FILM_THICKNESS)];
+        let mut thickness =
+            |key, value, default| values.number(key, value, default, nanometres) as f32;
+        let (least, most) = (
+            it.iridescence_thickness_minimum,
+            it.iridescence_thickness_maximum,
+        );
+        let least = thickness("iridescenceThicknessMinimum", least, 100.0);
+        let most = thickness("iridescenceThicknessMaximum", most, 400.0);
+        model.iridescence_thickness = match it.iridescence_thickness_texture {
+            Some(_) => [least, most],
+            // Only the latter counts.
+            None => [least.min(most), most],
+        };
     }
     if let Some(it) = &extensions.dispersion {
-        model.dispersion = amount(it.dispersion, 0.0, 0.0);
+        let most = f64::from(range::DISPERSION);
+        model.dispersion = values.number("dispersion", it.dispersion, 0.0, [0.0, most]) as f32;
     }
     if let Some(it) = &extensions.diffuse_transmission {
-        model.diffuse_transmission = unit(it.diffuse_transmission_factor, 0.0);
+        let factor = it.diffuse_transmission_factor;
+        model.diffuse_transmission = values.unit("diffuseTransmissionFactor", factor, 0.0);
+        let color = it.diffuse_transmission_color_factor;
         model.diffuse_transmission_color =
-            unit_color(it.diffuse_transmission_color_factor, Vec3::ONE);
+            values.unit_color("diffuseTransmissionColorFactor", color, Vec3::ONE);
     }
     model
+}
+
+/// The distance after which light in a volume has its attenuation colour.
+fn attenuation_distance(value: Option<f64>, values: &mut Checked) -> f32 {
+    const KEY: &str = "attenuationDistance";
+    match value {
+        None => f32::INFINITY,
+        Some(distance) if distance > 0.0 => values.amount(KEY, value, distance, 1e-9),
+        Some(distance) => {
+            values.repaired(KEY, &[distance], "it must be above 0", "no attenuation");
+            f32::INFINITY
+        }
+    }
 }

@@ -4,7 +4,9 @@ use super::Reader;
 use super::aim::Aim;
 use super::document::{Material as Source, TextureInfo};
 use super::maps::FoundMap;
+use super::materials::NORMAL_SCALE;
 use super::uv_sets::Sets;
+use super::values::Checked;
 use crate::import::error::ImportError;
 use crate::import::picture::Role;
 use crate::scene::{
@@ -83,13 +85,17 @@ impl Reader<'_> {
             && is_lit
         {
             material.textures.normal = self.other(info, true, sets, here)?;
-            material.normal_scale = info.scale.unwrap_or(1.0).clamp(0.0, 1e3) as f32;
+            let mut values = Checked::new(&mut self.notes, here, source.name.as_deref());
+            material.normal_scale =
+                values.number("normalTexture.scale", info.scale, 1.0, NORMAL_SCALE) as f32;
         }
         if let Some(info) = source.occlusion_texture.as_deref()
             && is_lit
         {
             material.textures.occlusion = self.other(info, true, sets, here)?;
-            material.occlusion_strength = info.strength.unwrap_or(1.0).clamp(0.0, 1.0) as f32;
+            let mut values = Checked::new(&mut self.notes, here, source.name.as_deref());
+            material.occlusion_strength =
+                values.unit("occlusionTexture.strength", info.strength, 1.0);
         }
         Ok(material)
     }

@@ -304,12 +304,20 @@ fn cone(spot: &Spanned<SpotTable>, texts: &Texts) -> Result<LightKind, ImportErr
         }
     };
     for (degrees, radians, name) in [
-        (table.inner_deg.is_some(), &table.inner, "inner"),
-        (table.outer_deg.is_some(), &table.outer, "outer"),
+        (
+            table.inner_deg.is_some(),
+            table.inner.as_ref().map(Spanned::span),
+            "inner",
+        ),
+        (
+            table.outer_deg.is_some(),
+            table.outer.as_ref().map(Spanned::span),
+            "outer",
+        ),
     ] {
-        if let (true, Some(radians)) = (degrees, radians) {
+        if let (true, Some(span)) = (degrees, radians) {
             let why = format!("there are both `{name}_deg` and `{name}`");
-            return Err(texts.malformed(radians.span(), why, "Leave out one of them"));
+            return Err(texts.malformed(span, why, "Leave out one of them"));
         }
     }
     let outer_deg = match &table.outer {

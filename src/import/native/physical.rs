@@ -29,7 +29,7 @@ pub(super) fn material(
             .map_or(f32::INFINITY, |d| d.0 as f32),
         anisotropy_rotation: table.anisotropy_rotation_deg.0.to_radians() as f32,
         iridescence_ior: table.iridescence_ior.0,
-        iridescence_thickness: table.iridescence_thickness.0,
+        iridescence_thickness: table.iridescence_thickness.get_ref().0,
         dispersion: table.dispersion.0,
         ..MetallicRoughness::default()
     };
@@ -61,6 +61,10 @@ pub(super) fn material(
             return Err(textures.refuse(map.span(), why, "Change the thicknesses instead"));
         }
         layers.iridescence_thickness = Some(texture(map.get_ref(), map.span(), textures)?);
+    } else if model.iridescence_thickness[0] > model.iridescence_thickness[1] {
+        let why = "the thinnest part is thicker than the thickest, and there is no map";
+        let todo = "Give the smaller number first, or an `iridescence_thickness_map`";
+        return Err(textures.refuse(table.iridescence_thickness.span(), why, todo));
     }
     numbers!(diffuse_transmission);
     colors!(diffuse_transmission_color);

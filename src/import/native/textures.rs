@@ -11,14 +11,13 @@ use crate::import::paths::Files;
 use crate::import::picture::{self, Pictures, Place, Refused, Role};
 use crate::import::source::quote;
 use crate::import::{Options, suggest};
-use crate::scene::{Background, Minify, Pattern, Space, Texture, Transform, Wrap, sky};
+use crate::scene::{
+    Background, LARGEST_TEXEL, Minify, Pattern, Space, Texture, Transform, Wrap, sky,
+};
 use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
-
-/// Largest value of a texel: the GPU stores texels as half floats.
-const LARGEST_TEXEL: f32 = 65504.0;
 
 /// All textures of a scene while it is built.
 pub(super) struct Textures<'a> {
@@ -198,7 +197,7 @@ impl<'a> Textures<'a> {
                 let degrees = table.rotation_deg.map_or(0.0, |angle| angle.0);
                 let degrees = (degrees % 360.0).to_radians();
                 let picture = match &table.picture {
-                    Some(name) => self.picture(name.get_ref(), name.span(), Role::Color)?,
+                    Some(name) => self.picture(name.get_ref(), name.span(), Role::Environment)?,
                     None => self.sky(table.sky.as_ref())?,
                 };
                 Ok(Background::Picture {

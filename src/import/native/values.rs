@@ -4,6 +4,7 @@
 mod names;
 
 pub(super) use backdrop::BackdropValue;
+pub(super) use layers::{BodyIndex, Dispersion, FilmIndex, Thicknesses};
 pub(super) use moving::{
     Copies, Duration, FrameRate, GridCount, Pace, Quaternion, ScaleRange, Seed, Share,
     ShutterTimes, Time,
@@ -12,7 +13,9 @@ pub(super) use names::{
     AntialiasName, AttenuationName, FilterName, FresnelName, IntegratorName, MixingName,
     ShadowsName, ToneName, TransferName,
 };
-pub(super) use places::{AxisRadians, Length, Matrix, Upwards, ViewRadians};
+pub(super) use places::{
+    AxisRadians, ConeAngle, ConeRadians, Length, Matrix, Upwards, ViewRadians,
+};
 
 use crate::import::number::in_range;
 use crate::import::picture::linear_from_srgb;
@@ -116,6 +119,7 @@ macro_rules! value {
 
 // Below the macro, because they use it.
 mod backdrop;
+mod layers;
 mod moving;
 mod places;
 
@@ -201,20 +205,6 @@ value! {
     Fraction(f32),
     { "type": "number", "minimum": 0, "maximum": 1 },
     |d| number(d, |x| (0.0..=1.0).contains(&x), "between 0 and 1").map(|x| x as f32)
-}
-
-value! {
-    /// A number, 1 or more.
-    OneOrMore(f32),
-    { "type": "number", "minimum": 1 },
-    |d| number(d, |x| x >= 1.0, "1 or more").map(|x| x as f32)
-}
-
-value! {
-    /// The thinnest and the thickest part in nanometres, each 0 or more.
-    Thicknesses([f32; 2]),
-    { "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": 2, "maxItems": 2 },
-    |d| elements::<NonNegative, 2, D>(d, "two numbers [thinnest, thickest]").map(|both| both.map(|x| x.0))
 }
 
 value! {

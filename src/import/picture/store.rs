@@ -4,7 +4,7 @@
 //! What will be used is planned first ([`Pictures::plan`]). The first use of a planned picture decodes those that are
 //! planned after it as well, as many at a time as fit into a bounded memory.
 
-use super::{Role, decode, dimensions};
+use super::{Repairs, Role, decode, dimensions};
 use crate::import::Options;
 use crate::import::notes::Notes;
 use crate::import::picture::Refused;
@@ -65,6 +65,8 @@ pub(in crate::import) struct Pictures {
     limited: HashSet<Place>,
     /// How many times pictures were halved for lack of memory.
     halved_count: usize,
+    /// What was repaired in pictures, by their names.
+    repairs: Vec<(String, Repairs)>,
 }
 
 impl Pictures {
@@ -80,6 +82,7 @@ impl Pictures {
             limit: options.texture_limit.map_or(u32::MAX, Into::into),
             limited: HashSet::new(),
             halved_count: 0,
+            repairs: Vec::new(),
         }
     }
 
@@ -190,6 +193,11 @@ impl Pictures {
             1 => "1 picture was".to_owned(),
             _ => format!("{count} pictures were"),
         };
+        for (name, repairs) in &self.repairs {
+            for line in repairs.lines(name) {
+                notes.add("repaired pictures", || line);
+            }
+        }
         if !self.limited.is_empty() {
             notes.add("smaller pictures", || {
                 let (pictures, limit) = (pictures(self.limited.len()), self.limit);
@@ -237,8 +245,9 @@ impl Pictures {
             };
             let made = made.map(|pictures| {
                 let is_large = |it: &Picture| it.width.max(it.height) > limit;
-                let is_limited = pictures.iter().any(is_large);
-                let limited = pictures.into_iter().map(|it| Arc::new(it.limited(limit)));
+                let is_limited = pictures.iter().any(|(picture, _)| is_large(picture));
+                let limited = (pictures.into_iter())
+                    .map(|(picture, repairs)| (Arc::new(picture.limited(limit)), repairs));
                 (limited.collect::<Vec<_>>(), is_limited)
             });
             (planned, made)
@@ -256,7 +265,12 @@ impl Pictures {
             let mut pictures = pictures.into_iter();
             for role in planned.roles {
                 let made = match (pictures.next(), &why) {
-                    (Some(picture), _) => Ok(picture),
+                    (Some((picture, repairs)), _) => {
+                        if repairs != Repairs::default() {
+                            self.repairs.push((planned.name.clone(), repairs));
+                        }
+                        Ok(picture)
+                    }
                     (None, Some(why)) => Err(why.clone()),
                     (None, None) => break,
                 };

@@ -386,7 +386,7 @@ fn light(random: &mut Random, nodes: usize) -> Light {
             direction: direction(random),
         },
         2 => {
-            let outer = angle(random).abs().min(1.5);
+            let outer = angle(random).abs().clamp(0.01, 1.5);
             LightKind::Spot {
                 position: vector(random),
                 direction: direction(random),

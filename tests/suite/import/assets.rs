@@ -179,7 +179,7 @@ fn every_scene_of_the_project_loads_whole() {
         assert_eq!(scene.skipped, [""; 0], "{}", path.display());
         let is_path = scene.output.integrator == LightTransport::Path;
         let is_lit = !scene.lights.is_empty()
-            || is_path && scene.background.shines()
+            || is_path && scene.background_shines()
             || is_path && scene.materials.iter().any(|it| it.emission != Vec3::ZERO);
         assert!(is_lit && scene.bounds().is_some(), "{}", path.display());
         count += 1;

@@ -123,3 +123,33 @@ fn a_scene_without_light_is_detected() {
     }
     assert!(!scene("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3").is_unlit());
 }
+
+/// Whether a native scene with a picture `p.png` has no light, and whether its background shines. The picture is black but
+/// for the channel `blue` of one texel.
+fn under_picture(text: &str, blue: u8) -> (bool, bool) {
+    let texels = (0..8).map(|i| [0, 0, if i == 5 { blue } else { 0 }, 255]);
+    let png = super::gltf::model::png(4, &texels.collect::<Vec<_>>());
+    let folder = super::folder(&[("a.toml", text.as_bytes()), ("p.png", &png)]);
+    let scene = import::load(&folder.path().join("a.toml")).expect("a scene");
+    (scene.is_unlit(), scene.background_shines())
+}
+
+#[test]
+fn a_black_picture_is_no_light() {
+    let matte = format!("background = {{ picture = 'p.png' }}\n{BALL}");
+    assert_eq!(under_picture(&matte, 0), (true, false));
+    assert_eq!(under_picture(&matte, 1), (true, true));
+    let mirror = format!("{matte}material = {{ reflect = {{ amount = 1 }} }}\n");
+    assert_eq!(under_picture(&mirror, 0), (true, false));
+    assert_eq!(under_picture(&mirror, 1), (false, true));
+    let lamp = format!("{BALL}material = {{ emission = {{ picture = 'p.png' }} }}\n");
+    assert_eq!(under_picture(&lamp, 0), (true, false));
+    assert_eq!(under_picture(&lamp, 1), (false, false));
+    let checker = |color: &str| {
+        format!(
+            "{BALL}material = {{ emission = {{ checker = {{ a = [0, 0, 0], b = {color} }} }} }}\n"
+        )
+    };
+    assert!(native(&checker("[0, 0, 0]")).is_unlit());
+    assert!(!native(&checker("[0, 1, 0]")).is_unlit());
+}

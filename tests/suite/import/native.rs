@@ -417,6 +417,8 @@ fn every_invalid_value_has_a_message() {
         light("point = { position = [0, 0, 0], attenuation = 'linear' }"),
         light("directional = { direction = [0, 0, 0] }"),
         light("spot = { position = [0, 0, 0], look_at = [0, 0, 1], outer_deg = 91 }"),
+        light("spot = { position = [0, 0, 0], look_at = [0, 0, 1], outer_deg = 0 }"),
+        light("spot = { position = [0, 0, 0], look_at = [0, 0, 1], outer = 0 }"),
     ];
     assert_snapshot!(messages("a.toml", &texts), @r##"
 bad scene (a.toml): the file is empty. Check that it was written completely.
@@ -470,7 +472,9 @@ bad scene (a.toml:2:45): -1 is not 0 or more. See `glimray schema` for what is a
 bad scene (a.toml:2:33): unknown key `colour`, did you mean `color`? Allowed here: `position`, `color`, `intensity`, `attenuation`.
 bad scene (a.toml:2:47): unknown value `linear`. Allowed here: `none`, `inverse-square`.
 bad scene (a.toml:2:29): a direction cannot be [0, 0, 0]. See `glimray schema` for what is allowed.
-bad scene (a.toml:2:65): 91 is not an angle between 0 and 90 degrees. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:65): 91 is not an angle between 0.05 and 90 degrees. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:65): 0 is not an angle between 0.05 and 90 degrees. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:61): 0 is not an angle between 0.0005 and pi/2 radians. See `glimray schema` for what is allowed.
 "##);
 }
 

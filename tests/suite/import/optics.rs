@@ -114,3 +114,29 @@ bad scene (a.toml:1:24): -1 is not a whole number from 0 to 1000. See `glimray s
 bad scene (a.toml:1:24): 1.5 is not a whole number from 0 to 1000. See `glimray schema` for what is allowed.
 "#);
 }
+
+#[test]
+fn layers_out_of_range_are_refused() {
+    let pbr = |text: &str| format!("materials.a.pbr = {{ {text} }}");
+    let texts = [
+        pbr("dispersion = 1e10"),
+        pbr("dispersion = -1"),
+        pbr("iridescence_ior = 1e20"),
+        pbr("iridescence_ior = 0.9"),
+        pbr("iridescence_thickness = [0, 1e30]"),
+        pbr("iridescence_thickness = [400, 100]"),
+        pbr("ior = 1e20"),
+    ];
+    assert_snapshot!(messages("a.toml", &texts), @r"
+bad scene (a.toml:1:34): 10000000000 is not a dispersion between 0 and 100. See `glimray schema` for what is allowed.
+bad scene (a.toml:1:34): -1 is not a dispersion between 0 and 100. See `glimray schema` for what is allowed.
+bad scene (a.toml:1:39): 1e20 is not an index of refraction between 1 and 100. See `glimray schema` for what is allowed.
+bad scene (a.toml:1:39): 0.9 is not an index of refraction between 1 and 100. See `glimray schema` for what is allowed.
+bad scene (a.toml:1:45): 1e30 is not a thickness between 0 and 1000000 nanometres. See `glimray schema` for what is allowed.
+bad scene (a.toml:1:45): the thinnest part is thicker than the thickest, and there is no map. Give the smaller number first, or an `iridescence_thickness_map`.
+bad scene (a.toml:1:27): 1e20 is not an index of refraction between 1 and 1000000. See `glimray schema` for what is allowed.
+");
+    // With a map white may be the thinner part.
+    let map = "iridescence_thickness = [400, 100], iridescence_thickness_map = { checker = {} }";
+    scene("a.toml", pbr(map));
+}

@@ -18,15 +18,15 @@ fn encode(image: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// A scene with this picture as its background.
-fn with_background(name: &str, bytes: &[u8]) -> Scene {
-    let text = format!("background = {{ picture = '{name}' }}");
+/// A scene with a texture of this picture.
+fn with_texture(name: &str, bytes: &[u8]) -> Scene {
+    let text = format!("textures.t = {{ picture = '{name}' }}");
     let folder = folder(&[("a.toml", text.as_bytes()), (name, bytes)]);
     import::load(&folder.path().join("a.toml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn picture(name: &str, bytes: &[u8]) -> Picture {
-    (*with_background(name, bytes).pictures[0]).clone()
+    (*with_texture(name, bytes).pictures[0]).clone()
 }
 
 /// IEC 61966-2-1, inverted by bisection: the value with the code `code`.
@@ -128,7 +128,7 @@ fn hdr_and_exr_are_linear() {
 
 #[test]
 fn an_image_used_twice_is_read_once() {
-    let image = ImageBuffer::from_pixel(3, 2, Rgb([9u8, 9, 9]));
+    let image = ImageBuffer::from_pixel(4, 2, Rgb([9u8, 9, 9]));
     let bytes = encode(image, ImageFormat::Png);
     let text = b"
         background = { picture = 'a.png', strength = 2, rotation_deg = 90 }
@@ -140,9 +140,11 @@ fn an_image_used_twice_is_read_once() {
         ..Options::default()
     };
     let scene = import::load_with(&folder.path().join("a.toml"), &options).expect("a scene");
-    assert_eq!(scene.pictures.len(), 1);
+    // One for all textures, and that of the background, which may have a scale.
+    assert_eq!(scene.pictures.len(), 2);
+    assert_eq!(scene.pictures[0], scene.pictures[1]);
     let background = Background::Picture {
-        picture: 0,
+        picture: 1,
         strength: 2.0,
         rotation: 90f64.to_radians(),
     };
@@ -223,7 +225,7 @@ fn every_invalid_image_has_a_message() {
         })
         .collect();
     assert_snapshot!(lines.join("\n"), @r"
-picture refused (a.toml:2:26): `empty.png` is not a supported image. Name a PNG, JPEG, WebP, KTX2, HDR or EXR file.
+picture refused (a.toml:2:26): `empty.png` is empty. Check that it was written completely.
 picture refused (a.toml:2:26): `text.png` is not a supported image. Name a PNG, JPEG, WebP, KTX2, HDR or EXR file.
 picture refused (a.toml:2:26): `cut.png` is truncated: its end is missing. Check that it was written completely.
 picture refused (a.toml:2:26): `wide.png` has 100000 × 100000 texels, but the limit is 67108864 of them. Use a smaller picture.
@@ -360,7 +362,7 @@ fn no_corruption_of_an_image_makes_the_importer_panic() {
     };
     let folder = folder(&[]);
     for (name, good) in files {
-        let text = format!("background = {{ picture = '{name}' }}");
+        let text = format!("textures.t = {{ picture = '{name}' }}");
         std::fs::write(folder.path().join("a.toml"), text).expect("a scene");
         for i in 0..400 {
             let mut bad = good.clone();
@@ -384,4 +386,72 @@ fn no_corruption_of_an_image_makes_the_importer_panic() {
             }
         }
     }
+}
+
+/// An EXR of one part with these channels, each of 2 × 1 values.
+fn exr_of(channels: &[(&str, [f32; 2])]) -> Vec<u8> {
+    use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, WritableImage};
+    let list: Vec<_> = (channels.iter())
+        .map(|(name, values)| AnyChannel::new(*name, FlatSamples::F32(values.to_vec())))
+        .collect();
+    let image = Image::from_channels((2, 1), AnyChannels::sort(list.into()));
+    let mut bytes = Cursor::new(Vec::new());
+    (image.write().non_parallel().to_buffered(&mut bytes)).expect("a picture");
+    bytes.into_inner()
+}
+
+#[test]
+fn an_exr_of_luminance_alone_is_grey_and_others_without_colors_are_named() {
+    let read = picture("a.exr", &exr_of(&[("Y", [0.25, 3.0])]));
+    assert_eq!((read.width, read.height), (2, 1));
+    assert_near(&read, &[[0.25; 3], [3.0; 3]], 0.0);
+    let alone = exr_of(&[("Z", [0.25, 3.0])]);
+    let whole = exr_of(&[("Y", [0.25, 3.0])]);
+    let colored = [("Y", [0.5; 2]), ("BY", [0.5; 2]), ("RY", [0.5; 2])];
+    let folder = folder(&[
+        ("depth.exr", &alone),
+        ("yuv.exr", &exr_of(&colored)),
+        ("cut.exr", &whole[..whole.len() - 6]),
+    ]);
+    let lines = ["depth.exr", "yuv.exr", "cut.exr"].map(|name| {
+        let text = format!("textures.t = {{ picture = '{name}' }}");
+        std::fs::write(folder.path().join("a.toml"), text).expect("a scene");
+        message_in(&folder, "a.toml", &Options::default())
+    });
+    let todo = "Save it with R, G and B, or with Y alone for a grey picture.";
+    assert!(lines[0].contains("`depth.exr` has no channels R, G and B, but `Z`"));
+    assert!(lines[0].ends_with(todo), "{}", lines[0]);
+    assert!(lines[1].contains("but `BY`, `RY`, `Y`"), "{}", lines[1]);
+    assert!(lines[2].contains("`cut.exr` is "), "{}", lines[2]);
+}
+
+#[test]
+fn what_is_repaired_in_a_texture_is_noted() {
+    let skipped = |values: [f32; 4]| {
+        let image = ImageBuffer::from_fn(4, 1, |x, _| Rgb([0.5, values[x as usize], 0.5f32]));
+        let scene = with_texture("a.exr", &encode(image, ImageFormat::OpenExr));
+        (
+            scene.skipped.clone(),
+            scene.pictures[0].linear().map(|texel| texel.y).collect(),
+        )
+    };
+    assert_eq!(skipped([0.0, 1.0, 65504.0, 2.0]).0, [] as [&str; 0]);
+    let (notes, values): (_, Vec<f32>) = skipped([f32::NAN, 1.0, -2.0, f32::INFINITY]);
+    assert_eq!(values, [0.0, 1.0, 0.0, 0.0]);
+    assert_eq!(
+        notes,
+        [
+            "3 texels of `a.exr` were infinite, negative or not a number in some channel, which is 0 there: check the program that wrote it"
+        ]
+    );
+    // The luminance of red and blue is 0.2848, that of green 0.7152: 934,496 of 1,000,000 times the latter are lost.
+    let (notes, values): (_, Vec<f32>) = skipped([1.0, 1e6, 1.0, 1.0]);
+    assert_eq!(values, [1.0, 65504.0, 1.0, 1.0]);
+    let lost = 100.0 * 0.7152 * (1e6 - 65504.0) / (0.7152 * (1e6 + 3.0) + 4.0 * 0.5 * 0.2848);
+    assert_eq!(
+        notes,
+        [format!(
+            "1 texel of `a.exr` was cut to 65504, the largest value, so that {lost:.2} % of its light is lost: make the picture darker, and what it multiplies brighter"
+        )]
+    );
 }

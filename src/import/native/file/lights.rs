@@ -1,8 +1,8 @@
 //! Lights in a native scene.
 
 use crate::import::native::values::{
-    AttenuationName, AxisAngle, AxisRadians, Color, Count, Direction, Extent, NonNegative,
-    Positive, Vector,
+    AttenuationName, AxisAngle, AxisRadians, Color, ConeAngle, ConeRadians, Count, Direction,
+    Extent, NonNegative, Positive, Vector,
 };
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -81,13 +81,13 @@ pub(in crate::import::native) struct SpotTable {
     #[schemars(with = "Option<AxisAngle>")]
     pub inner_deg: Option<Spanned<AxisAngle>>,
     /// Angle from the axis in degrees beyond which it is dark; default 30.
-    pub outer_deg: Option<AxisAngle>,
+    pub outer_deg: Option<ConeAngle>,
     /// The same as `inner_deg` in radians, instead of it.
     #[schemars(with = "Option<AxisRadians>")]
     pub inner: Option<Spanned<AxisRadians>>,
     /// The same as `outer_deg` in radians, instead of it.
-    #[schemars(with = "Option<AxisRadians>")]
-    pub outer: Option<Spanned<AxisRadians>>,
+    #[schemars(with = "Option<ConeRadians>")]
+    pub outer: Option<Spanned<ConeRadians>>,
     /// Its colour; default white.
     #[serde(default = "white")]
     pub color: Color,

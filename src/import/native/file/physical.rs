@@ -2,7 +2,8 @@
 
 use super::textures::{ColorOrTexture, DataMapTable, NumberTable, plain};
 use crate::import::native::values::{
-    Angle, Color, Fraction, NonNegative, OneOrMore, Positive, Priority, Thicknesses,
+    Angle, BodyIndex, Color, Dispersion, FilmIndex, Fraction, NonNegative, Positive, Priority,
+    Thicknesses,
 };
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -31,7 +32,7 @@ pub(in crate::import::native) struct PbrTable {
     #[schemars(with = "FractionOrTexture")]
     pub roughness: Spanned<FractionOrTexture>,
     /// The index of refraction of a dielectric, at least 1; default 1.5.
-    pub ior: OneOrMore,
+    pub ior: BodyIndex,
     /// Factor on the reflection of a dielectric; default 1. A picture has it in alpha.
     #[schemars(with = "FractionOrTexture")]
     pub specular: Spanned<FractionOrTexture>,
@@ -69,9 +70,11 @@ pub(in crate::import::native) struct PbrTable {
     #[schemars(with = "FractionOrTexture")]
     pub iridescence: Spanned<FractionOrTexture>,
     /// The film's index of refraction, at least 1; default 1.3.
-    pub iridescence_ior: OneOrMore,
-    /// Its thinnest and its thickest part in nanometres; the latter without a map. Default [100, 400].
-    pub iridescence_thickness: Thicknesses,
+    pub iridescence_ior: FilmIndex,
+    /// Its thinnest and its thickest part in nanometres; the latter without a map. With a map the former may be the thicker
+    /// one. Default [100, 400].
+    #[schemars(with = "Thicknesses")]
+    pub iridescence_thickness: Spanned<Thicknesses>,
     /// Where it is how thick, between the two: a texture, in green, without a `value`.
     #[schemars(with = "Option<NumberTable>")]
     pub iridescence_thickness_map: Option<Spanned<NumberTable>>,
@@ -82,7 +85,7 @@ pub(in crate::import::native) struct PbrTable {
     /// That direction in degrees, counter-clockwise from the direction of u, on models; default 0.
     pub anisotropy_rotation_deg: Angle,
     /// How much the index of refraction depends on the wavelength: 20 divided by Abbe's number; default 0.
-    pub dispersion: NonNegative,
+    pub dispersion: Dispersion,
     /// The fraction of the diffuse light that leaves on the other side; default 0. A picture has it in alpha.
     #[schemars(with = "FractionOrTexture")]
     pub diffuse_transmission: Spanned<FractionOrTexture>,
@@ -102,7 +105,7 @@ impl Default for PbrTable {
             tint: color(Vec3::ONE),
             metallic: fraction(0.0),
             roughness: fraction(0.5),
-            ior: OneOrMore(1.5),
+            ior: BodyIndex(1.5),
             specular: fraction(1.0),
             specular_color: plain(Vec3::ONE),
             transmission: fraction(0.0),
@@ -116,12 +119,12 @@ impl Default for PbrTable {
             sheen_color: plain(Vec3::ZERO),
             sheen_roughness: fraction(0.0),
             iridescence: fraction(0.0),
-            iridescence_ior: OneOrMore(1.3),
-            iridescence_thickness: Thicknesses([100.0, 400.0]),
+            iridescence_ior: FilmIndex(1.3),
+            iridescence_thickness: Spanned::new(0..0, Thicknesses([100.0, 400.0])),
             iridescence_thickness_map: None,
             anisotropy: fraction(0.0),
             anisotropy_rotation_deg: Angle(0.0),
-            dispersion: NonNegative(0.0),
+            dispersion: Dispersion(0.0),
             diffuse_transmission: fraction(0.0),
             diffuse_transmission_color: plain(Vec3::ONE),
             unlit: false,

@@ -34,6 +34,23 @@ value! {
 }
 
 value! {
+    /// An angle from an axis in degrees, not 0.
+    ConeAngle(f64),
+    { "type": "number", "minimum": 0.05, "maximum": 90 },
+    |d| number(d, |x| (0.05..=90.0).contains(&x), "an angle between 0.05 and 90 degrees")
+}
+
+value! {
+    /// An angle from an axis in radians, not 0.
+    ConeRadians(f64),
+    { "type": "number", "minimum": 0.0005, "maximum": std::f64::consts::FRAC_PI_2 },
+    |d| {
+        let holds = |x: f64| (0.0005..=std::f64::consts::FRAC_PI_2).contains(&x);
+        number(d, holds, "an angle between 0.0005 and pi/2 radians")
+    }
+}
+
+value! {
     /// A direction of any length but 0; its length is kept.
     Upwards(DVec3),
     { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 },

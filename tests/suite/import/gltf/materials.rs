@@ -2,6 +2,7 @@
 
 use super::model::{Model, UNSIGNED_BYTE, base64, png};
 use super::{folder, message_in};
+use crate::support::verdict::Verdict;
 use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
 use glimray::scene::{
@@ -178,6 +179,134 @@ fn every_parameter_is_kept() {
         ..MetallicRoughness::default()
     };
     assert_eq!(*metallic_roughness(&found), expected);
+}
+
+/// What is noted of a material.
+fn noted(material: Value) -> Vec<String> {
+    super::scene("a.glb", model(material).glb()).skipped.clone()
+}
+
+#[test]
+fn values_out_of_range_are_noted_with_what_is_used_instead() {
+    let mut verdict = Verdict::on("values of materials");
+    let of = |extension: &str, values: Value| json!({ "extensions": { format!("KHR_materials_{extension}"): values } });
+    let pbr = |values: Value| json!({ "pbrMetallicRoughness": values });
+    let huge = 1e39;
+    let cases = [
+        (
+            pbr(json!({ "baseColorFactor": [2, -1, 0.5, 1] })),
+            "baseColorFactor is [2, -1, 0.5, 1], but only 0 to 1 is allowed: [1, 0, 0.5, 1] is used",
+        ),
+        (
+            pbr(json!({ "roughnessFactor": 5 })),
+            "roughnessFactor is 5, but at most 1 is allowed: 1 is used",
+        ),
+        (
+            pbr(json!({ "metallicFactor": -3 })),
+            "metallicFactor is -3, but at least 0 is allowed: 0 is used",
+        ),
+        (
+            json!({ "emissiveFactor": [20, 1, -1] }),
+            "emissiveFactor is [20, 1, -1], but only 0 to 1 is allowed: [1, 1, 0] is used",
+        ),
+        (
+            json!({ "alphaMode": "MASK", "alphaCutoff": -1 }),
+            "alphaCutoff is -1, but",
+        ),
+        (
+            of("emissive_strength", json!({ "emissiveStrength": -4 })),
+            "emissiveStrength is -4, but at least 0",
+        ),
+        (
+            of("emissive_strength", json!({ "emissiveStrength": huge })),
+            "emissiveStrength is 1e39, but at most 1e12",
+        ),
+        (
+            of("ior", json!({ "ior": 0.5 })),
+            "ior is 0.5, but at least 1 is allowed: 1 is used",
+        ),
+        (of("ior", json!({ "ior": -2 })), "ior is -2, but"),
+        (
+            of("transmission", json!({ "transmissionFactor": 3 })),
+            "transmissionFactor is 3, but",
+        ),
+        (
+            of("volume", json!({ "thicknessFactor": -1 })),
+            "thicknessFactor is -1, but",
+        ),
+        (
+            of("volume", json!({ "attenuationDistance": 0 })),
+            "attenuationDistance is 0, but it must be above 0: no attenuation is used",
+        ),
+        (
+            of("volume", json!({ "attenuationDistance": -1 })),
+            "attenuationDistance is -1, but",
+        ),
+        (
+            of("volume", json!({ "attenuationColor": [2, 0, 0] })),
+            "attenuationColor is [2, 0, 0], but",
+        ),
+        (
+            of("clearcoat", json!({ "clearcoatFactor": 4 })),
+            "clearcoatFactor is 4, but",
+        ),
+        (
+            of("sheen", json!({ "sheenColorFactor": [9, 9, 9] })),
+            "sheenColorFactor is [9, 9, 9], but",
+        ),
+        (
+            of("iridescence", json!({ "iridescenceFactor": 5 })),
+            "iridescenceFactor is 5, but",
+        ),
+        (
+            of("iridescence", json!({ "iridescenceIor": 0 })),
+            "iridescenceIor is 0, but",
+        ),
+        (
+            of(
+                "iridescence",
+                json!({ "iridescenceThicknessMaximum": 1e30 }),
+            ),
+            "iridescenceThicknessMaximum is 1e30, but at most 1000000",
+        ),
+        (
+            of("anisotropy", json!({ "anisotropyStrength": -2 })),
+            "anisotropyStrength is -2, but",
+        ),
+        (
+            of("dispersion", json!({ "dispersion": -3 })),
+            "dispersion is -3, but",
+        ),
+        (
+            of("dispersion", json!({ "dispersion": 1e20 })),
+            "dispersion is 1e20, but at most 100",
+        ),
+        (
+            of("specular", json!({ "specularColorFactor": [-1, 4, 1] })),
+            "specularColorFactor is [-1, 4, 1], but at least 0",
+        ),
+    ];
+    for (mut material, expected) in cases {
+        material["name"] = json!("clay");
+        let found = noted(material.clone());
+        let start = format!("materials[0] `clay`: {expected}");
+        let is_noted = found.len() == 1 && found[0].starts_with(&start);
+        verdict.that(&material, is_noted, || format!("{found:?}"));
+    }
+    for material in [
+        pbr(json!({ "baseColorFactor": [1, 0, 0.5, 1], "roughnessFactor": 1.000_000_1 })),
+        of("ior", json!({ "ior": 0 })),
+        of("specular", json!({ "specularColorFactor": [4, 4, 1] })),
+        of(
+            "iridescence",
+            json!({ "iridescenceFactor": 1, "iridescenceThicknessMaximum": 50 }),
+        ),
+        of("dispersion", json!({ "dispersion": 3 })),
+    ] {
+        let found = noted(material.clone());
+        verdict.that(&material, found.is_empty(), || format!("{found:?}"));
+    }
+    verdict.close();
 }
 
 #[test]

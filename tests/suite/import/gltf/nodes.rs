@@ -2,10 +2,11 @@
 
 use super::model::{Model, floats};
 use super::{folder, message_in};
+use crate::support::verdict::Verdict;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use glimray::import::{self, Options};
 use glimray::scene::{Attenuation, Instance, LightKind, Scene};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::f64::consts::PI;
 
 /// From the mesh to the world at rest.
@@ -138,6 +139,66 @@ fn lights_have_the_radiance_of_their_intensity() {
     };
     assert_eq!((inner, outer, direction), (0.1, 0.3, DVec3::NEG_Z));
     assert!(!scene.staged, "the file has lights");
+}
+
+#[test]
+fn values_of_lights_out_of_range_are_noted_with_what_is_used_instead() {
+    let mut verdict = Verdict::on("values of lights");
+    let spot = |values: Value| json!({ "type": "spot", "spot": values });
+    let cases = [
+        (
+            json!({ "type": "point", "intensity": -100 }),
+            "intensity is -100, but at least 0 is allowed: 0 is used",
+        ),
+        (
+            json!({ "type": "point", "intensity": 1e300 }),
+            "intensity is 1e300, but at most 1e30",
+        ),
+        (
+            json!({ "type": "point", "color": [-1, 5, 1] }),
+            "color is [-1, 5, 1], but at least 0 is allowed: [0, 5, 1] is used",
+        ),
+        (
+            json!({ "type": "point", "color": [1e20, 1, 1], "intensity": 1e20 }),
+            "color times intensity / π is [",
+        ),
+        (
+            spot(json!({ "outerConeAngle": 0 })),
+            "spot.outerConeAngle is 0, but it must be above 0: the default of π/4 is used",
+        ),
+        (
+            spot(json!({ "outerConeAngle": 3 })),
+            "spot.outerConeAngle is 3, but at most 1.5708 is allowed",
+        ),
+        (
+            spot(json!({ "innerConeAngle": 1, "outerConeAngle": 0.5 })),
+            "spot.innerConeAngle is 1, but at most 0.5 is allowed",
+        ),
+        (
+            spot(json!({ "innerConeAngle": -1 })),
+            "spot.innerConeAngle is -1, but",
+        ),
+    ];
+    for (mut light, expected) in cases {
+        light["name"] = json!("bulb");
+        let model = Model::triangle(json!({})).with(json!({
+            "scenes": [{ "nodes": [0, 1] }],
+            "nodes": [{ "mesh": 0 }, { "extensions": { "KHR_lights_punctual": { "light": 0 } } }],
+            "extensionsUsed": ["KHR_lights_punctual"],
+            "extensions": { "KHR_lights_punctual": { "lights": [light.clone()] } },
+        }));
+        let scene = model.scene();
+        let start = format!("lights[0] `bulb`: {expected}");
+        let is_noted = scene.skipped.len() == 1 && scene.skipped[0].starts_with(&start);
+        verdict.that(&light, is_noted, || format!("{:?}", scene.skipped));
+        if let LightKind::Spot { inner, outer, .. } = scene.lights[0].kind {
+            let is_open = (0.0..=outer).contains(&inner) && (0.1..1.6).contains(&outer);
+            verdict.that(format!("{light}, angles"), is_open, || {
+                format!("{inner}, {outer}")
+            });
+        }
+    }
+    verdict.close();
 }
 
 #[test]
