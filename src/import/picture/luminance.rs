@@ -68,7 +68,7 @@ fn grey(
         .map_err(|error| damaged(&error.to_string()))?
         .layer_data;
     let mut channels = layer.channel_data.list.iter();
-    let channel = channels.find(|channel| channel.name == Text::from("Y"));
+    let channel = channels.find(|channel| channel.name == *"Y");
     let Some(channel) = channel.filter(|channel| channel.sampling.area() == 1) else {
         return Err(damaged("its channel Y is not as large as the picture"));
     };

@@ -143,7 +143,7 @@ fn values_that_are_out_of_range_are_refused() {
         ),
         (
             "pbr = { ior = 0.5 }",
-            "0.5 is not 1 or more. See `glimray schema` for what is allowed.",
+            "0.5 is not an index of refraction between 1 and 1000000. See `glimray schema` for what is allowed.",
         ),
         (
             "pbr = { attenuation_distance = 0 }",
