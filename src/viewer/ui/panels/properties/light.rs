@@ -99,13 +99,18 @@ fn extent(fields: &mut Fields, index: usize, kind: LightKind) {
             });
             fields.number(("Inner angle", tip), inner.to_degrees(), limits, set);
             let tip =
-                "Half-angle of the cone beyond which there is no light, in degrees, up to 90.";
+                "Half-angle of the cone beyond which there is no light, in degrees, 0.1 to 90.";
             let set = with(index, |light, to: f64| {
                 if let LightKind::Spot { inner, outer, .. } = &mut light.kind {
                     *outer = to.to_radians().min(FRAC_PI_2);
                     *inner = inner.min(*outer);
                 }
             });
+            // Scene files refuse a cone without width.
+            let limits = Limits {
+                least: 0.1,
+                ..limits
+            };
             fields.number(("Outer angle", tip), outer.to_degrees(), limits, set);
         }
         LightKind::Disc { radius, .. } | LightKind::Sphere { radius, .. } => {
