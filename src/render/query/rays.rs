@@ -38,12 +38,13 @@ impl QueryRay {
     }
 }
 
-/// The closest hit of a ray. [`PackedScene::object_at`] returns the object with these indices.
+/// The closest hit of a ray. [`crate::pack::PackedScene::object_at`] returns the object with these indices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QueryHit {
     /// Distance along the ray, above 0 and below its `t_max`, in scene units.
     pub t: f32,
-    /// Index of the triangle in [`PackedScene::triangles`], or [`crate::layout::SHAPE`] with the index of a shape.
+    /// Index of the triangle in [`crate::pack::PackedScene::triangles`], or [`crate::layout::SHAPE`] with the index of
+    /// a shape.
     pub primitive: u32,
     /// Index of an instance of the view, or [`crate::layout::NO_INSTANCE`].
     pub instance: u32,
