@@ -60,7 +60,8 @@ impl Chunk {
 /// Traces rays through a view of a packed scene:
 ///
 /// ```no_run
-/// /// use glimray::{gpu::Gpu, import, pack, render::{ExecutionPolicy, QueryRay, RayQuery}};
+/// use glam::{DVec3, Vec3};
+/// use glimray::{gpu::Gpu, import, pack, render::{ExecutionPolicy, QueryRay, RayQuery}};
 ///
 /// let scene = import::load("assets/scenes/spheres.toml".as_ref())?;
 /// let packed = std::sync::Arc::new(pack::scene(&scene)?);
