@@ -51,7 +51,7 @@ fn of_metallic_roughness(material: &Material, model: &MetallicRoughness) -> Pack
         f90: if model.unlit { 0.0 } else { model.specular },
         roughness: model.roughness,
         // What reflects everything transmits nothing.
-        transmission: if model.unlit || model.ior == 0.0 {
+        transmission: if model.unlit || f0 > 0.999 {
             0.0
         } else {
             model.transmission

@@ -205,6 +205,8 @@ fn partly_transmissive_white_is_invisible_in_even_light() {
         (0.5, 0.0, 1.5, 1.0, &[1.0]),
         (0.2, 0.0, 1.5, 1.0, &[1.0]),
         (0.5, 0.0, 0.0, 1.0, &[0.0, 0.5, 1.0]),
+        // As glTF's index of 0 is read.
+        (0.5, 0.0, 1e6, 1.0, &[0.0, 0.5, 1.0]),
         (0.5, 0.5, 0.0, 0.0, &[0.0, 0.5, 1.0]),
     ];
     for (transmission, metallic, ior, thickness, all) in rows {
