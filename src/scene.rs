@@ -57,7 +57,8 @@ pub use output::{
     Antialias, Backdrop, Filter, LightTransport, OutputDefaults, Shutter, ToneCurve, Transfer,
 };
 pub use picture::{
-    LARGEST_TEXEL, MAX_PICTURE_BYTES, Origin, Picture, SrgbCurve, Texels, linear_from_srgb,
+    LARGEST_TEXEL, LUMINANCE, MAX_PICTURE_BYTES, Origin, Picture, SrgbCurve, Texels,
+    linear_from_srgb,
 };
 pub(crate) use picture::{SMALLEST_TEXEL, scale_of};
 pub use shape::{CanonicalShape, Geometry, Shape};

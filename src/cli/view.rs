@@ -44,9 +44,8 @@ fn request_of(arguments: &ViewArgs) -> ViewRequest {
         import: Options {
             // The window does it when such an integrator is chosen.
             baking: Baking::Never,
-            ..(arguments.reading).import_options(
-                arguments.camera.model_axis(),
-                arguments.camera.has_background(),
+            ..(arguments.camera).import_options(
+                &arguments.reading,
                 arguments.picture.size.size,
                 arguments.picture.integrator,
             )

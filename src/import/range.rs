@@ -4,17 +4,16 @@
 use super::notes::Notes;
 use crate::scene::{
     Attenuation, Background, Light, LightProperty, Material, MaterialProperty, Pattern, Scene,
-    Target, Texels, Texture, Values,
+    Target, Texture, Values,
 };
-use glam::{DVec3, Vec3, Vec4};
-use std::sync::Arc;
+use glam::{DVec3, Vec3};
 
 /// Limit of coefficients, such as diffuse colours, and of pattern colours, which are multiplied with
 /// them.
 const COEFFICIENT: f32 = 1e3;
 
-/// Limit of radiance: of the background, ambient light, emission, lights without attenuation, and images,
-/// which may be the background.
+/// Limit of radiance: of the background and its picture (`picture/repair.rs`), ambient light, emission, and lights without
+/// attenuation.
 pub(super) const RADIANCE: f32 = 1e12;
 
 /// Limit of lights with attenuation and of the surfaces of area lights. The Sun at its distance in metres
@@ -41,18 +40,6 @@ pub(super) fn limit(scene: &mut Scene) {
     }
     for texture in &mut scene.textures {
         counts.texture(texture);
-    }
-    for picture in &mut scene.pictures {
-        let is_out = |texel: &Vec4| texel.max_element() > RADIANCE;
-        if let Texels::Float(texels) = &picture.texels
-            && texels.iter().any(is_out)
-            && let Texels::Float(texels) = &mut Arc::make_mut(picture).texels
-        {
-            counts.radiances += 1;
-            for texel in texels {
-                *texel = texel.min(Vec4::splat(RADIANCE));
-            }
-        }
     }
     for light in &mut scene.lights {
         counts.light(light);

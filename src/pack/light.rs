@@ -9,7 +9,9 @@ use crate::{
         ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, LIGHT_DIRECTIONAL, LIGHT_DISC, LIGHT_POINT,
         LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, PackedLight,
     },
-    scene::{Attenuation, CanonicalShape, Frame, Geometry, Light, LightKind, Material, Scene},
+    scene::{
+        Attenuation, CanonicalShape, Frame, Geometry, LUMINANCE, Light, LightKind, Material, Scene,
+    },
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
@@ -177,8 +179,7 @@ pub fn set_chances(lights: &mut [PackedLight], powers: &[f64], share: f64) {
 
 fn power(light: &Light, radius: f64) -> f64 {
     use std::f64::consts::PI;
-    let [r, g, b] = light.color.as_dvec3().to_array();
-    let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let luminance = LUMINANCE.dot(light.color.as_dvec3());
     let solid_angle = match light.kind {
         LightKind::Directional { .. } => return luminance * radius * radius,
         LightKind::Point { .. } | LightKind::Sphere { .. } => 4.0 * PI,

@@ -4,11 +4,16 @@ use crate::layout::{
     LIGHT_DISC, LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TWO_SIDED,
     PackedCluster, PackedLight,
 };
+use crate::scene;
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The luminance of linear Rec. 709 colours is the dot product with this.
-pub const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
+/// [`scene::LUMINANCE`] in f32.
+pub const LUMINANCE: Vec3 = Vec3::new(
+    scene::LUMINANCE.x as f32,
+    scene::LUMINANCE.y as f32,
+    scene::LUMINANCE.z as f32,
+);
 
 /// Cosines of cones are lowered by this, for rounding.
 const SLACK: f64 = 1e-3;

@@ -1,11 +1,14 @@
 //! Images in memory.
 
-use glam::{Vec3, Vec4};
+use glam::{DVec3, Vec3, Vec4};
 use std::sync::Arc;
 
 /// Most bytes that the texels of all pictures take together: 44 pictures of 4096 × 4096 texels of 8 bits per channel.
 /// With smaller copies for minification they fit into the array that WebGPU guarantees.
 pub const MAX_PICTURE_BYTES: usize = 11 << 28;
+
+/// The luminance of a linear Rec. 709 colour is the dot product with this; `LUMINANCE_REC709` in `lib/tone.wesl`.
+pub const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
 
 /// The largest value of a texel of a texture: the GPU has half floats. Pictures in the background may have larger ones.
 pub const LARGEST_TEXEL: f32 = 65504.0;

@@ -388,14 +388,16 @@ impl DevelopFlags {
 }
 
 impl CameraFlags {
-    /// The axis of a model that points up.
-    pub fn model_axis(&self) -> Option<import::Axis> {
-        self.up.and_then(Up::axis)
-    }
-
-    /// Whether it asks for a background.
-    pub fn has_background(&self) -> bool {
-        self.background.is_some()
+    /// The options of a command that reads its scene with these flags; `size` and `integrator` are those of the picture, if
+    /// they are known.
+    pub fn import_options(
+        &self,
+        reading: &SceneFlags,
+        size: Option<(u32, u32)>,
+        integrator: Option<Integrator>,
+    ) -> import::Options {
+        let up = self.up.and_then(Up::axis);
+        reading.import_options(up, self.background.is_some(), size, integrator)
     }
 
     /// Those of a command that reads its scene with these flags.

@@ -49,12 +49,8 @@ pub fn run(
     }
     idle_flags::check(&arguments.reading, &arguments.scene)?;
     let size = arguments.picture.size.size;
-    let options = arguments.reading.import_options(
-        arguments.camera.model_axis(),
-        arguments.camera.has_background(),
-        size,
-        arguments.picture.integrator,
-    );
+    let options =
+        (arguments.camera).import_options(&arguments.reading, size, arguments.picture.integrator);
     memory::check_file(&arguments.scene)?;
     let (scene, mut files) = import::load_watched(&arguments.scene, &options, &|_| ());
     let mut scene = scene?;

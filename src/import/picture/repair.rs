@@ -2,8 +2,8 @@
 
 use super::Role;
 use crate::import::range;
-use crate::scene::{LARGEST_TEXEL, SMALLEST_TEXEL, scale_of};
-use glam::{DVec3, Vec3, Vec4};
+use crate::scene::{LARGEST_TEXEL, LUMINANCE, SMALLEST_TEXEL, scale_of};
+use glam::{Vec3, Vec4};
 use std::f64::consts::PI;
 
 /// What was changed in the values of a picture.
@@ -58,8 +58,8 @@ pub(super) fn repair(texels: &mut [Vec4], width: u32, role: Role) -> Repairs {
             }
             let kept = color.min(Vec3::splat(repairs.most));
             repairs.cut += usize::from(kept != color);
-            before += area * luminance(color);
-            after += area * luminance(kept);
+            before += area * LUMINANCE.dot(color.as_dvec3());
+            after += area * LUMINANCE.dot(kept.as_dvec3());
             let alpha = if texel.w > 0.0 { texel.w.min(1.0) } else { 0.0 };
             *texel = kept.extend(alpha);
         }
@@ -130,11 +130,6 @@ impl Repairs {
             _ => (format!("{count} texels"), "were"),
         }
     }
-}
-
-/// The luminance of a linear Rec. 709 colour.
-fn luminance(color: Vec3) -> f64 {
-    color.as_dvec3().dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 
 fn number(value: f32) -> String {

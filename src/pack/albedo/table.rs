@@ -33,19 +33,16 @@ const CLEAR: usize = 12;
 /// `STRETCHED_SIZE` and `STRETCHED_SIDE` in `lib/albedo.wesl`.
 const STRETCHED: [usize; 3] = [16, 12, 6];
 
-/// All tables: microfacets, then sheen, then rough glass, then stretched microfacets, with rows and columns as `lib/albedo.wesl` looks them up.
+/// All tables: microfacets, then sheen, then rough glass, then stretched microfacets, with rows and columns as
+/// `lib/albedo.wesl` looks them up.
 pub fn words() -> Vec<u32> {
     let part = |i: usize, count: usize| i as f64 / (count - 1) as f64;
-    let mut words = Vec::with_capacity(2 * SIDE * SIDE + SIDE * GLASS[0] * GLASS[1]);
+    let mut words = Vec::new();
     for row in 0..SIDE {
         let alpha = part(row, SIDE).powi(2).max(NARROWEST);
         for column in 0..SIDE {
             let cos_o = cosine(part(column, SIDE), alpha);
-            let [whole, grazing] = ggx(cos_o, alpha);
-            words.push(word(
-                whole,
-                shifted(grazing - whole * (1.0 - cos_o).powi(5)),
-            ));
+            words.push(facet_word(ggx(cos_o, alpha), cos_o));
         }
     }
     for row in 0..SIDE {
@@ -88,11 +85,7 @@ pub fn words() -> Vec<u32> {
                 let seen = (alpha[0] * along[0]).hypot(alpha[1] * along[1]);
                 for column in 0..columns {
                     let cos_o = cosine(part(column, columns), seen);
-                    let [whole, grazing] = stretched(cos_o, along, alpha);
-                    words.push(word(
-                        whole,
-                        shifted(grazing - whole * (1.0 - cos_o).powi(5)),
-                    ));
+                    words.push(facet_word(stretched(cos_o, along, alpha), cos_o));
                 }
             }
         }
@@ -114,6 +107,11 @@ fn shifted(difference: f64) -> f64 {
 /// Two half floats.
 fn word(low: f64, high: f64) -> u32 {
     u32::from(half(low)) | u32::from(half(high)) << 16
+}
+
+/// The word of microfacets that reflect `whole`, of which `grazing` has the weight (1 - cos)⁵.
+fn facet_word([whole, grazing]: [f64; 2], cos_o: f64) -> u32 {
+    word(whole, shifted(grazing - whole * (1.0 - cos_o).powi(5)))
 }
 
 /// The visible normals of microfacets of width `alpha` from a direction in the plane y = 0, as (x, z): Dupuy and

@@ -57,46 +57,41 @@ impl Renderer {
         }
     }
 
-    /// Makes the first surfaces of pixels independent of the packed scene: replaces the instance and the primitive by
-    /// the number of the object, and the position in render space by that in world space.
+    /// Makes the first surfaces of pixels independent of the packed scene: see [`Self::detached`].
     fn detach(&self, sums: &mut Sums, rows: usize, first: usize) {
-        let object = |[instance, low, high]: [f32; 3]| {
-            let primitive = low as u32 | (high as u32) << 16;
-            number_of(&self.scene, &self.view, primitive, instance as u32) as f32
-        };
-        let in_world =
-            |point: [f32; 3]| in_world(&self.scene, point.map(f64::from)).map(|at| at as f32);
         match sums {
             Sums::Block(block) => {
                 for pixel in block.chunks_exact_mut(rows) {
-                    let [.., material, instance] = pixel[first];
-                    let [x, y, z, depth] = pixel[first + 1];
-                    let [.., low, high] = pixel[first + 2];
-                    pixel[first][3] = 0.0;
-                    if material != 0.0 {
-                        pixel[first][3] = object([instance, low, high]);
-                        let [x, y, z] = in_world([x, y, z]);
-                        pixel[first + 1] = [x, y, z, depth];
-                    }
-                    pixel[first + 2][2..].fill(0.0);
+                    let surface = &mut pixel[first..first + layers::FIRST.rows];
+                    surface.copy_from_slice(&self.detached([surface[0], surface[1], surface[2]]));
                 }
             }
             Sums::Totals(totals) => {
                 let float = |bits: i128| f32::from_bits(bits as u32);
                 let bits = |number: f32| i128::from(number.to_bits());
                 for pixel in totals.chunks_exact_mut(rows) {
-                    let [.., material, instance] = pixel[first].map(float);
-                    let [x, y, z, depth] = pixel[first + 1].map(float);
-                    let [.., low, high] = pixel[first + 2].map(float);
-                    pixel[first][3] = 0;
-                    if material != 0.0 {
-                        pixel[first][3] = bits(object([instance, low, high]));
-                        let [x, y, z] = in_world([x, y, z]);
-                        pixel[first + 1] = [x, y, z, depth].map(bits);
-                    }
-                    pixel[first + 2][2..].fill(0);
+                    let surface = &mut pixel[first..first + layers::FIRST.rows];
+                    let own = [surface[0], surface[1], surface[2]].map(|row| row.map(float));
+                    surface.copy_from_slice(&self.detached(own).map(|row| row.map(bits)));
                 }
             }
         }
+    }
+
+    /// The rows of a first surface with the number of the object in place of the instance and the primitive, and the
+    /// position in world space.
+    fn detached(&self, [mut found, mut place, mut surface]: [[f32; 4]; 3]) -> [[f32; 4]; 3] {
+        let [.., material, instance] = found;
+        let [.., low, high] = surface;
+        found[3] = 0.0;
+        surface[2..].fill(0.0);
+        if material != 0.0 {
+            let primitive = low as u32 | (high as u32) << 16;
+            found[3] = number_of(&self.scene, &self.view, primitive, instance as u32) as f32;
+            let [x, y, z, depth] = place.map(f64::from);
+            let [x, y, z] = in_world(&self.scene, [x, y, z]);
+            place = [x, y, z, depth].map(|number| number as f32);
+        }
+        [found, place, surface]
     }
 }
