@@ -1,7 +1,14 @@
 //! Links every kernel to plain WGSL, once for each of its variants. `build.rs` does so with the feature `link`;
 //! a test compares the result with the files in `shaders/linked`.
 
-use std::error::Error;
+use naga::{
+    Expression, Function, MathFunction, Module, ScalarKind, TypeInner,
+    valid::{Capabilities, FunctionInfo, ValidationFlags, Validator},
+};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    error::Error,
+};
 
 /// Variants of kernels, and the features of `shaders` that they have.
 const VARIANTS: [(&str, &[&str]); 3] = [
@@ -71,9 +78,88 @@ pub fn kernels() -> Result<Vec<(String, String)>, Box<dyn Error>> {
                 compiler.set_feature(feature, is_on);
             }
             let linked = compiler.compile(&format!("package::kernels::{module}").parse()?)?;
-            let text = indented_by_tabs(&linked.to_string());
+            let text = with_extremes(indented_by_tabs(&linked.to_string()))?;
             files.push((format!("{kernel}_{variant}.wgsl"), text));
         }
     }
     Ok(files)
+}
+
+/// Replaces the built-in functions of their names for one type. `EXTREMES_BY_SELECT` is an override of
+/// `bindings.wesl`.
+const EXTREMES: &str = "
+fn min_TYPE(a: TYPE, b: TYPE) -> TYPE {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_TYPE(a: TYPE, b: TYPE) -> TYPE {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_TYPE(value: TYPE, low: TYPE, high: TYPE) -> TYPE {
+	return min_TYPE(max_TYPE(value, low), high);
+}
+
+fn saturate_TYPE(value: TYPE) -> TYPE {
+	return clamp_TYPE(value, TYPE(0), TYPE(1));
+}
+";
+
+/// The text with `min`, `max`, `clamp` and `saturate` of floats replaced by the functions of `EXTREMES`. WGSL has no
+/// overloading, so sources could do so only with another name for each type.
+fn with_extremes(mut text: String) -> Result<String, Box<dyn Error>> {
+    let module =
+        naga::front::wgsl::parse_str(&text).map_err(|error| error.emit_to_string(&text))?;
+    let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module)?;
+    let functions = (module.functions.iter()).map(|(handle, function)| (function, &info[handle]));
+    let entries = module.entry_points.iter().enumerate();
+    let entries = entries.map(|(index, entry)| (&entry.function, info.get_entry_point(index)));
+    let mut calls = BTreeMap::new();
+    for (function, info) in functions.chain(entries) {
+        calls.extend(extremes(&module, function, info));
+    }
+    for (start, (name, ty)) in calls.iter().rev() {
+        text.insert_str(start + name.len(), &format!("_{ty}"));
+    }
+    let types: BTreeSet<_> = calls.values().map(|(_, ty)| ty).collect();
+    if !types.is_empty() {
+        text += "\noverride bindings__EXTREMES_BY_SELECT: bool = false;\n";
+    }
+    for ty in types {
+        text += &EXTREMES.replace("TYPE", ty);
+    }
+    Ok(text)
+}
+
+/// The calls of a function that `with_extremes` replaces: where each starts in the text, its name and its type.
+fn extremes<'a>(
+    module: &'a Module,
+    function: &'a Function,
+    info: &'a FunctionInfo,
+) -> impl Iterator<Item = (usize, (&'static str, String))> + 'a {
+    (function.expressions.iter()).filter_map(|(handle, expression)| {
+        let name = match expression {
+            Expression::Math { fun, .. } => match fun {
+                MathFunction::Min => "min",
+                MathFunction::Max => "max",
+                MathFunction::Clamp => "clamp",
+                MathFunction::Saturate => "saturate",
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let (scalar, ty) = match info[handle].ty.inner_with(&module.types) {
+            TypeInner::Scalar(scalar) => (scalar, "f32".to_owned()),
+            TypeInner::Vector { size, scalar } => (scalar, format!("vec{}f", *size as u32)),
+            _ => return None,
+        };
+        let span = function.expressions.get_span(handle).to_range()?;
+        (scalar.kind == ScalarKind::Float).then_some((span.start, (name, ty)))
+    })
 }

@@ -158,7 +158,7 @@ fn dispatch__add_counts(lane: u32) {
 		atomicAdd(&bindings__dispatch.counters.cut_throughput, dispatch__steps_of(256.0 * dispatch__cut_throughput));
 	}
 	if (bindings__CLAMP_INDIRECT > 0.0) {
-		let steps = 16.0 / max(bindings__CLAMP_INDIRECT, 1e-6);
+		let steps = 16.0 / max_f32(bindings__CLAMP_INDIRECT, 1e-6);
 		let clamped = dispatch__steps_of(steps * dispatch__clamped_light);
 		let kept = dispatch__steps_of(steps * dispatch__kept_light);
 		if (atomicAdd(&bindings__dispatch.counters.clamped_light, clamped) > 4294967295u - clamped) {
@@ -177,7 +177,7 @@ fn dispatch__add_counts(lane: u32) {
 }
 
 fn dispatch__steps_of(number: f32) -> u32 {
-	return u32(min(number, 4000000000.0) + rng__unit_float(rng__hash(bitcast<u32>(number))));
+	return u32(min_f32(number, 4000000000.0) + rng__unit_float(rng__hash(bitcast<u32>(number))));
 }
 
 const types__NONE: u32 = 4294967295u;
@@ -1246,7 +1246,7 @@ fn stack__move_stack(references: vec3u, count: i32) {
 const numeric__ROUNDING: f32 = 5.9604645e-8;
 
 fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
-	let largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+	let largest = max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
 	let usable = largest > 1e-30;
 	let scaled = select(vec3f(1.0, 0.0, 0.0), v / select(1.0, largest, usable), usable);
 	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
@@ -1263,7 +1263,7 @@ fn numeric__is_finite(v: vec3f) -> bool {
 }
 
 fn numeric__max_component(v: vec3f) -> f32 {
-	return max(v.x, max(v.y, v.z));
+	return max_f32(v.x, max_f32(v.y, v.z));
 }
 
 fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
@@ -1319,10 +1319,10 @@ struct motion__Space {
 
 fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
 	let q = mix(a.rotation, b.rotation, vec4f(fraction));
-	let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+	let rotation = motion__rotation_matrix(q * inverseSqrt(max_f32(dot(q, q), 1e-30)));
 	let d = mix(a.stretch, b.stretch, vec3f(fraction));
 	let s = mix(a.shear, b.shear, vec3f(fraction));
-	let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
+	let size = max_f32(max_f32(abs(d.x), abs(d.y)), max_f32(abs(d.z), 1e-30));
 	let e = d / size;
 	let f = s / size;
 	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
@@ -1534,8 +1534,8 @@ fn sphere__intersect_sphere(ray: tracing__Ray, center: vec3f, radius: f32) -> tr
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
 	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
 	let t1 = q / a;
-	let near = min(t0, t1);
-	let t = select(max(t0, t1), near, near > 0.0);
+	let near = min_f32(t0, t1);
+	let t = select(max_f32(t0, t1), near, near > 0.0);
 	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
@@ -1555,8 +1555,8 @@ fn globe__intersect_globe(ray: tracing__Ray, anchor: vec3f, n: vec3f, curvature:
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
 	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
 	let t1 = q / a;
-	let near = min(t0, t1);
-	let t = select(max(t0, t1), near, near > 0.0);
+	let near = min_f32(t0, t1);
+	let t = select(max_f32(t0, t1), near, near > 0.0);
 	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
@@ -1601,14 +1601,14 @@ fn canonical__canonical_ray(ray: tracing__Ray, shape: types__PackedShape) -> tra
 
 fn canonical__approach(ray: tracing__Ray, center: vec3f, reach: f32) -> canonical__Approach {
 	let size = abs(ray.direction);
-	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let largest = max_f32(max_f32(size.x, max_f32(size.y, size.z)), 1e-30);
 	let scaled = ray.direction / largest;
-	let inv_length = inverseSqrt(max(dot(scaled, scaled), 1e-30));
+	let inv_length = inverseSqrt(max_f32(dot(scaled, scaled), 1e-30));
 	let direction = scaled * inv_length;
-	let start = max(dot(center - ray.origin, direction) - reach, 0.0);
+	let start = max_f32(dot(center - ray.origin, direction) - reach, 0.0);
 	let origin = ray.origin + start * direction;
 	let off = abs(origin - center);
-	let near = max(off.x, max(off.y, off.z)) <= 2.0 * reach;
+	let near = max_f32(off.x, max_f32(off.y, off.z)) <= 2.0 * reach;
 	return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
 }
 
@@ -1638,14 +1638,14 @@ fn canonical__placed_point(shape: types__PackedShape, reached: vec3f, point: can
 
 fn canonical__longitude(x: f32, z: f32) -> f32 {
 	let on_axis = (x == 0.0) & (z == 0.0);
-	return saturate(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
+	return saturate_f32(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
 }
 
 fn canonical__sphere_uv(n: vec3f) -> vec2f {
 	let off_axis = length(n.xz);
 	let at_center = (off_axis == 0.0) & (n.y == 0.0);
 	let latitude = atan2(n.y, select(off_axis, 1.0, at_center));
-	return vec2f(canonical__longitude(n.x, n.z), saturate(0.5 + 2.0 * latitude / canonical__TWO_PI));
+	return vec2f(canonical__longitude(n.x, n.z), saturate_f32(0.5 + 2.0 * latitude / canonical__TWO_PI));
 }
 
 fn canonical__outwards(v: vec2f) -> vec2f {
@@ -1657,13 +1657,13 @@ fn canonical__outwards(v: vec2f) -> vec2f {
 fn disc__intersect_disc(ray: tracing__Ray, hole: f32) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
-	let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
+	let p = clamp_vec2f(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
 	let distance = dot(p, p);
 	return tracing__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
 fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
-	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate_vec2f(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
 fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
@@ -1676,20 +1676,20 @@ fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
 }
 
 fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
-	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate_vec2f(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
 fn box__intersect_box(ray: tracing__Ray) -> tracing__Candidate {
 	let size = abs(ray.direction);
-	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let largest = max_f32(max_f32(size.x, max_f32(size.y, size.z)), 1e-30);
 	let inv = numeric__safe_reciprocal(ray.direction / largest);
-	let origin = clamp(ray.origin, vec3f(-1e18), vec3f(1e18));
+	let origin = clamp_vec3f(ray.origin, vec3f(-1e18), vec3f(1e18));
 	let t0 = (-1.0 - origin) * inv;
 	let t1 = (1.0 - origin) * inv;
-	let enters = min(t0, t1);
-	let leaves = max(t0, t1);
-	let enter = max(enters.x, max(enters.y, enters.z));
-	let leave = min(leaves.x, min(leaves.y, leaves.z));
+	let enters = min_vec3f(t0, t1);
+	let leaves = max_vec3f(t0, t1);
+	let enter = max_f32(enters.x, max_f32(enters.y, enters.z));
+	let leave = min_f32(leaves.x, min_f32(leaves.y, leaves.z));
 	let from_outside = enter > 0.0;
 	let s = select(leave, enter, from_outside);
 	let planes = select(leaves, enters, from_outside);
@@ -1709,7 +1709,7 @@ fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
 	let place = select(p, n, n != vec3f(0.0));
 	let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
 	let up = select(p.y, -sign * p.z, axis == 1u);
-	return canonical__CanonicalPoint(place, n, saturate(0.5 + 0.5 * vec2f(right, up)));
+	return canonical__CanonicalPoint(place, n, saturate_vec2f(0.5 + 0.5 * vec2f(right, up)));
 }
 
 const cone__FAR: f32 = 1e30;
@@ -1734,13 +1734,13 @@ fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) 
 	let lean = radius * d.xz - slope * d.y * o.xz;
 	let by_determinants = dot(lean, lean) - turn * turn - (a - exact_a) * c;
 	let discriminant = select(by_determinants, b * b - a * c, a * c <= 0.0);
-	let root = sqrt(max(discriminant, 0.0));
+	let root = sqrt(max_f32(discriminant, 0.0));
 	let q = -(b + select(-root, root, b >= 0.0));
 	let usable = abs(q) > 1e-20;
 	let r1 = q / a;
 	let r2 = select(0.0, c / select(1.0, q, usable), usable);
-	let low = min(r1, r2);
-	let high = max(r1, r2);
+	let low = min_f32(r1, r2);
+	let high = max_f32(r1, r2);
 	let steep = a < 0.0;
 	let widens = slope * d.y > 0.0;
 	let side_in = select(low, select(-cone__FAR, high, widens), steep);
@@ -1749,10 +1749,10 @@ fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) 
 	let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
 	let y0 = -o.y * inv_y;
 	let y1 = (1.0 - o.y) * inv_y;
-	let slab_in = min(y0, y1);
-	let slab_out = max(y0, y1);
-	let enter = max(slab_in, side_in);
-	let leave = min(slab_out, side_out);
+	let slab_in = min_f32(y0, y1);
+	let slab_out = max_f32(y0, y1);
+	let enter = max_f32(slab_in, side_in);
+	let leave = min_f32(slab_out, side_out);
 	let enters_side = side_in >= slab_in;
 	let leaves_side = side_out <= slab_out;
 	let takes_enter = (near.start + enter > 0.0) & (enters_side | capped);
@@ -1770,27 +1770,27 @@ fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) 
 fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
 	let p = o + s * d;
 	let off_axis = length(p.xz);
-	let rate = dot(p.xz, d.xz) / max(off_axis, 1e-18) - slope * d.y;
+	let rate = dot(p.xz, d.xz) / max_f32(off_axis, 1e-18) - slope * d.y;
 	let usable = abs(rate) > 0.001;
 	let step = (off_axis - (bottom + slope * p.y)) / select(1.0, rate, usable);
-	return s - clamp(select(0.0, step, usable), -0.001, 0.001);
+	return s - clamp_f32(select(0.0, step, usable), -0.001, 0.001);
 }
 
 fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__CanonicalPoint {
 	let slope = top - bottom;
 	let out = canonical__outwards(p.xz);
 	if (part < 0.5) {
-		let y = saturate(p.y);
+		let y = saturate_f32(p.y);
 		let radius = bottom + slope * y;
 		let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
 		return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(canonical__longitude(p.x, p.z), y));
 	}
 	let is_top = part > 1.5;
 	let radius = select(bottom, top, is_top);
-	let flat = out * min(length(p.xz), radius);
+	let flat = out * min_f32(length(p.xz), radius);
 	let sign = select(-1.0, 1.0, is_top);
-	let uv = vec2f(flat.x, -sign * flat.y) / max(radius, 1e-18);
-	return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate(0.5 + 0.5 * uv));
+	let uv = vec2f(flat.x, -sign * flat.y) / max_f32(radius, 1e-18);
+	return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate_vec2f(0.5 + 0.5 * uv));
 }
 
 const torus__MOST_ROUNDS: u32 = 40u;
@@ -1804,25 +1804,25 @@ fn torus__torus_distance(p: vec3f, minor: f32) -> f32 {
 fn torus__polish(s: f32, p: f32, q: f32) -> f32 {
 	let slope = 3.0 * s * s + p;
 	let steep = abs(slope) > 0.001;
-	return s - clamp(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
+	return s - clamp_f32(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
 }
 
 fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
 	let third = p / 3.0;
 	let half = 0.5 * q;
 	let discriminant = half * half + third * third * third;
-	let cube = abs(half) + sqrt(max(discriminant, 0.0));
-	let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max(cube, 1e-30)) / 3.0), cube > 1e-30);
+	let cube = abs(half) + sqrt(max_f32(discriminant, 0.0));
+	let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max_f32(cube, 1e-30)) / 3.0), cube > 1e-30);
 	let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
 	let one = torus__polish(large + small, p, q);
-	let size = sqrt(max(-third, 0.0));
+	let size = sqrt(max_f32(-third, 0.0));
 	let usable = size > 1e-10;
-	let cosine = clamp(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
+	let cosine = clamp_f32(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
 	let angle = acos(cosine) / 3.0;
 	let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
 	let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
 	let c = torus__polish(2.0 * size * cos(angle), p, q);
-	let three = vec3f(min(a, min(b, c)), max(min(a, b), min(max(a, b), c)), max(a, max(b, c)));
+	let three = vec3f(min_f32(a, min_f32(b, c)), max_f32(min_f32(a, b), min_f32(max_f32(a, b), c)), max_f32(a, max_f32(b, c)));
 	return select(three, vec3f(one), discriminant > 0.0);
 }
 
@@ -1835,11 +1835,11 @@ fn torus__intersect_torus(ray: tracing__Ray, minor: f32) -> tracing__Candidate {
 	let nearest = o + middle * d;
 	let apart = dot(nearest, nearest);
 	let ball = 1.0001 * outer;
-	let half_chord = sqrt(max(ball * ball - apart, 0.0));
-	let start = max(middle - half_chord, 0.0);
+	let half_chord = sqrt(max_f32(ball * ball - apart, 0.0));
+	let start = max_f32(middle - half_chord, 0.0);
 	let end = middle + half_chord;
 	let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
-	let cuts = vec4f(clamp(zeros, vec3f(start), vec3f(max(end, start))), end);
+	let cuts = vec4f(clamp_vec3f(zeros, vec3f(start), vec3f(max_f32(end, start))), end);
 	let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
 	let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
 	let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
@@ -1865,8 +1865,8 @@ fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, ou
 		let before = (distance >= 0.0) == outside;
 		low = select(low, s, before);
 		high = select(s, high, before);
-		let ring_slope = dot(p.xz, d.xz) / max(ring, 1e-20);
-		let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max(to_middle, 1e-20);
+		let ring_slope = dot(p.xz, d.xz) / max_f32(ring, 1e-20);
+		let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max_f32(to_middle, 1e-20);
 		let usable = abs(slope) > 1e-6;
 		let newton = s - distance / select(1.0, slope, usable);
 		let takes_newton = usable & (newton > low) & (newton < high) & (abs(newton - s) < 0.5 * moved);
@@ -1888,7 +1888,7 @@ fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
 	let n = vec3f(tube.x * out.x, tube.y, tube.x * out.y);
 	let ring = 1.0 + minor * tube.x;
 	let place = vec3f(ring * out.x, minor * tube.y, ring * out.y);
-	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
+	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate_f32(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
 }
 
 fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
@@ -2263,11 +2263,11 @@ const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f()
 fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> tracing__Cone {
 	let camera = batch.camera;
 	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
-	let side = batch.footprint * max(sides.x, sides.y);
+	let side = batch.footprint * max_f32(sides.x, sides.y);
 	if (bindings__ORTHOGRAPHIC) {
 		return tracing__Cone(side, 0.0);
 	}
-	return tracing__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
+	return tracing__Cone(0.0, side * max_f32(dot(direction, camera.forward), 0.0));
 }
 
 fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
@@ -2353,7 +2353,7 @@ struct ray_cone__Filtering {
 }
 
 fn ray_cone__cone_at(cone: tracing__Cone, distance: f32) -> tracing__Cone {
-	return tracing__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
+	return tracing__Cone(clamp_f32(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
 }
 
 fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
@@ -2363,18 +2363,18 @@ fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
 	let slope = direction - cosine * n;
 	let along = select(other, numeric__normalize_or(slope, other), dot(slope, slope) > 1e-8);
 	let size = abs(width);
-	return mat2x3f((size / max(abs(cosine), 0.001)) * along, size * cross(n, along));
+	return mat2x3f((size / max_f32(abs(cosine), 0.001)) * along, size * cross(n, along));
 }
 
 fn ray_cone__uv_along(v: vec3f, e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f) -> vec2f {
 	let normal = cross(e1, e2);
 	let n = numeric__normalize_or(normal, vec3f(0.0));
-	let area = max(dot(normal, n), 1e-30);
+	let area = max_f32(dot(normal, n), 1e-30);
 	return (dot(cross(v, e2), n) / area) * d1 + (dot(cross(e1, v), n) / area) * d2;
 }
 
 fn ray_cone__curvature_along(edge: vec3f, bend: vec3f) -> f32 {
-	return dot(edge, bend) / max(dot(edge, edge), 1e-30);
+	return dot(edge, bend) / max_f32(dot(edge, edge), 1e-30);
 }
 
 fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
@@ -2382,8 +2382,8 @@ fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
 	let way = select(b, a, is_first);
 	let long = length(way);
 	let short = length(select(a, b, is_first));
-	let count = clamp(round(long / max(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
-	let width = max(max(short, long / count), 1e-9);
+	let count = clamp_f32(round(long / max_f32(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
+	let width = max_f32(max_f32(short, long / count), 1e-9);
 	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
 }
 
@@ -2412,7 +2412,7 @@ fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3
 	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
 	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
 	let tilt = map.scale * (2.0 * code.xy - vec2f(1.0));
-	let up = max(2.0 * code.z - 1.0, 0.0);
+	let up = max_f32(2.0 * code.z - 1.0, 0.0);
 	if (bindings__HAS_TANGENTS) {
 		if (dot(frame[2], frame[2]) > 0.0) {
 			return numeric__normalize_or(frame * vec3f(tilt, up), n);
@@ -2462,7 +2462,7 @@ fn mipmap__mipmap_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) 
 	let plan = ray_cone__filtering(size * axes[0], size * axes[1]);
 	let has_levels = (texture.flags & types__TEXTURE_LEVELS) != 0u;
 	let last = select(0.0, f32(31u - countLeadingZeros(max(texture.width, texture.height))), has_levels);
-	let exact = clamp(plan.level, 0.0, last);
+	let exact = clamp_f32(plan.level, 0.0, last);
 	let level = select(round(exact), exact, (texture.flags & types__TEXTURE_BETWEEN_LEVELS) != 0u);
 	let tap_count = select(1u, plan.tap_count, has_levels);
 	let way = select(vec2f(0.0), plan.way / size, has_levels);
@@ -2531,7 +2531,7 @@ struct picture__Neighbours {
 
 fn picture__neighbours(at: f32, count: u32, nearest: bool, wrap: u32) -> picture__Neighbours {
 	let mirrored = 1.0 - abs(1.0 - 2.0 * fract(0.5 * at));
-	let inside = select(select(clamp(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
+	let inside = select(select(clamp_f32(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
 	let place = f32(count) * inside + select(-0.5, 0.0, nearest);
 	let below = floor(place);
 	let last = i32(count) - 1;
@@ -2677,11 +2677,11 @@ fn filter__filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
 	let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
 	let fraction = abs(centred);
 	if (kind == types__FILTER_TENT) {
-		return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
+		return radius * side * (1.0 - sqrt(max_vec2f(1.0 - fraction, vec2f(0.0))));
 	}
 	if (kind == types__FILTER_GAUSSIAN) {
 		let scale = filter__SIGMA * sqrt(2.0);
-		return scale * side * min(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
+		return scale * side * min_vec2f(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
 	}
 	return radius * side * filter__searched(kind, fraction);
 }
@@ -2725,13 +2725,13 @@ fn filter__cumulated(kind: u32, x: vec2f) -> vec2f {
 fn filter__erf(x: f32) -> f32 {
 	let t = 1.0 / (1.0 + 0.3275911 * x);
 	let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
-	return 1.0 - series * exp(-min(x * x, 80.0));
+	return 1.0 - series * exp(-min_f32(x * x, 80.0));
 }
 
 fn filter__inverse_erf(y: vec2f) -> vec2f {
-	let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
+	let w = -log(max_vec2f((1.0 - y) * (1.0 + y), vec2f(1e-7)));
 	let a = w - 2.5;
-	let b = sqrt(max(w, vec2f(0.0))) - 3.0;
+	let b = sqrt(max_vec2f(w, vec2f(0.0))) - 3.0;
 	let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
 	let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
 	return y * select(far, near, w < vec2f(5.0));
@@ -2810,8 +2810,8 @@ fn warp__triangle_from_square(u: vec2f) -> vec2f {
 }
 
 fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
-	let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
-	let b = warp__triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
+	let edge = min_f32(floor(u.x * f32(count)), f32(count) - 1.0);
+	let b = warp__triangle_from_square(vec2f(clamp_f32(u.x * f32(count) - edge, 0.0, 1.0), u.y));
 	let step = 2.0 * warp__PI / f32(count);
 	let angles = rotation + step * vec2f(edge, edge + 1.0);
 	return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
@@ -2820,3 +2820,71 @@ fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 var<private> ray_stack__cut_off_trees: u32 = 0u;
+
+override bindings__EXTREMES_BY_SELECT: bool = false;
+
+fn min_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_f32(value: f32, low: f32, high: f32) -> f32 {
+	return min_f32(max_f32(value, low), high);
+}
+
+fn saturate_f32(value: f32) -> f32 {
+	return clamp_f32(value, f32(0), f32(1));
+}
+
+fn min_vec2f(a: vec2f, b: vec2f) -> vec2f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec2f(a: vec2f, b: vec2f) -> vec2f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec2f(value: vec2f, low: vec2f, high: vec2f) -> vec2f {
+	return min_vec2f(max_vec2f(value, low), high);
+}
+
+fn saturate_vec2f(value: vec2f) -> vec2f {
+	return clamp_vec2f(value, vec2f(0), vec2f(1));
+}
+
+fn min_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec3f(value: vec3f, low: vec3f, high: vec3f) -> vec3f {
+	return min_vec3f(max_vec3f(value, low), high);
+}
+
+fn saturate_vec3f(value: vec3f) -> vec3f {
+	return clamp_vec3f(value, vec3f(0), vec3f(1));
+}

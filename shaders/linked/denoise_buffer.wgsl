@@ -83,7 +83,7 @@ fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
 		return vec4f(own.xyz, select(luminance * luminance, own.w, is_known));
 	}
 	let mean = sum / total;
-	let spread = max(squares / total - mean * mean, 0.0);
+	let spread = max_f32(squares / total - mean * mean, 0.0);
 	let most = mean + OUTLIER * sqrt(spread) + LUMINANCE_SHARE * mean;
 	let scale = select(1.0, most / luminance, luminance > most);
 	return vec4f(scale * own.xyz, select(spread, (variance + scale * scale * own.w) / (total + 1.0), is_known));
@@ -107,7 +107,7 @@ fn averaged(p: vec2i, last: vec2i, step: i32) -> vec4f {
 		let is_usable = all(q == inside) && other.w >= 0.0;
 		let apart = fall * (dot(other.xyz, tone__LUMINANCE_REC709) - luminance);
 		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
-		let alike = likeness(guide, guide_at(inside), f32(step)) * exp(-min(apart * apart, 80.0));
+		let alike = likeness(guide, guide_at(inside), f32(step)) * exp(-min_f32(apart * apart, 80.0));
 		let weight = select(0.0, near * alike, is_usable);
 		total += weight;
 		sum += weight * other.xyz;
@@ -129,7 +129,7 @@ fn smooth_variance(p: vec2i, last: vec2i) -> f32 {
 	loop {
 		let offset = vec2i(k % 3, k / 3) - 1;
 		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
-		sum += near * max(textureLoad(bindings__signal, clamp(p + offset, vec2i(0), last), 0).w, 0.0);
+		sum += near * max_f32(textureLoad(bindings__signal, clamp(p + offset, vec2i(0), last), 0).w, 0.0);
 		continuing {
 			k += 1;
 			break if k >= 9;
@@ -153,3 +153,27 @@ var bindings__denoised: texture_storage_2d<rgba32float, write>;
 override bindings__FIRST_PASS: bool = false;
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+
+override bindings__EXTREMES_BY_SELECT: bool = false;
+
+fn min_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_f32(value: f32, low: f32, high: f32) -> f32 {
+	return min_f32(max_f32(value, low), high);
+}
+
+fn saturate_f32(value: f32) -> f32 {
+	return clamp_f32(value, f32(0), f32(1));
+}

@@ -175,7 +175,7 @@ fn film__load_weighted_sum(work: block__Work, tone: types__PackedTone) -> vec4f 
 
 fn filter__weighted_mean(sum: vec4f) -> vec3f {
 	let usable = abs(sum.w) > 0.5;
-	return select(vec3f(0.0), max(sum.xyz / select(1.0, sum.w, usable), vec3f(0.0)), usable);
+	return select(vec3f(0.0), max_vec3f(sum.xyz / select(1.0, sum.w, usable), vec3f(0.0)), usable);
 }
 
 const quantity__FAR_LEVEL: f32 = 0.1;
@@ -193,20 +193,20 @@ fn quantity__shown(mean: vec3f, tone: types__PackedTone) -> vec3f {
 	if (tone.view == types__VIEW_HEAT) {
 		return tone__develop(colormap__heat(quantity__position_in_range(value, tone.range)), tone);
 	}
-	let far = quantity__position_in_range(log2(max(value, 1e-30)), log2(max(tone.range, vec2f(1e-30))));
+	let far = quantity__position_in_range(log2(max_f32(value, 1e-30)), log2(max_vec2f(tone.range, vec2f(1e-30))));
 	return tone__develop(vec3f(select(0.0, mix(1.0, quantity__FAR_LEVEL, far), value > 0.0)), tone);
 }
 
 fn quantity__quantity(mean: vec3f, view: u32) -> f32 {
 	if (view == types__VIEW_DEPTH) {
-		return select(0.0, mean.x / max(mean.y, quantity__LEAST_COVERAGE), mean.y >= quantity__LEAST_COVERAGE);
+		return select(0.0, mean.x / max_f32(mean.y, quantity__LEAST_COVERAGE), mean.y >= quantity__LEAST_COVERAGE);
 	}
 	return mean.x;
 }
 
 fn quantity__position_in_range(value: f32, range: vec2f) -> f32 {
 	let extent = range.y - range.x;
-	return select(0.5, clamp((value - range.x) / max(extent, 1e-30), 0.0, 1.0), extent > 0.0);
+	return select(0.5, clamp_f32((value - range.x) / max_f32(extent, 1e-30), 0.0, 1.0), extent > 0.0);
 }
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
@@ -222,23 +222,23 @@ fn tone__reinhard(x: vec3f) -> vec3f {
 fn tone__agx(x: vec3f) -> vec3f {
 	let inset = mat3x3f(vec3f(0.842479062253094, 0.0423282422610123, 0.0423756549057051), vec3f(0.0784335999999992, 0.878468636469772, 0.0784336), vec3f(0.0792237451477643, 0.0791661274605434, 0.879142973793104));
 	let outset = mat3x3f(vec3f(1.19687900512017, -0.0528968517574562, -0.0529716355144438), vec3f(-0.0980208811401368, 1.15190312990417, -0.0980434501171241), vec3f(-0.0990297440797205, -0.0989611768448433, 1.15107367264116));
-	let stops = clamp(log2(max(inset * x, vec3f(1e-10))), vec3f(-12.47393), vec3f(4.026069));
+	let stops = clamp_vec3f(log2(max_vec3f(inset * x, vec3f(1e-10))), vec3f(-12.47393), vec3f(4.026069));
 	let v = (stops + 12.47393) / 16.5;
 	let v2 = v * v;
 	let v4 = v2 * v2;
 	let curve = 15.5 * v4 * v2 - 40.14 * v4 * v + 31.96 * v4 - 6.868 * v2 * v + 0.4298 * v2 + 0.1191 * v - 0.00232;
-	return pow(max(outset * curve, vec3f(0.0)), vec3f(2.2));
+	return pow(max_vec3f(outset * curve, vec3f(0.0)), vec3f(2.2));
 }
 
 fn tone__srgb_from_linear(x: vec3f) -> vec3f {
-	let power = 1.055 * pow(max(x, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
+	let power = 1.055 * pow(max_vec3f(x, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
 	return select(power, 12.92 * x, x <= vec3f(0.0031308));
 }
 
 fn tone__develop(radiance: vec3f, tone: types__PackedTone) -> vec3f {
 	var color = radiance * tone.exposure_scale;
 	if (tone.curve != types__TONE_NONE) {
-		color = min(color, vec3f(1000000000.0));
+		color = min_vec3f(color, vec3f(1000000000.0));
 	}
 	if (tone.curve == types__TONE_ACES) {
 		color = tone__aces(color);
@@ -250,15 +250,83 @@ fn tone__develop(radiance: vec3f, tone: types__PackedTone) -> vec3f {
 		color = tone__reinhard(color);
 	}
 	if (tone.transfer == types__TRANSFER_SRGB) {
-		color = tone__srgb_from_linear(clamp(color, vec3f(0.0), vec3f(1.0)));
+		color = tone__srgb_from_linear(clamp_vec3f(color, vec3f(0.0), vec3f(1.0)));
 	}
 	return color;
 }
 
 fn colormap__heat(x: f32) -> vec3f {
-	let s = clamp(x, 0.0, 1.0) * 5.0;
-	let red = clamp(s - 2.0, 0.0, 1.0);
-	let green = clamp(s - 1.0, 0.0, 1.0) - clamp(s - 3.0, 0.0, 1.0) + clamp(s - 4.0, 0.0, 1.0);
-	let blue = clamp(s, 0.0, 1.0) - clamp(s - 1.0, 0.0, 1.0) + clamp(s - 4.0, 0.0, 1.0);
+	let s = clamp_f32(x, 0.0, 1.0) * 5.0;
+	let red = clamp_f32(s - 2.0, 0.0, 1.0);
+	let green = clamp_f32(s - 1.0, 0.0, 1.0) - clamp_f32(s - 3.0, 0.0, 1.0) + clamp_f32(s - 4.0, 0.0, 1.0);
+	let blue = clamp_f32(s, 0.0, 1.0) - clamp_f32(s - 1.0, 0.0, 1.0) + clamp_f32(s - 4.0, 0.0, 1.0);
 	return vec3f(red, green, blue);
+}
+
+override bindings__EXTREMES_BY_SELECT: bool = false;
+
+fn min_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_f32(value: f32, low: f32, high: f32) -> f32 {
+	return min_f32(max_f32(value, low), high);
+}
+
+fn saturate_f32(value: f32) -> f32 {
+	return clamp_f32(value, f32(0), f32(1));
+}
+
+fn min_vec2f(a: vec2f, b: vec2f) -> vec2f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec2f(a: vec2f, b: vec2f) -> vec2f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec2f(value: vec2f, low: vec2f, high: vec2f) -> vec2f {
+	return min_vec2f(max_vec2f(value, low), high);
+}
+
+fn saturate_vec2f(value: vec2f) -> vec2f {
+	return clamp_vec2f(value, vec2f(0), vec2f(1));
+}
+
+fn min_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec3f(value: vec3f, low: vec3f, high: vec3f) -> vec3f {
+	return min_vec3f(max_vec3f(value, low), high);
+}
+
+fn saturate_vec3f(value: vec3f) -> vec3f {
+	return clamp_vec3f(value, vec3f(0), vec3f(1));
 }

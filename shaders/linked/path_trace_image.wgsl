@@ -263,7 +263,7 @@ fn dispatch__add_counts(lane: u32) {
 		atomicAdd(&bindings__dispatch.counters.cut_throughput, dispatch__steps_of(256.0 * dispatch__cut_throughput));
 	}
 	if (bindings__CLAMP_INDIRECT > 0.0) {
-		let steps = 16.0 / max(bindings__CLAMP_INDIRECT, 1e-6);
+		let steps = 16.0 / max_f32(bindings__CLAMP_INDIRECT, 1e-6);
 		let clamped = dispatch__steps_of(steps * dispatch__clamped_light);
 		let kept = dispatch__steps_of(steps * dispatch__kept_light);
 		if (atomicAdd(&bindings__dispatch.counters.clamped_light, clamped) > 4294967295u - clamped) {
@@ -282,7 +282,7 @@ fn dispatch__add_counts(lane: u32) {
 }
 
 fn dispatch__steps_of(number: f32) -> u32 {
-	return u32(min(number, 4000000000.0) + rng__unit_float(rng__hash(bitcast<u32>(number))));
+	return u32(min_f32(number, 4000000000.0) + rng__unit_float(rng__hash(bitcast<u32>(number))));
 }
 
 const types__NONE: u32 = 4294967295u;
@@ -1577,7 +1577,7 @@ fn shadow__count_shadow(through: vec3f) {
 
 fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, around: vec4u, behind: u32) -> vec3f {
 	let optics = material__load_optics(surface.material);
-	let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
+	let cos_i = min_f32(abs(dot(surface.n, ray.direction)), 1.0);
 	if (bindings__SOLID_GLASS) {
 		let layers = layers__layers_at(surface, optics);
 		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < layers__SMOOTH;
@@ -1597,7 +1597,7 @@ fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, 
 	var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), distance);
 	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
 		let eta = medium__medium_of(here).ior / ior_behind;
-		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
+		through *= 1.0 - fresnel__fresnel(cos_i, min_f32(eta, 1.0 / eta)).reflectance;
 	}
 	return through;
 }
@@ -1640,7 +1640,7 @@ fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32)
 
 fn features__see_albedo(albedo: vec3f, normal: vec3f) {
 	if (bindings__HAS_FEATURES && features__features.is_followed) {
-		features__features.albedo = clamp(albedo, vec3f(0.0), vec3f(1.0));
+		features__features.albedo = clamp_vec3f(albedo, vec3f(0.0), vec3f(1.0));
 		features__features.normal = normal;
 		features__features.is_followed = false;
 	}
@@ -1764,11 +1764,11 @@ const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f()
 fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> tracing__Cone {
 	let camera = batch.camera;
 	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
-	let side = batch.footprint * max(sides.x, sides.y);
+	let side = batch.footprint * max_f32(sides.x, sides.y);
 	if (bindings__ORTHOGRAPHIC) {
 		return tracing__Cone(side, 0.0);
 	}
-	return tracing__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
+	return tracing__Cone(0.0, side * max_f32(dot(direction, camera.forward), 0.0));
 }
 
 fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
@@ -1897,11 +1897,11 @@ fn filter__filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
 	let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
 	let fraction = abs(centred);
 	if (kind == types__FILTER_TENT) {
-		return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
+		return radius * side * (1.0 - sqrt(max_vec2f(1.0 - fraction, vec2f(0.0))));
 	}
 	if (kind == types__FILTER_GAUSSIAN) {
 		let scale = filter__SIGMA * sqrt(2.0);
-		return scale * side * min(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
+		return scale * side * min_vec2f(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
 	}
 	return radius * side * filter__searched(kind, fraction);
 }
@@ -1945,13 +1945,13 @@ fn filter__cumulated(kind: u32, x: vec2f) -> vec2f {
 fn filter__erf(x: f32) -> f32 {
 	let t = 1.0 / (1.0 + 0.3275911 * x);
 	let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
-	return 1.0 - series * exp(-min(x * x, 80.0));
+	return 1.0 - series * exp(-min_f32(x * x, 80.0));
 }
 
 fn filter__inverse_erf(y: vec2f) -> vec2f {
-	let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
+	let w = -log(max_vec2f((1.0 - y) * (1.0 + y), vec2f(1e-7)));
 	let a = w - 2.5;
-	let b = sqrt(max(w, vec2f(0.0))) - 3.0;
+	let b = sqrt(max_vec2f(w, vec2f(0.0))) - 3.0;
 	let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
 	let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
 	return y * select(far, near, w < vec2f(5.0));
@@ -2006,10 +2006,10 @@ struct motion__Space {
 
 fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
 	let q = mix(a.rotation, b.rotation, vec4f(fraction));
-	let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+	let rotation = motion__rotation_matrix(q * inverseSqrt(max_f32(dot(q, q), 1e-30)));
 	let d = mix(a.stretch, b.stretch, vec3f(fraction));
 	let s = mix(a.shear, b.shear, vec3f(fraction));
-	let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
+	let size = max_f32(max_f32(abs(d.x), abs(d.y)), max_f32(abs(d.z), 1e-30));
 	let e = d / size;
 	let f = s / size;
 	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
@@ -2099,8 +2099,8 @@ fn warp__triangle_from_square(u: vec2f) -> vec2f {
 }
 
 fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
-	let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
-	let b = warp__triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
+	let edge = min_f32(floor(u.x * f32(count)), f32(count) - 1.0);
+	let b = warp__triangle_from_square(vec2f(clamp_f32(u.x * f32(count) - edge, 0.0, 1.0), u.y));
 	let step = 2.0 * warp__PI / f32(count);
 	let angles = rotation + step * vec2f(edge, edge + 1.0);
 	return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
@@ -2108,8 +2108,8 @@ fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
 
 fn warp__cone_from_square(u: vec2f, depth: f32) -> vec3f {
 	let p = warp__disc_from_square(u);
-	let below = min(dot(p, p), 1.0) * depth;
-	return vec3f(p * sqrt(max(depth * (2.0 - below), 0.0)), 1.0 - below);
+	let below = min_f32(dot(p, p), 1.0) * depth;
+	return vec3f(p * sqrt(max_f32(depth * (2.0 - below), 0.0)), 1.0 - below);
 }
 
 fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
@@ -2440,7 +2440,7 @@ fn deforming__tangent_at(vertex: u32, is_later: bool) -> vec4f {
 const numeric__ROUNDING: f32 = 5.9604645e-8;
 
 fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
-	let largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+	let largest = max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
 	let usable = largest > 1e-30;
 	let scaled = select(vec3f(1.0, 0.0, 0.0), v / select(1.0, largest, usable), usable);
 	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
@@ -2457,7 +2457,7 @@ fn numeric__is_finite(v: vec3f) -> bool {
 }
 
 fn numeric__max_component(v: vec3f) -> f32 {
-	return max(v.x, max(v.y, v.z));
+	return max_f32(v.x, max_f32(v.y, v.z));
 }
 
 const stack__EMPTY: u32 = 4294967295u;
@@ -2792,8 +2792,8 @@ fn sphere__intersect_sphere(ray: tracing__Ray, center: vec3f, radius: f32) -> tr
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
 	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
 	let t1 = q / a;
-	let near = min(t0, t1);
-	let t = select(max(t0, t1), near, near > 0.0);
+	let near = min_f32(t0, t1);
+	let t = select(max_f32(t0, t1), near, near > 0.0);
 	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
@@ -2813,8 +2813,8 @@ fn globe__intersect_globe(ray: tracing__Ray, anchor: vec3f, n: vec3f, curvature:
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
 	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
 	let t1 = q / a;
-	let near = min(t0, t1);
-	let t = select(max(t0, t1), near, near > 0.0);
+	let near = min_f32(t0, t1);
+	let t = select(max_f32(t0, t1), near, near > 0.0);
 	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
@@ -2859,14 +2859,14 @@ fn canonical__canonical_ray(ray: tracing__Ray, shape: types__PackedShape) -> tra
 
 fn canonical__approach(ray: tracing__Ray, center: vec3f, reach: f32) -> canonical__Approach {
 	let size = abs(ray.direction);
-	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let largest = max_f32(max_f32(size.x, max_f32(size.y, size.z)), 1e-30);
 	let scaled = ray.direction / largest;
-	let inv_length = inverseSqrt(max(dot(scaled, scaled), 1e-30));
+	let inv_length = inverseSqrt(max_f32(dot(scaled, scaled), 1e-30));
 	let direction = scaled * inv_length;
-	let start = max(dot(center - ray.origin, direction) - reach, 0.0);
+	let start = max_f32(dot(center - ray.origin, direction) - reach, 0.0);
 	let origin = ray.origin + start * direction;
 	let off = abs(origin - center);
-	let near = max(off.x, max(off.y, off.z)) <= 2.0 * reach;
+	let near = max_f32(off.x, max_f32(off.y, off.z)) <= 2.0 * reach;
 	return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
 }
 
@@ -2896,14 +2896,14 @@ fn canonical__placed_point(shape: types__PackedShape, reached: vec3f, point: can
 
 fn canonical__longitude(x: f32, z: f32) -> f32 {
 	let on_axis = (x == 0.0) & (z == 0.0);
-	return saturate(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
+	return saturate_f32(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
 }
 
 fn canonical__sphere_uv(n: vec3f) -> vec2f {
 	let off_axis = length(n.xz);
 	let at_center = (off_axis == 0.0) & (n.y == 0.0);
 	let latitude = atan2(n.y, select(off_axis, 1.0, at_center));
-	return vec2f(canonical__longitude(n.x, n.z), saturate(0.5 + 2.0 * latitude / canonical__TWO_PI));
+	return vec2f(canonical__longitude(n.x, n.z), saturate_f32(0.5 + 2.0 * latitude / canonical__TWO_PI));
 }
 
 fn canonical__outwards(v: vec2f) -> vec2f {
@@ -2915,13 +2915,13 @@ fn canonical__outwards(v: vec2f) -> vec2f {
 fn disc__intersect_disc(ray: tracing__Ray, hole: f32) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
-	let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
+	let p = clamp_vec2f(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
 	let distance = dot(p, p);
 	return tracing__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
 fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
-	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate_vec2f(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
 fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
@@ -2934,20 +2934,20 @@ fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
 }
 
 fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
-	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate_vec2f(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
 fn box__intersect_box(ray: tracing__Ray) -> tracing__Candidate {
 	let size = abs(ray.direction);
-	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let largest = max_f32(max_f32(size.x, max_f32(size.y, size.z)), 1e-30);
 	let inv = numeric__safe_reciprocal(ray.direction / largest);
-	let origin = clamp(ray.origin, vec3f(-1e18), vec3f(1e18));
+	let origin = clamp_vec3f(ray.origin, vec3f(-1e18), vec3f(1e18));
 	let t0 = (-1.0 - origin) * inv;
 	let t1 = (1.0 - origin) * inv;
-	let enters = min(t0, t1);
-	let leaves = max(t0, t1);
-	let enter = max(enters.x, max(enters.y, enters.z));
-	let leave = min(leaves.x, min(leaves.y, leaves.z));
+	let enters = min_vec3f(t0, t1);
+	let leaves = max_vec3f(t0, t1);
+	let enter = max_f32(enters.x, max_f32(enters.y, enters.z));
+	let leave = min_f32(leaves.x, min_f32(leaves.y, leaves.z));
 	let from_outside = enter > 0.0;
 	let s = select(leave, enter, from_outside);
 	let planes = select(leaves, enters, from_outside);
@@ -2967,7 +2967,7 @@ fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
 	let place = select(p, n, n != vec3f(0.0));
 	let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
 	let up = select(p.y, -sign * p.z, axis == 1u);
-	return canonical__CanonicalPoint(place, n, saturate(0.5 + 0.5 * vec2f(right, up)));
+	return canonical__CanonicalPoint(place, n, saturate_vec2f(0.5 + 0.5 * vec2f(right, up)));
 }
 
 const cone__FAR: f32 = 1e30;
@@ -2992,13 +2992,13 @@ fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) 
 	let lean = radius * d.xz - slope * d.y * o.xz;
 	let by_determinants = dot(lean, lean) - turn * turn - (a - exact_a) * c;
 	let discriminant = select(by_determinants, b * b - a * c, a * c <= 0.0);
-	let root = sqrt(max(discriminant, 0.0));
+	let root = sqrt(max_f32(discriminant, 0.0));
 	let q = -(b + select(-root, root, b >= 0.0));
 	let usable = abs(q) > 1e-20;
 	let r1 = q / a;
 	let r2 = select(0.0, c / select(1.0, q, usable), usable);
-	let low = min(r1, r2);
-	let high = max(r1, r2);
+	let low = min_f32(r1, r2);
+	let high = max_f32(r1, r2);
 	let steep = a < 0.0;
 	let widens = slope * d.y > 0.0;
 	let side_in = select(low, select(-cone__FAR, high, widens), steep);
@@ -3007,10 +3007,10 @@ fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) 
 	let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
 	let y0 = -o.y * inv_y;
 	let y1 = (1.0 - o.y) * inv_y;
-	let slab_in = min(y0, y1);
-	let slab_out = max(y0, y1);
-	let enter = max(slab_in, side_in);
-	let leave = min(slab_out, side_out);
+	let slab_in = min_f32(y0, y1);
+	let slab_out = max_f32(y0, y1);
+	let enter = max_f32(slab_in, side_in);
+	let leave = min_f32(slab_out, side_out);
 	let enters_side = side_in >= slab_in;
 	let leaves_side = side_out <= slab_out;
 	let takes_enter = (near.start + enter > 0.0) & (enters_side | capped);
@@ -3028,27 +3028,27 @@ fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) 
 fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
 	let p = o + s * d;
 	let off_axis = length(p.xz);
-	let rate = dot(p.xz, d.xz) / max(off_axis, 1e-18) - slope * d.y;
+	let rate = dot(p.xz, d.xz) / max_f32(off_axis, 1e-18) - slope * d.y;
 	let usable = abs(rate) > 0.001;
 	let step = (off_axis - (bottom + slope * p.y)) / select(1.0, rate, usable);
-	return s - clamp(select(0.0, step, usable), -0.001, 0.001);
+	return s - clamp_f32(select(0.0, step, usable), -0.001, 0.001);
 }
 
 fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__CanonicalPoint {
 	let slope = top - bottom;
 	let out = canonical__outwards(p.xz);
 	if (part < 0.5) {
-		let y = saturate(p.y);
+		let y = saturate_f32(p.y);
 		let radius = bottom + slope * y;
 		let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
 		return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(canonical__longitude(p.x, p.z), y));
 	}
 	let is_top = part > 1.5;
 	let radius = select(bottom, top, is_top);
-	let flat = out * min(length(p.xz), radius);
+	let flat = out * min_f32(length(p.xz), radius);
 	let sign = select(-1.0, 1.0, is_top);
-	let uv = vec2f(flat.x, -sign * flat.y) / max(radius, 1e-18);
-	return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate(0.5 + 0.5 * uv));
+	let uv = vec2f(flat.x, -sign * flat.y) / max_f32(radius, 1e-18);
+	return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate_vec2f(0.5 + 0.5 * uv));
 }
 
 const torus__MOST_ROUNDS: u32 = 40u;
@@ -3062,25 +3062,25 @@ fn torus__torus_distance(p: vec3f, minor: f32) -> f32 {
 fn torus__polish(s: f32, p: f32, q: f32) -> f32 {
 	let slope = 3.0 * s * s + p;
 	let steep = abs(slope) > 0.001;
-	return s - clamp(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
+	return s - clamp_f32(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
 }
 
 fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
 	let third = p / 3.0;
 	let half = 0.5 * q;
 	let discriminant = half * half + third * third * third;
-	let cube = abs(half) + sqrt(max(discriminant, 0.0));
-	let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max(cube, 1e-30)) / 3.0), cube > 1e-30);
+	let cube = abs(half) + sqrt(max_f32(discriminant, 0.0));
+	let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max_f32(cube, 1e-30)) / 3.0), cube > 1e-30);
 	let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
 	let one = torus__polish(large + small, p, q);
-	let size = sqrt(max(-third, 0.0));
+	let size = sqrt(max_f32(-third, 0.0));
 	let usable = size > 1e-10;
-	let cosine = clamp(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
+	let cosine = clamp_f32(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
 	let angle = acos(cosine) / 3.0;
 	let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
 	let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
 	let c = torus__polish(2.0 * size * cos(angle), p, q);
-	let three = vec3f(min(a, min(b, c)), max(min(a, b), min(max(a, b), c)), max(a, max(b, c)));
+	let three = vec3f(min_f32(a, min_f32(b, c)), max_f32(min_f32(a, b), min_f32(max_f32(a, b), c)), max_f32(a, max_f32(b, c)));
 	return select(three, vec3f(one), discriminant > 0.0);
 }
 
@@ -3093,11 +3093,11 @@ fn torus__intersect_torus(ray: tracing__Ray, minor: f32) -> tracing__Candidate {
 	let nearest = o + middle * d;
 	let apart = dot(nearest, nearest);
 	let ball = 1.0001 * outer;
-	let half_chord = sqrt(max(ball * ball - apart, 0.0));
-	let start = max(middle - half_chord, 0.0);
+	let half_chord = sqrt(max_f32(ball * ball - apart, 0.0));
+	let start = max_f32(middle - half_chord, 0.0);
 	let end = middle + half_chord;
 	let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
-	let cuts = vec4f(clamp(zeros, vec3f(start), vec3f(max(end, start))), end);
+	let cuts = vec4f(clamp_vec3f(zeros, vec3f(start), vec3f(max_f32(end, start))), end);
 	let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
 	let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
 	let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
@@ -3123,8 +3123,8 @@ fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, ou
 		let before = (distance >= 0.0) == outside;
 		low = select(low, s, before);
 		high = select(s, high, before);
-		let ring_slope = dot(p.xz, d.xz) / max(ring, 1e-20);
-		let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max(to_middle, 1e-20);
+		let ring_slope = dot(p.xz, d.xz) / max_f32(ring, 1e-20);
+		let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max_f32(to_middle, 1e-20);
 		let usable = abs(slope) > 1e-6;
 		let newton = s - distance / select(1.0, slope, usable);
 		let takes_newton = usable & (newton > low) & (newton < high) & (abs(newton - s) < 0.5 * moved);
@@ -3146,7 +3146,7 @@ fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
 	let n = vec3f(tube.x * out.x, tube.y, tube.x * out.y);
 	let ring = 1.0 + minor * tube.x;
 	let place = vec3f(ring * out.x, minor * tube.y, ring * out.y);
-	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
+	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate_f32(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
 }
 
 fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
@@ -3270,7 +3270,7 @@ fn medium__medium_of(material: u32) -> shading__Medium {
 }
 
 fn medium__transmittance(medium: shading__Medium, distance: f32) -> vec3f {
-	return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
+	return exp(-min_vec3f(medium.absorption * min_f32(distance, 1000000000000.0), vec3f(80.0)));
 }
 
 fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
@@ -3531,7 +3531,7 @@ fn contact__is_same_volume(first: tracing__Hit, second: tracing__Hit, vertices: 
 }
 
 fn contact__is_at_edge(hit: tracing__Hit) -> bool {
-	let nearest = min(min(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
+	let nearest = min_f32(min_f32(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
 	return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
 }
 
@@ -3711,7 +3711,7 @@ struct ray_cone__Filtering {
 }
 
 fn ray_cone__cone_at(cone: tracing__Cone, distance: f32) -> tracing__Cone {
-	return tracing__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
+	return tracing__Cone(clamp_f32(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
 }
 
 fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
@@ -3721,18 +3721,18 @@ fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
 	let slope = direction - cosine * n;
 	let along = select(other, numeric__normalize_or(slope, other), dot(slope, slope) > 1e-8);
 	let size = abs(width);
-	return mat2x3f((size / max(abs(cosine), 0.001)) * along, size * cross(n, along));
+	return mat2x3f((size / max_f32(abs(cosine), 0.001)) * along, size * cross(n, along));
 }
 
 fn ray_cone__uv_along(v: vec3f, e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f) -> vec2f {
 	let normal = cross(e1, e2);
 	let n = numeric__normalize_or(normal, vec3f(0.0));
-	let area = max(dot(normal, n), 1e-30);
+	let area = max_f32(dot(normal, n), 1e-30);
 	return (dot(cross(v, e2), n) / area) * d1 + (dot(cross(e1, v), n) / area) * d2;
 }
 
 fn ray_cone__curvature_along(edge: vec3f, bend: vec3f) -> f32 {
-	return dot(edge, bend) / max(dot(edge, edge), 1e-30);
+	return dot(edge, bend) / max_f32(dot(edge, edge), 1e-30);
 }
 
 fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
@@ -3740,8 +3740,8 @@ fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
 	let way = select(b, a, is_first);
 	let long = length(way);
 	let short = length(select(a, b, is_first));
-	let count = clamp(round(long / max(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
-	let width = max(max(short, long / count), 1e-9);
+	let count = clamp_f32(round(long / max_f32(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
+	let width = max_f32(max_f32(short, long / count), 1e-9);
 	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
 }
 
@@ -3770,7 +3770,7 @@ fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3
 	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
 	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
 	let tilt = map.scale * (2.0 * code.xy - vec2f(1.0));
-	let up = max(2.0 * code.z - 1.0, 0.0);
+	let up = max_f32(2.0 * code.z - 1.0, 0.0);
 	if (bindings__HAS_TANGENTS) {
 		if (dot(frame[2], frame[2]) > 0.0) {
 			return numeric__normalize_or(frame * vec3f(tilt, up), n);
@@ -3846,7 +3846,7 @@ fn texture__footprint_in(texture: types__PackedTexture, footprint: shading__Foot
 fn texture__place_in_pattern(texture: types__PackedTexture, surface: shading__Surface) -> vec3f {
 	let uv = select(surface.uv, surface.second_uv, texture__uses_second_uv(texture));
 	let at = select(vec4f(surface.place, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
-	return clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
+	return clamp_vec3f(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
 }
 
 fn texture__texture_alpha(texture: types__PackedTexture, surface: shading__Surface, is_mask: bool) -> f32 {
@@ -3883,7 +3883,7 @@ fn mipmap__mipmap_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) 
 	let plan = ray_cone__filtering(size * axes[0], size * axes[1]);
 	let has_levels = (texture.flags & types__TEXTURE_LEVELS) != 0u;
 	let last = select(0.0, f32(31u - countLeadingZeros(max(texture.width, texture.height))), has_levels);
-	let exact = clamp(plan.level, 0.0, last);
+	let exact = clamp_f32(plan.level, 0.0, last);
 	let level = select(round(exact), exact, (texture.flags & types__TEXTURE_BETWEEN_LEVELS) != 0u);
 	let tap_count = select(1u, plan.tap_count, has_levels);
 	let way = select(vec2f(0.0), plan.way / size, has_levels);
@@ -3954,7 +3954,7 @@ struct picture__Neighbours {
 
 fn picture__neighbours(at: f32, count: u32, nearest: bool, wrap: u32) -> picture__Neighbours {
 	let mirrored = 1.0 - abs(1.0 - 2.0 * fract(0.5 * at));
-	let inside = select(select(clamp(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
+	let inside = select(select(clamp_f32(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
 	let place = f32(count) * inside + select(-0.5, 0.0, nearest);
 	let below = floor(place);
 	let last = i32(count) - 1;
@@ -4132,7 +4132,7 @@ fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
 		layers.diffuse *= 1.0 - own.transmission;
 		layers.f0 = own.metallic * own.base;
 		layers.f90 = vec3f(own.metallic);
-		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
+		layers.reflect = body * min_vec3f(own.f0 / max_f32(ratio * ratio, 1e-6), vec3f(1.0));
 		layers.transmit = (body * own.transmission) * own.base;
 		layers.boundary_alpha = layers.alpha;
 		layers.fresnel = types__MATERIAL_FRESNEL;
@@ -4276,11 +4276,11 @@ fn pattern__stripes(p: vec3f) -> f32 {
 }
 
 fn pattern__gradient(p: vec3f) -> f32 {
-	return clamp(p.x, 0.0, 1.0);
+	return clamp_f32(p.x, 0.0, 1.0);
 }
 
 fn pattern__clouds(sum: f32) -> f32 {
-	return clamp(0.5 + 0.5 * sum, 0.0, 1.0);
+	return clamp_f32(0.5 + 0.5 * sum, 0.0, 1.0);
 }
 
 const noise__NOISE_PERIOD: u32 = 256u;
@@ -4338,7 +4338,7 @@ const dispersion__WAVELENGTHS: vec3f = vec3f(611.4, 549.1, 464.2);
 
 fn dispersion__dispersed_ior(ior: f32, dispersion: f32, wavelength: f32) -> f32 {
 	let spread = (ior - 1.0) * dispersion / 20.0;
-	return max(ior + spread * (523655.0 / (wavelength * wavelength) - 1.5168), 1.0);
+	return max_f32(ior + spread * (523655.0 / (wavelength * wavelength) - 1.5168), 1.0);
 }
 
 fn dispersion__anisotropic_alpha(alpha: f32, strength: f32) -> vec2f {
@@ -4346,7 +4346,7 @@ fn dispersion__anisotropic_alpha(alpha: f32, strength: f32) -> vec2f {
 }
 
 fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
-	let own = texel * inverseSqrt(max(dot(texel, texel), 1e-12));
+	let own = texel * inverseSqrt(max_f32(dot(texel, texel), 1e-12));
 	let turn = vec2f(cos(rotation), sin(rotation));
 	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
 }
@@ -4365,13 +4365,13 @@ struct fresnel__Boundary {
 }
 
 fn fresnel__ratio(a: f32, b: f32) -> f32 {
-	return a / max(b, 1e-12);
+	return a / max_f32(b, 1e-12);
 }
 
 fn fresnel__fresnel(cos_i: f32, eta: f32) -> fresnel__Boundary {
-	let sin2_t = eta * eta * max(1.0 - cos_i * cos_i, 0.0);
+	let sin2_t = eta * eta * max_f32(1.0 - cos_i * cos_i, 0.0);
 	let total = (sin2_t >= 1.0) & (eta > 1.0);
-	let cos_t = sqrt(max(1.0 - sin2_t, 0.0));
+	let cos_t = sqrt(max_f32(1.0 - sin2_t, 0.0));
 	let r_s = fresnel__ratio(eta * cos_i - cos_t, eta * cos_i + cos_t);
 	let r_p = fresnel__ratio(cos_i - eta * cos_t, cos_i + eta * cos_t);
 	return fresnel__Boundary(select(0.5 * (r_s * r_s + r_p * r_p), 1.0, total), cos_t, total);
@@ -4385,7 +4385,7 @@ fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
 }
 
 fn fresnel__schlick_weight(cosine: f32) -> f32 {
-	let x = 1.0 - clamp(cosine, 0.0, 1.0);
+	let x = 1.0 - clamp_f32(cosine, 0.0, 1.0);
 	let x2 = x * x;
 	return x2 * x2 * x;
 }
@@ -4415,7 +4415,7 @@ fn coverage__coverage_at(surface: shading__Surface) -> f32 {
 		}
 	}
 	let masked = select(0.0, 1.0, alpha >= 0.999999);
-	return select(clamp(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
+	return select(clamp_f32(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
 }
 
 fn leaving__leaving_ray(surface: shading__Surface, direction: vec3f, t_max: f32) -> tracing__Ray {
@@ -4457,7 +4457,7 @@ fn environment__sample_environment(batch: dispatch__Batch, u: vec2f) -> environm
 fn environment__environment_pdf(batch: dispatch__Batch, direction: vec3f) -> f32 {
 	let size = vec2u(batch.environment_width, batch.environment_width / 2u);
 	let uv = picture__equirectangular(direction, batch.background_rotation);
-	let place = vec2f(fract(uv.x), clamp(uv.y, 0.0, 1.0)) * vec2f(size);
+	let place = vec2f(fract(uv.x), clamp_f32(uv.y, 0.0, 1.0)) * vec2f(size);
 	return environment__density_at(batch, min(vec2u(place), size - 1u), direction);
 }
 
@@ -4473,16 +4473,16 @@ fn environment__density_at(batch: dispatch__Batch, cell: vec2u, direction: vec3f
 	let height = batch.environment_width / 2u;
 	let first = batch.environment_first + 1u + 2u * ((height * height - 1u) / 3u);
 	let density = bitcast<f32>(picture__load_texel_word(first + cell.y * batch.environment_width + cell.x));
-	return density / (2.0 * picture__PI * picture__PI * max(length(direction.xz), 1e-6));
+	return density / (2.0 * picture__PI * picture__PI * max_f32(length(direction.xz), 1e-6));
 }
 
 fn mis__power_heuristic(own: f32, other: f32) -> f32 {
-	let ratio = other / max(own, 1e-30);
-	return select(0.0, 1.0 / (1.0 + min(ratio * ratio, 1e30)), own > 0.0);
+	let ratio = other / max_f32(own, 1e-30);
+	return select(0.0, 1.0 / (1.0 + min_f32(ratio * ratio, 1e30)), own > 0.0);
 }
 
 fn mis__survival_chance(throughput: vec3f) -> f32 {
-	return min(max(throughput.x, max(throughput.y, throughput.z)), 1.0);
+	return min_f32(max_f32(throughput.x, max_f32(throughput.y, throughput.z)), 1.0);
 }
 
 fn backdrop__is_seen(path: path__Path) -> bool {
@@ -4590,8 +4590,8 @@ fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, 
 		if (bindings__HAS_ENVIRONMENT) {
 			density = batch.environment_share * environment__environment_pdf(batch, direction);
 		}
-		let cosine = max(dot(n, direction), 0.0) / warp__PI;
-		let part = cosine / max(chance * cosine + (1.0 - chance) * density, 1e-30);
+		let cosine = max_f32(dot(n, direction), 0.0) / warp__PI;
+		let part = cosine / max_f32(chance * cosine + (1.0 - chance) * density, 1e-30);
 		return shading__Incident(direction, camera__T_FAR, part * background__background(batch, direction));
 	}
 	if (!has_lamps) {
@@ -4599,20 +4599,20 @@ fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, 
 	}
 	let light = emitters__sample_light(batch, p, n, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
 	var arriving = light.incident;
-	let cosine = max(dot(n, arriving.direction), 0.0) / warp__PI;
+	let cosine = max_f32(dot(n, arriving.direction), 0.0) / warp__PI;
 	let is_background = bindings__HAS_ENVIRONMENT && light.pdf > 0.0 && arriving.distance >= camera__T_FAR;
-	let other = select(0.0, chance * cosine / max(light.pdf, 1e-30), is_background);
+	let other = select(0.0, chance * cosine / max_f32(light.pdf, 1e-30), is_background);
 	arriving.radiance *= cosine / (1.0 - chance + other);
 	return arriving;
 }
 
 fn bsdf_diffuse__diffuse_eval(wi: vec3f) -> f32 {
-	return max(wi.z, 0.0) / warp__PI;
+	return max_f32(wi.z, 0.0) / warp__PI;
 }
 
 fn bsdf_diffuse__diffuse_sample(u: vec2f) -> vec3f {
 	let p = warp__disc_from_square(u);
-	return vec3f(p, sqrt(max(1.0 - dot(p, p), 0.0)));
+	return vec3f(p, sqrt(max_f32(1.0 - dot(p, p), 0.0)));
 }
 
 struct emitters__LightSample {
@@ -4624,7 +4624,7 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f3
 	if (bindings__HAS_ENVIRONMENT && (!(bindings__HAS_LIGHTS || bindings__HAS_EMITTERS) || choice >= 1.0 - batch.environment_share)) {
 		let found = environment__sample_environment(batch, u);
 		let pdf = batch.environment_share * found.pdf;
-		let radiance = background__background(batch, found.direction) / max(pdf, 1e-30);
+		let radiance = background__background(batch, found.direction) / max_f32(pdf, 1e-30);
 		return emitters__LightSample(shading__Incident(found.direction, camera__T_FAR, radiance), pdf);
 	}
 	let source = light_choice__choose_source(batch, p, n, choice);
@@ -4632,7 +4632,7 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f3
 		return emitters__sample_emitter(p, source, u);
 	}
 	var found = emitters__sample_lamp(shutter__shutter_light(source.index, batch.light_count), p, u);
-	found.incident.radiance *= select(0.0, warp__PI / max(source.chance, 1e-30), source.chance > 0.0);
+	found.incident.radiance *= select(0.0, warp__PI / max_f32(source.chance, 1e-30), source.chance > 0.0);
 	found.pdf *= source.chance;
 	return found;
 }
@@ -4648,7 +4648,7 @@ fn emitters__sample_lamp(light: types__PackedLight, p: vec3f, u: vec2f) -> emitt
 	}
 	let found = spherical_rectangle__solid_sample(light, p, u);
 	let cosine = -dot(found.direction, light.direction);
-	let strength = select(0.0, 1.0 / max(emissive_shape__area_of(light) * found.pdf, 1e-30), cosine > 0.0);
+	let strength = select(0.0, 1.0 / max_f32(emissive_shape__area_of(light) * found.pdf, 1e-30), cosine > 0.0);
 	let reach = numeric__max_component(abs(light.position)) + numeric__max_component(abs(p));
 	return emitters__LightSample(shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), strength * light.color), select(0.0, found.pdf, light_weight__can_be_hit(light)));
 }
@@ -4709,10 +4709,10 @@ fn emitters__sample_emitter(p: vec3f, source: light_choice__Source, u: vec2f) ->
 	let shines = is_outside || (material__load_optics(material).flags & types__MATERIAL_TWO_SIDED) != 0u;
 	radiance *= coating__through_coat(surface, abs(cosine));
 	let facing = select(0.0, abs(cosine), shines && source.chance > 0.0);
-	let actual = source.chance / max(0.5 * length(across), 1e-30);
-	let fading = 1.0 / max(distance * distance, 1e-30);
+	let actual = source.chance / max_f32(0.5 * length(across), 1e-30);
+	let fading = 1.0 / max_f32(distance * distance, 1e-30);
 	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
-	return emitters__LightSample(shading__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max(actual, 1e-30)) * radiance), glow.luminance * source.rate / max(abs(cosine) * fading, 1e-30));
+	return emitters__LightSample(shading__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max_f32(actual, 1e-30)) * radiance), glow.luminance * source.rate / max_f32(abs(cosine) * fading, 1e-30));
 }
 
 fn emitters__sample_shape(p: vec3f, emitter: types__PackedEmitter, source: light_choice__Source, u: vec2f) -> emitters__LightSample {
@@ -4733,7 +4733,7 @@ fn emitters__sample_shape(p: vec3f, emitter: types__PackedEmitter, source: light
 	let shines = cosine > 0.0 || (material__load_optics(shape.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
 	radiance *= select(0.0, coating__through_coat(surface, abs(cosine)), shines && source.chance > 0.0);
 	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
-	return emitters__LightSample(shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max(source.chance * found.pdf, 1e-30)), glow.luminance * source.rate * emissive_shape__area_of(light) * found.pdf);
+	return emitters__LightSample(shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max_f32(source.chance * found.pdf, 1e-30)), glow.luminance * source.rate * emissive_shape__area_of(light) * found.pdf);
 }
 
 fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: vec3f) -> vec3f {
@@ -4777,7 +4777,7 @@ fn quad_warp__half_of(chance: f32, u: f32) -> quad_warp__Half {
 	let is_second = u >= chance;
 	let start = select(0.0, chance, is_second);
 	let size = select(chance, 1.0 - chance, is_second);
-	return quad_warp__Half(select(0u, 1u, is_second), clamp((u - start) / max(size, 1e-9), 0.0, 0.99999994));
+	return quad_warp__Half(select(0u, 1u, is_second), clamp_f32((u - start) / max_f32(size, 1e-9), 0.0, 0.99999994));
 }
 
 struct light_choice__Source {
@@ -4790,7 +4790,7 @@ struct light_choice__Source {
 fn light_choice__choose_source(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f32) -> light_choice__Source {
 	let share = 1.0 - batch.environment_share;
 	if (bindings__HAS_LIGHT_TREE) {
-		let leaf = light_tree__choose_leaf(batch, p, n, min(choice / share, 0.99999994));
+		let leaf = light_tree__choose_leaf(batch, p, n, min_f32(choice / share, 0.99999994));
 		let index = select(0u, leaf.reference & types__LIGHT_INDEX_MASK, leaf.chance > 0.0);
 		if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || (leaf.reference & types__LIGHT_EMITTERS) != 0u)) {
 			let rate = share * light_choice__emitter_rate(leaf.chance, leaf.power);
@@ -4807,7 +4807,7 @@ fn light_choice__choose_source(batch: dispatch__Batch, p: vec3f, n: vec3f, choic
 }
 
 fn light_choice__emitter_rate(chance: f32, power: f32) -> f32 {
-	return chance / max(warp__PI * power, 1e-30);
+	return chance / max_f32(warp__PI * power, 1e-30);
 }
 
 fn light_choice__emitter_in(batch: dispatch__Batch, first: u32, chance: f32, rate: f32, choice: f32) -> light_choice__Source {
@@ -4863,14 +4863,14 @@ fn light_tree__fork_at(reference: u32, p: vec3f, n: vec3f) -> light_tree__Fork {
 		weights = vec2f(light_cluster__cluster_importance(first, p, n), light_cluster__cluster_importance(second, p, n));
 	}
 	let total = weights.x + weights.y;
-	let chances = select(vec2f(0.0), weights / max(total, 1e-37), total > 0.0);
+	let chances = select(vec2f(0.0), weights / max_f32(total, 1e-37), total > 0.0);
 	return light_tree__Fork(chances, powers, vec2u(first.child, second.child));
 }
 
 fn light_tree__child_of(node: light_tree__LightLeaf, fork: light_tree__Fork, is_second: bool) -> light_tree__LightLeaf {
 	let chance = select(fork.chances.x, fork.chances.y, is_second);
-	let rest = (node.rest - select(0.0, fork.chances.x, is_second)) / max(chance, 1e-30);
-	return light_tree__LightLeaf(select(fork.children.x, fork.children.y, is_second), node.chance * chance, select(fork.powers.x, fork.powers.y, is_second), clamp(rest, 0.0, 0.99999994));
+	let rest = (node.rest - select(0.0, fork.chances.x, is_second)) / max_f32(chance, 1e-30);
+	return light_tree__LightLeaf(select(fork.children.x, fork.children.y, is_second), node.chance * chance, select(fork.powers.x, fork.powers.y, is_second), clamp_f32(rest, 0.0, 0.99999994));
 }
 
 fn light_tree__is_on_the_way(node: light_tree__LightLeaf) -> bool {
@@ -4913,13 +4913,13 @@ fn light_cluster__cos_of_rest(a: vec2f, b: vec2f) -> f32 {
 }
 
 fn light_cluster__sine_of(cosine: f32) -> f32 {
-	return sqrt(max(1.0 - cosine * cosine, 0.0));
+	return sqrt(max_f32(1.0 - cosine * cosine, 0.0));
 }
 
 fn light_cluster__octahedral_vector(word: u32) -> vec3f {
 	let at = unpack2x16snorm(word);
 	let z = 1.0 - abs(at.x) - abs(at.y);
-	let fold = max(-z, 0.0);
+	let fold = max_f32(-z, 0.0);
 	return normalize(vec3f(at - select(vec2f(-fold), vec2f(fold), at >= vec2f(0.0)), z));
 }
 
@@ -4927,23 +4927,23 @@ fn light_cluster__cluster_importance(cluster: types__PackedCluster, p: vec3f, n:
 	let offset = p - cluster.center;
 	let d2 = dot(offset, offset);
 	let r2 = cluster.radius2;
-	let nearest2 = max(max(d2, r2), 1e-30);
-	let w = offset / sqrt(max(d2, 1e-30));
+	let nearest2 = max_f32(max_f32(d2, r2), 1e-30);
+	let w = offset / sqrt(max_f32(d2, 1e-30));
 	let is_inside = d2 <= r2;
 	let sin2_b = r2 / nearest2;
-	let b = select(vec2f(sqrt(sin2_b), sqrt(max(1.0 - sin2_b, 0.0))), vec2f(0.0, -1.0), is_inside);
+	let b = select(vec2f(sqrt(sin2_b), sqrt(max_f32(1.0 - sin2_b, 0.0))), vec2f(0.0, -1.0), is_inside);
 	let cones = unpack2x16snorm(cluster.cones);
-	let along = clamp(dot(light_cluster__octahedral_vector(cluster.axis), w), -1.0, 1.0);
+	let along = clamp_f32(dot(light_cluster__octahedral_vector(cluster.axis), w), -1.0, 1.0);
 	let cos_w = select(along, abs(along), (cluster.child & types__LIGHT_TWO_SIDED) != 0u);
 	let cos_x = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_w), cos_w), vec2f(light_cluster__sine_of(cones.x), cones.x));
 	let cos_p = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_x), cos_x), b);
-	var importance = select(max(cos_p, light_cluster__SLACK), 0.0, cos_p + light_cluster__SLACK <= cones.y);
+	var importance = select(max_f32(cos_p, light_cluster__SLACK), 0.0, cos_p + light_cluster__SLACK <= cones.y);
 	if (any(n != vec3f(0.0))) {
-		let cos_n = clamp(-dot(n, w), -1.0, 1.0);
+		let cos_n = clamp_f32(-dot(n, w), -1.0, 1.0);
 		let cos_i = light_cluster__cos_of_rest(vec2f(light_cluster__sine_of(cos_n), cos_n), b);
-		importance *= select(max(cos_i, light_cluster__SLACK), 0.0, cos_i + light_cluster__SLACK <= 0.0);
+		importance *= select(max_f32(cos_i, light_cluster__SLACK), 0.0, cos_i + light_cluster__SLACK <= 0.0);
 	}
-	return min(importance * cluster.power / nearest2, 1e30);
+	return min_f32(importance * cluster.power / nearest2, 1e30);
 }
 
 fn emissive_shape__is_sampled(shape: types__PackedShape, instance: u32) -> bool {
@@ -5011,7 +5011,7 @@ fn emissive_shape__shape_place(shape: types__PackedShape, instance: u32, p: vec3
 		surface.place = instance__pattern_place(own, q);
 	}
 	let canonical = canonical__canonical_vector(shape, q - shape.position);
-	surface.uv = saturate(0.5 + 0.5 * vec2f(canonical.x, -canonical.z));
+	surface.uv = saturate_vec2f(0.5 + 0.5 * vec2f(canonical.x, -canonical.z));
 	if (shape.kind == types__SHAPE_SPHERE) {
 		surface.uv = canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
 	}
@@ -5039,15 +5039,15 @@ struct spherical_rectangle__SolidSample {
 
 fn spherical_rectangle__rectangle_view(to_center: vec3f, half_u: vec3f, half_v: vec3f) -> spherical_rectangle__RectangleView {
 	let half = vec2f(length(half_u), length(half_v));
-	let x = half_u / max(half.x, 1e-30);
-	let y = half_v / max(half.y, 1e-30);
+	let x = half_u / max_f32(half.x, 1e-30);
+	let y = half_v / max_f32(half.y, 1e-30);
 	let n = cross(x, y);
 	let corner = to_center - half_u - half_v;
 	let above = dot(corner, n);
 	let low = vec2f(dot(corner, x), dot(corner, y));
 	let opposite = to_center + half_u + half_v;
 	let angle = abs(spherical_rectangle__triangle_angle(corner, corner + 2.0 * half_u, opposite)) + abs(spherical_rectangle__triangle_angle(corner, opposite, corner + 2.0 * half_v));
-	let usable = abs(dot(x, y)) < 0.0001 && angle > spherical_rectangle__LEAST_ANGLE && abs(above) > 0.001 * min(half.x, half.y);
+	let usable = abs(dot(x, y)) < 0.0001 && angle > spherical_rectangle__LEAST_ANGLE && abs(above) > 0.001 * min_f32(half.x, half.y);
 	return spherical_rectangle__RectangleView(x, y, select(n, -n, above > 0.0), low, low + 2.0 * half, -abs(above), select(0.0, angle, usable));
 }
 
@@ -5066,18 +5066,18 @@ fn spherical_rectangle__rectangle_point(view: spherical_rectangle__RectangleView
 	let turn = u.x * view.angle + warp__PI - spherical_rectangle__arc_cosine(low.x * high.y) + spherical_rectangle__arc_cosine(low.x * low.y);
 	let sine = sin(turn);
 	let slope = (-cos(turn) * low.y - high.y) / select(sine, 1e-7, abs(sine) < 1e-7);
-	let cosine = select(-1.0, 1.0, slope > 0.0) * inverseSqrt(max(slope * slope + low.y * low.y, 1e-12));
-	let bound = clamp(cosine, -1.0, 1.0);
-	let along = clamp(-bound * z * inverseSqrt(max(1.0 - bound * bound, 1e-12)), view.low.x, view.high.x);
+	let cosine = select(-1.0, 1.0, slope > 0.0) * inverseSqrt(max_f32(slope * slope + low.y * low.y, 1e-12));
+	let bound = clamp_f32(cosine, -1.0, 1.0);
+	let along = clamp_f32(-bound * z * inverseSqrt(max_f32(1.0 - bound * bound, 1e-12)), view.low.x, view.high.x);
 	let distance2 = along * along + z * z;
 	let ends = vec2f(view.low.y, view.high.y) * inverseSqrt(vec2f(distance2) + vec2f(view.low.y, view.high.y) * vec2f(view.low.y, view.high.y));
 	let part = mix(ends.x, ends.y, u.y);
-	let across = clamp(part * sqrt(distance2) * inverseSqrt(max(1.0 - part * part, 1e-12)), view.low.y, view.high.y);
+	let across = clamp_f32(part * sqrt(distance2) * inverseSqrt(max_f32(1.0 - part * part, 1e-12)), view.low.y, view.high.y);
 	return along * view.x + across * view.y + z * view.z;
 }
 
 fn spherical_rectangle__arc_cosine(x: f32) -> f32 {
-	return atan2(sqrt(max((1.0 - x) * (1.0 + x), 0.0)), x);
+	return atan2(sqrt(max_f32((1.0 - x) * (1.0 + x), 0.0)), x);
 }
 
 fn spherical_rectangle__solid_sample(light: types__PackedLight, p: vec3f, u: vec2f) -> spherical_rectangle__SolidSample {
@@ -5103,7 +5103,7 @@ fn spherical_rectangle__solid_sample(light: types__PackedLight, p: vec3f, u: vec
 	}
 	let distance = length(to_point);
 	let direction = numeric__normalize_or(to_point, -light.direction);
-	return spherical_rectangle__SolidSample(direction, distance, select(area_light__area_density(light, p, direction, distance), 1.0 / max(angle, 1e-30), angle > 0.0));
+	return spherical_rectangle__SolidSample(direction, distance, select(area_light__area_density(light, p, direction, distance), 1.0 / max_f32(angle, 1e-30), angle > 0.0));
 }
 
 fn spherical_rectangle__solid_density(light: types__PackedLight, p: vec3f, direction: vec3f, distance: f32) -> f32 {
@@ -5127,13 +5127,13 @@ fn area_light__area_density(light: types__PackedLight, p: vec3f, direction: vec3
 	if (light.kind == types__LIGHT_SPHERE) {
 		let to_center = light.position - p;
 		let d2 = dot(to_center, to_center);
-		let sin2 = light.radius * light.radius / max(d2, 1e-30);
-		let depth = select(sin2 / (1.0 + sqrt(max(1.0 - sin2, 0.0))), 2.0, sin2 >= 1.0);
-		return 1.0 / (2.0 * warp__PI * max(depth, 1e-30));
+		let sin2 = light.radius * light.radius / max_f32(d2, 1e-30);
+		let depth = select(sin2 / (1.0 + sqrt(max_f32(1.0 - sin2, 0.0))), 2.0, sin2 >= 1.0);
+		return 1.0 / (2.0 * warp__PI * max_f32(depth, 1e-30));
 	}
 	let sides = length(cross(light.edge_u, light.edge_v));
 	let area = select(warp__PI, 4.0, light.kind == types__LIGHT_RECTANGLE) * sides;
-	return distance * distance / max(area * abs(dot(direction, light.direction)), 1e-30);
+	return distance * distance / max_f32(area * abs(dot(direction, light.direction)), 1e-30);
 }
 
 fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> shading__Incident {
@@ -5143,7 +5143,7 @@ fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> s
 	let distance = length(to_light);
 	let direction = numeric__normalize_or(to_light, -light.direction);
 	let cos_light = -dot(direction, light.direction);
-	let fading = max(cos_light, 0.0) / max(distance * distance, 1e-30);
+	let fading = max_f32(cos_light, 0.0) / max_f32(distance * distance, 1e-30);
 	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
 	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + area_light__max_abs(light.edge_u) + area_light__max_abs(light.edge_v);
 	let usable = distance > 1e-30;
@@ -5156,27 +5156,27 @@ fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) ->
 	let radius2 = light.radius * light.radius;
 	let is_inside = d2 <= radius2;
 	let d = sqrt(d2);
-	let sin2 = radius2 / max(max(d2, radius2), 1e-30);
-	let depth = select(sin2 / (1.0 + sqrt(max(1.0 - sin2, 0.0))), 2.0, is_inside);
+	let sin2 = radius2 / max_f32(max_f32(d2, radius2), 1e-30);
+	let depth = select(sin2 / (1.0 + sqrt(max_f32(1.0 - sin2, 0.0))), 2.0, is_inside);
 	let about = warp__cone_from_square(u, depth);
 	let axis = numeric__normalize_or(to_center, vec3f(0.0, 0.0, 1.0));
 	let direction = numeric__normalize_or(warp__turn_to(axis, about), axis);
-	let chord = sqrt(max(radius2 - d2 * dot(about.xy, about.xy), 0.0));
+	let chord = sqrt(max_f32(radius2 - d2 * dot(about.xy, about.xy), 0.0));
 	let distance = d * about.z + select(-chord, chord, is_inside);
-	let outside = 2.0 / ((1.0 + sqrt(max(1.0 - sin2, 0.0))) * max(d2, 1e-30));
-	let fading = select(outside, 4.0 / max(radius2, 1e-30), is_inside);
+	let outside = 2.0 / ((1.0 + sqrt(max_f32(1.0 - sin2, 0.0))) * max_f32(d2, 1e-30));
+	let fading = select(outside, 4.0 / max_f32(radius2, 1e-30), is_inside);
 	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
 	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + light.radius;
-	return shading__Incident(direction, area_light__short_of(distance, reach, chord / max(light.radius, 1e-30)), strength * light.color);
+	return shading__Incident(direction, area_light__short_of(distance, reach, chord / max_f32(light.radius, 1e-30)), strength * light.color);
 }
 
 fn area_light__short_of(distance: f32, reach: f32, cosine: f32) -> f32 {
-	let slack = 32.0 * numeric__ROUNDING * reach / max(cosine, 0.001);
-	return max(distance - min(slack, 0.01 * distance), 0.0);
+	let slack = 32.0 * numeric__ROUNDING * reach / max_f32(cosine, 0.001);
+	return max_f32(distance - min_f32(slack, 0.01 * distance), 0.0);
 }
 
 fn area_light__max_abs(v: vec3f) -> f32 {
-	return max(abs(v.x), max(abs(v.y), abs(v.z)));
+	return max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
 }
 
 const coating__COAT_F0: f32 = 0.04;
@@ -5195,8 +5195,8 @@ struct coating__Coating {
 
 fn coating__coating_at(layers: layers__Layers, wo: vec3f, coat_axis: vec3f) -> coating__Coating {
 	let coat_cos = dot(wo, coat_axis);
-	let coat_alpha = max(layers.coat_roughness * layers.coat_roughness, layers__SMOOTH);
-	let sheen_alpha = max(layers.sheen_roughness * layers.sheen_roughness, 0.001);
+	let coat_alpha = max_f32(layers.coat_roughness * layers.coat_roughness, layers__SMOOTH);
+	let sheen_alpha = max_f32(layers.sheen_roughness * layers.sheen_roughness, 0.001);
 	let of_sheen = albedo__sheen_albedo(wo.z, sheen_alpha);
 	let coat_albedo = layers.coat * coating__coat_reflectance(coat_cos, coat_alpha);
 	let below_coat = 1.0 - coat_albedo;
@@ -5227,7 +5227,7 @@ fn coating__through_coat(surface: shading__Surface, cosine: f32) -> f32 {
 		coat *= layers__textured(own, types__SLOT_COAT, surface).x;
 		roughness *= layers__textured(own, types__SLOT_COAT_ROUGHNESS, surface).y;
 	}
-	return 1.0 - coat * coating__coat_reflectance(clamp(cosine, 0.0, 1.0), max(roughness * roughness, layers__SMOOTH));
+	return 1.0 - coat * coating__coat_reflectance(clamp_f32(cosine, 0.0, 1.0), max_f32(roughness * roughness, layers__SMOOTH));
 }
 
 fn coating__coat_eval(coating: coating__Coating, wo: vec3f, wi: vec3f) -> vec2f {
@@ -5282,7 +5282,7 @@ struct albedo__AlbedoLookup {
 
 fn albedo__entries_around(first: u32, size: vec2u, place: vec2f) -> albedo__AlbedoLookup {
 	let last = vec2f(size - 1u);
-	let cell = min(floor(last * place), last - 1.0);
+	let cell = min_vec2f(floor(last * place), last - 1.0);
 	let part = last * place - cell;
 	let corner = first + u32(cell.y) * size.x + u32(cell.x);
 	let of_rows = vec4f(vec2f(1.0 - part.y), vec2f(part.y));
@@ -5290,9 +5290,9 @@ fn albedo__entries_around(first: u32, size: vec2u, place: vec2f) -> albedo__Albe
 }
 
 fn albedo__facet_place(cos_o: f32, alpha: f32) -> vec2f {
-	let c = clamp(cos_o, 0.0, 1.0);
-	let wide = 4.0 * clamp(alpha, 0.0, 1.0);
-	return sqrt(vec2f(c * (1.0 + wide) / max(c + wide, 1e-9), 0.25 * wide));
+	let c = clamp_f32(cos_o, 0.0, 1.0);
+	let wide = 4.0 * clamp_f32(alpha, 0.0, 1.0);
+	return sqrt(vec2f(c * (1.0 + wide) / max_f32(c + wide, 1e-9), 0.25 * wide));
 }
 
 fn albedo__ggx_lookup(cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
@@ -5300,31 +5300,31 @@ fn albedo__ggx_lookup(cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
 }
 
 fn albedo__stretched_slice(wo: vec3f, alpha: vec2f) -> vec2f {
-	let away_from_x = 1.0 - abs(wo.x) / max(length(wo.xy), 1e-9);
-	return f32(albedo__STRETCHED_SIDE - 1u) * clamp(vec2f(sqrt(alpha.y / alpha.x), away_from_x), vec2f(0.0), vec2f(1.0));
+	let away_from_x = 1.0 - abs(wo.x) / max_f32(length(wo.xy), 1e-9);
+	return f32(albedo__STRETCHED_SIDE - 1u) * clamp_vec2f(vec2f(sqrt(alpha.y / alpha.x), away_from_x), vec2f(0.0), vec2f(1.0));
 }
 
 fn albedo__stretched_lookup(slice: vec2u, wo: vec3f, alpha: vec2f) -> albedo__AlbedoLookup {
 	let first = albedo__STRETCHED_ALBEDO + (slice.y * albedo__STRETCHED_SIDE + slice.x) * albedo__STRETCHED_SIZE.x * albedo__STRETCHED_SIZE.y;
-	let along = length(alpha * wo.xy) / max(length(wo.xy), 1e-9);
+	let along = length(alpha * wo.xy) / max_f32(length(wo.xy), 1e-9);
 	let place = vec2f(albedo__facet_place(wo.z, along).x, albedo__facet_place(wo.z, alpha.x).y);
 	return albedo__entries_around(first, albedo__STRETCHED_SIZE, place);
 }
 
 fn albedo__ggx_factors(entry: vec2f, cos_o: f32) -> vec2f {
-	let grazing = clamp(entry.x * fresnel__schlick_weight(cos_o) + 2.0 * entry.y - 1.0, 0.0, entry.x);
+	let grazing = clamp_f32(entry.x * fresnel__schlick_weight(cos_o) + 2.0 * entry.y - 1.0, 0.0, entry.x);
 	return vec2f(entry.x - grazing, grazing);
 }
 
 fn albedo__sheen_lookup(cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
-	let place = sqrt(sqrt(clamp(vec2f(cos_o, alpha), vec2f(0.0), vec2f(1.0))));
+	let place = sqrt(sqrt(clamp_vec2f(vec2f(cos_o, alpha), vec2f(0.0), vec2f(1.0))));
 	return albedo__entries_around(albedo__SHEEN_ALBEDO, vec2u(albedo__ALBEDO_SIDE), place);
 }
 
 fn albedo__glass_slice(eta: f32) -> f32 {
 	let amplitude = (eta - 1.0) / (eta + 1.0);
 	let steps = select(-albedo__GLASS_CLEAR, f32(albedo__GLASS_SLICES - 1u) - albedo__GLASS_CLEAR, amplitude > 0.0);
-	return clamp(albedo__GLASS_CLEAR + steps * sqrt(2.0 * abs(amplitude)), 0.0, f32(albedo__GLASS_SLICES - 1u));
+	return clamp_f32(albedo__GLASS_CLEAR + steps * sqrt(2.0 * abs(amplitude)), 0.0, f32(albedo__GLASS_SLICES - 1u));
 }
 
 fn albedo__glass_lookup(slice: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
@@ -5332,8 +5332,8 @@ fn albedo__glass_lookup(slice: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLoo
 }
 
 fn albedo__glass_factors(entry: vec2f, cos_o: f32, eta: f32) -> vec2f {
-	let mirror = fresnel__fresnel(clamp(cos_o, 0.0, 1.0), eta).reflectance;
-	return vec2f(entry.x, clamp(mirror + 2.0 * entry.y - 1.0, 0.0, 1.0));
+	let mirror = fresnel__fresnel(clamp_f32(cos_o, 0.0, 1.0), eta).reflectance;
+	return vec2f(entry.x, clamp_f32(mirror + 2.0 * entry.y - 1.0, 0.0, 1.0));
 }
 
 fn albedo__blended_albedo(entries: vec4u, weights: vec4f) -> vec2f {
@@ -5341,14 +5341,14 @@ fn albedo__blended_albedo(entries: vec4u, weights: vec4f) -> vec2f {
 }
 
 fn albedo__multiple_scattering(f0: vec3f, f90: vec3f, albedo: vec2f) -> vec3f {
-	let single = clamp(albedo.x + albedo.y, 0.001, 1.0);
+	let single = clamp_f32(albedo.x + albedo.y, 0.001, 1.0);
 	let leaves = sqrt(single);
-	let kept = clamp(f0 + (f90 - f0) / 21.0, vec3f(0.0), vec3f(1.0));
+	let kept = clamp_vec3f(f0 + (f90 - f0) / 21.0, vec3f(0.0), vec3f(1.0));
 	return 1.0 + kept * (leaves * (1.0 - single) / single) / (1.0 - kept * (1.0 - leaves));
 }
 
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
-	let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
+	let x = clamp_f32((cos_angle - cos_outer) / max_f32(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
 	return x * x * (3.0 - 2.0 * x);
 }
 
@@ -5359,7 +5359,7 @@ fn light__incident(light: types__PackedLight, p: vec3f) -> shading__Incident {
 	let direction = select(numeric__normalize_or(to_light, -light.direction), -light.direction, is_directional);
 	var strength = select(0.0, 1.0, is_directional || distance > 1e-30);
 	if (light.attenuation == types__ATTENUATION_INVERSE_SQUARE) {
-		strength /= max(distance * distance, 1e-30);
+		strength /= max_f32(distance * distance, 1e-30);
 	}
 	if (light.kind == types__LIGHT_SPOT) {
 		strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
@@ -5412,7 +5412,7 @@ fn light_weight__emitter_density(surface: shading__Surface, hit: tracing__Hit, o
 	if ((hit.primitive & types__SHAPE) != 0u) {
 		return emissive_shape__shape_density(hit, origin, direction, distance);
 	}
-	return distance * distance / max(abs(dot(direction, surface.ng)), 1e-30);
+	return distance * distance / max_f32(abs(dot(direction, surface.ng)), 1e-30);
 }
 
 fn light_weight__can_be_hit(light: types__PackedLight) -> bool {
@@ -5441,7 +5441,7 @@ fn light_weight__emitter_of(batch: dispatch__Batch, primitive: u32, instance: u3
 
 fn direct__shadow_ray(surface: shading__Surface, arriving: shading__Incident) -> tracing__Ray {
 	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
-	ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
+	ray.t_max = max_f32(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
 	return ray;
 }
 
@@ -5452,7 +5452,7 @@ fn dispersion__load_dispersion(material: u32) -> f32 {
 }
 
 fn dispersion__colored(path: path__Path, met: interface__Interface) -> path__Path {
-	let disperses = met.encloses && met.is_boundary && max(dispersion__load_dispersion(met.here), dispersion__load_dispersion(medium__dominant(met.media))) > 0.0;
+	let disperses = met.encloses && met.is_boundary && max_f32(dispersion__load_dispersion(met.here), dispersion__load_dispersion(medium__dominant(met.media))) > 0.0;
 	if (!disperses || path.channel != path__ALL_CHANNELS) {
 		return path;
 	}
@@ -5516,7 +5516,7 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	bsdf.normal = select(bsdf.ng, n, dot(n, direction) < -0.001);
 	bsdf.x = warp__turn_to(bsdf.normal, vec3f(1.0, 0.0, 0.0));
 	bsdf.y = warp__turn_to(bsdf.normal, vec3f(0.0, 1.0, 0.0));
-	let width = max(layers.alpha, layers__SMOOTH);
+	let width = max_f32(layers.alpha, layers__SMOOTH);
 	bsdf.alpha = vec2f(width);
 	var stretch = vec2f(1.0);
 	if (bindings__HAS_ANISOTROPY && surface.tangent.w != 0.0 && layers.anisotropy > 0.0) {
@@ -5561,19 +5561,19 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	bsdf.boundary_gain = 1.0;
 	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && bsdf.boundary_alpha.x >= layers__SMOOTH) {
 		let glass = albedo__glass_albedo(bsdf.wo.z, sqrt(bsdf.alpha.x * bsdf.alpha.y), bsdf.eta);
-		let wall = max(gloss.albedo.x + gloss.albedo.y, 0.001);
+		let wall = max_f32(gloss.albedo.x + gloss.albedo.y, 0.001);
 		let along_normal = boundary__boundary_at(bsdf.flags, 1.0, bsdf.eta).reflectance;
 		let share = select((along_normal * gloss.albedo.x + gloss.albedo.y) / wall, glass.y, bsdf.bends);
-		bsdf.boundary_gain = 1.0 / select(wall, max(glass.x, 0.001), bsdf.bends);
+		bsdf.boundary_gain = 1.0 / select(wall, max_f32(glass.x, 0.001), bsdf.bends);
 		seen = lobes__Split(share * bsdf.reflect, (1.0 - share) * bsdf.transmit);
 	}
 	var left = 1.0 - numeric__max_component(gloss.over);
 	if ((optics.flags & types__MATERIAL_SUM) == 0u) {
 		left *= optics.opacity * (1.0 - numeric__max_component(seen.reflect));
 	}
-	bsdf.diffuse = (inside * max(left, 0.0)) * layers.diffuse;
+	bsdf.diffuse = (inside * max_f32(left, 0.0)) * layers.diffuse;
 	let whole = select(bsdf.diffuse, inside * layers.diffuse, bindings__BSDF_SPEC && (optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u);
-	var scale = 1.0 / max(numeric__max_component(bsdf.diffuse + gloss.whole + seen.reflect + seen.transmit), 1.0);
+	var scale = 1.0 / max_f32(numeric__max_component(bsdf.diffuse + gloss.whole + seen.reflect + seen.transmit), 1.0);
 	if (bindings__HAS_COATINGS) {
 		bsdf.coating = coating__coating_at(layers, bsdf.wo, lobes__coat_axis(bsdf, surface));
 		bsdf.coating.albedos *= inside;
@@ -5589,7 +5589,7 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	bsdf.reflect *= scale;
 	bsdf.transmit *= scale;
 	let weights = vec3f(dot(bsdf.diffuse + bsdf.through, tone__LUMINANCE_REC709), scale * dot(gloss.whole, tone__LUMINANCE_REC709), scale * dot(seen.reflect + seen.transmit, tone__LUMINANCE_REC709));
-	let total = max(weights.x + weights.y + weights.z + bsdf.coating.albedos.x + bsdf.coating.albedos.y, 1e-30);
+	let total = max_f32(weights.x + weights.y + weights.z + bsdf.coating.albedos.x + bsdf.coating.albedos.y, 1e-30);
 	bsdf.chances = weights / total;
 	bsdf.coating_chances = bsdf.coating.albedos / total;
 	return bsdf;
@@ -5605,16 +5605,16 @@ fn lobes__coat_axis(bsdf: lobes__Bsdf, surface: shading__Surface) -> vec3f {
 }
 
 fn lobes__film_f0_at(layers: layers__Layers, base_f0: vec3f, cos_o: f32) -> vec3f {
-	let grazing = min(fresnel__schlick_weight(cos_o), 0.999);
-	let film = thin_film__thin_film(cos_o, 1.0, layers.film_ior, layers.film_thickness, min(base_f0, vec3f(1.0)));
-	return clamp((film - grazing) / (1.0 - grazing), vec3f(0.0), vec3f(1.0));
+	let grazing = min_f32(fresnel__schlick_weight(cos_o), 0.999);
+	let film = thin_film__thin_film(cos_o, 1.0, layers.film_ior, layers.film_thickness, min_vec3f(base_f0, vec3f(1.0)));
+	return clamp_vec3f((film - grazing) / (1.0 - grazing), vec3f(0.0), vec3f(1.0));
 }
 
 fn lobes__glossy_fresnel(bsdf: lobes__Bsdf, cos_h: f32) -> vec3f {
 	if (bindings__HAS_COATINGS) {
 		let bare = fresnel__schlick_between(bsdf.base_f0, bsdf.f90, cos_h);
 		if (bsdf.film.x > 0.0) {
-			let film = thin_film__thin_film(clamp(cos_h, 0.0, 1.0), 1.0, bsdf.film.y, bsdf.film.z, min(bsdf.base_f0, vec3f(1.0)));
+			let film = thin_film__thin_film(clamp_f32(cos_h, 0.0, 1.0), 1.0, bsdf.film.y, bsdf.film.z, min_vec3f(bsdf.base_f0, vec3f(1.0)));
 			return mix(bare, film, bsdf.film.x);
 		}
 		return bare;
@@ -5634,7 +5634,7 @@ fn lobes__below_glossy(bsdf: lobes__Bsdf, cos_h: f32) -> f32 {
 }
 
 fn lobes__split_at(bsdf: lobes__Bsdf, cos_i: f32) -> lobes__Split {
-	let boundary = boundary__boundary_at(bsdf.flags, clamp(cos_i, 0.0, 1.0), bsdf.eta);
+	let boundary = boundary__boundary_at(bsdf.flags, clamp_f32(cos_i, 0.0, 1.0), bsdf.eta);
 	if ((bsdf.flags & types__MATERIAL_FRESNEL) != 0u) {
 		return lobes__Split(boundary.reflectance * bsdf.reflect, (1.0 - boundary.reflectance) * bsdf.transmit);
 	}
@@ -5672,16 +5672,16 @@ fn thin_film__film_spectrum(path: f32) -> vec3f {
 fn thin_film__thin_film(cos_i: f32, outside: f32, film_ior: f32, thickness: f32, base_f0: vec3f) -> vec3f {
 	let ior = mix(outside, film_ior, smoothstep(0.0, 0.03, thickness));
 	let above = fresnel__fresnel(cos_i, outside / ior);
-	let root = sqrt(clamp(base_f0, vec3f(0.0), vec3f(0.9999)));
+	let root = sqrt(clamp_vec3f(base_f0, vec3f(0.0), vec3f(0.9999)));
 	let base_ior = (1.0 + root) / (1.0 - root);
 	let r12 = above.reflectance;
 	let r23 = fresnel__schlick_between(thin_film__film_f0(vec3f(ior), base_ior), vec3f(1.0), above.cos_t);
 	let once = sqrt(r12 * r23);
-	let through = (1.0 - r12) * (1.0 - r23) / max(1.0 - r12 * r23, vec3f(1e-6));
+	let through = (1.0 - r12) * (1.0 - r23) / max_vec3f(1.0 - r12 * r23, vec3f(1e-6));
 	let sign = select(vec3f(1.0), vec3f(-1.0), base_ior < vec3f(ior)) * select(-1.0, 1.0, ior < outside);
 	let path = 2.0 * ior * thickness * above.cos_t;
 	let harmonics = sign * once * thin_film__film_spectrum(path) + once * once * thin_film__film_spectrum(2.0 * path);
-	let reflected = clamp(1.0 - through - 2.0 * through * harmonics, vec3f(0.0), vec3f(1.0));
+	let reflected = clamp_vec3f(1.0 - through - 2.0 * through * harmonics, vec3f(0.0), vec3f(1.0));
 	return select(reflected, vec3f(1.0), above.total);
 }
 
@@ -5704,13 +5704,13 @@ fn gloss__gloss_at(layers: layers__Layers, f0: vec3f, f90: vec3f, over: vec3f, i
 	var whole = inside * covering;
 	if (bindings__HAS_METALLIC_ROUGHNESS) {
 		let covered = inside * (1.0 - layers.metallic);
-		let beside = max(f0 - covered * over, vec3f(0.0));
-		let beside_f90 = max(f90 - covered * layers.over_f90, vec3f(0.0));
-		let part = 1.0 / max(layers.metallic, 1e-6);
-		let of_metal = gloss__scattered_often(min(part * beside, vec3f(1.0)), min(part * beside_f90, vec3f(1.0)), albedo);
+		let beside = max_vec3f(f0 - covered * over, vec3f(0.0));
+		let beside_f90 = max_vec3f(f90 - covered * layers.over_f90, vec3f(0.0));
+		let part = 1.0 / max_f32(layers.metallic, 1e-6);
+		let of_metal = gloss__scattered_often(min_vec3f(part * beside, vec3f(1.0)), min_vec3f(part * beside_f90, vec3f(1.0)), albedo);
 		whole = covered * covering + of_metal * (albedo.x * beside + albedo.y * beside_f90);
 	}
-	return gloss__Gloss(whole, covering, whole / max(albedo.x * f0 + albedo.y * f90, vec3f(1e-9)), albedo);
+	return gloss__Gloss(whole, covering, whole / max_vec3f(albedo.x * f0 + albedo.y * f90, vec3f(1e-9)), albedo);
 }
 
 fn gloss__scattered_often(f0: vec3f, f90: vec3f, albedo: vec2f) -> vec3f {
@@ -5822,7 +5822,7 @@ fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSamp
 	let is_glossy = !is_diffuse && choice < chances.x + chances.y;
 	let first = chances.x + chances.y + bsdf.coating_chances.x + bsdf.coating_chances.y;
 	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && choice >= first && chances.z > 0.0) {
-		return bsdf__boundary_sample(bsdf, clamp((choice - first) / chances.z, 0.0, 1.0), u);
+		return bsdf__boundary_sample(bsdf, clamp_f32((choice - first) / chances.z, 0.0, 1.0), u);
 	}
 	var wi = bsdf_diffuse__diffuse_sample(u);
 	if (bindings__HAS_GLOSS && !is_diffuse) {
@@ -5849,7 +5849,7 @@ fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
 		return 0.0;
 	}
 	let through = dot(bsdf.through, tone__LUMINANCE_REC709);
-	return through / max(through + dot(bsdf.diffuse, tone__LUMINANCE_REC709), 1e-30);
+	return through / max_f32(through + dot(bsdf.diffuse, tone__LUMINANCE_REC709), 1e-30);
 }
 
 struct bsdf__Facet {
@@ -5860,7 +5860,7 @@ struct bsdf__Facet {
 }
 
 fn bsdf__facet_at(bsdf: lobes__Bsdf, h: vec3f, choice: f32) -> bsdf__Facet {
-	let cos_h = clamp(dot(bsdf.wo, h), 0.0, 1.0);
+	let cos_h = clamp_f32(dot(bsdf.wo, h), 0.0, 1.0);
 	let split = lobes__split_at(bsdf, cos_h);
 	let chance = bsdf__reflection_chance(bsdf, split, cos_h);
 	let reflects = choice < chance;
@@ -5881,7 +5881,7 @@ fn bsdf__unshadowed(bsdf: lobes__Bsdf, facet: bsdf__Facet, alpha: vec2f) -> f32 
 
 fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
 	let is_smooth = bsdf.boundary_alpha.x < layers__SMOOTH;
-	let alpha = max(bsdf.boundary_alpha, vec2f(layers__SMOOTH));
+	let alpha = max_vec2f(bsdf.boundary_alpha, vec2f(layers__SMOOTH));
 	var numbers = vec3f(choice, u);
 	var key = rng__hash_combine(bitcast<u32>(choice), rng__hash_combine(bitcast<u32>(u.x), bitcast<u32>(u.y)));
 	var draws = select(1u, 1u + bsdf__MOST_REDRAWS, bsdf__draws_again() && !is_smooth);
@@ -5902,8 +5902,8 @@ fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__Bsdf
 	if (!is_smooth) {
 		return bsdf__rough_sample(bsdf, facet.wi, (facet.wi.z > 0.0) == facet.reflects);
 	}
-	let transmitted = facet.split.transmit / max(1.0 - facet.chance, 1e-6);
-	let fraction = select(transmitted, facet.split.reflect / max(facet.chance, 1e-6), facet.reflects);
+	let transmitted = facet.split.transmit / max_f32(1.0 - facet.chance, 1e-6);
+	let fraction = select(transmitted, facet.split.reflect / max_f32(facet.chance, 1e-6), facet.reflects);
 	let direction = lobes__from_frame(bsdf, facet.wi);
 	let stays = (dot(direction, bsdf.ng) > 0.0) == facet.reflects;
 	return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
@@ -5916,16 +5916,16 @@ fn bsdf__boundary_density(bsdf: lobes__Bsdf, boundary: vec2f) -> f32 {
 fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f, is_on_side: bool) -> bsdf__BsdfSample {
 	let direction = lobes__from_frame(bsdf, wi);
 	let found = bsdf__bsdf_eval(bsdf, direction);
-	let weight = select(vec3f(0.0), found.value / max(found.pdf, 1e-30), is_on_side);
+	let weight = select(vec3f(0.0), found.value / max_f32(found.pdf, 1e-30), is_on_side);
 	return bsdf__BsdfSample(direction, weight, found.pdf);
 }
 
 fn bsdf__reflection_chance(bsdf: lobes__Bsdf, split: lobes__Split, cos_h: f32) -> f32 {
 	if (bsdf__draws_again() && (bsdf.flags & types__MATERIAL_FRESNEL) != 0u && bsdf.boundary_alpha.x >= layers__SMOOTH) {
-		return boundary__boundary_at(bsdf.flags, clamp(cos_h, 0.0, 1.0), bsdf.eta).reflectance;
+		return boundary__boundary_at(bsdf.flags, clamp_f32(cos_h, 0.0, 1.0), bsdf.eta).reflectance;
 	}
 	let reflected = dot(split.reflect, tone__LUMINANCE_REC709);
-	return reflected / max(reflected + dot(split.transmit, tone__LUMINANCE_REC709), 1e-30);
+	return reflected / max_f32(reflected + dot(split.transmit, tone__LUMINANCE_REC709), 1e-30);
 }
 
 fn bsdf__reflected_at(wo: vec3f, h: vec3f) -> vec3f {
@@ -5940,30 +5940,30 @@ fn bsdf_ggx__ggx_distribution(h: vec3f, alpha: vec2f) -> f32 {
 
 fn bsdf_ggx__ggx_lambda(w: vec3f, alpha: vec2f) -> f32 {
 	let slope = alpha * w.xy;
-	return 0.5 * (sqrt(1.0 + dot(slope, slope) / max(w.z * w.z, 1e-12)) - 1.0);
+	return 0.5 * (sqrt(1.0 + dot(slope, slope) / max_f32(w.z * w.z, 1e-12)) - 1.0);
 }
 
 fn bsdf_ggx__ggx_normal(wo: vec3f, alpha: vec2f, u: vec2f) -> vec3f {
 	let stretched = normalize(vec3f(alpha * wo.xy, wo.z));
 	let z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
-	let radius = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
+	let radius = sqrt(clamp_f32(1.0 - z * z, 0.0, 1.0));
 	let angle = 2.0 * warp__PI * u.x;
 	let sum = vec3f(radius * cos(angle), radius * sin(angle), z) + stretched;
-	return normalize(vec3f(alpha * sum.xy, max(sum.z, 1e-6)));
+	return normalize(vec3f(alpha * sum.xy, max_f32(sum.z, 1e-6)));
 }
 
 fn bsdf_ggx__ggx_eval(wo: vec3f, wi: vec3f, alpha: vec2f, separable: bool) -> vec2f {
-	let h = normalize(vec3f(wo.xy + wi.xy, max(wo.z, 0.0) + max(wi.z, 1e-6)));
+	let h = normalize(vec3f(wo.xy + wi.xy, max_f32(wo.z, 0.0) + max_f32(wi.z, 1e-6)));
 	let seen = 1.0 + bsdf_ggx__ggx_lambda(wo, alpha);
 	let lit = 1.0 + bsdf_ggx__ggx_lambda(wi, alpha);
-	let facets = bsdf_ggx__ggx_distribution(h, alpha) / (4.0 * max(wo.z, 1e-6));
+	let facets = bsdf_ggx__ggx_distribution(h, alpha) / (4.0 * max_f32(wo.z, 1e-6));
 	let shadowed = select(seen + lit - 1.0, seen * lit, separable);
 	return select(vec2f(0.0), vec2f(facets / shadowed, facets / seen), wo.z > 0.0 && wi.z > 0.0);
 }
 
 fn bsdf_sheen__charlie_distribution(h: vec3f, alpha: f32) -> f32 {
 	let exponent = 1.0 / alpha;
-	let sin2 = clamp(dot(h.xy, h.xy), 1e-12, 1.0);
+	let sin2 = clamp_f32(dot(h.xy, h.xy), 1e-12, 1.0);
 	return (2.0 + exponent) * pow(sin2, 0.5 * exponent) / (2.0 * warp__PI);
 }
 
@@ -5974,7 +5974,7 @@ fn bsdf_sheen__charlie_shape(x: f32, alpha: f32) -> f32 {
 	let c = mix(0.19823, 0.16801, smooth_part);
 	let d = mix(-1.9776, -1.27393, smooth_part);
 	let e = mix(-4.32054, -4.85967, smooth_part);
-	return a / (1.0 + b * pow(max(x, 1e-9), c)) + d * x + e;
+	return a / (1.0 + b * pow(max_f32(x, 1e-9), c)) + d * x + e;
 }
 
 fn bsdf_sheen__charlie_lambda(cos_theta: f32, alpha: f32) -> f32 {
@@ -5984,8 +5984,8 @@ fn bsdf_sheen__charlie_lambda(cos_theta: f32, alpha: f32) -> f32 {
 }
 
 fn bsdf_sheen__sheen_eval(wo: vec3f, wi: vec3f, alpha: f32) -> vec2f {
-	let h = normalize(vec3f(wo.xy + wi.xy, max(wo.z, 0.0) + max(wi.z, 1e-6)));
-	let cosines = clamp(vec2f(wo.z, wi.z), vec2f(1e-6), vec2f(1.0));
+	let h = normalize(vec3f(wo.xy + wi.xy, max_f32(wo.z, 0.0) + max_f32(wi.z, 1e-6)));
+	let cosines = clamp_vec2f(vec2f(wo.z, wi.z), vec2f(1e-6), vec2f(1.0));
 	let lambda = bsdf_sheen__charlie_lambda(cosines.x, alpha) + bsdf_sheen__charlie_lambda(cosines.y, alpha);
 	let value = bsdf_sheen__charlie_distribution(h, alpha) / (4.0 * cosines.x * (1.0 + lambda));
 	return select(vec2f(0.0), vec2f(value, 0.5 / warp__PI), wo.z > 0.0 && wi.z > 0.0);
@@ -5998,7 +5998,7 @@ fn bsdf_sheen__sheen_sample(u: vec2f) -> vec3f {
 fn bsdf_ggx_transmission__transmission_half(wo: vec3f, wi: vec3f, eta: f32) -> vec3f {
 	let sum = eta * wo + wi;
 	let squared = dot(sum, sum);
-	let h = sum * select(1.0, -1.0, sum.z < 0.0) / sqrt(max(squared, 1e-20));
+	let h = sum * select(1.0, -1.0, sum.z < 0.0) / sqrt(max_f32(squared, 1e-20));
 	let refracts = squared > 1e-12 && dot(wo, h) > 0.0 && dot(wi, h) < 0.0;
 	return select(vec3f(0.0), h, refracts);
 }
@@ -6008,7 +6008,75 @@ fn bsdf_ggx_transmission__ggx_transmission(wo: vec3f, wi: vec3f, alpha: vec2f, e
 	let sum = eta * wo + wi;
 	let seen = 1.0 + bsdf_ggx__ggx_lambda(wo, alpha);
 	let lit = 1.0 + bsdf_ggx__ggx_lambda(wi, alpha);
-	let refracted_density = abs(dot(wo, h) * dot(wi, h)) / (max(wo.z, 1e-6) * max(dot(sum, sum), 1e-12));
+	let refracted_density = abs(dot(wo, h) * dot(wi, h)) / (max_f32(wo.z, 1e-6) * max_f32(dot(sum, sum), 1e-12));
 	let pdf = bsdf_ggx__ggx_distribution(h, alpha) * refracted_density / seen;
 	return select(vec2f(0.0), vec2f(pdf / lit, pdf), wo.z > 0.0 && wi.z < 0.0);
+}
+
+override bindings__EXTREMES_BY_SELECT: bool = false;
+
+fn min_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_f32(value: f32, low: f32, high: f32) -> f32 {
+	return min_f32(max_f32(value, low), high);
+}
+
+fn saturate_f32(value: f32) -> f32 {
+	return clamp_f32(value, f32(0), f32(1));
+}
+
+fn min_vec2f(a: vec2f, b: vec2f) -> vec2f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec2f(a: vec2f, b: vec2f) -> vec2f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec2f(value: vec2f, low: vec2f, high: vec2f) -> vec2f {
+	return min_vec2f(max_vec2f(value, low), high);
+}
+
+fn saturate_vec2f(value: vec2f) -> vec2f {
+	return clamp_vec2f(value, vec2f(0), vec2f(1));
+}
+
+fn min_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec3f(value: vec3f, low: vec3f, high: vec3f) -> vec3f {
+	return min_vec3f(max_vec3f(value, low), high);
+}
+
+fn saturate_vec3f(value: vec3f) -> vec3f {
+	return clamp_vec3f(value, vec3f(0), vec3f(1));
 }

@@ -866,7 +866,7 @@ fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
 }
 
 fn numeric__max_component(v: vec3f) -> f32 {
-	return max(v.x, max(v.y, v.z));
+	return max_f32(v.x, max_f32(v.y, v.z));
 }
 
 fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
@@ -904,10 +904,10 @@ struct motion__Space {
 
 fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
 	let q = mix(a.rotation, b.rotation, vec4f(fraction));
-	let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+	let rotation = motion__rotation_matrix(q * inverseSqrt(max_f32(dot(q, q), 1e-30)));
 	let d = mix(a.stretch, b.stretch, vec3f(fraction));
 	let s = mix(a.shear, b.shear, vec3f(fraction));
-	let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
+	let size = max_f32(max_f32(abs(d.x), abs(d.y)), max_f32(abs(d.z), 1e-30));
 	let e = d / size;
 	let f = s / size;
 	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
@@ -1066,8 +1066,8 @@ fn sphere__intersect_sphere(ray: tracing__Ray, center: vec3f, radius: f32) -> tr
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
 	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
 	let t1 = q / a;
-	let near = min(t0, t1);
-	let t = select(max(t0, t1), near, near > 0.0);
+	let near = min_f32(t0, t1);
+	let t = select(max_f32(t0, t1), near, near > 0.0);
 	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
@@ -1087,8 +1087,8 @@ fn globe__intersect_globe(ray: tracing__Ray, anchor: vec3f, n: vec3f, curvature:
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
 	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
 	let t1 = q / a;
-	let near = min(t0, t1);
-	let t = select(max(t0, t1), near, near > 0.0);
+	let near = min_f32(t0, t1);
+	let t = select(max_f32(t0, t1), near, near > 0.0);
 	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
@@ -1112,14 +1112,14 @@ fn canonical__canonical_ray(ray: tracing__Ray, shape: types__PackedShape) -> tra
 
 fn canonical__approach(ray: tracing__Ray, center: vec3f, reach: f32) -> canonical__Approach {
 	let size = abs(ray.direction);
-	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let largest = max_f32(max_f32(size.x, max_f32(size.y, size.z)), 1e-30);
 	let scaled = ray.direction / largest;
-	let inv_length = inverseSqrt(max(dot(scaled, scaled), 1e-30));
+	let inv_length = inverseSqrt(max_f32(dot(scaled, scaled), 1e-30));
 	let direction = scaled * inv_length;
-	let start = max(dot(center - ray.origin, direction) - reach, 0.0);
+	let start = max_f32(dot(center - ray.origin, direction) - reach, 0.0);
 	let origin = ray.origin + start * direction;
 	let off = abs(origin - center);
-	let near = max(off.x, max(off.y, off.z)) <= 2.0 * reach;
+	let near = max_f32(off.x, max_f32(off.y, off.z)) <= 2.0 * reach;
 	return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
 }
 
@@ -1130,7 +1130,7 @@ fn canonical__approached_t(near: canonical__Approach, s: f32) -> f32 {
 fn disc__intersect_disc(ray: tracing__Ray, hole: f32) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
-	let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
+	let p = clamp_vec2f(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
 	let distance = dot(p, p);
 	return tracing__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
@@ -1146,15 +1146,15 @@ fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
 
 fn box__intersect_box(ray: tracing__Ray) -> tracing__Candidate {
 	let size = abs(ray.direction);
-	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let largest = max_f32(max_f32(size.x, max_f32(size.y, size.z)), 1e-30);
 	let inv = numeric__safe_reciprocal(ray.direction / largest);
-	let origin = clamp(ray.origin, vec3f(-1e18), vec3f(1e18));
+	let origin = clamp_vec3f(ray.origin, vec3f(-1e18), vec3f(1e18));
 	let t0 = (-1.0 - origin) * inv;
 	let t1 = (1.0 - origin) * inv;
-	let enters = min(t0, t1);
-	let leaves = max(t0, t1);
-	let enter = max(enters.x, max(enters.y, enters.z));
-	let leave = min(leaves.x, min(leaves.y, leaves.z));
+	let enters = min_vec3f(t0, t1);
+	let leaves = max_vec3f(t0, t1);
+	let enter = max_f32(enters.x, max_f32(enters.y, enters.z));
+	let leave = min_f32(leaves.x, min_f32(leaves.y, leaves.z));
 	let from_outside = enter > 0.0;
 	let s = select(leave, enter, from_outside);
 	let planes = select(leaves, enters, from_outside);
@@ -1187,13 +1187,13 @@ fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) 
 	let lean = radius * d.xz - slope * d.y * o.xz;
 	let by_determinants = dot(lean, lean) - turn * turn - (a - exact_a) * c;
 	let discriminant = select(by_determinants, b * b - a * c, a * c <= 0.0);
-	let root = sqrt(max(discriminant, 0.0));
+	let root = sqrt(max_f32(discriminant, 0.0));
 	let q = -(b + select(-root, root, b >= 0.0));
 	let usable = abs(q) > 1e-20;
 	let r1 = q / a;
 	let r2 = select(0.0, c / select(1.0, q, usable), usable);
-	let low = min(r1, r2);
-	let high = max(r1, r2);
+	let low = min_f32(r1, r2);
+	let high = max_f32(r1, r2);
 	let steep = a < 0.0;
 	let widens = slope * d.y > 0.0;
 	let side_in = select(low, select(-cone__FAR, high, widens), steep);
@@ -1202,10 +1202,10 @@ fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) 
 	let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
 	let y0 = -o.y * inv_y;
 	let y1 = (1.0 - o.y) * inv_y;
-	let slab_in = min(y0, y1);
-	let slab_out = max(y0, y1);
-	let enter = max(slab_in, side_in);
-	let leave = min(slab_out, side_out);
+	let slab_in = min_f32(y0, y1);
+	let slab_out = max_f32(y0, y1);
+	let enter = max_f32(slab_in, side_in);
+	let leave = min_f32(slab_out, side_out);
 	let enters_side = side_in >= slab_in;
 	let leaves_side = side_out <= slab_out;
 	let takes_enter = (near.start + enter > 0.0) & (enters_side | capped);
@@ -1223,10 +1223,10 @@ fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) 
 fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
 	let p = o + s * d;
 	let off_axis = length(p.xz);
-	let rate = dot(p.xz, d.xz) / max(off_axis, 1e-18) - slope * d.y;
+	let rate = dot(p.xz, d.xz) / max_f32(off_axis, 1e-18) - slope * d.y;
 	let usable = abs(rate) > 0.001;
 	let step = (off_axis - (bottom + slope * p.y)) / select(1.0, rate, usable);
-	return s - clamp(select(0.0, step, usable), -0.001, 0.001);
+	return s - clamp_f32(select(0.0, step, usable), -0.001, 0.001);
 }
 
 const torus__MOST_ROUNDS: u32 = 40u;
@@ -1240,25 +1240,25 @@ fn torus__torus_distance(p: vec3f, minor: f32) -> f32 {
 fn torus__polish(s: f32, p: f32, q: f32) -> f32 {
 	let slope = 3.0 * s * s + p;
 	let steep = abs(slope) > 0.001;
-	return s - clamp(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
+	return s - clamp_f32(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
 }
 
 fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
 	let third = p / 3.0;
 	let half = 0.5 * q;
 	let discriminant = half * half + third * third * third;
-	let cube = abs(half) + sqrt(max(discriminant, 0.0));
-	let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max(cube, 1e-30)) / 3.0), cube > 1e-30);
+	let cube = abs(half) + sqrt(max_f32(discriminant, 0.0));
+	let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max_f32(cube, 1e-30)) / 3.0), cube > 1e-30);
 	let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
 	let one = torus__polish(large + small, p, q);
-	let size = sqrt(max(-third, 0.0));
+	let size = sqrt(max_f32(-third, 0.0));
 	let usable = size > 1e-10;
-	let cosine = clamp(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
+	let cosine = clamp_f32(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
 	let angle = acos(cosine) / 3.0;
 	let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
 	let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
 	let c = torus__polish(2.0 * size * cos(angle), p, q);
-	let three = vec3f(min(a, min(b, c)), max(min(a, b), min(max(a, b), c)), max(a, max(b, c)));
+	let three = vec3f(min_f32(a, min_f32(b, c)), max_f32(min_f32(a, b), min_f32(max_f32(a, b), c)), max_f32(a, max_f32(b, c)));
 	return select(three, vec3f(one), discriminant > 0.0);
 }
 
@@ -1271,11 +1271,11 @@ fn torus__intersect_torus(ray: tracing__Ray, minor: f32) -> tracing__Candidate {
 	let nearest = o + middle * d;
 	let apart = dot(nearest, nearest);
 	let ball = 1.0001 * outer;
-	let half_chord = sqrt(max(ball * ball - apart, 0.0));
-	let start = max(middle - half_chord, 0.0);
+	let half_chord = sqrt(max_f32(ball * ball - apart, 0.0));
+	let start = max_f32(middle - half_chord, 0.0);
 	let end = middle + half_chord;
 	let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
-	let cuts = vec4f(clamp(zeros, vec3f(start), vec3f(max(end, start))), end);
+	let cuts = vec4f(clamp_vec3f(zeros, vec3f(start), vec3f(max_f32(end, start))), end);
 	let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
 	let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
 	let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
@@ -1301,8 +1301,8 @@ fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, ou
 		let before = (distance >= 0.0) == outside;
 		low = select(low, s, before);
 		high = select(s, high, before);
-		let ring_slope = dot(p.xz, d.xz) / max(ring, 1e-20);
-		let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max(to_middle, 1e-20);
+		let ring_slope = dot(p.xz, d.xz) / max_f32(ring, 1e-20);
+		let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max_f32(to_middle, 1e-20);
 		let usable = abs(slope) > 1e-6;
 		let newton = s - distance / select(1.0, slope, usable);
 		let takes_newton = usable & (newton > low) & (newton < high) & (abs(newton - s) < 0.5 * moved);
@@ -1388,4 +1388,72 @@ fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing_
 	let steep = abs(slope) > 1e-12;
 	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
 	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+}
+
+override bindings__EXTREMES_BY_SELECT: bool = false;
+
+fn min_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_f32(value: f32, low: f32, high: f32) -> f32 {
+	return min_f32(max_f32(value, low), high);
+}
+
+fn saturate_f32(value: f32) -> f32 {
+	return clamp_f32(value, f32(0), f32(1));
+}
+
+fn min_vec2f(a: vec2f, b: vec2f) -> vec2f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec2f(a: vec2f, b: vec2f) -> vec2f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec2f(value: vec2f, low: vec2f, high: vec2f) -> vec2f {
+	return min_vec2f(max_vec2f(value, low), high);
+}
+
+fn saturate_vec2f(value: vec2f) -> vec2f {
+	return clamp_vec2f(value, vec2f(0), vec2f(1));
+}
+
+fn min_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec3f(value: vec3f, low: vec3f, high: vec3f) -> vec3f {
+	return min_vec3f(max_vec3f(value, low), high);
+}
+
+fn saturate_vec3f(value: vec3f) -> vec3f {
+	return clamp_vec3f(value, vec3f(0), vec3f(1));
 }

@@ -288,7 +288,7 @@ fn dispatch__add_counts(lane: u32) {
 		atomicAdd(&bindings__dispatch.counters.cut_throughput, dispatch__steps_of(256.0 * dispatch__cut_throughput));
 	}
 	if (bindings__CLAMP_INDIRECT > 0.0) {
-		let steps = 16.0 / max(bindings__CLAMP_INDIRECT, 1e-6);
+		let steps = 16.0 / max_f32(bindings__CLAMP_INDIRECT, 1e-6);
 		let clamped = dispatch__steps_of(steps * dispatch__clamped_light);
 		let kept = dispatch__steps_of(steps * dispatch__kept_light);
 		if (atomicAdd(&bindings__dispatch.counters.clamped_light, clamped) > 4294967295u - clamped) {
@@ -307,7 +307,7 @@ fn dispatch__add_counts(lane: u32) {
 }
 
 fn dispatch__steps_of(number: f32) -> u32 {
-	return u32(min(number, 4000000000.0) + rng__unit_float(rng__hash(bitcast<u32>(number))));
+	return u32(min_f32(number, 4000000000.0) + rng__unit_float(rng__hash(bitcast<u32>(number))));
 }
 
 const types__NONE: u32 = 4294967295u;
@@ -1478,7 +1478,7 @@ fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32)
 
 fn features__see_albedo(albedo: vec3f, normal: vec3f) {
 	if (bindings__HAS_FEATURES && features__features.is_followed) {
-		features__features.albedo = clamp(albedo, vec3f(0.0), vec3f(1.0));
+		features__features.albedo = clamp_vec3f(albedo, vec3f(0.0), vec3f(1.0));
 		features__features.normal = normal;
 		features__features.is_followed = false;
 	}
@@ -1612,11 +1612,11 @@ const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f()
 fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> tracing__Cone {
 	let camera = batch.camera;
 	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
-	let side = batch.footprint * max(sides.x, sides.y);
+	let side = batch.footprint * max_f32(sides.x, sides.y);
 	if (bindings__ORTHOGRAPHIC) {
 		return tracing__Cone(side, 0.0);
 	}
-	return tracing__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
+	return tracing__Cone(0.0, side * max_f32(dot(direction, camera.forward), 0.0));
 }
 
 fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
@@ -1757,11 +1757,11 @@ fn filter__filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
 	let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
 	let fraction = abs(centred);
 	if (kind == types__FILTER_TENT) {
-		return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
+		return radius * side * (1.0 - sqrt(max_vec2f(1.0 - fraction, vec2f(0.0))));
 	}
 	if (kind == types__FILTER_GAUSSIAN) {
 		let scale = filter__SIGMA * sqrt(2.0);
-		return scale * side * min(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
+		return scale * side * min_vec2f(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
 	}
 	return radius * side * filter__searched(kind, fraction);
 }
@@ -1805,13 +1805,13 @@ fn filter__cumulated(kind: u32, x: vec2f) -> vec2f {
 fn filter__erf(x: f32) -> f32 {
 	let t = 1.0 / (1.0 + 0.3275911 * x);
 	let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
-	return 1.0 - series * exp(-min(x * x, 80.0));
+	return 1.0 - series * exp(-min_f32(x * x, 80.0));
 }
 
 fn filter__inverse_erf(y: vec2f) -> vec2f {
-	let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
+	let w = -log(max_vec2f((1.0 - y) * (1.0 + y), vec2f(1e-7)));
 	let a = w - 2.5;
-	let b = sqrt(max(w, vec2f(0.0))) - 3.0;
+	let b = sqrt(max_vec2f(w, vec2f(0.0))) - 3.0;
 	let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
 	let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
 	return y * select(far, near, w < vec2f(5.0));
@@ -1920,10 +1920,10 @@ struct motion__Space {
 
 fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
 	let q = mix(a.rotation, b.rotation, vec4f(fraction));
-	let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+	let rotation = motion__rotation_matrix(q * inverseSqrt(max_f32(dot(q, q), 1e-30)));
 	let d = mix(a.stretch, b.stretch, vec3f(fraction));
 	let s = mix(a.shear, b.shear, vec3f(fraction));
-	let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
+	let size = max_f32(max_f32(abs(d.x), abs(d.y)), max_f32(abs(d.z), 1e-30));
 	let e = d / size;
 	let f = s / size;
 	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
@@ -2013,8 +2013,8 @@ fn warp__triangle_from_square(u: vec2f) -> vec2f {
 }
 
 fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
-	let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
-	let b = warp__triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
+	let edge = min_f32(floor(u.x * f32(count)), f32(count) - 1.0);
+	let b = warp__triangle_from_square(vec2f(clamp_f32(u.x * f32(count) - edge, 0.0, 1.0), u.y));
 	let step = 2.0 * warp__PI / f32(count);
 	let angles = rotation + step * vec2f(edge, edge + 1.0);
 	return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
@@ -2022,8 +2022,8 @@ fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
 
 fn warp__cone_from_square(u: vec2f, depth: f32) -> vec3f {
 	let p = warp__disc_from_square(u);
-	let below = min(dot(p, p), 1.0) * depth;
-	return vec3f(p * sqrt(max(depth * (2.0 - below), 0.0)), 1.0 - below);
+	let below = min_f32(dot(p, p), 1.0) * depth;
+	return vec3f(p * sqrt(max_f32(depth * (2.0 - below), 0.0)), 1.0 - below);
 }
 
 fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
@@ -2500,7 +2500,7 @@ fn stack__moved(above: vec4u, here: vec4u, below: vec4u, count: i32) -> vec4u {
 const numeric__ROUNDING: f32 = 5.9604645e-8;
 
 fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
-	let largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+	let largest = max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
 	let usable = largest > 1e-30;
 	let scaled = select(vec3f(1.0, 0.0, 0.0), v / select(1.0, largest, usable), usable);
 	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
@@ -2517,7 +2517,7 @@ fn numeric__is_finite(v: vec3f) -> bool {
 }
 
 fn numeric__max_component(v: vec3f) -> f32 {
-	return max(v.x, max(v.y, v.z));
+	return max_f32(v.x, max_f32(v.y, v.z));
 }
 
 fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
@@ -2731,8 +2731,8 @@ fn sphere__intersect_sphere(ray: tracing__Ray, center: vec3f, radius: f32) -> tr
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
 	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
 	let t1 = q / a;
-	let near = min(t0, t1);
-	let t = select(max(t0, t1), near, near > 0.0);
+	let near = min_f32(t0, t1);
+	let t = select(max_f32(t0, t1), near, near > 0.0);
 	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
@@ -2752,8 +2752,8 @@ fn globe__intersect_globe(ray: tracing__Ray, anchor: vec3f, n: vec3f, curvature:
 	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
 	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
 	let t1 = q / a;
-	let near = min(t0, t1);
-	let t = select(max(t0, t1), near, near > 0.0);
+	let near = min_f32(t0, t1);
+	let t = select(max_f32(t0, t1), near, near > 0.0);
 	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
@@ -2798,14 +2798,14 @@ fn canonical__canonical_ray(ray: tracing__Ray, shape: types__PackedShape) -> tra
 
 fn canonical__approach(ray: tracing__Ray, center: vec3f, reach: f32) -> canonical__Approach {
 	let size = abs(ray.direction);
-	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let largest = max_f32(max_f32(size.x, max_f32(size.y, size.z)), 1e-30);
 	let scaled = ray.direction / largest;
-	let inv_length = inverseSqrt(max(dot(scaled, scaled), 1e-30));
+	let inv_length = inverseSqrt(max_f32(dot(scaled, scaled), 1e-30));
 	let direction = scaled * inv_length;
-	let start = max(dot(center - ray.origin, direction) - reach, 0.0);
+	let start = max_f32(dot(center - ray.origin, direction) - reach, 0.0);
 	let origin = ray.origin + start * direction;
 	let off = abs(origin - center);
-	let near = max(off.x, max(off.y, off.z)) <= 2.0 * reach;
+	let near = max_f32(off.x, max_f32(off.y, off.z)) <= 2.0 * reach;
 	return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
 }
 
@@ -2835,14 +2835,14 @@ fn canonical__placed_point(shape: types__PackedShape, reached: vec3f, point: can
 
 fn canonical__longitude(x: f32, z: f32) -> f32 {
 	let on_axis = (x == 0.0) & (z == 0.0);
-	return saturate(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
+	return saturate_f32(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
 }
 
 fn canonical__sphere_uv(n: vec3f) -> vec2f {
 	let off_axis = length(n.xz);
 	let at_center = (off_axis == 0.0) & (n.y == 0.0);
 	let latitude = atan2(n.y, select(off_axis, 1.0, at_center));
-	return vec2f(canonical__longitude(n.x, n.z), saturate(0.5 + 2.0 * latitude / canonical__TWO_PI));
+	return vec2f(canonical__longitude(n.x, n.z), saturate_f32(0.5 + 2.0 * latitude / canonical__TWO_PI));
 }
 
 fn canonical__outwards(v: vec2f) -> vec2f {
@@ -2854,13 +2854,13 @@ fn canonical__outwards(v: vec2f) -> vec2f {
 fn disc__intersect_disc(ray: tracing__Ray, hole: f32) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
-	let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
+	let p = clamp_vec2f(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
 	let distance = dot(p, p);
 	return tracing__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
 fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
-	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate_vec2f(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
 fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
@@ -2873,20 +2873,20 @@ fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
 }
 
 fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
-	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate_vec2f(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
 fn box__intersect_box(ray: tracing__Ray) -> tracing__Candidate {
 	let size = abs(ray.direction);
-	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let largest = max_f32(max_f32(size.x, max_f32(size.y, size.z)), 1e-30);
 	let inv = numeric__safe_reciprocal(ray.direction / largest);
-	let origin = clamp(ray.origin, vec3f(-1e18), vec3f(1e18));
+	let origin = clamp_vec3f(ray.origin, vec3f(-1e18), vec3f(1e18));
 	let t0 = (-1.0 - origin) * inv;
 	let t1 = (1.0 - origin) * inv;
-	let enters = min(t0, t1);
-	let leaves = max(t0, t1);
-	let enter = max(enters.x, max(enters.y, enters.z));
-	let leave = min(leaves.x, min(leaves.y, leaves.z));
+	let enters = min_vec3f(t0, t1);
+	let leaves = max_vec3f(t0, t1);
+	let enter = max_f32(enters.x, max_f32(enters.y, enters.z));
+	let leave = min_f32(leaves.x, min_f32(leaves.y, leaves.z));
 	let from_outside = enter > 0.0;
 	let s = select(leave, enter, from_outside);
 	let planes = select(leaves, enters, from_outside);
@@ -2906,7 +2906,7 @@ fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
 	let place = select(p, n, n != vec3f(0.0));
 	let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
 	let up = select(p.y, -sign * p.z, axis == 1u);
-	return canonical__CanonicalPoint(place, n, saturate(0.5 + 0.5 * vec2f(right, up)));
+	return canonical__CanonicalPoint(place, n, saturate_vec2f(0.5 + 0.5 * vec2f(right, up)));
 }
 
 const cone__FAR: f32 = 1e30;
@@ -2931,13 +2931,13 @@ fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) 
 	let lean = radius * d.xz - slope * d.y * o.xz;
 	let by_determinants = dot(lean, lean) - turn * turn - (a - exact_a) * c;
 	let discriminant = select(by_determinants, b * b - a * c, a * c <= 0.0);
-	let root = sqrt(max(discriminant, 0.0));
+	let root = sqrt(max_f32(discriminant, 0.0));
 	let q = -(b + select(-root, root, b >= 0.0));
 	let usable = abs(q) > 1e-20;
 	let r1 = q / a;
 	let r2 = select(0.0, c / select(1.0, q, usable), usable);
-	let low = min(r1, r2);
-	let high = max(r1, r2);
+	let low = min_f32(r1, r2);
+	let high = max_f32(r1, r2);
 	let steep = a < 0.0;
 	let widens = slope * d.y > 0.0;
 	let side_in = select(low, select(-cone__FAR, high, widens), steep);
@@ -2946,10 +2946,10 @@ fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) 
 	let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
 	let y0 = -o.y * inv_y;
 	let y1 = (1.0 - o.y) * inv_y;
-	let slab_in = min(y0, y1);
-	let slab_out = max(y0, y1);
-	let enter = max(slab_in, side_in);
-	let leave = min(slab_out, side_out);
+	let slab_in = min_f32(y0, y1);
+	let slab_out = max_f32(y0, y1);
+	let enter = max_f32(slab_in, side_in);
+	let leave = min_f32(slab_out, side_out);
 	let enters_side = side_in >= slab_in;
 	let leaves_side = side_out <= slab_out;
 	let takes_enter = (near.start + enter > 0.0) & (enters_side | capped);
@@ -2967,27 +2967,27 @@ fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) 
 fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
 	let p = o + s * d;
 	let off_axis = length(p.xz);
-	let rate = dot(p.xz, d.xz) / max(off_axis, 1e-18) - slope * d.y;
+	let rate = dot(p.xz, d.xz) / max_f32(off_axis, 1e-18) - slope * d.y;
 	let usable = abs(rate) > 0.001;
 	let step = (off_axis - (bottom + slope * p.y)) / select(1.0, rate, usable);
-	return s - clamp(select(0.0, step, usable), -0.001, 0.001);
+	return s - clamp_f32(select(0.0, step, usable), -0.001, 0.001);
 }
 
 fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__CanonicalPoint {
 	let slope = top - bottom;
 	let out = canonical__outwards(p.xz);
 	if (part < 0.5) {
-		let y = saturate(p.y);
+		let y = saturate_f32(p.y);
 		let radius = bottom + slope * y;
 		let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
 		return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(canonical__longitude(p.x, p.z), y));
 	}
 	let is_top = part > 1.5;
 	let radius = select(bottom, top, is_top);
-	let flat = out * min(length(p.xz), radius);
+	let flat = out * min_f32(length(p.xz), radius);
 	let sign = select(-1.0, 1.0, is_top);
-	let uv = vec2f(flat.x, -sign * flat.y) / max(radius, 1e-18);
-	return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate(0.5 + 0.5 * uv));
+	let uv = vec2f(flat.x, -sign * flat.y) / max_f32(radius, 1e-18);
+	return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate_vec2f(0.5 + 0.5 * uv));
 }
 
 const torus__MOST_ROUNDS: u32 = 40u;
@@ -3001,25 +3001,25 @@ fn torus__torus_distance(p: vec3f, minor: f32) -> f32 {
 fn torus__polish(s: f32, p: f32, q: f32) -> f32 {
 	let slope = 3.0 * s * s + p;
 	let steep = abs(slope) > 0.001;
-	return s - clamp(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
+	return s - clamp_f32(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
 }
 
 fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
 	let third = p / 3.0;
 	let half = 0.5 * q;
 	let discriminant = half * half + third * third * third;
-	let cube = abs(half) + sqrt(max(discriminant, 0.0));
-	let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max(cube, 1e-30)) / 3.0), cube > 1e-30);
+	let cube = abs(half) + sqrt(max_f32(discriminant, 0.0));
+	let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max_f32(cube, 1e-30)) / 3.0), cube > 1e-30);
 	let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
 	let one = torus__polish(large + small, p, q);
-	let size = sqrt(max(-third, 0.0));
+	let size = sqrt(max_f32(-third, 0.0));
 	let usable = size > 1e-10;
-	let cosine = clamp(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
+	let cosine = clamp_f32(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
 	let angle = acos(cosine) / 3.0;
 	let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
 	let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
 	let c = torus__polish(2.0 * size * cos(angle), p, q);
-	let three = vec3f(min(a, min(b, c)), max(min(a, b), min(max(a, b), c)), max(a, max(b, c)));
+	let three = vec3f(min_f32(a, min_f32(b, c)), max_f32(min_f32(a, b), min_f32(max_f32(a, b), c)), max_f32(a, max_f32(b, c)));
 	return select(three, vec3f(one), discriminant > 0.0);
 }
 
@@ -3032,11 +3032,11 @@ fn torus__intersect_torus(ray: tracing__Ray, minor: f32) -> tracing__Candidate {
 	let nearest = o + middle * d;
 	let apart = dot(nearest, nearest);
 	let ball = 1.0001 * outer;
-	let half_chord = sqrt(max(ball * ball - apart, 0.0));
-	let start = max(middle - half_chord, 0.0);
+	let half_chord = sqrt(max_f32(ball * ball - apart, 0.0));
+	let start = max_f32(middle - half_chord, 0.0);
 	let end = middle + half_chord;
 	let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
-	let cuts = vec4f(clamp(zeros, vec3f(start), vec3f(max(end, start))), end);
+	let cuts = vec4f(clamp_vec3f(zeros, vec3f(start), vec3f(max_f32(end, start))), end);
 	let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
 	let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
 	let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
@@ -3062,8 +3062,8 @@ fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, ou
 		let before = (distance >= 0.0) == outside;
 		low = select(low, s, before);
 		high = select(s, high, before);
-		let ring_slope = dot(p.xz, d.xz) / max(ring, 1e-20);
-		let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max(to_middle, 1e-20);
+		let ring_slope = dot(p.xz, d.xz) / max_f32(ring, 1e-20);
+		let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max_f32(to_middle, 1e-20);
 		let usable = abs(slope) > 1e-6;
 		let newton = s - distance / select(1.0, slope, usable);
 		let takes_newton = usable & (newton > low) & (newton < high) & (abs(newton - s) < 0.5 * moved);
@@ -3085,7 +3085,7 @@ fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
 	let n = vec3f(tube.x * out.x, tube.y, tube.x * out.y);
 	let ring = 1.0 + minor * tube.x;
 	let place = vec3f(ring * out.x, minor * tube.y, ring * out.y);
-	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
+	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate_f32(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
 }
 
 fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
@@ -3245,7 +3245,7 @@ fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: 
 				let receiver = direct__receiver_at(receivers, k);
 				var count = 1u;
 				if (has_extent) {
-					let wanted = max(round(f32(light.sample_count) * batch.light_samples * receiver.key.weight), 1.0);
+					let wanted = max_f32(round(f32(light.sample_count) * batch.light_samples * receiver.key.weight), 1.0);
 					count = u32(wanted);
 					counts = wide__float_set(counts, k, f32(count));
 				}
@@ -3285,7 +3285,7 @@ fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: 
 
 fn direct__shadow_ray(surface: shading__Surface, arriving: shading__Incident) -> tracing__Ray {
 	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
-	ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
+	ray.t_max = max_f32(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
 	return ray;
 }
 
@@ -3320,7 +3320,7 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 	let ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
 	var n = select(surface.n, -surface.n, dot(surface.n, direction) > 0.0);
 	n = select(ng, n, dot(fresnel__mirrored(direction, n), ng) > 0.0);
-	let boundary = boundary__boundary_at(optics.flags, clamp(-dot(direction, n), 0.0, 1.0), eta);
+	let boundary = boundary__boundary_at(optics.flags, clamp_f32(-dot(direction, n), 0.0, 1.0), eta);
 	var reflect = factors[0] * surface.phong.reflect;
 	var transmit = factors[1] * optics.transmit;
 	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
@@ -3381,7 +3381,7 @@ fn optics__is_worth_tracing(batch: dispatch__Batch, throughput: vec3f) -> bool {
 }
 
 fn optics__local_weights(optics: shading__Optics, reflect: vec3f, sends: bool) -> optics__Weights {
-	let left = max(1.0 - reflect, vec3f(0.0));
+	let left = max_vec3f(1.0 - reflect, vec3f(0.0));
 	if ((optics.flags & types__MATERIAL_SUM) != 0u) {
 		return optics__Weights(vec3f(1.0), vec3f(1.0));
 	}
@@ -3423,7 +3423,7 @@ fn medium__medium_of(material: u32) -> shading__Medium {
 }
 
 fn medium__transmittance(medium: shading__Medium, distance: f32) -> vec3f {
-	return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
+	return exp(-min_vec3f(medium.absorption * min_f32(distance, 1000000000000.0), vec3f(80.0)));
 }
 
 fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
@@ -3602,7 +3602,7 @@ struct picture__Neighbours {
 
 fn picture__neighbours(at: f32, count: u32, nearest: bool, wrap: u32) -> picture__Neighbours {
 	let mirrored = 1.0 - abs(1.0 - 2.0 * fract(0.5 * at));
-	let inside = select(select(clamp(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
+	let inside = select(select(clamp_f32(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
 	let place = f32(count) * inside + select(-0.5, 0.0, nearest);
 	let below = floor(place);
 	let last = i32(count) - 1;
@@ -3768,7 +3768,7 @@ fn contact__is_same_volume(first: tracing__Hit, second: tracing__Hit, vertices: 
 }
 
 fn contact__is_at_edge(hit: tracing__Hit) -> bool {
-	let nearest = min(min(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
+	let nearest = min_f32(min_f32(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
 	return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
 }
 
@@ -3948,16 +3948,16 @@ struct ray_cone__Filtering {
 }
 
 fn ray_cone__cone_at(cone: tracing__Cone, distance: f32) -> tracing__Cone {
-	return tracing__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
+	return tracing__Cone(clamp_f32(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
 }
 
 fn ray_cone__mirrored_cone(cone: tracing__Cone, curvature: f32) -> tracing__Cone {
-	return tracing__Cone(cone.width, clamp(cone.spread + 2.0 * curvature * cone.width, -ray_cone__WIDEST, ray_cone__WIDEST));
+	return tracing__Cone(cone.width, clamp_f32(cone.spread + 2.0 * curvature * cone.width, -ray_cone__WIDEST, ray_cone__WIDEST));
 }
 
 fn ray_cone__refracted_cone(cone: tracing__Cone, curvature: f32, eta: f32) -> tracing__Cone {
 	let spread = eta * cone.spread + (eta - 1.0) * curvature * cone.width;
-	return tracing__Cone(cone.width, clamp(spread, -ray_cone__WIDEST, ray_cone__WIDEST));
+	return tracing__Cone(cone.width, clamp_f32(spread, -ray_cone__WIDEST, ray_cone__WIDEST));
 }
 
 fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
@@ -3967,18 +3967,18 @@ fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
 	let slope = direction - cosine * n;
 	let along = select(other, numeric__normalize_or(slope, other), dot(slope, slope) > 1e-8);
 	let size = abs(width);
-	return mat2x3f((size / max(abs(cosine), 0.001)) * along, size * cross(n, along));
+	return mat2x3f((size / max_f32(abs(cosine), 0.001)) * along, size * cross(n, along));
 }
 
 fn ray_cone__uv_along(v: vec3f, e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f) -> vec2f {
 	let normal = cross(e1, e2);
 	let n = numeric__normalize_or(normal, vec3f(0.0));
-	let area = max(dot(normal, n), 1e-30);
+	let area = max_f32(dot(normal, n), 1e-30);
 	return (dot(cross(v, e2), n) / area) * d1 + (dot(cross(e1, v), n) / area) * d2;
 }
 
 fn ray_cone__curvature_along(edge: vec3f, bend: vec3f) -> f32 {
-	return dot(edge, bend) / max(dot(edge, edge), 1e-30);
+	return dot(edge, bend) / max_f32(dot(edge, edge), 1e-30);
 }
 
 fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
@@ -3986,8 +3986,8 @@ fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
 	let way = select(b, a, is_first);
 	let long = length(way);
 	let short = length(select(a, b, is_first));
-	let count = clamp(round(long / max(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
-	let width = max(max(short, long / count), 1e-9);
+	let count = clamp_f32(round(long / max_f32(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
+	let width = max_f32(max_f32(short, long / count), 1e-9);
 	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
 }
 
@@ -4016,7 +4016,7 @@ fn normal_map__mapped_normal(map: normal_map__NormalMap, frame: mat3x3f, n: vec3
 	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
 	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
 	let tilt = map.scale * (2.0 * code.xy - vec2f(1.0));
-	let up = max(2.0 * code.z - 1.0, 0.0);
+	let up = max_f32(2.0 * code.z - 1.0, 0.0);
 	if (bindings__HAS_TANGENTS) {
 		if (dot(frame[2], frame[2]) > 0.0) {
 			return numeric__normalize_or(frame * vec3f(tilt, up), n);
@@ -4111,7 +4111,7 @@ fn texture__footprint_in(texture: types__PackedTexture, footprint: shading__Foot
 fn texture__place_in_pattern(texture: types__PackedTexture, surface: shading__Surface) -> vec3f {
 	let uv = select(surface.uv, surface.second_uv, texture__uses_second_uv(texture));
 	let at = select(vec4f(surface.place, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
-	return clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
+	return clamp_vec3f(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
 }
 
 fn texture__texture_alpha(texture: types__PackedTexture, surface: shading__Surface, is_mask: bool) -> f32 {
@@ -4148,7 +4148,7 @@ fn mipmap__mipmap_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) 
 	let plan = ray_cone__filtering(size * axes[0], size * axes[1]);
 	let has_levels = (texture.flags & types__TEXTURE_LEVELS) != 0u;
 	let last = select(0.0, f32(31u - countLeadingZeros(max(texture.width, texture.height))), has_levels);
-	let exact = clamp(plan.level, 0.0, last);
+	let exact = clamp_f32(plan.level, 0.0, last);
 	let level = select(round(exact), exact, (texture.flags & types__TEXTURE_BETWEEN_LEVELS) != 0u);
 	let tap_count = select(1u, plan.tap_count, has_levels);
 	let way = select(vec2f(0.0), plan.way / size, has_levels);
@@ -4317,7 +4317,7 @@ fn layers__metallic_roughness(own: types__PackedLayers) -> layers__Layers {
 		layers.diffuse *= 1.0 - own.transmission;
 		layers.f0 = own.metallic * own.base;
 		layers.f90 = vec3f(own.metallic);
-		layers.reflect = body * min(own.f0 / max(ratio * ratio, 1e-6), vec3f(1.0));
+		layers.reflect = body * min_vec3f(own.f0 / max_f32(ratio * ratio, 1e-6), vec3f(1.0));
 		layers.transmit = (body * own.transmission) * own.base;
 		layers.boundary_alpha = layers.alpha;
 		layers.fresnel = types__MATERIAL_FRESNEL;
@@ -4371,7 +4371,7 @@ fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) ->
 fn offset__mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriving: tracing__Ray, distance: f32, is_flat: bool) -> vec3f {
 	let height = offset__clearance(p, error, ng);
 	let slope = dot(ng, arriving.direction);
-	let back = height / max(abs(slope), 1e-6);
+	let back = height / max_f32(abs(slope), 1e-6);
 	let along_normal = p - select(-height, height, slope > 0.0) * ng;
 	let at_most = select(along_normal, arriving.origin, is_flat);
 	return select(p - back * arriving.direction, at_most, back > 0.5 * distance);
@@ -4427,11 +4427,11 @@ fn pattern__stripes(p: vec3f) -> f32 {
 }
 
 fn pattern__gradient(p: vec3f) -> f32 {
-	return clamp(p.x, 0.0, 1.0);
+	return clamp_f32(p.x, 0.0, 1.0);
 }
 
 fn pattern__clouds(sum: f32) -> f32 {
-	return clamp(0.5 + 0.5 * sum, 0.0, 1.0);
+	return clamp_f32(0.5 + 0.5 * sum, 0.0, 1.0);
 }
 
 const noise__NOISE_PERIOD: u32 = 256u;
@@ -4547,13 +4547,13 @@ struct fresnel__Boundary {
 }
 
 fn fresnel__ratio(a: f32, b: f32) -> f32 {
-	return a / max(b, 1e-12);
+	return a / max_f32(b, 1e-12);
 }
 
 fn fresnel__fresnel(cos_i: f32, eta: f32) -> fresnel__Boundary {
-	let sin2_t = eta * eta * max(1.0 - cos_i * cos_i, 0.0);
+	let sin2_t = eta * eta * max_f32(1.0 - cos_i * cos_i, 0.0);
 	let total = (sin2_t >= 1.0) & (eta > 1.0);
-	let cos_t = sqrt(max(1.0 - sin2_t, 0.0));
+	let cos_t = sqrt(max_f32(1.0 - sin2_t, 0.0));
 	let r_s = fresnel__ratio(eta * cos_i - cos_t, eta * cos_i + cos_t);
 	let r_p = fresnel__ratio(cos_i - eta * cos_t, cos_i + eta * cos_t);
 	return fresnel__Boundary(select(0.5 * (r_s * r_s + r_p * r_p), 1.0, total), cos_t, total);
@@ -4567,7 +4567,7 @@ fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
 }
 
 fn fresnel__schlick_weight(cosine: f32) -> f32 {
-	let x = 1.0 - clamp(cosine, 0.0, 1.0);
+	let x = 1.0 - clamp_f32(cosine, 0.0, 1.0);
 	let x2 = x * x;
 	return x2 * x2 * x;
 }
@@ -4622,7 +4622,7 @@ fn coverage__coverage_at(surface: shading__Surface) -> f32 {
 		}
 	}
 	let masked = select(0.0, 1.0, alpha >= 0.999999);
-	return select(clamp(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
+	return select(clamp_f32(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
 }
 
 fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: vec3f) -> vec3f {
@@ -4687,7 +4687,7 @@ fn ray_entries__pop_entry(index: u32) -> ray_entries__Entry {
 }
 
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
-	let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
+	let x = clamp_f32((cos_angle - cos_outer) / max_f32(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
 	return x * x * (3.0 - 2.0 * x);
 }
 
@@ -4698,7 +4698,7 @@ fn light__incident(light: types__PackedLight, p: vec3f) -> shading__Incident {
 	let direction = select(numeric__normalize_or(to_light, -light.direction), -light.direction, is_directional);
 	var strength = select(0.0, 1.0, is_directional || distance > 1e-30);
 	if (light.attenuation == types__ATTENUATION_INVERSE_SQUARE) {
-		strength /= max(distance * distance, 1e-30);
+		strength /= max_f32(distance * distance, 1e-30);
 	}
 	if (light.kind == types__LIGHT_SPOT) {
 		strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
@@ -4720,7 +4720,7 @@ fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> s
 	let distance = length(to_light);
 	let direction = numeric__normalize_or(to_light, -light.direction);
 	let cos_light = -dot(direction, light.direction);
-	let fading = max(cos_light, 0.0) / max(distance * distance, 1e-30);
+	let fading = max_f32(cos_light, 0.0) / max_f32(distance * distance, 1e-30);
 	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
 	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + area_light__max_abs(light.edge_u) + area_light__max_abs(light.edge_v);
 	let usable = distance > 1e-30;
@@ -4733,39 +4733,39 @@ fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) ->
 	let radius2 = light.radius * light.radius;
 	let is_inside = d2 <= radius2;
 	let d = sqrt(d2);
-	let sin2 = radius2 / max(max(d2, radius2), 1e-30);
-	let depth = select(sin2 / (1.0 + sqrt(max(1.0 - sin2, 0.0))), 2.0, is_inside);
+	let sin2 = radius2 / max_f32(max_f32(d2, radius2), 1e-30);
+	let depth = select(sin2 / (1.0 + sqrt(max_f32(1.0 - sin2, 0.0))), 2.0, is_inside);
 	let about = warp__cone_from_square(u, depth);
 	let axis = numeric__normalize_or(to_center, vec3f(0.0, 0.0, 1.0));
 	let direction = numeric__normalize_or(warp__turn_to(axis, about), axis);
-	let chord = sqrt(max(radius2 - d2 * dot(about.xy, about.xy), 0.0));
+	let chord = sqrt(max_f32(radius2 - d2 * dot(about.xy, about.xy), 0.0));
 	let distance = d * about.z + select(-chord, chord, is_inside);
-	let outside = 2.0 / ((1.0 + sqrt(max(1.0 - sin2, 0.0))) * max(d2, 1e-30));
-	let fading = select(outside, 4.0 / max(radius2, 1e-30), is_inside);
+	let outside = 2.0 / ((1.0 + sqrt(max_f32(1.0 - sin2, 0.0))) * max_f32(d2, 1e-30));
+	let fading = select(outside, 4.0 / max_f32(radius2, 1e-30), is_inside);
 	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
 	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + light.radius;
-	return shading__Incident(direction, area_light__short_of(distance, reach, chord / max(light.radius, 1e-30)), strength * light.color);
+	return shading__Incident(direction, area_light__short_of(distance, reach, chord / max_f32(light.radius, 1e-30)), strength * light.color);
 }
 
 fn area_light__short_of(distance: f32, reach: f32, cosine: f32) -> f32 {
-	let slack = 32.0 * numeric__ROUNDING * reach / max(cosine, 0.001);
-	return max(distance - min(slack, 0.01 * distance), 0.0);
+	let slack = 32.0 * numeric__ROUNDING * reach / max_f32(cosine, 0.001);
+	return max_f32(distance - min_f32(slack, 0.01 * distance), 0.0);
 }
 
 fn area_light__max_abs(v: vec3f) -> f32 {
-	return max(abs(v.x), max(abs(v.y), abs(v.z)));
+	return max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
 }
 
 fn phong__shininess_power(x: f32, shininess: f32) -> f32 {
-	let power = exp2(shininess * log2(max(x, 1e-30)));
+	let power = exp2(shininess * log2(max_f32(x, 1e-30)));
 	return select(select(0.0, 1.0, shininess <= 0.0), power, x > 0.0);
 }
 
 fn phong__phong(coefficients: shading__Phong, n: vec3f, l: vec3f, v: vec3f) -> vec3f {
 	let cos_l = dot(l, n);
 	let r = 2.0 * cos_l * n - l;
-	let highlight = phong__shininess_power(max(dot(r, v), 0.0), coefficients.shininess);
-	let lit = coefficients.diffuse * max(cos_l, 0.0) + coefficients.specular * highlight;
+	let highlight = phong__shininess_power(max_f32(dot(r, v), 0.0), coefficients.shininess);
+	let lit = coefficients.diffuse * max_f32(cos_l, 0.0) + coefficients.specular * highlight;
 	return select(vec3f(0.0), lit, cos_l > 0.0);
 }
 
@@ -4901,7 +4901,7 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__
 
 fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, around: vec4u, behind: u32) -> vec3f {
 	let optics = material__load_optics(surface.material);
-	let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
+	let cos_i = min_f32(abs(dot(surface.n, ray.direction)), 1.0);
 	if (bindings__SOLID_GLASS) {
 		let layers = layers__layers_at(surface, optics);
 		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < layers__SMOOTH;
@@ -4921,13 +4921,13 @@ fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, 
 	var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), distance);
 	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
 		let eta = medium__medium_of(here).ior / ior_behind;
-		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
+		through *= 1.0 - fresnel__fresnel(cos_i, min_f32(eta, 1.0 / eta)).reflectance;
 	}
 	return through;
 }
 
 fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
-	let own = texel * inverseSqrt(max(dot(texel, texel), 1e-12));
+	let own = texel * inverseSqrt(max_f32(dot(texel, texel), 1e-12));
 	let turn = vec2f(cos(rotation), sin(rotation));
 	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
 }
@@ -4947,4 +4947,72 @@ fn opacity__add_opacity(first_row: u32, weight: f32) {
 	let row = first_row + bindings__OPACITY_ROW;
 	features__add_mean(row, vec3f(opacity__clearness.nothing, opacity__clearness.catchers, 0.0), weight);
 	features__add_mean(row + 1u, vec3f(opacity__clearness.light, opacity__clearness.unshadowed, 0.0), weight);
+}
+
+override bindings__EXTREMES_BY_SELECT: bool = false;
+
+fn min_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_f32(value: f32, low: f32, high: f32) -> f32 {
+	return min_f32(max_f32(value, low), high);
+}
+
+fn saturate_f32(value: f32) -> f32 {
+	return clamp_f32(value, f32(0), f32(1));
+}
+
+fn min_vec2f(a: vec2f, b: vec2f) -> vec2f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec2f(a: vec2f, b: vec2f) -> vec2f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec2f(value: vec2f, low: vec2f, high: vec2f) -> vec2f {
+	return min_vec2f(max_vec2f(value, low), high);
+}
+
+fn saturate_vec2f(value: vec2f) -> vec2f {
+	return clamp_vec2f(value, vec2f(0), vec2f(1));
+}
+
+fn min_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec3f(value: vec3f, low: vec3f, high: vec3f) -> vec3f {
+	return min_vec3f(max_vec3f(value, low), high);
+}
+
+fn saturate_vec3f(value: vec3f) -> vec3f {
+	return clamp_vec3f(value, vec3f(0), vec3f(1));
 }

@@ -163,7 +163,9 @@ impl Gpu {
         let refused = |what: String| GpuError::Internal {
             what: with_dump(name, &kernel.source(variant).unwrap_or_default(), &what),
         };
-        let module = kernel.specialized(variant, overrides).map_err(refused)?;
+        let by_select = ("EXTREMES_BY_SELECT", f64::from(self.is_cpu()));
+        let overrides = [overrides, &[by_select]].concat();
+        let module = kernel.specialized(variant, &overrides).map_err(refused)?;
         let made = self.scoped(name, || {
             let layout = self
                 .device

@@ -1,6 +1,7 @@
 //! Specialises kernels before the driver sees them: overrides become constants, branches on constants are
 //! folded, and unreachable code is removed. A driver would parse, inline and simplify a whole module before
-//! removing the code that overrides disable, and no disk cache saves that time.
+//! removing the code that overrides disable, and no disk cache saves that time. Loops end where lavapipe can leave
+//! them at once.
 
 use naga::{
     Arena, BinaryOperator, Block, Expression, Handle, Literal, LocalVariable, Module, Statement,
@@ -161,12 +162,7 @@ impl Fold<'_> {
                         folded.extend_block(body);
                         folded.extend_block(continuing);
                     } else {
-                        let kept = Statement::Loop {
-                            body,
-                            continuing,
-                            break_if,
-                        };
-                        folded.push(kept, span);
+                        folded.push(with_continuing_in_body(body, continuing, break_if), span);
                     }
                 }
                 Statement::Switch { cases, .. } => {
@@ -264,6 +260,48 @@ fn stores(block: &Block, found: &mut Vec<(Handle<Expression>, Handle<Expression>
             _ => {}
         }
     }
+}
+
+/// A loop whose body holds its `continuing` block and its `break if`, unless it has a `continue`. Mesa runs a
+/// `continuing` block before the body of the next iteration, behind a flag; lavapipe, which skips no branch, then
+/// executes the whole body once more with all lanes masked before the loop ends.
+fn with_continuing_in_body(
+    mut body: Block,
+    continuing: Block,
+    break_if: Option<Handle<Expression>>,
+) -> Statement {
+    if continues(&body) {
+        return Statement::Loop {
+            body,
+            continuing,
+            break_if,
+        };
+    }
+    body.extend_block(continuing);
+    if let Some(condition) = break_if {
+        let leave = Statement::If {
+            condition,
+            accept: Block::from_vec(vec![Statement::Break]),
+            reject: Block::new(),
+        };
+        body.push(leave, naga::Span::UNDEFINED);
+    }
+    Statement::Loop {
+        body,
+        continuing: Block::new(),
+        break_if: None,
+    }
+}
+
+/// Whether a block of a loop has a `continue` of that loop.
+fn continues(block: &Block) -> bool {
+    block.iter().any(|statement| match statement {
+        Statement::Continue => true,
+        Statement::If { accept, reject, .. } => continues(accept) || continues(reject),
+        Statement::Block(inner) => continues(inner),
+        Statement::Switch { cases, .. } => cases.iter().any(|case| continues(&case.body)),
+        _ => false,
+    })
 }
 
 /// Whether a block of a loop leaves it, or its iteration, by a statement.

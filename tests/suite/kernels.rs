@@ -1,9 +1,9 @@
 //! Every kernel is valid WGSL within the minimum limits of WebGPU.
 
-use crate::support::verdict::Verdict;
+use crate::support::{harness::gpu, verdict::Verdict};
 use glimray::gpu::{Kernel, Variant};
 use naga::{
-    Expression,
+    Expression, MathFunction, ScalarKind,
     valid::{Capabilities, ValidationFlags, Validator},
 };
 use std::fs;
@@ -144,6 +144,49 @@ fn branches_on_a_literal(function: &naga::Function, block: &naga::Block) -> bool
     })
 }
 
+/// The loops of a block that have a `continuing` block, and all its loops.
+fn loops(block: &naga::Block) -> (usize, usize) {
+    let inner = block.iter().map(|statement| match statement {
+        naga::Statement::If { accept, reject, .. } => sum([loops(accept), loops(reject)]),
+        naga::Statement::Block(inner) => loops(inner),
+        naga::Statement::Loop {
+            body,
+            continuing,
+            break_if,
+        } => {
+            let continues = !continuing.is_empty() || break_if.is_some();
+            sum([loops(body), (usize::from(continues), 1)])
+        }
+        naga::Statement::Switch { cases, .. } => sum(cases.iter().map(|case| loops(&case.body))),
+        _ => (0, 0),
+    });
+    sum(inner)
+}
+
+fn sum(pairs: impl IntoIterator<Item = (usize, usize)>) -> (usize, usize) {
+    let add = |(a, b): (usize, usize), (c, d): (usize, usize)| (a + c, b + d);
+    pairs.into_iter().fold((0, 0), add)
+}
+
+/// lavapipe executes the body of a loop with a `continuing` block once more, with no lane.
+#[test]
+fn loops_of_specialised_kernels_end_with_their_bodies() {
+    let mut verdict = Verdict::on("loops");
+    for kernel in Kernel::ALL {
+        for variant in kernel.variants() {
+            let module = kernel.specialized(variant, &[]).expect("WGSL");
+            let functions = module.functions.iter().map(|(_, function)| function);
+            let entries = module.entry_points.iter().map(|entry| &entry.function);
+            let (continuing, all) = sum(functions
+                .chain(entries)
+                .map(|function| loops(&function.body)));
+            let name = format!("{} ({variant:?})", kernel.name);
+            verdict.that(name, continuing == 0, || format!("{continuing} of {all}"));
+        }
+    }
+    verdict.close();
+}
+
 #[test]
 fn specialised_kernels_are_valid_and_branch_on_no_constant() {
     let mut verdict = Verdict::on("specialised kernels");
@@ -211,4 +254,93 @@ fn an_undeclared_override_is_rejected() {
         refused.map(|_| ()),
         Err("there is no override HAS_LIGHT".to_owned())
     );
+}
+
+/// How many calls of `min`, `max`, `clamp` and `saturate` of floats a module has.
+fn extremes(module: &naga::Module, variant: Variant) -> usize {
+    let mut validator = Validator::new(ValidationFlags::all(), capabilities(variant));
+    let info = validator.validate(module).expect("a valid module");
+    let functions = module.functions.iter();
+    let functions = functions.map(|(handle, function)| (function, &info[handle]));
+    let entries = module.entry_points.iter().enumerate();
+    let entries = entries.map(|(index, entry)| (&entry.function, info.get_entry_point(index)));
+    let is_extreme = |(function, info): (&naga::Function, &naga::valid::FunctionInfo)| {
+        let of_floats = |handle: naga::Handle<Expression>| {
+            let ty = info[handle].ty.inner_with(&module.types);
+            ty.scalar_kind() == Some(ScalarKind::Float)
+        };
+        let expressions = function.expressions.iter();
+        let calls = expressions.filter(|(handle, expression)| {
+            use MathFunction::{Clamp, Max, Min, Saturate};
+            let names = [Min, Max, Clamp, Saturate];
+            matches!(expression, Expression::Math { fun, .. } if names.contains(fun))
+                && of_floats(*handle)
+        });
+        calls.count()
+    };
+    functions.chain(entries).map(is_extreme).sum()
+}
+
+#[test]
+fn extremes_of_floats_can_be_selected() {
+    let mut verdict = Verdict::on("min, max, clamp and saturate");
+    for kernel in Kernel::ALL {
+        for variant in kernel.variants() {
+            let count = |by_select| {
+                let overrides = [("EXTREMES_BY_SELECT", by_select)];
+                let module = kernel.specialized(variant, &overrides).expect("WGSL");
+                extremes(&module, variant)
+            };
+            let what = format!("{} ({variant:?})", kernel.name);
+            // At most `min` and `max` of four types: all calls go through their functions.
+            let built_in = count(0.0);
+            verdict.that(&what, (2..=8).contains(&built_in), || built_in);
+            let selected = count(1.0);
+            verdict.that(&what, selected == 0, || selected);
+        }
+    }
+    verdict.close();
+}
+
+#[test]
+fn selected_extremes_are_those_of_ieee_754() {
+    let linked = Kernel::PATH_TRACE.source(Variant::Image).expect("a source");
+    let (_, functions) = linked
+        .split_once("override bindings__EXTREMES_BY_SELECT: bool = false;")
+        .expect("the functions are last");
+    let source = format!(
+        "const bindings__EXTREMES_BY_SELECT: bool = true; {functions}
+         fn probe(a: f32, b: f32) -> vec4f {{
+             let low = min_f32(a, b);
+             let high = max_f32(a, b);
+             return vec4f(low, high, clamp_f32(0.5, low, high), saturate_f32(a));
+         }}"
+    );
+    let numbers = [
+        f32::NEG_INFINITY,
+        f32::MIN,
+        -1.0,
+        -f32::MIN_POSITIVE,
+        0.0,
+        0.25,
+        0.75,
+        1.0 - f32::EPSILON / 2.0,
+        1.0,
+        1.0 + f32::EPSILON,
+        f32::MAX,
+        f32::INFINITY,
+    ];
+    let pairs: Vec<_> = (numbers.iter())
+        .flat_map(|&a| numbers.map(|b| (a, b)))
+        .collect();
+    let results: Vec<[f32; 4]> = gpu().map_source(&source, &pairs);
+    let mut verdict = Verdict::on("selected extremes");
+    for ((a, b), got) in pairs.iter().zip(results) {
+        let (low, high) = (a.min(*b), a.max(*b));
+        let expected = [low, high, 0.5_f32.clamp(low, high), a.clamp(0.0, 1.0)];
+        verdict.that(format!("{a:e}, {b:e}"), got == expected, || {
+            format!("{got:?}")
+        });
+    }
+    verdict.close();
 }

@@ -335,8 +335,9 @@ fn no_kernel_needs_more_storage_buffers_than_webgpu_guarantees() {
 #[test]
 fn the_host_sets_every_override() {
     let mut verdict = Verdict::on("overrides");
-    let host: String = fs::read_dir("src/render")
-        .expect("src/render")
+    let host: String = ["src/gpu", "src/render"]
+        .iter()
+        .flat_map(|folder| fs::read_dir(folder).expect("a folder"))
         .filter_map(|entry| fs::read_to_string(entry.expect("an entry").path()).ok())
         .collect();
     let source = fs::read_to_string("shaders/bindings.wesl").expect("shaders/bindings.wesl");
