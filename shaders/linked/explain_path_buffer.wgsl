@@ -11,7 +11,13 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 		let key = rng__pixel_key(batch.seed, pixel);
 		var path = path__path_along(batch, dispatch__sample_ray(batch, pixel, key, probe.sample), pixel, probe.sample);
 		loop {
-			path = arrived(batch, path, traverse__walked(path__next_walk(path), traverse__NO_LIMIT).hit);
+			let hit = traverse__walked(path__next_walk(path), traverse__NO_LIMIT).hit;
+			if (path__is_to_lamp(path)) {
+				path = path__lit(path, hit);
+			}
+			else if (path__is_going(path)) {
+				path = traced(batch, path, hit);
+			}
 			record__close_ray();
 			record__sender = record__traced_index;
 			continuing {
@@ -27,16 +33,6 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 		record__store_probe(index, probe);
 	}
 	dispatch__add_counts(lane);
-}
-
-fn arrived(batch: dispatch__Batch, path: path__Path, hit: tracing__Hit) -> path__Path {
-	if (path__is_to_lamp(path)) {
-		return path__lit(path, hit);
-	}
-	if (path__is_going(path)) {
-		return traced(batch, path, hit);
-	}
-	return path;
 }
 
 fn traced(batch: dispatch__Batch, before: path__Path, hit: tracing__Hit) -> path__Path {
@@ -2023,6 +2019,1024 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	return direction.x * x + direction.y * y + direction.z * n;
 }
 
+const traverse__RETURN: u32 = 4294967294u;
+
+const traverse__CONTACT_RANGE: f32 = 0.0001;
+
+struct traverse__Walk {
+	ray: tracing__Ray,
+	shear: triangle_watertight__Shear,
+	any: bool,
+	at: primitive__TraversalRay,
+	hit: tracing__Hit,
+	current: u32
+}
+
+const traverse__NO_LIMIT: u32 = 4294967295u;
+
+fn traverse__search_limit(ray: tracing__Ray, hit: tracing__Hit) -> f32 {
+	if (bindings__HAS_CONTACT) {
+		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
+	}
+	return hit.t;
+}
+
+fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
+	if (bindings__HAS_CONTACT) {
+		primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+	}
+	let shear = triangle_watertight__shear_of(ray.direction);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
+	if (bindings__HAS_PLANES) {
+		walk.hit = exhaustive__hit_planes(ray, walk.hit);
+	}
+	if (bindings__BRUTE_FORCE) {
+		walk.hit = exhaustive__hit_everything(ray, shear, walk.hit);
+		return walk;
+	}
+	if ((bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) && ray.t_max >= 0.0 && !(any && walk.hit.primitive != types__NONE)) {
+		stack__start_stack();
+		walk.current = 0u;
+		if (bindings__HAS_INSTANCES) {
+			walk.current = fetch__root;
+		}
+	}
+	return walk;
+}
+
+fn traverse__is_walking(walk: traverse__Walk) -> bool {
+	return walk.current != stack__EMPTY;
+}
+
+fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
+	var walk = before;
+	var round = 0u;
+	if (traverse__is_walking(walk)) {
+		loop {
+			if (bindings__HAS_INSTANCES) {
+				walk = traverse__in_its_space(walk);
+			}
+			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
+			if (is_node) {
+				loop {
+					let node = traverse__load_current_node(walk.current, walk.at.keys);
+					let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
+					let is_hit = keys < vec4u(node__MISS);
+					let top = stack__top_of_stack();
+					let next = vec3u(node.children[keys.y & 3u], node.children[keys.z & 3u], node.children[keys.w & 3u]);
+					stack__move_stack(next, traverse__hit_count(keys) - 1);
+					walk.current = select(top, node.children[keys.x & 3u], keys.x < node__MISS);
+					if (bindings__COUNT_STEPS) {
+						loops__nodes_visited += 1u;
+					}
+					continuing {
+					
+						break if (walk.current & types__LEAF) != 0u;
+					}
+				}
+			}
+			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
+			if (is_leaf) {
+				loop {
+					walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
+					let is_last = (walk.current & types__LEAF_COUNT_MASK) == 0u;
+					walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__top_of_stack(), is_last);
+					stack__move_stack(vec3u(stack__EMPTY), select(0, -1, is_last));
+					walk.current = select(walk.current, stack__EMPTY, walk.any & (walk.hit.primitive != types__NONE));
+					if (bindings__COUNT_STEPS) {
+						loops__primitives_tested += 1u;
+					}
+					continuing {
+					
+						break if ((walk.current & types__LEAF) == 0u) | (walk.current >= types__INSTANCE);
+					}
+				}
+			}
+			round += 1u;
+			continuing {
+			
+				break if !traverse__is_walking(walk) | (round >= rounds);
+			}
+		}
+		loops__cut_off |= traverse__is_walking(walk) & (round < rounds);
+	}
+	return walk;
+}
+
+fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	if (walk.current == traverse__RETURN) {
+		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
+		walk.current = stack__top_of_stack();
+		stack__pop();
+	}
+	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
+		let index = walk.current & types__LEAF_FIRST_MASK;
+		let instance = fetch__load_instance(index);
+		let local = instance__object_ray(walk.ray, instance__space_of(instance));
+		walk.at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
+		stack__push(traverse__RETURN);
+		walk.current = instance.root;
+	}
+	return walk;
+}
+
+fn traverse__hit_count(keys: vec4u) -> i32 {
+	let hits = select(vec4i(0), vec4i(1), keys < vec4u(node__MISS));
+	return hits.x + hits.y + hits.z + hits.w;
+}
+
+fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> tracing__Node {
+	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
+		return deforming__node_now(reference, keys);
+	}
+	return fetch__load_node(reference);
+}
+
+struct triangle_watertight__Shear {
+	x: vec3f,
+	y: vec3f,
+	z: vec3f
+}
+
+fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
+	let size = abs(direction);
+	let is_x = (size.x >= size.y) & (size.x >= size.z);
+	let is_y = !is_x & (size.y >= size.z);
+	let axis_z = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), is_y), vec3f(1.0, 0.0, 0.0), is_x);
+	let axis_x = axis_z.zxy;
+	let axis_y = axis_z.yzx;
+	let scale = 1.0 / dot(direction, axis_z);
+	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
+}
+
+fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
+	let a = v0 - origin;
+	let b = v1 - origin;
+	let c = v2 - origin;
+	let ax = dot(shear.x, a);
+	let ay = dot(shear.y, a);
+	let bx = dot(shear.x, b);
+	let by = dot(shear.y, b);
+	let cx = dot(shear.x, c);
+	let cy = dot(shear.y, c);
+	let left = vec3f(cx * by, ax * cy, bx * ay);
+	let right = vec3f(cy * bx, ay * cx, by * ax);
+	let inside = all(left >= right) | all(left <= right);
+	let edges = left - right;
+	let det = edges.x + edges.y + edges.z;
+	let usable = inside & (abs(det) > 1e-36);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
+	let t = dot(edges, depths) * inv_det;
+	return tracing__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+}
+
+var<private> primitive__runner_up: tracing__Hit;
+
+struct primitive__TraversalRay {
+	ray: tracing__Ray,
+	inv: vec3f,
+	shear: triangle_watertight__Shear,
+	instance: u32,
+	keys: deforming__Keys
+}
+
+fn primitive__traversal_ray(ray: tracing__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
+	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
+}
+
+fn primitive__closer(at: primitive__TraversalRay, hit: tracing__Hit, primitive: u32) -> tracing__Hit {
+	return primitive__closer_of(at, hit, primitive__test_primitive(at, primitive), primitive);
+}
+
+fn primitive__closer_of(at: primitive__TraversalRay, hit: tracing__Hit, candidate: tracing__Candidate, primitive: u32) -> tracing__Hit {
+	var is_lower = primitive < hit.primitive;
+	var is_left = primitive == at.ray.leaving;
+	if (bindings__HAS_INSTANCES) {
+		is_lower = (at.instance < hit.instance) | ((at.instance == hit.instance) & is_lower);
+		is_left = is_left & (at.instance == at.ray.leaving_instance);
+	}
+	let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
+	let counts = candidate.hit & !is_left;
+	let wins = counts & ((candidate.t < hit.t) | ties);
+	if (bindings__HAS_CONTACT) {
+		let found = tracing__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
+		primitive__keep_runner_up(hit, found, counts, wins);
+	}
+	return tracing__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+}
+
+fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: bool, wins: bool) {
+	let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
+	if (wins) {
+		primitive__runner_up = hit;
+	}
+	else if (counts & !is_same & (found.t < primitive__runner_up.t)) {
+		primitive__runner_up = found;
+	}
+}
+
+fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> tracing__Candidate {
+	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
+	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
+		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
+	}
+	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
+		candidate = shape__test_shape(at.ray, fetch__load_shape(primitive & ~types__SHAPE));
+	}
+	return candidate;
+}
+
+fn primitive__test_triangle(ray: tracing__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> tracing__Candidate {
+	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
+		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
+	}
+	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
+		return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
+	}
+	return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
+}
+
+struct deforming__Keys {
+	next: u32,
+	stride: u32
+}
+
+const deforming__NO_KEYS: deforming__Keys = deforming__Keys(0u, 0u);
+
+fn deforming__keys_of(instance: types__PackedInstance) -> deforming__Keys {
+	if (bindings__HAS_DEFORMATION) {
+		return deforming__Keys(instance.next_key, instance.count);
+	}
+	return deforming__NO_KEYS;
+}
+
+fn deforming__node_now(reference: u32, keys: deforming__Keys) -> tracing__Node {
+	var key_count = 2u;
+	if (bindings__HAS_DEFORMATION) {
+		key_count = select(2u, bindings__frame.deformation_key_count, keys.next != 0u);
+	}
+	return fetch__load_moving_node(reference, motion__moment_of(shutter__shutter_time, key_count));
+}
+
+fn deforming__index_at(primitive: u32, keys: deforming__Keys, key: u32) -> u32 {
+	return primitive + select(0u, keys.next + (key - 1u) * keys.stride, key > 0u);
+}
+
+fn deforming__triangle_now(primitive: u32, keys: deforming__Keys) -> types__PackedTriangle {
+	let first = fetch__load_triangle(primitive);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+			let a = fetch__load_triangle(deforming__index_at(primitive, keys, moment.key));
+			let b = fetch__load_triangle(deforming__index_at(primitive, keys, moment.key + 1u));
+			let fraction = vec3f(moment.fraction);
+			return types__PackedTriangle(mix(a.v0, b.v0, fraction), first.i0, mix(a.v1, b.v1, fraction), first.i1, mix(a.v2, b.v2, fraction), first.i2);
+		}
+	}
+	return first;
+}
+
+fn deforming__normals_now(primitive: u32, keys: deforming__Keys) -> mat3x3f {
+	let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+	let a = deforming__normals_at(deforming__index_at(primitive, keys, moment.key));
+	let b = deforming__normals_at(deforming__index_at(primitive, keys, moment.key + 1u));
+	return a * (1.0 - moment.fraction) + b * moment.fraction;
+}
+
+fn deforming__normals_at(triangle: u32) -> mat3x3f {
+	let own = fetch__load_triangle(triangle);
+	return mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+}
+
+fn deforming__tangents_now(primitive: u32, keys: deforming__Keys) -> mat3x4f {
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+			let a = deforming__tangents_at(deforming__index_at(primitive, keys, moment.key), moment.key > 0u);
+			let b = deforming__tangents_at(deforming__index_at(primitive, keys, moment.key + 1u), true);
+			return a * (1.0 - moment.fraction) + b * moment.fraction;
+		}
+	}
+	return deforming__tangents_at(primitive, false);
+}
+
+fn deforming__tangents_at(triangle: u32, is_later: bool) -> mat3x4f {
+	let own = fetch__load_triangle(triangle);
+	return mat3x4f(deforming__tangent_at(own.i0, is_later), deforming__tangent_at(own.i1, is_later), deforming__tangent_at(own.i2, is_later));
+}
+
+fn deforming__tangent_at(vertex: u32, is_later: bool) -> vec4f {
+	var tangent = fetch__load_tangent(vertex);
+	if (bindings__HAS_DEFORMATION) {
+		if (is_later) {
+			tangent = fetch__load_key_tangent(vertex);
+		}
+	}
+	return vec4f(tangent.direction, tangent.handedness);
+}
+
+const stack__EMPTY: u32 = 4294967295u;
+
+var<private> stack__top: u32;
+
+var<private> stack__entries: array<u32, types__STACK_SIZE>;
+
+fn stack__start_stack() {
+	stack__top = 0u;
+	stack__entries[0] = stack__EMPTY;
+}
+
+fn stack__top_of_stack() -> u32 {
+	return stack__entries[stack__top];
+}
+
+fn stack__pop() {
+	stack__move_stack(vec3u(stack__EMPTY), -1);
+}
+
+fn stack__push(reference: u32) {
+	stack__move_stack(vec3u(reference, stack__EMPTY, stack__EMPTY), 1);
+}
+
+fn stack__move_stack(references: vec3u, count: i32) {
+	stack__entries[stack__top + 1u] = references.z;
+	stack__top += select(0u, 1u, count >= 3);
+	stack__entries[stack__top + 1u] = references.y;
+	stack__top += select(0u, 1u, count >= 2);
+	stack__entries[stack__top + 1u] = references.x;
+	stack__top += select(0u, 1u, count >= 1);
+	stack__top -= select(0u, 1u, (count < 0) & (stack__entries[stack__top] != stack__EMPTY));
+}
+
+const numeric__ROUNDING: f32 = 5.9604645e-8;
+
+fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
+	let largest = max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
+	let usable = largest > 1e-30;
+	let scaled = select(vec3f(1.0, 0.0, 0.0), v / select(1.0, largest, usable), usable);
+	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
+}
+
+fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
+	let tiny = abs(d) < vec3f(1e-18);
+	return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
+}
+
+fn numeric__max_component(v: vec3f) -> f32 {
+	return max_f32(v.x, max_f32(v.y, v.z));
+}
+
+fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
+	if (bindings__HAS_MOTION) {
+		if (instance.key_count > 1u) {
+			let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
+			let key = instance.first_key + moment.key;
+			return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
+		}
+	}
+	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
+}
+
+fn instance__object_ray(ray: tracing__Ray, space: motion__Space) -> tracing__Ray {
+	return tracing__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+}
+
+fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
+	return n * space.inverse;
+}
+
+fn instance__placement_error(space: motion__Space, p: vec3f, q: vec3f) -> vec3f {
+	let from_p = instance__abs_times(space.inverse, abs(p) + abs(space.translation));
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(space.translation) + instance__abs_times(space.linear, abs(q) + from_p));
+}
+
+fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
+	return abs(m[0]) * v.x + abs(m[1]) * v.y + abs(m[2]) * v.z;
+}
+
+fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
+	let at = vec4f(q, 1.0);
+	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
+}
+
+const node__MISS: u32 = 4294967292u;
+
+const node__WIDENING: i32 = 8;
+
+fn node__bytes(word: u32) -> vec4f {
+	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
+}
+
+fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> tracing__Node {
+	return tracing__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
+}
+
+fn node__node_between(a: tracing__Node, b: tracing__Node, fraction: f32) -> tracing__Node {
+	let lo = mix(a.lo, b.lo, vec3f(fraction));
+	let shift_a = a.lo - lo;
+	let shift_b = b.lo - lo;
+	let s = vec4f(fraction);
+	return tracing__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+}
+
+fn node__child_keys(node: tracing__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
+	let base = (node.lo - origin) * inv;
+	let step = node.scale * inv;
+	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
+	let x1 = bitcast<vec4i>(node.max_x * step.x + base.x);
+	let y0 = bitcast<vec4i>(node.min_y * step.y + base.y);
+	let y1 = bitcast<vec4i>(node.max_y * step.y + base.y);
+	let z0 = bitcast<vec4i>(node.min_z * step.z + base.z);
+	let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
+	let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
+	let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
+	let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
+	let hit = (near <= limit) & (node.children != vec4u(0u));
+	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
+	return select(vec4u(node__MISS), keys, hit);
+}
+
+fn node__sort4(keys: vec4u) -> vec4u {
+	let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
+	let lowest = min(a.x, a.y);
+	let middle_low = max(a.x, a.y);
+	let middle_high = min(a.z, a.w);
+	let highest = max(a.z, a.w);
+	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
+}
+
+var<private> loops__nodes_visited: u32 = 0u;
+
+var<private> loops__primitives_tested: u32 = 0u;
+
+var<private> loops__cut_off: bool = false;
+
+fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let n = cross(e1, e2);
+	let slope = dot(n, ray.direction);
+	let area = dot(n, n);
+	let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
+	let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
+	let w = ray.origin + t * ray.direction - v0;
+	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
+	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+}
+
+fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let p = cross(ray.direction, e2);
+	let det = dot(e1, p);
+	let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let s = ray.origin - v0;
+	let b1 = inv_det * dot(s, p);
+	let q = cross(s, e1);
+	let b2 = inv_det * dot(ray.direction, q);
+	let t = inv_det * dot(e2, q);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+}
+
+const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
+
+const shape__DISCS: u32 = 1u << types__SHAPE_DISC;
+
+const shape__RECTANGLES: u32 = 1u << types__SHAPE_RECTANGLE;
+
+const shape__BOXES: u32 = 1u << types__SHAPE_BOX;
+
+const shape__CONES: u32 = 1u << types__SHAPE_CONE;
+
+const shape__TORI: u32 = 1u << types__SHAPE_TORUS;
+
+const shape__ELLIPSOIDS: u32 = 1u << types__SHAPE_ELLIPSOID;
+
+const shape__GLOBES: u32 = 1u << types__SHAPE_GLOBE;
+
+fn shape__test_shape(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Candidate {
+	if (bindings__SHAPE_KINDS == shape__SPHERES) {
+		return sphere__intersect_sphere(ray, shape.position, shape.size0);
+	}
+	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
+	if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
+		candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
+		candidate = globe__intersect_globe(ray, shape.position, shape.row_y, shape.size0);
+	}
+	let local = canonical__canonical_ray(ray, shape);
+	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
+		candidate = disc__intersect_disc(local, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
+		candidate = rectangle__intersect_rectangle(local);
+	}
+	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
+		candidate = box__intersect_box(local);
+	}
+	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
+		candidate = cone__intersect_cone(local, shape.size0, shape.size1, (shape.flags & types__SHAPE_CAPPED) != 0u);
+	}
+	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
+		candidate = torus__intersect_torus(local, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
+		candidate = ellipsoid__intersect_ellipsoid(local);
+	}
+	return candidate;
+}
+
+fn shape__canonical_point(shape: types__PackedShape, reached: vec3f, part: f32) -> canonical__CanonicalPoint {
+	let p = canonical__canonical_vector(shape, reached - shape.position);
+	var point: canonical__CanonicalPoint;
+	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
+		point = disc__disc_point(p);
+	}
+	if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
+		point = rectangle__rectangle_point(p);
+	}
+	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
+		point = box__box_point(p, part);
+	}
+	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
+		point = cone__cone_point(p, shape.size0, shape.size1, part);
+	}
+	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
+		point = torus__torus_point(p, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
+		point = ellipsoid__ellipsoid_point(p);
+	}
+	return point;
+}
+
+fn shape__is_round(kind: u32) -> bool {
+	if ((bindings__SHAPE_KINDS & (shape__SPHERES | shape__GLOBES)) == 0u) {
+		return false;
+	}
+	return (bindings__SHAPE_KINDS & ~(shape__SPHERES | shape__GLOBES)) == 0u || kind == types__SHAPE_SPHERE || kind == types__SHAPE_GLOBE;
+}
+
+fn shape__is_globe(kind: u32) -> bool {
+	return (bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || kind == types__SHAPE_GLOBE);
+}
+
+fn shape__is_flat(kind: u32) -> bool {
+	return (bindings__SHAPE_KINDS & (shape__DISCS | shape__RECTANGLES)) != 0u && (kind == types__SHAPE_DISC || kind == types__SHAPE_RECTANGLE);
+}
+
+fn sphere__intersect_sphere(ray: tracing__Ray, center: vec3f, radius: f32) -> tracing__Candidate {
+	let f = ray.origin - center;
+	let a = dot(ray.direction, ray.direction);
+	let b = -dot(f, ray.direction);
+	let nearest = f + (b / a) * ray.direction;
+	let discriminant = radius * radius - dot(nearest, nearest);
+	if (discriminant < 0.0) {
+		return tracing__Candidate(false, 0.0, 0.0, 0.0);
+	}
+	let c = dot(f, f) - radius * radius;
+	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
+	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
+	let t1 = q / a;
+	let near = min_f32(t0, t1);
+	let t = select(max_f32(t0, t1), near, near > 0.0);
+	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
+}
+
+fn globe__intersect_globe(ray: tracing__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> tracing__Candidate {
+	let w = ray.origin - anchor;
+	let f = n + curvature * w;
+	let c = curvature * dot(w, w) + 2.0 * dot(n, w);
+	let length2 = dot(ray.direction, ray.direction);
+	let a = curvature * length2;
+	let b = -dot(f, ray.direction);
+	let nearest = f + (b / length2) * ray.direction;
+	let is_near = abs(curvature * c) < 1.0;
+	let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
+	if (discriminant < 0.0) {
+		return tracing__Candidate(false, 0.0, 0.0, 0.0);
+	}
+	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
+	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
+	let t1 = q / a;
+	let near = min_f32(t0, t1);
+	let t = select(max_f32(t0, t1), near, near > 0.0);
+	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
+}
+
+fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__PlacedPoint {
+	let w = reached - shape.position;
+	let f = shape.row_y + shape.size0 * w;
+	let height = (shape.size0 * dot(w, w) + 2.0 * dot(shape.row_y, w)) / (1.0 + length(f));
+	let ng = numeric__normalize_or(f, shape.row_y);
+	let p = reached - height * ng;
+	return canonical__PlacedPoint(p, ng, 16.0 * numeric__ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
+}
+
+const canonical__TWO_PI: f32 = 6.2831855;
+
+struct canonical__CanonicalPoint {
+	p: vec3f,
+	n: vec3f,
+	uv: vec2f
+}
+
+struct canonical__PlacedPoint {
+	p: vec3f,
+	ng: vec3f,
+	error: vec3f
+}
+
+struct canonical__Approach {
+	origin: vec3f,
+	start: f32,
+	direction: vec3f,
+	t_per_length: f32,
+	near: bool
+}
+
+fn canonical__canonical_vector(shape: types__PackedShape, v: vec3f) -> vec3f {
+	return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
+}
+
+fn canonical__canonical_ray(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Ray {
+	return tracing__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
+}
+
+fn canonical__approach(ray: tracing__Ray, center: vec3f, reach: f32) -> canonical__Approach {
+	let size = abs(ray.direction);
+	let largest = max_f32(max_f32(size.x, max_f32(size.y, size.z)), 1e-30);
+	let scaled = ray.direction / largest;
+	let inv_length = inverseSqrt(max_f32(dot(scaled, scaled), 1e-30));
+	let direction = scaled * inv_length;
+	let start = max_f32(dot(center - ray.origin, direction) - reach, 0.0);
+	let origin = ray.origin + start * direction;
+	let off = abs(origin - center);
+	let near = max_f32(off.x, max_f32(off.y, off.z)) <= 2.0 * reach;
+	return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
+}
+
+fn canonical__approached_t(near: canonical__Approach, s: f32) -> f32 {
+	return (near.start + s) * near.t_per_length;
+}
+
+fn canonical__placed_point(shape: types__PackedShape, reached: vec3f, point: canonical__CanonicalPoint) -> canonical__PlacedPoint {
+	let inv_lengths = 1.0 / vec3f(length(shape.row_x), length(shape.row_y), length(shape.row_z));
+	let x = shape.row_x * inv_lengths.x;
+	let y = shape.row_y * inv_lengths.y;
+	let z = shape.row_z * inv_lengths.z;
+	let normal_x = cross(y, z);
+	let det = dot(x, normal_x);
+	let scale = inv_lengths / select(1.0, det, abs(det) > 1e-20);
+	let column_x = scale.x * normal_x;
+	let column_y = scale.y * cross(z, x);
+	let column_z = scale.z * cross(x, y);
+	let q = reached - shape.position;
+	let way = point.p - canonical__canonical_vector(shape, q);
+	let p = reached + (way.x * column_x + way.y * column_y + way.z * column_z);
+	let size = vec3f(dot(abs(shape.row_x), abs(q)), dot(abs(shape.row_y), abs(q)), dot(abs(shape.row_z), abs(q))) + 1.0;
+	let reach = size.x * abs(column_x) + size.y * abs(column_y) + size.z * abs(column_z);
+	let normal = point.n.x * shape.row_x + point.n.y * shape.row_y + point.n.z * shape.row_z;
+	return canonical__PlacedPoint(p, numeric__normalize_or(normal, y), offset__placed_error(p, shape.position, reach));
+}
+
+fn canonical__longitude(x: f32, z: f32) -> f32 {
+	let on_axis = (x == 0.0) & (z == 0.0);
+	return saturate_f32(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
+}
+
+fn canonical__sphere_uv(n: vec3f) -> vec2f {
+	let off_axis = length(n.xz);
+	let at_center = (off_axis == 0.0) & (n.y == 0.0);
+	let latitude = atan2(n.y, select(off_axis, 1.0, at_center));
+	return vec2f(canonical__longitude(n.x, n.z), saturate_f32(0.5 + 2.0 * latitude / canonical__TWO_PI));
+}
+
+fn canonical__outwards(v: vec2f) -> vec2f {
+	let size = length(v);
+	let usable = size > 1e-18;
+	return select(vec2f(1.0, 0.0), v / select(1.0, size, usable), usable);
+}
+
+fn disc__intersect_disc(ray: tracing__Ray, hole: f32) -> tracing__Candidate {
+	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
+	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
+	let p = clamp_vec2f(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
+	let distance = dot(p, p);
+	return tracing__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
+}
+
+fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate_vec2f(0.5 + 0.5 * vec2f(p.x, -p.z)));
+}
+
+fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
+	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
+	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
+	let way = t * ray.direction.xz;
+	let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
+	let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
+	return tracing__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
+}
+
+fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate_vec2f(0.5 + 0.5 * vec2f(p.x, -p.z)));
+}
+
+fn box__intersect_box(ray: tracing__Ray) -> tracing__Candidate {
+	let size = abs(ray.direction);
+	let largest = max_f32(max_f32(size.x, max_f32(size.y, size.z)), 1e-30);
+	let inv = numeric__safe_reciprocal(ray.direction / largest);
+	let origin = clamp_vec3f(ray.origin, vec3f(-1e18), vec3f(1e18));
+	let t0 = (-1.0 - origin) * inv;
+	let t1 = (1.0 - origin) * inv;
+	let enters = min_vec3f(t0, t1);
+	let leaves = max_vec3f(t0, t1);
+	let enter = max_f32(enters.x, max_f32(enters.y, enters.z));
+	let leave = min_f32(leaves.x, min_f32(leaves.y, leaves.z));
+	let from_outside = enter > 0.0;
+	let s = select(leave, enter, from_outside);
+	let planes = select(leaves, enters, from_outside);
+	let axis = select(select(2u, 1u, planes.y == s), 0u, planes.x == s);
+	let positive = (inv[axis] < 0.0) == from_outside;
+	let side = f32(axis) + select(0.0, 3.0, positive);
+	let hit = (enter <= leave) & (s > 0.0);
+	return tracing__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
+}
+
+fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
+	let code = u32(side + 0.5);
+	let positive = code >= 3u;
+	let axis = code - select(0u, 3u, positive);
+	let sign = select(-1.0, 1.0, positive);
+	let n = select(vec3f(0.0), vec3f(sign), vec3<bool>(axis == 0u, axis == 1u, axis == 2u));
+	let place = select(p, n, n != vec3f(0.0));
+	let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
+	let up = select(p.y, -sign * p.z, axis == 1u);
+	return canonical__CanonicalPoint(place, n, saturate_vec2f(0.5 + 0.5 * vec2f(right, up)));
+}
+
+const cone__FAR: f32 = 1e30;
+
+const cone__SIDE: f32 = 0.0;
+
+const cone__BOTTOM: f32 = 1.0;
+
+const cone__TOP: f32 = 2.0;
+
+fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) -> tracing__Candidate {
+	let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
+	let o = near.origin;
+	let d = near.direction;
+	let slope = top - bottom;
+	let radius = bottom + slope * o.y;
+	let exact_a = dot(d.xz, d.xz) - slope * slope * d.y * d.y;
+	let a = select(1e-12, exact_a, abs(exact_a) > 1e-12);
+	let b = dot(o.xz, d.xz) - slope * radius * d.y;
+	let c = dot(o.xz, o.xz) - radius * radius;
+	let turn = o.x * d.z - o.z * d.x;
+	let lean = radius * d.xz - slope * d.y * o.xz;
+	let by_determinants = dot(lean, lean) - turn * turn - (a - exact_a) * c;
+	let discriminant = select(by_determinants, b * b - a * c, a * c <= 0.0);
+	let root = sqrt(max_f32(discriminant, 0.0));
+	let q = -(b + select(-root, root, b >= 0.0));
+	let usable = abs(q) > 1e-20;
+	let r1 = q / a;
+	let r2 = select(0.0, c / select(1.0, q, usable), usable);
+	let low = min_f32(r1, r2);
+	let high = max_f32(r1, r2);
+	let steep = a < 0.0;
+	let widens = slope * d.y > 0.0;
+	let side_in = select(low, select(-cone__FAR, high, widens), steep);
+	let side_out = select(high, select(low, cone__FAR, widens), steep);
+	let level = abs(d.y) < 1e-18;
+	let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
+	let y0 = -o.y * inv_y;
+	let y1 = (1.0 - o.y) * inv_y;
+	let slab_in = min_f32(y0, y1);
+	let slab_out = max_f32(y0, y1);
+	let enter = max_f32(slab_in, side_in);
+	let leave = min_f32(slab_out, side_out);
+	let enters_side = side_in >= slab_in;
+	let leaves_side = side_out <= slab_out;
+	let takes_enter = (near.start + enter > 0.0) & (enters_side | capped);
+	let takes_leave = (near.start + leave > 0.0) & (leaves_side | capped);
+	let met = (steep | (discriminant >= 0.0)) & (enter <= leave);
+	let hit = near.near & met & (takes_enter | takes_leave);
+	let rough = select(0.0, select(leave, enter, takes_enter), hit);
+	let is_side = select(leaves_side, enters_side, takes_enter);
+	let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
+	let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
+	let t = canonical__approached_t(near, s);
+	return tracing__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
+}
+
+fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
+	let p = o + s * d;
+	let off_axis = length(p.xz);
+	let rate = dot(p.xz, d.xz) / max_f32(off_axis, 1e-18) - slope * d.y;
+	let usable = abs(rate) > 0.001;
+	let step = (off_axis - (bottom + slope * p.y)) / select(1.0, rate, usable);
+	return s - clamp_f32(select(0.0, step, usable), -0.001, 0.001);
+}
+
+fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__CanonicalPoint {
+	let slope = top - bottom;
+	let out = canonical__outwards(p.xz);
+	if (part < 0.5) {
+		let y = saturate_f32(p.y);
+		let radius = bottom + slope * y;
+		let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
+		return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(canonical__longitude(p.x, p.z), y));
+	}
+	let is_top = part > 1.5;
+	let radius = select(bottom, top, is_top);
+	let flat = out * min_f32(length(p.xz), radius);
+	let sign = select(-1.0, 1.0, is_top);
+	let uv = vec2f(flat.x, -sign * flat.y) / max_f32(radius, 1e-18);
+	return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate_vec2f(0.5 + 0.5 * uv));
+}
+
+const torus__MOST_ROUNDS: u32 = 40u;
+
+const torus__NARROW: f32 = 1.2e-7;
+
+fn torus__torus_distance(p: vec3f, minor: f32) -> f32 {
+	return length(vec2f(length(p.xz) - 1.0, p.y)) - minor;
+}
+
+fn torus__polish(s: f32, p: f32, q: f32) -> f32 {
+	let slope = 3.0 * s * s + p;
+	let steep = abs(slope) > 0.001;
+	return s - clamp_f32(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
+}
+
+fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
+	let third = p / 3.0;
+	let half = 0.5 * q;
+	let discriminant = half * half + third * third * third;
+	let cube = abs(half) + sqrt(max_f32(discriminant, 0.0));
+	let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max_f32(cube, 1e-30)) / 3.0), cube > 1e-30);
+	let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
+	let one = torus__polish(large + small, p, q);
+	let size = sqrt(max_f32(-third, 0.0));
+	let usable = size > 1e-10;
+	let cosine = clamp_f32(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
+	let angle = acos(cosine) / 3.0;
+	let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
+	let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
+	let c = torus__polish(2.0 * size * cos(angle), p, q);
+	let three = vec3f(min_f32(a, min_f32(b, c)), max_f32(min_f32(a, b), min_f32(max_f32(a, b), c)), max_f32(a, max_f32(b, c)));
+	return select(three, vec3f(one), discriminant > 0.0);
+}
+
+fn torus__intersect_torus(ray: tracing__Ray, minor: f32) -> tracing__Candidate {
+	let outer = 1.0 + minor;
+	let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
+	let o = near.origin;
+	let d = near.direction;
+	let middle = -dot(o, d);
+	let nearest = o + middle * d;
+	let apart = dot(nearest, nearest);
+	let ball = 1.0001 * outer;
+	let half_chord = sqrt(max_f32(ball * ball - apart, 0.0));
+	let start = max_f32(middle - half_chord, 0.0);
+	let end = middle + half_chord;
+	let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
+	let cuts = vec4f(clamp_vec3f(zeros, vec3f(start), vec3f(max_f32(end, start))), end);
+	let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
+	let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
+	let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
+	let last = select(select(select(cuts.w, cuts.z, changes.z), cuts.y, changes.y), cuts.x, changes.x);
+	let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
+	let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
+	let t = canonical__approached_t(near, s);
+	return tracing__Candidate(found & (t > 0.0), t, 0.0, 0.0);
+}
+
+fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
+	var low = first;
+	var high = last;
+	var s = 0.5 * (first + last);
+	var moved = high - low;
+	var rounds = 0u;
+	loop {
+		let p = o + s * d;
+		let ring = length(p.xz);
+		let from_ring = vec2f(ring - 1.0, p.y);
+		let to_middle = length(from_ring);
+		let distance = to_middle - minor;
+		let before = (distance >= 0.0) == outside;
+		low = select(low, s, before);
+		high = select(s, high, before);
+		let ring_slope = dot(p.xz, d.xz) / max_f32(ring, 1e-20);
+		let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max_f32(to_middle, 1e-20);
+		let usable = abs(slope) > 1e-6;
+		let newton = s - distance / select(1.0, slope, usable);
+		let takes_newton = usable & (newton > low) & (newton < high) & (abs(newton - s) < 0.5 * moved);
+		let next = select(0.5 * (low + high), newton, takes_newton);
+		moved = abs(next - s);
+		s = next;
+		rounds += 1u;
+		continuing {
+		
+			break if (moved <= torus__NARROW * (1.0 + abs(s))) | (rounds >= torus__MOST_ROUNDS);
+		}
+	}
+	return s;
+}
+
+fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
+	let out = canonical__outwards(p.xz);
+	let tube = canonical__outwards(vec2f(length(p.xz) - 1.0, p.y));
+	let n = vec3f(tube.x * out.x, tube.y, tube.x * out.y);
+	let ring = 1.0 + minor * tube.x;
+	let place = vec3f(ring * out.x, minor * tube.y, ring * out.y);
+	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate_f32(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
+}
+
+fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
+	let near = canonical__approach(ray, vec3f(0.0), 1.5);
+	let found = sphere__intersect_sphere(tracing__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
+	return tracing__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
+}
+
+fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
+	let n = numeric__normalize_or(p, vec3f(0.0, 1.0, 0.0));
+	return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
+}
+
+fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
+	var hit = start;
+	var index = fetch__first_plane;
+	loop {
+		let shape = fetch__load_shape(index);
+		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
+		let primitive = types__SHAPE | index;
+		let counts = candidate.hit & (primitive != ray.leaving);
+		let wins = counts & (candidate.t < hit.t);
+		let found = tracing__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+		if (bindings__HAS_CONTACT) {
+			primitive__keep_runner_up(hit, found, counts, wins);
+		}
+		if (wins) {
+			hit = found;
+		}
+		continuing {
+			index += 1u;
+			break if index >= fetch__end_plane;
+		}
+	}
+	loops__cut_off |= index < fetch__end_plane;
+	return hit;
+}
+
+fn exhaustive__hit_everything(ray: tracing__Ray, shear: triangle_watertight__Shear, start: tracing__Hit) -> tracing__Hit {
+	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
+	var hit = start;
+	if (bindings__HAS_TRIANGLES) {
+		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
+	}
+	if (bindings__HAS_SHAPES) {
+		hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
+	}
+	if (bindings__HAS_INSTANCES) {
+		var index = 0u;
+		for (; index < bindings__frame.instance_count; index += 1u) {
+			let instance = fetch__load_instance(index);
+			let local = instance__object_ray(ray, instance__space_of(instance));
+			let at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
+			hit = exhaustive__hit_run(at, hit, instance.first, instance.count);
+		}
+		loops__cut_off |= index < bindings__frame.instance_count;
+	}
+	return hit;
+}
+
+fn exhaustive__hit_run(at: primitive__TraversalRay, start: tracing__Hit, first: u32, count: u32) -> tracing__Hit {
+	var hit = start;
+	var index = 0u;
+	for (; index < count; index += 1u) {
+		hit = primitive__closer(at, hit, first + index);
+	}
+	loops__cut_off |= index < count;
+	return hit;
+}
+
+fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing__Candidate {
+	let slope = dot(n, ray.direction);
+	let steep = abs(slope) > 1e-12;
+	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
+	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+}
+
 const medium__VACUUM: shading__Medium = shading__Medium(vec3f(0.0), 1.0, 0);
 
 fn medium__dominant(media: vec4u) -> u32 {
@@ -2372,39 +3386,6 @@ fn surface__placed_surface(ray: tracing__Ray, own: shading__Surface, space: moti
 	return surface;
 }
 
-fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
-	if (bindings__HAS_MOTION) {
-		if (instance.key_count > 1u) {
-			let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
-			let key = instance.first_key + moment.key;
-			return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
-		}
-	}
-	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
-}
-
-fn instance__object_ray(ray: tracing__Ray, space: motion__Space) -> tracing__Ray {
-	return tracing__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
-}
-
-fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
-	return n * space.inverse;
-}
-
-fn instance__placement_error(space: motion__Space, p: vec3f, q: vec3f) -> vec3f {
-	let from_p = instance__abs_times(space.inverse, abs(p) + abs(space.translation));
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(space.translation) + instance__abs_times(space.linear, abs(q) + from_p));
-}
-
-fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
-	return abs(m[0]) * v.x + abs(m[1]) * v.y + abs(m[2]) * v.z;
-}
-
-fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
-	let at = vec4f(q, 1.0);
-	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
-}
-
 var<private> triangle_surface__met_vertices: vec3u;
 
 struct triangle_surface__Placing {
@@ -2491,103 +3472,6 @@ fn triangle_surface__triangle_surface(ray: tracing__Ray, hit: tracing__Hit, plac
 
 fn triangle_surface__mix_phong(p0: shading__Phong, p1: shading__Phong, p2: shading__Phong, b0: f32, b1: f32, b2: f32) -> shading__Phong {
 	return shading__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
-}
-
-struct deforming__Keys {
-	next: u32,
-	stride: u32
-}
-
-const deforming__NO_KEYS: deforming__Keys = deforming__Keys(0u, 0u);
-
-fn deforming__keys_of(instance: types__PackedInstance) -> deforming__Keys {
-	if (bindings__HAS_DEFORMATION) {
-		return deforming__Keys(instance.next_key, instance.count);
-	}
-	return deforming__NO_KEYS;
-}
-
-fn deforming__node_now(reference: u32, keys: deforming__Keys) -> tracing__Node {
-	var key_count = 2u;
-	if (bindings__HAS_DEFORMATION) {
-		key_count = select(2u, bindings__frame.deformation_key_count, keys.next != 0u);
-	}
-	return fetch__load_moving_node(reference, motion__moment_of(shutter__shutter_time, key_count));
-}
-
-fn deforming__index_at(primitive: u32, keys: deforming__Keys, key: u32) -> u32 {
-	return primitive + select(0u, keys.next + (key - 1u) * keys.stride, key > 0u);
-}
-
-fn deforming__triangle_now(primitive: u32, keys: deforming__Keys) -> types__PackedTriangle {
-	let first = fetch__load_triangle(primitive);
-	if (bindings__HAS_DEFORMATION) {
-		if (keys.next != 0u) {
-			let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
-			let a = fetch__load_triangle(deforming__index_at(primitive, keys, moment.key));
-			let b = fetch__load_triangle(deforming__index_at(primitive, keys, moment.key + 1u));
-			let fraction = vec3f(moment.fraction);
-			return types__PackedTriangle(mix(a.v0, b.v0, fraction), first.i0, mix(a.v1, b.v1, fraction), first.i1, mix(a.v2, b.v2, fraction), first.i2);
-		}
-	}
-	return first;
-}
-
-fn deforming__normals_now(primitive: u32, keys: deforming__Keys) -> mat3x3f {
-	let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
-	let a = deforming__normals_at(deforming__index_at(primitive, keys, moment.key));
-	let b = deforming__normals_at(deforming__index_at(primitive, keys, moment.key + 1u));
-	return a * (1.0 - moment.fraction) + b * moment.fraction;
-}
-
-fn deforming__normals_at(triangle: u32) -> mat3x3f {
-	let own = fetch__load_triangle(triangle);
-	return mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
-}
-
-fn deforming__tangents_now(primitive: u32, keys: deforming__Keys) -> mat3x4f {
-	if (bindings__HAS_DEFORMATION) {
-		if (keys.next != 0u) {
-			let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
-			let a = deforming__tangents_at(deforming__index_at(primitive, keys, moment.key), moment.key > 0u);
-			let b = deforming__tangents_at(deforming__index_at(primitive, keys, moment.key + 1u), true);
-			return a * (1.0 - moment.fraction) + b * moment.fraction;
-		}
-	}
-	return deforming__tangents_at(primitive, false);
-}
-
-fn deforming__tangents_at(triangle: u32, is_later: bool) -> mat3x4f {
-	let own = fetch__load_triangle(triangle);
-	return mat3x4f(deforming__tangent_at(own.i0, is_later), deforming__tangent_at(own.i1, is_later), deforming__tangent_at(own.i2, is_later));
-}
-
-fn deforming__tangent_at(vertex: u32, is_later: bool) -> vec4f {
-	var tangent = fetch__load_tangent(vertex);
-	if (bindings__HAS_DEFORMATION) {
-		if (is_later) {
-			tangent = fetch__load_key_tangent(vertex);
-		}
-	}
-	return vec4f(tangent.direction, tangent.handedness);
-}
-
-const numeric__ROUNDING: f32 = 5.9604645e-8;
-
-fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
-	let largest = max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
-	let usable = largest > 1e-30;
-	let scaled = select(vec3f(1.0, 0.0, 0.0), v / select(1.0, largest, usable), usable);
-	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
-}
-
-fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
-	let tiny = abs(d) < vec3f(1e-18);
-	return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
-}
-
-fn numeric__max_component(v: vec3f) -> f32 {
-	return max_f32(v.x, max_f32(v.y, v.z));
 }
 
 fn tangent_space__placed_tangents(space: motion__Space, own: mat3x4f) -> mat3x4f {
@@ -2917,12 +3801,6 @@ fn picture__equirectangular_direction(uv: vec2f, rotation: f32) -> vec3f {
 	return vec3f(cos(up) * sin(around), sin(up), -cos(up) * cos(around));
 }
 
-var<private> loops__nodes_visited: u32 = 0u;
-
-var<private> loops__primitives_tested: u32 = 0u;
-
-var<private> loops__cut_off: bool = false;
-
 fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) -> vec4f {
 	let area = d1.x * d2.y - d1.y * d2.x;
 	let hand = select(1.0, -1.0, area < 0.0);
@@ -3148,523 +4026,6 @@ fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direct
 	}
 	let ng = numeric__normalize_or(reached - shape.position, -direction);
 	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
-}
-
-const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
-
-const shape__DISCS: u32 = 1u << types__SHAPE_DISC;
-
-const shape__RECTANGLES: u32 = 1u << types__SHAPE_RECTANGLE;
-
-const shape__BOXES: u32 = 1u << types__SHAPE_BOX;
-
-const shape__CONES: u32 = 1u << types__SHAPE_CONE;
-
-const shape__TORI: u32 = 1u << types__SHAPE_TORUS;
-
-const shape__ELLIPSOIDS: u32 = 1u << types__SHAPE_ELLIPSOID;
-
-const shape__GLOBES: u32 = 1u << types__SHAPE_GLOBE;
-
-fn shape__test_shape(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Candidate {
-	if (bindings__SHAPE_KINDS == shape__SPHERES) {
-		return sphere__intersect_sphere(ray, shape.position, shape.size0);
-	}
-	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
-	if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
-		candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
-	}
-	if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
-		candidate = globe__intersect_globe(ray, shape.position, shape.row_y, shape.size0);
-	}
-	let local = canonical__canonical_ray(ray, shape);
-	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
-		candidate = disc__intersect_disc(local, shape.size0);
-	}
-	if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
-		candidate = rectangle__intersect_rectangle(local);
-	}
-	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
-		candidate = box__intersect_box(local);
-	}
-	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
-		candidate = cone__intersect_cone(local, shape.size0, shape.size1, (shape.flags & types__SHAPE_CAPPED) != 0u);
-	}
-	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
-		candidate = torus__intersect_torus(local, shape.size0);
-	}
-	if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
-		candidate = ellipsoid__intersect_ellipsoid(local);
-	}
-	return candidate;
-}
-
-fn shape__canonical_point(shape: types__PackedShape, reached: vec3f, part: f32) -> canonical__CanonicalPoint {
-	let p = canonical__canonical_vector(shape, reached - shape.position);
-	var point: canonical__CanonicalPoint;
-	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
-		point = disc__disc_point(p);
-	}
-	if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
-		point = rectangle__rectangle_point(p);
-	}
-	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
-		point = box__box_point(p, part);
-	}
-	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
-		point = cone__cone_point(p, shape.size0, shape.size1, part);
-	}
-	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
-		point = torus__torus_point(p, shape.size0);
-	}
-	if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
-		point = ellipsoid__ellipsoid_point(p);
-	}
-	return point;
-}
-
-fn shape__is_round(kind: u32) -> bool {
-	if ((bindings__SHAPE_KINDS & (shape__SPHERES | shape__GLOBES)) == 0u) {
-		return false;
-	}
-	return (bindings__SHAPE_KINDS & ~(shape__SPHERES | shape__GLOBES)) == 0u || kind == types__SHAPE_SPHERE || kind == types__SHAPE_GLOBE;
-}
-
-fn shape__is_globe(kind: u32) -> bool {
-	return (bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || kind == types__SHAPE_GLOBE);
-}
-
-fn shape__is_flat(kind: u32) -> bool {
-	return (bindings__SHAPE_KINDS & (shape__DISCS | shape__RECTANGLES)) != 0u && (kind == types__SHAPE_DISC || kind == types__SHAPE_RECTANGLE);
-}
-
-const canonical__TWO_PI: f32 = 6.2831855;
-
-struct canonical__CanonicalPoint {
-	p: vec3f,
-	n: vec3f,
-	uv: vec2f
-}
-
-struct canonical__PlacedPoint {
-	p: vec3f,
-	ng: vec3f,
-	error: vec3f
-}
-
-struct canonical__Approach {
-	origin: vec3f,
-	start: f32,
-	direction: vec3f,
-	t_per_length: f32,
-	near: bool
-}
-
-fn canonical__canonical_vector(shape: types__PackedShape, v: vec3f) -> vec3f {
-	return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
-}
-
-fn canonical__canonical_ray(ray: tracing__Ray, shape: types__PackedShape) -> tracing__Ray {
-	return tracing__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
-}
-
-fn canonical__approach(ray: tracing__Ray, center: vec3f, reach: f32) -> canonical__Approach {
-	let size = abs(ray.direction);
-	let largest = max_f32(max_f32(size.x, max_f32(size.y, size.z)), 1e-30);
-	let scaled = ray.direction / largest;
-	let inv_length = inverseSqrt(max_f32(dot(scaled, scaled), 1e-30));
-	let direction = scaled * inv_length;
-	let start = max_f32(dot(center - ray.origin, direction) - reach, 0.0);
-	let origin = ray.origin + start * direction;
-	let off = abs(origin - center);
-	let near = max_f32(off.x, max_f32(off.y, off.z)) <= 2.0 * reach;
-	return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
-}
-
-fn canonical__approached_t(near: canonical__Approach, s: f32) -> f32 {
-	return (near.start + s) * near.t_per_length;
-}
-
-fn canonical__placed_point(shape: types__PackedShape, reached: vec3f, point: canonical__CanonicalPoint) -> canonical__PlacedPoint {
-	let inv_lengths = 1.0 / vec3f(length(shape.row_x), length(shape.row_y), length(shape.row_z));
-	let x = shape.row_x * inv_lengths.x;
-	let y = shape.row_y * inv_lengths.y;
-	let z = shape.row_z * inv_lengths.z;
-	let normal_x = cross(y, z);
-	let det = dot(x, normal_x);
-	let scale = inv_lengths / select(1.0, det, abs(det) > 1e-20);
-	let column_x = scale.x * normal_x;
-	let column_y = scale.y * cross(z, x);
-	let column_z = scale.z * cross(x, y);
-	let q = reached - shape.position;
-	let way = point.p - canonical__canonical_vector(shape, q);
-	let p = reached + (way.x * column_x + way.y * column_y + way.z * column_z);
-	let size = vec3f(dot(abs(shape.row_x), abs(q)), dot(abs(shape.row_y), abs(q)), dot(abs(shape.row_z), abs(q))) + 1.0;
-	let reach = size.x * abs(column_x) + size.y * abs(column_y) + size.z * abs(column_z);
-	let normal = point.n.x * shape.row_x + point.n.y * shape.row_y + point.n.z * shape.row_z;
-	return canonical__PlacedPoint(p, numeric__normalize_or(normal, y), offset__placed_error(p, shape.position, reach));
-}
-
-fn canonical__longitude(x: f32, z: f32) -> f32 {
-	let on_axis = (x == 0.0) & (z == 0.0);
-	return saturate_f32(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
-}
-
-fn canonical__sphere_uv(n: vec3f) -> vec2f {
-	let off_axis = length(n.xz);
-	let at_center = (off_axis == 0.0) & (n.y == 0.0);
-	let latitude = atan2(n.y, select(off_axis, 1.0, at_center));
-	return vec2f(canonical__longitude(n.x, n.z), saturate_f32(0.5 + 2.0 * latitude / canonical__TWO_PI));
-}
-
-fn canonical__outwards(v: vec2f) -> vec2f {
-	let size = length(v);
-	let usable = size > 1e-18;
-	return select(vec2f(1.0, 0.0), v / select(1.0, size, usable), usable);
-}
-
-fn disc__intersect_disc(ray: tracing__Ray, hole: f32) -> tracing__Candidate {
-	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
-	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
-	let p = clamp_vec2f(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
-	let distance = dot(p, p);
-	return tracing__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
-}
-
-fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
-	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate_vec2f(0.5 + 0.5 * vec2f(p.x, -p.z)));
-}
-
-fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
-	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
-	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
-	let way = t * ray.direction.xz;
-	let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
-	let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
-	return tracing__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
-}
-
-fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
-	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate_vec2f(0.5 + 0.5 * vec2f(p.x, -p.z)));
-}
-
-fn box__intersect_box(ray: tracing__Ray) -> tracing__Candidate {
-	let size = abs(ray.direction);
-	let largest = max_f32(max_f32(size.x, max_f32(size.y, size.z)), 1e-30);
-	let inv = numeric__safe_reciprocal(ray.direction / largest);
-	let origin = clamp_vec3f(ray.origin, vec3f(-1e18), vec3f(1e18));
-	let t0 = (-1.0 - origin) * inv;
-	let t1 = (1.0 - origin) * inv;
-	let enters = min_vec3f(t0, t1);
-	let leaves = max_vec3f(t0, t1);
-	let enter = max_f32(enters.x, max_f32(enters.y, enters.z));
-	let leave = min_f32(leaves.x, min_f32(leaves.y, leaves.z));
-	let from_outside = enter > 0.0;
-	let s = select(leave, enter, from_outside);
-	let planes = select(leaves, enters, from_outside);
-	let axis = select(select(2u, 1u, planes.y == s), 0u, planes.x == s);
-	let positive = (inv[axis] < 0.0) == from_outside;
-	let side = f32(axis) + select(0.0, 3.0, positive);
-	let hit = (enter <= leave) & (s > 0.0);
-	return tracing__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
-}
-
-fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
-	let code = u32(side + 0.5);
-	let positive = code >= 3u;
-	let axis = code - select(0u, 3u, positive);
-	let sign = select(-1.0, 1.0, positive);
-	let n = select(vec3f(0.0), vec3f(sign), vec3<bool>(axis == 0u, axis == 1u, axis == 2u));
-	let place = select(p, n, n != vec3f(0.0));
-	let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
-	let up = select(p.y, -sign * p.z, axis == 1u);
-	return canonical__CanonicalPoint(place, n, saturate_vec2f(0.5 + 0.5 * vec2f(right, up)));
-}
-
-const cone__FAR: f32 = 1e30;
-
-const cone__SIDE: f32 = 0.0;
-
-const cone__BOTTOM: f32 = 1.0;
-
-const cone__TOP: f32 = 2.0;
-
-fn cone__intersect_cone(ray: tracing__Ray, bottom: f32, top: f32, capped: bool) -> tracing__Candidate {
-	let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
-	let o = near.origin;
-	let d = near.direction;
-	let slope = top - bottom;
-	let radius = bottom + slope * o.y;
-	let exact_a = dot(d.xz, d.xz) - slope * slope * d.y * d.y;
-	let a = select(1e-12, exact_a, abs(exact_a) > 1e-12);
-	let b = dot(o.xz, d.xz) - slope * radius * d.y;
-	let c = dot(o.xz, o.xz) - radius * radius;
-	let turn = o.x * d.z - o.z * d.x;
-	let lean = radius * d.xz - slope * d.y * o.xz;
-	let by_determinants = dot(lean, lean) - turn * turn - (a - exact_a) * c;
-	let discriminant = select(by_determinants, b * b - a * c, a * c <= 0.0);
-	let root = sqrt(max_f32(discriminant, 0.0));
-	let q = -(b + select(-root, root, b >= 0.0));
-	let usable = abs(q) > 1e-20;
-	let r1 = q / a;
-	let r2 = select(0.0, c / select(1.0, q, usable), usable);
-	let low = min_f32(r1, r2);
-	let high = max_f32(r1, r2);
-	let steep = a < 0.0;
-	let widens = slope * d.y > 0.0;
-	let side_in = select(low, select(-cone__FAR, high, widens), steep);
-	let side_out = select(high, select(low, cone__FAR, widens), steep);
-	let level = abs(d.y) < 1e-18;
-	let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
-	let y0 = -o.y * inv_y;
-	let y1 = (1.0 - o.y) * inv_y;
-	let slab_in = min_f32(y0, y1);
-	let slab_out = max_f32(y0, y1);
-	let enter = max_f32(slab_in, side_in);
-	let leave = min_f32(slab_out, side_out);
-	let enters_side = side_in >= slab_in;
-	let leaves_side = side_out <= slab_out;
-	let takes_enter = (near.start + enter > 0.0) & (enters_side | capped);
-	let takes_leave = (near.start + leave > 0.0) & (leaves_side | capped);
-	let met = (steep | (discriminant >= 0.0)) & (enter <= leave);
-	let hit = near.near & met & (takes_enter | takes_leave);
-	let rough = select(0.0, select(leave, enter, takes_enter), hit);
-	let is_side = select(leaves_side, enters_side, takes_enter);
-	let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
-	let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
-	let t = canonical__approached_t(near, s);
-	return tracing__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
-}
-
-fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
-	let p = o + s * d;
-	let off_axis = length(p.xz);
-	let rate = dot(p.xz, d.xz) / max_f32(off_axis, 1e-18) - slope * d.y;
-	let usable = abs(rate) > 0.001;
-	let step = (off_axis - (bottom + slope * p.y)) / select(1.0, rate, usable);
-	return s - clamp_f32(select(0.0, step, usable), -0.001, 0.001);
-}
-
-fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__CanonicalPoint {
-	let slope = top - bottom;
-	let out = canonical__outwards(p.xz);
-	if (part < 0.5) {
-		let y = saturate_f32(p.y);
-		let radius = bottom + slope * y;
-		let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
-		return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(canonical__longitude(p.x, p.z), y));
-	}
-	let is_top = part > 1.5;
-	let radius = select(bottom, top, is_top);
-	let flat = out * min_f32(length(p.xz), radius);
-	let sign = select(-1.0, 1.0, is_top);
-	let uv = vec2f(flat.x, -sign * flat.y) / max_f32(radius, 1e-18);
-	return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate_vec2f(0.5 + 0.5 * uv));
-}
-
-const torus__MOST_ROUNDS: u32 = 40u;
-
-const torus__NARROW: f32 = 1.2e-7;
-
-fn torus__torus_distance(p: vec3f, minor: f32) -> f32 {
-	return length(vec2f(length(p.xz) - 1.0, p.y)) - minor;
-}
-
-fn torus__polish(s: f32, p: f32, q: f32) -> f32 {
-	let slope = 3.0 * s * s + p;
-	let steep = abs(slope) > 0.001;
-	return s - clamp_f32(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
-}
-
-fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
-	let third = p / 3.0;
-	let half = 0.5 * q;
-	let discriminant = half * half + third * third * third;
-	let cube = abs(half) + sqrt(max_f32(discriminant, 0.0));
-	let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max_f32(cube, 1e-30)) / 3.0), cube > 1e-30);
-	let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
-	let one = torus__polish(large + small, p, q);
-	let size = sqrt(max_f32(-third, 0.0));
-	let usable = size > 1e-10;
-	let cosine = clamp_f32(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
-	let angle = acos(cosine) / 3.0;
-	let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
-	let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
-	let c = torus__polish(2.0 * size * cos(angle), p, q);
-	let three = vec3f(min_f32(a, min_f32(b, c)), max_f32(min_f32(a, b), min_f32(max_f32(a, b), c)), max_f32(a, max_f32(b, c)));
-	return select(three, vec3f(one), discriminant > 0.0);
-}
-
-fn torus__intersect_torus(ray: tracing__Ray, minor: f32) -> tracing__Candidate {
-	let outer = 1.0 + minor;
-	let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
-	let o = near.origin;
-	let d = near.direction;
-	let middle = -dot(o, d);
-	let nearest = o + middle * d;
-	let apart = dot(nearest, nearest);
-	let ball = 1.0001 * outer;
-	let half_chord = sqrt(max_f32(ball * ball - apart, 0.0));
-	let start = max_f32(middle - half_chord, 0.0);
-	let end = middle + half_chord;
-	let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
-	let cuts = vec4f(clamp_vec3f(zeros, vec3f(start), vec3f(max_f32(end, start))), end);
-	let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
-	let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
-	let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
-	let last = select(select(select(cuts.w, cuts.z, changes.z), cuts.y, changes.y), cuts.x, changes.x);
-	let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
-	let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
-	let t = canonical__approached_t(near, s);
-	return tracing__Candidate(found & (t > 0.0), t, 0.0, 0.0);
-}
-
-fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
-	var low = first;
-	var high = last;
-	var s = 0.5 * (first + last);
-	var moved = high - low;
-	var rounds = 0u;
-	loop {
-		let p = o + s * d;
-		let ring = length(p.xz);
-		let from_ring = vec2f(ring - 1.0, p.y);
-		let to_middle = length(from_ring);
-		let distance = to_middle - minor;
-		let before = (distance >= 0.0) == outside;
-		low = select(low, s, before);
-		high = select(s, high, before);
-		let ring_slope = dot(p.xz, d.xz) / max_f32(ring, 1e-20);
-		let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max_f32(to_middle, 1e-20);
-		let usable = abs(slope) > 1e-6;
-		let newton = s - distance / select(1.0, slope, usable);
-		let takes_newton = usable & (newton > low) & (newton < high) & (abs(newton - s) < 0.5 * moved);
-		let next = select(0.5 * (low + high), newton, takes_newton);
-		moved = abs(next - s);
-		s = next;
-		rounds += 1u;
-		continuing {
-		
-			break if (moved <= torus__NARROW * (1.0 + abs(s))) | (rounds >= torus__MOST_ROUNDS);
-		}
-	}
-	return s;
-}
-
-fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
-	let out = canonical__outwards(p.xz);
-	let tube = canonical__outwards(vec2f(length(p.xz) - 1.0, p.y));
-	let n = vec3f(tube.x * out.x, tube.y, tube.x * out.y);
-	let ring = 1.0 + minor * tube.x;
-	let place = vec3f(ring * out.x, minor * tube.y, ring * out.y);
-	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate_f32(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
-}
-
-fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
-	let near = canonical__approach(ray, vec3f(0.0), 1.5);
-	let found = sphere__intersect_sphere(tracing__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
-	return tracing__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
-}
-
-fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
-	let n = numeric__normalize_or(p, vec3f(0.0, 1.0, 0.0));
-	return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
-}
-
-fn globe__intersect_globe(ray: tracing__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> tracing__Candidate {
-	let w = ray.origin - anchor;
-	let f = n + curvature * w;
-	let c = curvature * dot(w, w) + 2.0 * dot(n, w);
-	let length2 = dot(ray.direction, ray.direction);
-	let a = curvature * length2;
-	let b = -dot(f, ray.direction);
-	let nearest = f + (b / length2) * ray.direction;
-	let is_near = abs(curvature * c) < 1.0;
-	let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
-	if (discriminant < 0.0) {
-		return tracing__Candidate(false, 0.0, 0.0, 0.0);
-	}
-	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
-	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
-	let t1 = q / a;
-	let near = min_f32(t0, t1);
-	let t = select(max_f32(t0, t1), near, near > 0.0);
-	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
-}
-
-fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__PlacedPoint {
-	let w = reached - shape.position;
-	let f = shape.row_y + shape.size0 * w;
-	let height = (shape.size0 * dot(w, w) + 2.0 * dot(shape.row_y, w)) / (1.0 + length(f));
-	let ng = numeric__normalize_or(f, shape.row_y);
-	let p = reached - height * ng;
-	return canonical__PlacedPoint(p, ng, 16.0 * numeric__ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
-}
-
-var<private> primitive__runner_up: tracing__Hit;
-
-struct primitive__TraversalRay {
-	ray: tracing__Ray,
-	inv: vec3f,
-	shear: triangle_watertight__Shear,
-	instance: u32,
-	keys: deforming__Keys
-}
-
-fn primitive__traversal_ray(ray: tracing__Ray, shear: triangle_watertight__Shear, instance: u32, keys: deforming__Keys) -> primitive__TraversalRay {
-	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance, keys);
-}
-
-fn primitive__closer(at: primitive__TraversalRay, hit: tracing__Hit, primitive: u32) -> tracing__Hit {
-	return primitive__closer_of(at, hit, primitive__test_primitive(at, primitive), primitive);
-}
-
-fn primitive__closer_of(at: primitive__TraversalRay, hit: tracing__Hit, candidate: tracing__Candidate, primitive: u32) -> tracing__Hit {
-	var is_lower = primitive < hit.primitive;
-	var is_left = primitive == at.ray.leaving;
-	if (bindings__HAS_INSTANCES) {
-		is_lower = (at.instance < hit.instance) | ((at.instance == hit.instance) & is_lower);
-		is_left = is_left & (at.instance == at.ray.leaving_instance);
-	}
-	let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
-	let counts = candidate.hit & !is_left;
-	let wins = counts & ((candidate.t < hit.t) | ties);
-	if (bindings__HAS_CONTACT) {
-		let found = tracing__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
-		primitive__keep_runner_up(hit, found, counts, wins);
-	}
-	return tracing__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
-}
-
-fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: bool, wins: bool) {
-	let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
-	if (wins) {
-		primitive__runner_up = hit;
-	}
-	else if (counts & !is_same & (found.t < primitive__runner_up.t)) {
-		primitive__runner_up = found;
-	}
-}
-
-fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> tracing__Candidate {
-	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
-	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
-		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
-	}
-	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
-		candidate = shape__test_shape(at.ray, fetch__load_shape(primitive & ~types__SHAPE));
-	}
-	return candidate;
-}
-
-fn primitive__test_triangle(ray: tracing__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> tracing__Candidate {
-	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
-		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
-	}
-	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
-		return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
-	}
-	return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
 }
 
 fn media__has_room(media: vec4u) -> bool {
@@ -5593,371 +5954,6 @@ fn bsdf_ggx_transmission__ggx_transmission(wo: vec3f, wi: vec3f, alpha: vec2f, e
 	let refracted_density = abs(dot(wo, h) * dot(wi, h)) / (max_f32(wo.z, 1e-6) * max_f32(dot(sum, sum), 1e-12));
 	let pdf = bsdf_ggx__ggx_distribution(h, alpha) * refracted_density / seen;
 	return select(vec2f(0.0), vec2f(pdf / lit, pdf), wo.z > 0.0 && wi.z < 0.0);
-}
-
-const traverse__RETURN: u32 = 4294967294u;
-
-const traverse__CONTACT_RANGE: f32 = 0.0001;
-
-struct traverse__Walk {
-	ray: tracing__Ray,
-	shear: triangle_watertight__Shear,
-	any: bool,
-	at: primitive__TraversalRay,
-	hit: tracing__Hit,
-	current: u32
-}
-
-const traverse__NO_LIMIT: u32 = 4294967295u;
-
-fn traverse__search_limit(ray: tracing__Ray, hit: tracing__Hit) -> f32 {
-	if (bindings__HAS_CONTACT) {
-		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
-	}
-	return hit.t;
-}
-
-fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
-	if (bindings__HAS_CONTACT) {
-		primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
-	}
-	let shear = triangle_watertight__shear_of(ray.direction);
-	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
-	if (bindings__HAS_PLANES) {
-		walk.hit = exhaustive__hit_planes(ray, walk.hit);
-	}
-	if (bindings__BRUTE_FORCE) {
-		walk.hit = exhaustive__hit_everything(ray, shear, walk.hit);
-		return walk;
-	}
-	if ((bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) && ray.t_max >= 0.0 && !(any && walk.hit.primitive != types__NONE)) {
-		stack__start_stack();
-		walk.current = 0u;
-		if (bindings__HAS_INSTANCES) {
-			walk.current = fetch__root;
-		}
-	}
-	return walk;
-}
-
-fn traverse__is_walking(walk: traverse__Walk) -> bool {
-	return walk.current != stack__EMPTY;
-}
-
-fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
-	var walk = before;
-	var round = 0u;
-	if (traverse__is_walking(walk)) {
-		loop {
-			if (bindings__HAS_INSTANCES) {
-				walk = traverse__in_its_space(walk);
-			}
-			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
-			if (is_node) {
-				loop {
-					let node = traverse__load_current_node(walk.current, walk.at.keys);
-					let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
-					let is_hit = keys < vec4u(node__MISS);
-					let top = stack__top_of_stack();
-					let next = vec3u(node.children[keys.y & 3u], node.children[keys.z & 3u], node.children[keys.w & 3u]);
-					stack__move_stack(next, traverse__hit_count(keys) - 1);
-					walk.current = select(top, node.children[keys.x & 3u], keys.x < node__MISS);
-					if (bindings__COUNT_STEPS) {
-						loops__nodes_visited += 1u;
-					}
-					continuing {
-					
-						break if (walk.current & types__LEAF) != 0u;
-					}
-				}
-			}
-			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
-			if (is_leaf) {
-				loop {
-					walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
-					let is_last = (walk.current & types__LEAF_COUNT_MASK) == 0u;
-					walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__top_of_stack(), is_last);
-					stack__move_stack(vec3u(stack__EMPTY), select(0, -1, is_last));
-					walk.current = select(walk.current, stack__EMPTY, walk.any & (walk.hit.primitive != types__NONE));
-					if (bindings__COUNT_STEPS) {
-						loops__primitives_tested += 1u;
-					}
-					continuing {
-					
-						break if ((walk.current & types__LEAF) == 0u) | (walk.current >= types__INSTANCE);
-					}
-				}
-			}
-			round += 1u;
-			continuing {
-			
-				break if !traverse__is_walking(walk) | (round >= rounds);
-			}
-		}
-		loops__cut_off |= traverse__is_walking(walk) & (round < rounds);
-	}
-	return walk;
-}
-
-fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
-	var walk = before;
-	if (walk.current == traverse__RETURN) {
-		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
-		walk.current = stack__top_of_stack();
-		stack__pop();
-	}
-	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
-		let index = walk.current & types__LEAF_FIRST_MASK;
-		let instance = fetch__load_instance(index);
-		let local = instance__object_ray(walk.ray, instance__space_of(instance));
-		walk.at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
-		stack__push(traverse__RETURN);
-		walk.current = instance.root;
-	}
-	return walk;
-}
-
-fn traverse__hit_count(keys: vec4u) -> i32 {
-	let hits = select(vec4i(0), vec4i(1), keys < vec4u(node__MISS));
-	return hits.x + hits.y + hits.z + hits.w;
-}
-
-fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> tracing__Node {
-	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
-		return deforming__node_now(reference, keys);
-	}
-	return fetch__load_node(reference);
-}
-
-struct triangle_watertight__Shear {
-	x: vec3f,
-	y: vec3f,
-	z: vec3f
-}
-
-fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
-	let size = abs(direction);
-	let is_x = (size.x >= size.y) & (size.x >= size.z);
-	let is_y = !is_x & (size.y >= size.z);
-	let axis_z = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), is_y), vec3f(1.0, 0.0, 0.0), is_x);
-	let axis_x = axis_z.zxy;
-	let axis_y = axis_z.yzx;
-	let scale = 1.0 / dot(direction, axis_z);
-	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
-}
-
-fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
-	let a = v0 - origin;
-	let b = v1 - origin;
-	let c = v2 - origin;
-	let ax = dot(shear.x, a);
-	let ay = dot(shear.y, a);
-	let bx = dot(shear.x, b);
-	let by = dot(shear.y, b);
-	let cx = dot(shear.x, c);
-	let cy = dot(shear.y, c);
-	let left = vec3f(cx * by, ax * cy, bx * ay);
-	let right = vec3f(cy * bx, ay * cx, by * ax);
-	let inside = all(left >= right) | all(left <= right);
-	let edges = left - right;
-	let det = edges.x + edges.y + edges.z;
-	let usable = inside & (abs(det) > 1e-36);
-	let inv_det = 1.0 / select(1.0, det, usable);
-	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
-	let t = dot(edges, depths) * inv_det;
-	return tracing__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
-}
-
-const stack__EMPTY: u32 = 4294967295u;
-
-var<private> stack__top: u32;
-
-var<private> stack__entries: array<u32, types__STACK_SIZE>;
-
-fn stack__start_stack() {
-	stack__top = 0u;
-	stack__entries[0] = stack__EMPTY;
-}
-
-fn stack__top_of_stack() -> u32 {
-	return stack__entries[stack__top];
-}
-
-fn stack__pop() {
-	stack__move_stack(vec3u(stack__EMPTY), -1);
-}
-
-fn stack__push(reference: u32) {
-	stack__move_stack(vec3u(reference, stack__EMPTY, stack__EMPTY), 1);
-}
-
-fn stack__move_stack(references: vec3u, count: i32) {
-	stack__entries[stack__top + 1u] = references.z;
-	stack__top += select(0u, 1u, count >= 3);
-	stack__entries[stack__top + 1u] = references.y;
-	stack__top += select(0u, 1u, count >= 2);
-	stack__entries[stack__top + 1u] = references.x;
-	stack__top += select(0u, 1u, count >= 1);
-	stack__top -= select(0u, 1u, (count < 0) & (stack__entries[stack__top] != stack__EMPTY));
-}
-
-const node__MISS: u32 = 4294967292u;
-
-const node__WIDENING: i32 = 8;
-
-fn node__bytes(word: u32) -> vec4f {
-	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
-}
-
-fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> tracing__Node {
-	return tracing__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
-}
-
-fn node__node_between(a: tracing__Node, b: tracing__Node, fraction: f32) -> tracing__Node {
-	let lo = mix(a.lo, b.lo, vec3f(fraction));
-	let shift_a = a.lo - lo;
-	let shift_b = b.lo - lo;
-	let s = vec4f(fraction);
-	return tracing__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
-}
-
-fn node__child_keys(node: tracing__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
-	let base = (node.lo - origin) * inv;
-	let step = node.scale * inv;
-	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
-	let x1 = bitcast<vec4i>(node.max_x * step.x + base.x);
-	let y0 = bitcast<vec4i>(node.min_y * step.y + base.y);
-	let y1 = bitcast<vec4i>(node.max_y * step.y + base.y);
-	let z0 = bitcast<vec4i>(node.min_z * step.z + base.z);
-	let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
-	let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
-	let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
-	let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
-	let hit = (near <= limit) & (node.children != vec4u(0u));
-	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
-	return select(vec4u(node__MISS), keys, hit);
-}
-
-fn node__sort4(keys: vec4u) -> vec4u {
-	let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
-	let lowest = min(a.x, a.y);
-	let middle_low = max(a.x, a.y);
-	let middle_high = min(a.z, a.w);
-	let highest = max(a.z, a.w);
-	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
-}
-
-fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
-	let e1 = v1 - v0;
-	let e2 = v2 - v0;
-	let n = cross(e1, e2);
-	let slope = dot(n, ray.direction);
-	let area = dot(n, n);
-	let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
-	let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
-	let w = ray.origin + t * ray.direction - v0;
-	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
-	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
-	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
-}
-
-fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
-	let e1 = v1 - v0;
-	let e2 = v2 - v0;
-	let p = cross(ray.direction, e2);
-	let det = dot(e1, p);
-	let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
-	let inv_det = 1.0 / select(1.0, det, usable);
-	let s = ray.origin - v0;
-	let b1 = inv_det * dot(s, p);
-	let q = cross(s, e1);
-	let b2 = inv_det * dot(ray.direction, q);
-	let t = inv_det * dot(e2, q);
-	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
-}
-
-fn sphere__intersect_sphere(ray: tracing__Ray, center: vec3f, radius: f32) -> tracing__Candidate {
-	let f = ray.origin - center;
-	let a = dot(ray.direction, ray.direction);
-	let b = -dot(f, ray.direction);
-	let nearest = f + (b / a) * ray.direction;
-	let discriminant = radius * radius - dot(nearest, nearest);
-	if (discriminant < 0.0) {
-		return tracing__Candidate(false, 0.0, 0.0, 0.0);
-	}
-	let c = dot(f, f) - radius * radius;
-	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
-	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
-	let t1 = q / a;
-	let near = min_f32(t0, t1);
-	let t = select(max_f32(t0, t1), near, near > 0.0);
-	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
-}
-
-fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
-	var hit = start;
-	var index = fetch__first_plane;
-	loop {
-		let shape = fetch__load_shape(index);
-		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
-		let primitive = types__SHAPE | index;
-		let counts = candidate.hit & (primitive != ray.leaving);
-		let wins = counts & (candidate.t < hit.t);
-		let found = tracing__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
-		if (bindings__HAS_CONTACT) {
-			primitive__keep_runner_up(hit, found, counts, wins);
-		}
-		if (wins) {
-			hit = found;
-		}
-		continuing {
-			index += 1u;
-			break if index >= fetch__end_plane;
-		}
-	}
-	loops__cut_off |= index < fetch__end_plane;
-	return hit;
-}
-
-fn exhaustive__hit_everything(ray: tracing__Ray, shear: triangle_watertight__Shear, start: tracing__Hit) -> tracing__Hit {
-	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
-	var hit = start;
-	if (bindings__HAS_TRIANGLES) {
-		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
-	}
-	if (bindings__HAS_SHAPES) {
-		hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
-	}
-	if (bindings__HAS_INSTANCES) {
-		var index = 0u;
-		for (; index < bindings__frame.instance_count; index += 1u) {
-			let instance = fetch__load_instance(index);
-			let local = instance__object_ray(ray, instance__space_of(instance));
-			let at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index, deforming__keys_of(instance));
-			hit = exhaustive__hit_run(at, hit, instance.first, instance.count);
-		}
-		loops__cut_off |= index < bindings__frame.instance_count;
-	}
-	return hit;
-}
-
-fn exhaustive__hit_run(at: primitive__TraversalRay, start: tracing__Hit, first: u32, count: u32) -> tracing__Hit {
-	var hit = start;
-	var index = 0u;
-	for (; index < count; index += 1u) {
-		hit = primitive__closer(at, hit, first + index);
-	}
-	loops__cut_off |= index < count;
-	return hit;
-}
-
-fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing__Candidate {
-	let slope = dot(n, ray.direction);
-	let steep = abs(slope) > 1e-12;
-	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
 override bindings__EXTREMES_BY_SELECT: bool = false;

@@ -1,5 +1,7 @@
 const WALK_ROUNDS: u32 = traverse__NO_LIMIT;
 
+const WALKS: u32 = 2u;
+
 const ROULETTE_START: u32 = 3u;
 
 @compute @workgroup_size(64, 1, 1)
@@ -10,9 +12,24 @@ fn path_trace(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 	var path = path__camera_path(batch, pixels, sample);
 	var walk = path__next_walk(path);
 	loop {
-		walk = traverse__walked(walk, WALK_ROUNDS);
-		if (!traverse__is_walking(walk)) {
-			path = arrived(batch, path, walk.hit);
+		var walks = 0u;
+		loop {
+			walk = traverse__walked(walk, WALK_ROUNDS);
+			if (!traverse__is_walking(walk) && path__is_to_lamp(path)) {
+				path = path__lit(path, walk.hit);
+				walk = path__next_walk(path);
+			}
+			walks += 1u;
+			continuing {
+			
+				break if walks >= WALKS;
+			}
+		}
+		loops__cut_off |= walks < WALKS;
+		if (!traverse__is_walking(walk) && !path__is_to_lamp(path)) {
+			if (path__is_going(path)) {
+				path = traced(batch, path, walk.hit);
+			}
 			if (!path__is_going(path)) {
 				pixels = pixels__add_samples(pixels, sample, wide__Vectors(path.radiance.x, path.radiance.y, path.radiance.z));
 				sample += 1u;
@@ -28,16 +45,6 @@ fn path_trace(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 	loops__cut_off |= sample < batch.end_sample;
 	pixels__store_pixels(pixels);
 	dispatch__add_counts(lane);
-}
-
-fn arrived(batch: dispatch__Batch, path: path__Path, hit: tracing__Hit) -> path__Path {
-	if (path__is_to_lamp(path)) {
-		return path__lit(path, hit);
-	}
-	if (path__is_going(path)) {
-		return traced(batch, path, hit);
-	}
-	return path;
 }
 
 fn traced(batch: dispatch__Batch, before: path__Path, hit: tracing__Hit) -> path__Path {
