@@ -37,8 +37,12 @@ exec 3>"$out/log.txt"
 results=()
 measure() { # NAME COMMAND…: one peer; the command gets the file for its results as its last argument
 	echo "pass $pass: $1" >&2
-	results+=("$out/$1-$pass.json")
-	"${@:2}" "$out/$1-$pass.json" >&3
+	if "${@:2}" "$out/$1-$pass.json" >&3; then
+		results+=("$out/$1-$pass.json")
+	else
+		# Mitsuba's LLVM variant needs a newer LLVM than Debian 12 has on processors with AVX-512, for one.
+		echo "pass $pass: $1 failed, and is missing from the report" >&2
+	fi
 }
 bench() {
 	"$glimray" bench --only heightfield --repeats "$rounds" --json >"$1"

@@ -21,6 +21,11 @@ use crate::{
 /// seldom seen, and with 64 a sequence lasts for 8192 × 8192 pixels.
 const MAX_Z_ORDER: u32 = 64;
 
+/// Whether there are more shapes than triangles.
+pub fn has_mostly_shapes(scene: &PackedScene) -> bool {
+    scene.bounded_shape_count() as usize > scene.triangles.len()
+}
+
 /// Features that the scene, the frame and the settings need; all others are compiled out.
 pub fn of(task: Task) -> Overrides {
     let Task {
@@ -220,10 +225,7 @@ fn geometry(scene: &PackedScene, view: &PackedView) -> [(&'static str, f64); 9] 
         ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
         ("HAS_SHAPES", flag(scene.bounded_shape_count() > 0)),
         ("HAS_PLANES", flag(scene.plane_count > 0)),
-        (
-            "MOSTLY_SHAPES",
-            flag(scene.bounded_shape_count() as usize > scene.triangles.len()),
-        ),
+        ("MOSTLY_SHAPES", flag(has_mostly_shapes(scene))),
         ("SHAPE_KINDS", f64::from(features.shape_kinds)),
         ("HAS_INSTANCES", flag(features.instances)),
         ("STACK_REGISTERS", f64::from(stack_registers(scene, view))),
