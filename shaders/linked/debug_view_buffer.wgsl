@@ -967,6 +967,7 @@ fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
 						break if (walk.current & types__LEAF) != 0u;
 					}
 				}
+				loops__cut_off |= (walk.current & types__LEAF) == 0u;
 			}
 			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
 			if (is_leaf) {
