@@ -3,7 +3,7 @@
 
 use naga::{
     Expression, Function, MathFunction, Module, ScalarKind, TypeInner,
-    valid::{Capabilities, FunctionInfo, ValidationFlags, Validator},
+    valid::{Capabilities, FunctionInfo, ModuleInfo, ValidationFlags, Validator},
 };
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -117,11 +117,8 @@ fn with_extremes(mut text: String) -> Result<String, Box<dyn Error>> {
     let module =
         naga::front::wgsl::parse_str(&text).map_err(|error| error.emit_to_string(&text))?;
     let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module)?;
-    let functions = (module.functions.iter()).map(|(handle, function)| (function, &info[handle]));
-    let entries = module.entry_points.iter().enumerate();
-    let entries = entries.map(|(index, entry)| (&entry.function, info.get_entry_point(index)));
     let mut calls = BTreeMap::new();
-    for (function, info) in functions.chain(entries) {
+    for (function, info) in functions(&module, &info) {
         calls.extend(extremes(&module, function, info));
     }
     for (start, (name, ty)) in calls.iter().rev() {
@@ -137,6 +134,17 @@ fn with_extremes(mut text: String) -> Result<String, Box<dyn Error>> {
     Ok(text)
 }
 
+/// The functions of a module and of its entry points, with what its validation found.
+pub fn functions<'a>(
+    module: &'a Module,
+    info: &'a ModuleInfo,
+) -> impl Iterator<Item = (&'a Function, &'a FunctionInfo)> {
+    let functions = (module.functions.iter()).map(|(handle, function)| (function, &info[handle]));
+    let entries = module.entry_points.iter().enumerate();
+    let entries = entries.map(|(index, entry)| (&entry.function, info.get_entry_point(index)));
+    functions.chain(entries)
+}
+
 /// The calls of a function that `with_extremes` replaces: where each starts in the text, its name and its type.
 fn extremes<'a>(
     module: &'a Module,
@@ -144,14 +152,14 @@ fn extremes<'a>(
     info: &'a FunctionInfo,
 ) -> impl Iterator<Item = (usize, (&'static str, String))> + 'a {
     (function.expressions.iter()).filter_map(|(handle, expression)| {
-        let name = match expression {
-            Expression::Math { fun, .. } => match fun {
-                MathFunction::Min => "min",
-                MathFunction::Max => "max",
-                MathFunction::Clamp => "clamp",
-                MathFunction::Saturate => "saturate",
-                _ => return None,
-            },
+        let Expression::Math { fun, .. } = expression else {
+            return None;
+        };
+        let name = match fun {
+            MathFunction::Min => "min",
+            MathFunction::Max => "max",
+            MathFunction::Clamp => "clamp",
+            MathFunction::Saturate => "saturate",
             _ => return None,
         };
         let (scalar, ty) = match info[handle].ty.inner_with(&module.types) {

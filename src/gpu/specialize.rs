@@ -277,14 +277,17 @@ fn with_continuing_in_body(
             break_if,
         };
     }
-    body.extend_block(continuing);
-    if let Some(condition) = break_if {
-        let leave = Statement::If {
-            condition,
-            accept: Block::from_vec(vec![Statement::Break]),
-            reject: Block::new(),
-        };
-        body.push(leave, naga::Span::UNDEFINED);
+    // Behind the end of a block nothing may follow, and nothing would be reached.
+    if !body.last().is_some_and(ends_block) {
+        body.extend_block(continuing);
+        if let Some(condition) = break_if {
+            let leave = Statement::If {
+                condition,
+                accept: Block::from_vec(vec![Statement::Break]),
+                reject: Block::new(),
+            };
+            body.push(leave, naga::Span::UNDEFINED);
+        }
     }
     Statement::Loop {
         body,
@@ -295,24 +298,32 @@ fn with_continuing_in_body(
 
 /// Whether a block of a loop has a `continue` of that loop.
 fn continues(block: &Block) -> bool {
-    block.iter().any(|statement| match statement {
-        Statement::Continue => true,
-        Statement::If { accept, reject, .. } => continues(accept) || continues(reject),
-        Statement::Block(inner) => continues(inner),
-        Statement::Switch { cases, .. } => cases.iter().any(|case| continues(&case.body)),
-        _ => false,
+    any_of_loop(block, &|statement| matches!(statement, Statement::Continue))
+}
+
+/// Whether a block of a loop leaves it, or its iteration, by a statement. `break` in a switch ends the switch, but
+/// `continue` belongs to the loop.
+fn jumps(block: &Block) -> bool {
+    use Statement::{Break, Continue, Switch};
+    any_of_loop(block, &|statement| {
+        matches!(statement, Break | Continue | Switch { .. })
     })
 }
 
-/// Whether a block of a loop leaves it, or its iteration, by a statement.
-fn jumps(block: &Block) -> bool {
-    block.iter().any(|statement| match statement {
-        Statement::Break | Statement::Continue => true,
-        Statement::If { accept, reject, .. } => jumps(accept) || jumps(reject),
-        Statement::Block(inner) => jumps(inner),
-        // `break` in a switch ends the switch, but `continue` belongs to the loop.
-        Statement::Switch { .. } => true,
-        _ => false,
+/// Whether any statement of a block of a loop is such, without those of inner loops.
+fn any_of_loop(block: &Block, is_such: &impl Fn(&Statement) -> bool) -> bool {
+    block.iter().any(|statement| {
+        is_such(statement)
+            || match statement {
+                Statement::If { accept, reject, .. } => {
+                    any_of_loop(accept, is_such) || any_of_loop(reject, is_such)
+                }
+                Statement::Block(inner) => any_of_loop(inner, is_such),
+                Statement::Switch { cases, .. } => {
+                    cases.iter().any(|case| any_of_loop(&case.body, is_such))
+                }
+                _ => false,
+            }
     })
 }
 

@@ -132,14 +132,30 @@ mod tests {
     use glam::{DVec3, Vec3};
     use std::sync::Arc;
 
+    /// What `find` finds for a render of the scene's first frame.
+    fn of_task<T>(
+        scene: &Scene,
+        settings: &RenderSettings,
+        policy: &ExecutionPolicy,
+        find: impl Fn(Task) -> T,
+    ) -> T {
+        let packed = Arc::new(pack::scene(scene).expect("a packed scene"));
+        let view = packed.frame(&scene.frame(0.0)).expect("a packed frame");
+        find(Task {
+            scene: &packed,
+            view: &view,
+            settings,
+            policy,
+            film_rows: 1,
+        })
+    }
+
     #[test]
     fn small_pictures_are_worth_packets_if_there_are_many() {
         let scene = Scene {
             cameras: vec![Camera::default()],
             ..Scene::default()
         };
-        let packed = Arc::new(pack::scene(&scene).expect("a packed scene"));
-        let view = packed.frame(&scene.frame(0.0)).expect("a packed frame");
         let settings = RenderSettings {
             size: (100, 100),
             samples: 1,
@@ -150,14 +166,7 @@ mod tests {
                 picture_count,
                 ..ExecutionPolicy::default()
             };
-            let task = Task {
-                scene: &packed,
-                view: &view,
-                settings: &settings,
-                policy: &policy,
-                film_rows: 1,
-            };
-            least_rays(task) >= MIN_PACKET_RAYS
+            of_task(&scene, &settings, &policy, least_rays) >= MIN_PACKET_RAYS
         };
         assert!(!are_worth_it(1) && !are_worth_it(99) && are_worth_it(100));
     }
@@ -181,19 +190,12 @@ mod tests {
                 }],
                 ..Scene::default()
             };
-            let packed = Arc::new(pack::scene(&scene).expect("a packed scene"));
-            let view = packed.frame(&scene.frame(0.0)).expect("a packed frame");
             let settings = RenderSettings {
                 max_depth,
                 ..RenderSettings::default()
             };
-            refilled_lanes_are_faster(Task {
-                scene: &packed,
-                view: &view,
-                settings: &settings,
-                policy: &ExecutionPolicy::default(),
-                film_rows: 1,
-            })
+            let policy = ExecutionPolicy::default();
+            of_task(&scene, &settings, &policy, refilled_lanes_are_faster)
         };
         assert!(is_refilled(0.5, 5) && !is_refilled(0.0, 5) && !is_refilled(0.5, 0));
     }
