@@ -4,6 +4,7 @@ use crate::app::error::AppError;
 use crate::app::showcase;
 use crate::cli::args::{DemoArgs, DevelopFlags, LayerFlags, PartFlags, PictureFlags, SizeFlags};
 use crate::cli::destination::Destination;
+use crate::cli::device::Opening;
 use crate::cli::job;
 use crate::cli::job::Job;
 use crate::cli::picture;
@@ -25,6 +26,7 @@ fn render(
     destination: &Destination,
     draft: &mut Draft,
 ) -> Result<(), AppError> {
+    let opening = Opening::start(&arguments.device);
     let loading = Instant::now();
     let scene = showcase::path_traced()?;
     draft.seconds.load = loading.elapsed().as_secs_f64();
@@ -47,5 +49,5 @@ fn render(
         layers: &LayerFlags::default(),
     };
     let part = PartFlags::default();
-    picture::run(&job, destination, (0.0, 0.0), &part, draft)
+    picture::run(&job, opening, destination, (0.0, 0.0), &part, draft)
 }

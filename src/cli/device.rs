@@ -4,52 +4,93 @@ use crate::app::console;
 use crate::app::error::AppError;
 use crate::app::tuning::{self, Tuning};
 use crate::cli::args::DeviceFlags;
-use crate::gpu::{AdapterReport, Backend, Gpu};
+use crate::cli::memory;
+use crate::gpu::{AdapterChoice, AdapterReport, Backend, Gpu};
 use crate::pack::{self, PackedScene, PackedView};
 use crate::render::{self, ExecutionPolicy, RenderSettings, Renderer};
 use crate::scene::Scene;
+use std::panic::resume_unwind;
 use std::sync::Arc;
+use std::thread::{self, JoinHandle};
+
+/// An adapter that a thread opens while the scene is read. Whoever drops it waits: a driver must not be at work when the
+/// process ends.
+pub struct Opening {
+    choice: AdapterChoice,
+    thread: Option<JoinHandle<Result<Gpu, AppError>>>,
+}
+
+impl Opening {
+    /// Starts to open the adapter that the flags choose, unless the process has a memory limit: what the driver reserves
+    /// would then count against the scene.
+    pub fn start(flags: &DeviceFlags) -> Self {
+        let choice = flags.choice();
+        let own = choice.clone();
+        Self {
+            choice,
+            thread: (!memory::is_limited()).then(|| thread::spawn(move || chosen(&own))),
+        }
+    }
+
+    /// The adapter.
+    ///
+    /// # Errors
+    /// As [`open`].
+    pub fn wait(mut self) -> Result<Gpu, AppError> {
+        match self.thread.take().map(JoinHandle::join) {
+            Some(Ok(opened)) => opened,
+            Some(Err(panic)) => resume_unwind(panic),
+            None => chosen(&self.choice),
+        }
+    }
+}
+
+impl Drop for Opening {
+    fn drop(&mut self) {
+        if let Some(thread) = self.thread.take() {
+            // Nobody needs the adapter, or what went wrong with it.
+            let _ = thread.join();
+        }
+    }
+}
 
 /// A renderer of a picture, and how it came about.
 pub struct Prepared {
     pub renderer: Renderer,
-    /// Seconds that building the tree took.
-    pub build_seconds: f64,
     pub tuning: Tuning,
 }
 
 /// Opens the adapter that the flags choose, after a look at the environment: nothing is then announced that a wrong
 /// value would stop.
 pub fn open(flags: &DeviceFlags) -> Result<Gpu, AppError> {
-    tuning::check()?;
-    Ok(Gpu::new(&flags.choice())?)
+    chosen(&flags.choice())
 }
 
-/// A renderer of `scene` while the shutter is open, from `shutter.0` to `shutter.1` in seconds. If the picture is worth
-/// it, the adapter is measured first.
+fn chosen(choice: &AdapterChoice) -> Result<Gpu, AppError> {
+    tuning::check()?;
+    Ok(Gpu::new(choice)?)
+}
+
+/// A renderer of a packed scene. If the picture is worth it, the adapter is measured first.
 pub fn prepared(
     gpu: Gpu,
-    scene: &Scene,
-    shutter: (f64, f64),
+    (packed, view): (Arc<PackedScene>, PackedView),
     settings: RenderSettings,
     policy: ExecutionPolicy,
 ) -> Result<Prepared, AppError> {
-    let (packed, view) = packed(scene, shutter)?;
     let rays = render::least_rays(&view, &settings, policy.picture_count);
     let tuning = tuning::tuned(&gpu, rays)?;
-    let build_seconds = packed.build_seconds;
     let policy = ExecutionPolicy {
         storage: Some(tuning.storage),
         ..policy
     };
     Ok(Prepared {
         renderer: Renderer::new(gpu, packed, &view, settings, policy)?,
-        build_seconds,
         tuning,
     })
 }
 
-/// As [`prepared`], for a few pixels: the adapter is not measured.
+/// A renderer of a few pixels of `scene`: the adapter is not measured.
 pub fn renderer(
     gpu: Gpu,
     scene: &Scene,
@@ -62,7 +103,11 @@ pub fn renderer(
     Ok(Renderer::new(gpu, packed, &view, settings, policy)?)
 }
 
-fn packed(scene: &Scene, shutter: (f64, f64)) -> Result<(Arc<PackedScene>, PackedView), AppError> {
+/// `scene` while the shutter is open, from `shutter.0` to `shutter.1` in seconds.
+pub fn packed(
+    scene: &Scene,
+    shutter: (f64, f64),
+) -> Result<(Arc<PackedScene>, PackedView), AppError> {
     let packed = Arc::new(pack::scene(scene)?);
     let view = packed.view(&scene.motion_samples(shutter.0, shutter.1))?;
     Ok((packed, view))

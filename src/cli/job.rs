@@ -154,9 +154,14 @@ impl Job<'_> {
         }
     }
 
+    /// Refuses pictures of `size` pixels that exceed the memory limit of the process.
+    pub fn check_memory(&self, size: (u32, u32), draft: &Draft) -> Result<(), AppError> {
+        memory::check_scene(&self.scene, &draft.scene_path, size)
+    }
+
     /// Opens the adapter, for pictures of `size` pixels.
     pub fn open_gpu(&self, size: (u32, u32), draft: &mut Draft) -> Result<Gpu, AppError> {
-        memory::check_scene(&self.scene, &draft.scene_path, size)?;
+        self.check_memory(size, draft)?;
         let started = Instant::now();
         let gpu = device::open(self.device)?;
         draft.seconds.gpu = started.elapsed().as_secs_f64();

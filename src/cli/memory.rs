@@ -46,6 +46,11 @@ fn available() -> Option<u64> {
     limits.into_iter().flatten().min()
 }
 
+/// Whether there is a known limit.
+pub fn is_limited() -> bool {
+    available().is_some()
+}
+
 /// Refuses `what` (at `place`) if it needs more bytes than are available.
 fn require(what: &str, place: &str, need: u64) -> Result<(), AppError> {
     match available() {

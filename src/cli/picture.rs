@@ -6,7 +6,7 @@ use crate::app::overrides::picture_size;
 use crate::cli::args::PartFlags;
 use crate::cli::checkpoint::CheckpointFile;
 use crate::cli::destination::Destination;
-use crate::cli::device;
+use crate::cli::device::{self, Opening};
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job::{Job, Outcome};
 use crate::cli::layers::Finished;
@@ -14,15 +14,18 @@ use crate::cli::progress::Progress;
 use crate::cli::report::{Draft, FetchReport};
 use crate::render::{FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK};
 use std::ops::Range;
+use std::panic::resume_unwind;
+use std::thread;
 use std::time::Instant;
 
-/// Renders the picture exposed from `shutter.0` to `shutter.1`, in seconds, and writes it, and the report if one
-/// was requested.
+/// Renders the picture exposed from `shutter.0` to `shutter.1`, in seconds, on the adapter that is being opened, and writes
+/// it, and the report if one was requested.
 ///
 /// # Errors
 /// Any error of rendering and writing; no picture is then left on disk.
 pub fn run(
     job: &Job,
+    opening: Opening,
     destination: &Destination,
     shutter: (f64, f64),
     part: &PartFlags,
@@ -50,11 +53,22 @@ pub fn run(
     job.check_report(draft)?;
     let mut checkpoint = CheckpointFile::new(&part.checkpoint, destination.path(), draft)?;
 
-    let gpu = job.open_gpu(size, draft)?;
-    job.announce("", &settings, gpu.adapter());
-    let prepared = device::prepared(gpu, &job.scene, shutter, settings.clone(), job.policy())?;
+    job.check_memory(size, draft)?;
+    let started = Instant::now();
+    let (gpu, packed) = thread::scope(|scope| {
+        let packing = scope.spawn(|| device::packed(&job.scene, shutter));
+        let gpu = opening.wait()?;
+        draft.adapter = Some(gpu.adapter().into());
+        job.announce("", &settings, gpu.adapter());
+        let packed = packing
+            .join()
+            .unwrap_or_else(|panic| resume_unwind(panic))?;
+        Ok::<_, AppError>((gpu, packed))
+    })?;
+    draft.seconds.bvh = packed.0.build_seconds;
+    draft.seconds.gpu = (started.elapsed().as_secs_f64() - draft.seconds.bvh).max(0.0);
+    let prepared = device::prepared(gpu, packed, settings.clone(), job.policy())?;
     let mut renderer = prepared.renderer;
-    draft.seconds.bvh = prepared.build_seconds;
     device::warn_of_storage(&renderer, &prepared.tuning);
     draft.fetch = Some(FetchReport::new(&renderer, &prepared.tuning));
     if let Some(checkpoint) = &mut checkpoint {

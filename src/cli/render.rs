@@ -4,6 +4,7 @@ use crate::app::clock::Clock;
 use crate::app::error::AppError;
 use crate::cli::args::RenderArgs;
 use crate::cli::destination::Destination;
+use crate::cli::device::Opening;
 use crate::cli::idle_flags;
 use crate::cli::job;
 use crate::cli::job::Job;
@@ -28,6 +29,7 @@ fn render(
     draft: &mut Draft,
 ) -> Result<(), AppError> {
     idle_flags::check(&arguments.reading, &arguments.scene)?;
+    let opening = Opening::start(&arguments.device);
     let size = arguments.picture.size.size;
     let options =
         (arguments.camera).import_options(&arguments.reading, size, arguments.picture.integrator);
@@ -45,5 +47,5 @@ fn render(
         log: &arguments.log,
         layers: &arguments.layers,
     };
-    picture::run(&job, destination, shutter, &arguments.part, draft)
+    picture::run(&job, opening, destination, shutter, &arguments.part, draft)
 }

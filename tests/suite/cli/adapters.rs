@@ -90,6 +90,15 @@ fn a_backend_of_another_platform_is_refused_without_install_advice() {
     }
 }
 
+/// The adapter is opened while the scene is read: a scene that is refused is the first thing to mend.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_refused_scene_is_reported_before_an_unusable_adapter() {
+    let run = Workspace::new().run("render none.toml --backend metal");
+    let message = "cannot read the file (none.toml)";
+    assert!(run.expect(3).stderr.contains(message));
+}
+
 #[test]
 fn doctor_finds_the_adapter_and_its_self_test_passes() {
     let doctor = Workspace::new().run("doctor --json").expect(0).json();
