@@ -382,6 +382,16 @@ pub fn picture(path: &Path) -> Result<Arc<Picture>, ImportError> {
     named_picture(&folder, &name, path)
 }
 
+/// Reads the equirectangular panorama at `path`, as [`Environment`] names one, and notes on what is wrong with it.
+///
+/// # Errors
+/// As [`picture()`], or it is not twice as wide as high.
+#[cfg(not(target_arch = "wasm32"))]
+pub fn environment(path: &Path) -> Result<(Arc<Picture>, Vec<String>), ImportError> {
+    let (picture, notes) = environment::read(path, &Options::default(), &|_| ())?;
+    Ok((Arc::new(picture), notes))
+}
+
 /// Reads the image `name` from `resolver` as linear colours.
 ///
 /// # Errors

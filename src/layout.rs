@@ -494,8 +494,8 @@ packed! {
         groups_done: u32,
         /// Samples that were dropped: with them a sum would be infinite or not a number.
         nonfinite_samples: u32,
-        /// Invocations in which a loop ended before its condition did.
-        cut_off_paths: u32,
+        /// Why paths were cut off: [`CUT_OFF_LOOP`] and [`CUT_OFF_STACK`], or 0 if none was.
+        cut_off: u32,
         /// Samples whose ray tree overflowed its stack, had too many rays, or a ray inside too many
         /// dielectric volumes.
         cut_off_trees: u32,

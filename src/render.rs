@@ -53,7 +53,7 @@ pub use fingerprint::Fingerprint;
 pub use integrator::{Integrator, IntegratorEntry, Shows, TABLE as INTEGRATORS};
 pub use layers::{Layer, LayerKind};
 pub use levels::{Levels, Quantity};
-pub use policy::{ExecutionPolicy, Fetch, Slicing, Storage};
+pub use policy::{ExecutionPolicy, Fetch, Slicing, Stack, Storage};
 pub use query::{Coherence, QueryHit, QueryRay, RayBatch, RayQuery, RaySteps, RayTest};
 pub use settings::{BsdfModel, MIN_THROUGHPUT, RayOffset, RenderSettings, TriangleTest};
 pub use show::Screen;
@@ -200,6 +200,14 @@ impl Renderer {
             self.planner = planner;
         }
         let is_other_scene = !Arc::ptr_eq(&scene, &self.scene);
+        let policy = match is_other_scene {
+            true => policy,
+            // Rays of this scene may have needed more entries before.
+            false => ExecutionPolicy {
+                stack: policy.stack.max(self.policy.stack),
+                ..policy
+            },
+        };
         (self.scene, self.view, self.settings, self.policy) = (scene, view, settings, policy);
         self.cursor = Cursor::at_start(&tiles);
         self.tiles = tiles;

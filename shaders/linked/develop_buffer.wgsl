@@ -134,7 +134,7 @@ struct types__PackedDispatch {
 struct types__PackedCounters {
 	groups_done: atomic<u32>,
 	nonfinite_samples: atomic<u32>,
-	cut_off_paths: atomic<u32>,
+	cut_off: atomic<u32>,
 	cut_off_trees: atomic<u32>,
 	cut_throughput: atomic<u32>,
 	clamped_light: atomic<u32>,

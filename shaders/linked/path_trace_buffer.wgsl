@@ -280,11 +280,18 @@ fn dispatch__add_counts(lane: u32) {
 			atomicAdd(&bindings__dispatch.counters.kept_light_high, 1u);
 		}
 	}
-	if (loops__cut_off) {
-		atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
-	}
+	dispatch__report_cut_off();
 	if (lane == 0u) {
 		atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
+	}
+}
+
+fn dispatch__report_cut_off() {
+	if (loops__cut_off) {
+		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_LOOP);
+	}
+	if (loops__is_stack_full) {
+		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_STACK);
 	}
 }
 
@@ -311,6 +318,10 @@ const types__MOVING: u32 = 1073741824u;
 const types__STACK_SIZE: u32 = 96u;
 
 const types__NO_INSTANCE: u32 = 1048575u;
+
+const types__CUT_OFF_LOOP: u32 = 1u;
+
+const types__CUT_OFF_STACK: u32 = 2u;
 
 const types__NODE_ROWS: u32 = 4u;
 
@@ -719,7 +730,7 @@ struct types__PackedDispatch {
 struct types__PackedCounters {
 	groups_done: atomic<u32>,
 	nonfinite_samples: atomic<u32>,
-	cut_off_paths: atomic<u32>,
+	cut_off: atomic<u32>,
 	cut_off_trees: atomic<u32>,
 	cut_throughput: atomic<u32>,
 	clamped_light: atomic<u32>,
@@ -1353,6 +1364,8 @@ var<private> loops__nodes_visited: u32 = 0u;
 var<private> loops__primitives_tested: u32 = 0u;
 
 var<private> loops__cut_off: bool = false;
+
+var<private> loops__is_stack_full: bool = false;
 
 const path__MAX_PASSES: u32 = 64u;
 

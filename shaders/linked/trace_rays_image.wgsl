@@ -28,9 +28,7 @@ fn answer(group: vec3u, lane: u32) {
 		}
 	}
 	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	if (loops__cut_off) {
-		atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
-	}
+	dispatch__report_cut_off();
 	if (lane == 0u) {
 		atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
 	}
@@ -193,6 +191,10 @@ const types__MOVING: u32 = 1073741824u;
 const types__STACK_SIZE: u32 = 96u;
 
 const types__NO_INSTANCE: u32 = 1048575u;
+
+const types__CUT_OFF_LOOP: u32 = 1u;
+
+const types__CUT_OFF_STACK: u32 = 2u;
 
 const types__NODE_ROWS: u32 = 4u;
 
@@ -362,7 +364,7 @@ struct types__PackedDispatch {
 struct types__PackedCounters {
 	groups_done: atomic<u32>,
 	nonfinite_samples: atomic<u32>,
-	cut_off_paths: atomic<u32>,
+	cut_off: atomic<u32>,
 	cut_off_trees: atomic<u32>,
 	cut_throughput: atomic<u32>,
 	clamped_light: atomic<u32>,
@@ -545,6 +547,8 @@ var<private> loops__nodes_visited: u32 = 0u;
 var<private> loops__primitives_tested: u32 = 0u;
 
 var<private> loops__cut_off: bool = false;
+
+var<private> loops__is_stack_full: bool = false;
 
 const traverse__RETURN: u32 = 4294967294u;
 
@@ -905,7 +909,7 @@ fn stack__move_registers(references: vec3u, count: i32) {
 	let above = vec4u(stack__EMPTY, references.x, select(references.y, references.x, count == 2), select(select(references.z, references.y, count == 2), references.x, count == 1));
 	let last = stack__last_register();
 	let deepest = select(select(last.y, last.z, count == 2), last.w, count == 1);
-	loops__cut_off |= (count > 0) & (deepest != stack__EMPTY);
+	loops__is_stack_full |= (count > 0) & (deepest != stack__EMPTY);
 	let m0 = stack__moved(above, stack__s0, stack__s1, count);
 	let m1 = stack__moved(stack__s0, stack__s1, stack__s2, count);
 	let m2 = stack__moved(stack__s1, stack__s2, stack__s3, count);
@@ -1500,6 +1504,15 @@ fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing_
 	let steep = abs(slope) > 1e-12;
 	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
 	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+}
+
+fn dispatch__report_cut_off() {
+	if (loops__cut_off) {
+		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_LOOP);
+	}
+	if (loops__is_stack_full) {
+		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_STACK);
+	}
 }
 
 override bindings__EXTREMES_BY_SELECT: bool = false;

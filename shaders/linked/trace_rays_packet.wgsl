@@ -29,9 +29,7 @@ fn answer(group: vec3u, lane: u32) {
 		}
 	}
 	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	if (loops__cut_off) {
-		atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
-	}
+	dispatch__report_cut_off();
 	if (lane == 0u) {
 		atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
 	}
@@ -216,6 +214,10 @@ const types__INSTANCE: u32 = 4160749568u;
 
 const types__NO_INSTANCE: u32 = 1048575u;
 
+const types__CUT_OFF_LOOP: u32 = 1u;
+
+const types__CUT_OFF_STACK: u32 = 2u;
+
 const types__INSTANCE_ROWS: u32 = 10u;
 
 const types__KEY_ROWS: u32 = 4u;
@@ -382,7 +384,7 @@ struct types__PackedDispatch {
 struct types__PackedCounters {
 	groups_done: atomic<u32>,
 	nonfinite_samples: atomic<u32>,
-	cut_off_paths: atomic<u32>,
+	cut_off: atomic<u32>,
 	cut_off_trees: atomic<u32>,
 	cut_throughput: atomic<u32>,
 	clamped_light: atomic<u32>,
@@ -550,6 +552,8 @@ var<private> loops__nodes_visited: u32 = 0u;
 var<private> loops__primitives_tested: u32 = 0u;
 
 var<private> loops__cut_off: bool = false;
+
+var<private> loops__is_stack_full: bool = false;
 
 var<private> walk__seconds: lanes__FourHits;
 
@@ -1488,6 +1492,15 @@ fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: tracing__Ra
 	let t = inv_det * dot(e2, q);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
 	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+}
+
+fn dispatch__report_cut_off() {
+	if (loops__cut_off) {
+		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_LOOP);
+	}
+	if (loops__is_stack_full) {
+		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_STACK);
+	}
 }
 
 override bindings__EXTREMES_BY_SELECT: bool = false;

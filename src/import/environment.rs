@@ -38,7 +38,11 @@ pub(super) fn apply(
             elevation_deg.to_radians(),
             azimuth_deg.to_radians(),
         )),
-        Some(EnvironmentSource::File(file)) => Some(read(scene, file, options, report)?),
+        Some(EnvironmentSource::File(file)) => {
+            let (picture, notes) = read(file, options, report)?;
+            scene.skipped.extend(notes);
+            Some(picture)
+        }
     };
     if let Some(picture) = picture {
         scene.background = Background::Picture {
@@ -74,13 +78,15 @@ pub(super) fn apply(
     }
 }
 
-/// The picture in `file`. What was repaired or halved is noted in `scene`.
-fn read(
-    scene: &mut Scene,
+/// The picture in `file`, and notes on what was repaired or halved.
+///
+/// # Errors
+/// As [`apply`].
+pub(super) fn read(
     file: &Path,
     options: &Options,
     report: &dyn Fn(Step),
-) -> Result<Picture, ImportError> {
+) -> Result<(Picture, Vec<String>), ImportError> {
     let limit = picture::MAX_BYTES;
     let bytes = step::read(file, report, || folder::read(file, limit));
     let bytes = bytes.map_err(|error| paths::unreadable(file, &error, limit))?;
@@ -91,17 +97,17 @@ fn read(
             ImportError::Malformed(fault("picture refused", file, &why, todo))
         })
     })?;
-    scene.skipped.extend(repairs.lines(&name));
+    let mut notes = repairs.lines(&name);
     let (width, height) = (picture.width, picture.height);
     let picture = match options.texture_limit {
         Some(most) => picture.limited(most.get()),
         None => picture,
     };
     if picture.width < width {
-        scene.skipped.push(format!(
+        notes.push(format!(
             "{name} was reduced from {width} × {height} to {} × {} texels",
             picture.width, picture.height
         ));
     }
-    Ok(picture)
+    Ok((picture, notes))
 }

@@ -22,6 +22,10 @@ pub const INSTANCE: u32 = LEAF | SHAPE | LEAF_COUNT_MASK;
 pub const MOVING: u32 = 0x4000_0000;
 /// The instance index of geometry that is not instanced; also the largest number of instances.
 pub const NO_INSTANCE: u32 = (1 << 20) - 1;
+/// [`super::PackedCounters::cut_off`]: a loop ended before its condition did.
+pub const CUT_OFF_LOOP: u32 = 1;
+/// [`super::PackedCounters::cut_off`]: a stack in registers was full.
+pub const CUT_OFF_STACK: u32 = 2;
 /// Rows of 16 bytes of a [`super::PackedNode`].
 pub const NODE_ROWS: u32 = 4;
 /// Rows of 16 bytes of a [`super::PackedInstance`].

@@ -15,6 +15,7 @@ use super::{
     device::{self, Device},
     layouts::group,
     overrides, pipelines,
+    policy::{ExecutionPolicy, Stack},
     task::Task,
 };
 use crate::{
@@ -160,7 +161,7 @@ impl Renderer {
     ) -> Result<Records, RenderError> {
         let records =
             self.surviving_losses(|renderer| renderer.dispatch_probes(probes, record_count))?;
-        match records.counters.cut_off_paths {
+        match records.counters.cut_off {
             0 => Ok(records),
             _ => Err(self.path_too_long()),
         }
@@ -172,11 +173,16 @@ impl Renderer {
             integrator: self.explained(),
             ..self.settings.clone()
         };
+        // A sample takes no time, so it is not traced twice.
+        let policy = ExecutionPolicy {
+            stack: Stack::Deepest,
+            ..self.policy
+        };
         let task = Task {
             scene: &self.scene,
             view: &self.view,
             settings: &settings,
-            policy: &self.policy,
+            policy: &policy,
             film_rows: self.tiles.largest(),
         };
         let mut overrides = overrides::of(task);

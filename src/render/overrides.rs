@@ -3,6 +3,7 @@
 
 use super::{
     Integrator, effort, layers,
+    policy::Stack,
     settings::{BsdfModel, RayOffset, RenderSettings, TriangleTest},
     task::Task,
 };
@@ -170,7 +171,7 @@ pub fn of(task: Task) -> Overrides {
             }),
         ),
     ];
-    overrides.extend(geometry(scene, view));
+    overrides.extend(geometry(scene, view, policy.stack));
     match integrator.is_lit {
         true => overrides.extend([
             ("HAS_LIGHTS", flag(view.has_lights)),
@@ -193,6 +194,7 @@ pub fn of_query(
     view: &PackedView,
     is_any: bool,
     counts_steps: bool,
+    stack: Stack,
 ) -> Overrides {
     let mut overrides = vec![
         ("TRIANGLE_TEST", f64::from(TRIANGLE_TEST_WATERTIGHT)),
@@ -200,7 +202,7 @@ pub fn of_query(
         ("ANY_HIT", flag(is_any)),
         ("COUNT_STEPS", flag(counts_steps)),
     ];
-    overrides.extend(geometry(scene, view));
+    overrides.extend(geometry(scene, view, stack));
     overrides
 }
 
@@ -219,7 +221,7 @@ pub fn of_denoiser(is_first: bool) -> Overrides {
 }
 
 /// The overrides for the contents of the trees.
-fn geometry(scene: &PackedScene, view: &PackedView) -> [(&'static str, f64); 9] {
+fn geometry(scene: &PackedScene, view: &PackedView, stack: Stack) -> [(&'static str, f64); 9] {
     let features = scene.features;
     [
         ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
@@ -228,7 +230,10 @@ fn geometry(scene: &PackedScene, view: &PackedView) -> [(&'static str, f64); 9] 
         ("MOSTLY_SHAPES", flag(has_mostly_shapes(scene))),
         ("SHAPE_KINDS", f64::from(features.shape_kinds)),
         ("HAS_INSTANCES", flag(features.instances)),
-        ("STACK_REGISTERS", f64::from(stack_registers(scene, view))),
+        (
+            "STACK_REGISTERS",
+            f64::from(stack_registers(scene, view, stack)),
+        ),
         ("HAS_MOTION", flag(view.has_moving_instances())),
         ("HAS_DEFORMATION", flag(view.deforms())),
     ]
@@ -236,13 +241,25 @@ fn geometry(scene: &PackedScene, view: &PackedView) -> [(&'static str, f64); 9] 
 
 /// The registers, of four entries each, that hold the stack of the portable walk on software adapters; 0 if so many are
 /// slower than an array. Trees over instances differ between frames, and one kernel is for all of them.
-fn stack_registers(scene: &PackedScene, view: &PackedView) -> u32 {
+fn stack_registers(scene: &PackedScene, view: &PackedView, stack: Stack) -> u32 {
     const MOST: usize = 8;
-    match scene.stack_entries(view).div_ceil(4) {
-        0..=MOST if scene.features.instances => MOST as u32,
-        registers @ 1..=MOST => registers as u32,
-        0 => 1,
-        _ => 0,
+    /// A bound above which rays seldom need more than half of it, and registers that are enough for most scenes below.
+    const DEEP: usize = 40;
+    const FEW: usize = 5;
+    let bound = scene.stack_entries(view);
+    let all = match scene.features.instances {
+        true => bound.div_ceil(4).max(MOST),
+        false => bound.div_ceil(4).max(1),
+    };
+    let usual = match scene.features.instances || bound > DEEP {
+        true => FEW + 1,
+        // Rays that need two thirds of the bound are rare, as they miss most boxes.
+        false => bound.div_ceil(6).clamp(1, FEW),
+    };
+    match stack {
+        Stack::Usual => usual.min(all) as u32,
+        Stack::Deepest if all > MOST => 0,
+        Stack::Deepest => all as u32,
     }
 }
 

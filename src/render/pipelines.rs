@@ -1,6 +1,6 @@
 //! Pipelines of the kernels that trace rays.
 
-use super::{effort, layouts::Layouts, overrides, policy::Fetch, task::Task};
+use super::{Integrator, effort, layouts::Layouts, overrides, policy::Fetch, task::Task};
 use crate::{
     gpu::{Compiled, Gpu, GpuError, Kernel, Overrides, Variant},
     layout::PackedTone,
@@ -10,8 +10,10 @@ use crate::{
 /// The number of materials from which on packet kernels cannot store their indices in 16 bits.
 const MAX_PACKET_MATERIALS: usize = 0xffff;
 
-/// The number of rays from which on packets usually save more time than their kernel takes longer to compile.
-const MIN_PACKET_RAYS: u64 = 1_000_000;
+/// The number of rays from which on packets usually save more time than their kernel takes longer to compile: among triangles,
+/// and among shapes, for which they save a quarter of that.
+const MIN_PACKET_RAYS: u64 = 2_000_000;
+const MIN_PACKET_RAYS_OF_SHAPES: u64 = 10_000_000;
 
 /// Samples of a lane whose ray trees differ in size. They share the 65,535 rounds of a loop of lavapipe, and have at most 1,024
 /// rays each.
@@ -27,7 +29,7 @@ pub fn rendering(
 ) -> Result<(Compiled, u32), GpuError> {
     let kernel = task.settings.integrator.entry().kernel;
     let as_packets = match task.policy.fetch {
-        Fetch::Auto => least_rays(task) >= MIN_PACKET_RAYS && !refilled_lanes_are_faster(task),
+        Fetch::Auto => least_rays(task) >= min_packet_rays(task) && !waits_for_few_lanes(task),
         fetch => fetch.allows_packets(),
     };
     let as_packets = as_packets
@@ -111,10 +113,22 @@ pub fn tracing_variant(gpu: &Gpu, fetch: Fetch, view: &PackedView) -> Variant {
     }
 }
 
-/// Whether lanes that refill trace faster than packets, whose lanes wait for the largest of their ray trees. Measured by
-/// scenes of spheres and cones; triangles are two to three times as fast in packets.
-fn refilled_lanes_are_faster(task: Task) -> bool {
-    overrides::has_mostly_shapes(task.scene) && effort::has_uneven_trees(task)
+/// Whether lanes of packets would wait so long for the largest of their ray trees that rays are faster alone: among shapes, and
+/// where rays deep in a tree sample lights less often. Other trees among triangles are up to 1.5 times as fast in packets.
+fn waits_for_few_lanes(task: Task) -> bool {
+    let is_uneven = effort::has_uneven_trees(task);
+    let has_trees = effort::has_trees(task.scene, task.settings);
+    match task.settings.integrator {
+        Integrator::Whitted if has_trees => overrides::has_mostly_shapes(task.scene) || !is_uneven,
+        _ => false,
+    }
+}
+
+fn min_packet_rays(task: Task) -> u64 {
+    match overrides::has_mostly_shapes(task.scene) {
+        true => MIN_PACKET_RAYS_OF_SHAPES,
+        false => MIN_PACKET_RAYS,
+    }
 }
 
 fn least_rays(task: Task) -> u64 {
@@ -123,13 +137,13 @@ fn least_rays(task: Task) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{MIN_PACKET_RAYS, least_rays, refilled_lanes_are_faster};
+    use super::{MIN_PACKET_RAYS, least_rays, waits_for_few_lanes};
     use crate::{
         pack,
         render::{ExecutionPolicy, RenderSettings, task::Task},
-        scene::{Camera, Geometry, Material, Scene, Shape},
+        scene::{Camera, Geometry, Instance, Light, LightKind, Material, Mesh, Scene, Shape},
     };
-    use glam::{DVec3, Vec3};
+    use glam::{DAffine3, DVec3, Vec3};
     use std::sync::Arc;
 
     /// What `find` finds for a render of the scene's first frame.
@@ -168,35 +182,80 @@ mod tests {
             };
             of_task(&scene, &settings, &policy, least_rays) >= MIN_PACKET_RAYS
         };
-        assert!(!are_worth_it(1) && !are_worth_it(99) && are_worth_it(100));
+        assert!(!are_worth_it(1) && !are_worth_it(199) && are_worth_it(200));
+    }
+
+    /// A mirror in the light of a lamp that takes so many shadow rays.
+    fn mirror(reflect: f32, is_sphere: bool, lamp_rays: u32) -> Scene {
+        let mut scene = Scene {
+            cameras: vec![Camera::default()],
+            materials: vec![Material {
+                reflect: Vec3::splat(reflect),
+                ..Material::default()
+            }],
+            lights: vec![Light {
+                kind: LightKind::Sphere {
+                    center: DVec3::Y,
+                    radius: 0.1,
+                },
+                samples: lamp_rays,
+                ..Light::default()
+            }],
+            ..Scene::default()
+        };
+        if is_sphere {
+            scene.shapes.push(Shape {
+                geometry: Geometry::Sphere {
+                    center: DVec3::NEG_Z,
+                    radius: 0.5,
+                },
+                material: 0,
+                node: None,
+            });
+        } else {
+            let mesh = Mesh {
+                positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+                normals: vec![Vec3::Z; 3],
+                triangles: vec![[0, 1, 2]],
+                materials: vec![0],
+                ..Mesh::default()
+            };
+            scene.meshes.push(mesh.into());
+            scene.instances.push(Instance {
+                mesh: 0,
+                placement: DAffine3::IDENTITY,
+                node: None,
+            });
+        }
+        scene
     }
 
     #[test]
-    fn ray_trees_among_spheres_are_not_for_packets() {
-        let is_refilled = |reflect: f32, max_depth| {
-            let scene = Scene {
-                cameras: vec![Camera::default()],
-                materials: vec![Material {
-                    reflect: Vec3::splat(reflect),
-                    ..Material::default()
-                }],
-                shapes: vec![Shape {
-                    geometry: Geometry::Sphere {
-                        center: DVec3::NEG_Z,
-                        radius: 0.5,
-                    },
-                    material: 0,
-                    node: None,
-                }],
-                ..Scene::default()
-            };
+    fn packets_are_not_for_uneven_trees_among_spheres_or_with_several_rays_to_a_lamp() {
+        let waits = |scene: &Scene, max_depth| {
             let settings = RenderSettings {
                 max_depth,
                 ..RenderSettings::default()
             };
-            let policy = ExecutionPolicy::default();
-            of_task(&scene, &settings, &policy, refilled_lanes_are_faster)
+            of_task(
+                scene,
+                &settings,
+                &ExecutionPolicy::default(),
+                waits_for_few_lanes,
+            )
         };
-        assert!(is_refilled(0.5, 5) && !is_refilled(0.0, 5) && !is_refilled(0.5, 0));
+        // The reflected share, whether it is a sphere or a triangle, rays to the lamp, bounces.
+        for (reflect, is_sphere, lamp_rays, max_depth, expected) in [
+            (0.5, true, 1, 5, true),
+            (0.0, true, 1, 5, false),
+            (0.5, true, 1, 0, false),
+            (0.5, false, 1, 5, false),
+            (0.5, false, 16, 5, true),
+            (0.0, false, 16, 5, false),
+        ] {
+            let scene = mirror(reflect, is_sphere, lamp_rays);
+            let row = (reflect, is_sphere, lamp_rays, max_depth);
+            assert_eq!(waits(&scene, max_depth), expected, "{row:?}");
+        }
     }
 }

@@ -15,6 +15,8 @@ pub struct ExecutionPolicy {
     /// The storage that is faster on this adapter, if that is known ([`super::StorageTimes`]); only for
     /// [`Fetch::Auto`] and [`Fetch::Packet`]. By default the kind of the adapter decides.
     pub storage: Option<Storage>,
+    /// How many entries the stack of a walk has in registers.
+    pub stack: Stack,
     /// How many pictures like this one will be rendered, such as the frames of an animation, at least 1: a kernel that
     /// traces faster but takes longer to compile may be worth it for all of them together.
     pub picture_count: u32,
@@ -30,6 +32,7 @@ impl Default for ExecutionPolicy {
             slicing: Slicing::default(),
             host_copy: true,
             fetch: Fetch::Auto,
+            stack: Stack::Usual,
             storage: None,
             picture_count: 1,
             memory_limit_bytes: MEMORY_LIMIT_BYTES,
@@ -59,6 +62,18 @@ impl Fetch {
     pub(super) fn allows_packets(self) -> bool {
         matches!(self, Self::Auto | Self::Packet)
     }
+}
+
+/// The size of the stack of a ray's walk through the trees, where it is in registers because an array is slow: on software
+/// adapters. Each step moves all of its entries.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stack {
+    /// As many entries as rays usually need. If one needs more, that part of the picture is rendered again, and the rest too,
+    /// with `Deepest`.
+    #[default]
+    Usual,
+    /// As many entries as the deepest way through the trees could need.
+    Deepest,
 }
 
 /// Where shaders read nodes and triangles from.

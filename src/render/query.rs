@@ -12,7 +12,7 @@ use super::{
     film_tile::coprime_stride,
     layouts::Layouts,
     overrides, pipelines,
-    policy::Fetch,
+    policy::{Fetch, Stack},
     stats::Uploads,
 };
 use crate::{
@@ -249,7 +249,7 @@ impl RayQuery {
         test: RayTest,
         variant: Variant,
     ) -> Result<Vec<RaySteps>, RenderError> {
-        let rows = self.rows_of(batch, &self.pipeline(test, true, variant)?)?;
+        let rows = self.rows_of(batch, &self.pipeline(test, true, variant, Stack::Deepest)?)?;
         let steps = |[_, _, nodes, primitives]: [u32; 4]| RaySteps { nodes, primitives };
         Ok(rows.into_iter().map(steps).collect())
     }
@@ -274,21 +274,19 @@ impl RayQuery {
         }
     }
 
-    /// Calls `trace` with a pipeline, and again with that of the portable kernel if a packet exceeds its stack or
-    /// the loop limit of the driver.
+    /// Calls `trace` with a pipeline, and again with that of the portable kernel and the largest stack if a ray or a packet
+    /// exceeds its stack, or a packet the loop limit of the driver.
     fn with_pipeline<T>(
         &self,
         batch: &RayBatch,
         test: RayTest,
         mut trace: impl FnMut(&wgpu::ComputePipeline) -> Result<T, RenderError>,
     ) -> Result<T, RenderError> {
-        let (variant, portable) = (
-            self.variant(batch.coherence),
-            pipelines::portable(self.fetch),
-        );
-        match trace(&self.pipeline(test, false, variant)?) {
-            Err(RenderError::PathTooLong(_)) if variant != portable => {
-                trace(&self.pipeline(test, false, portable)?)
+        let variant = self.variant(batch.coherence);
+        match trace(&self.pipeline(test, false, variant, Stack::Usual)?) {
+            Err(RenderError::PathTooLong(_)) => {
+                let portable = pipelines::portable(self.fetch);
+                trace(&self.pipeline(test, false, portable, Stack::Deepest)?)
             }
             traced => traced,
         }
@@ -299,9 +297,10 @@ impl RayQuery {
         test: RayTest,
         counts_steps: bool,
         variant: Variant,
+        stack: Stack,
     ) -> Result<wgpu::ComputePipeline, GpuError> {
         let is_any = test == RayTest::Any;
-        let overrides = overrides::of_query(&self.scene, &self.view, is_any, counts_steps);
+        let overrides = overrides::of_query(&self.scene, &self.view, is_any, counts_steps, stack);
         let (gpu, layouts) = (&self.gpu, &self.layouts);
         let Compiled { pipeline, .. } =
             pipelines::tracing(gpu, variant, layouts, Kernel::TRACE_RAYS, overrides)?;
@@ -362,7 +361,7 @@ impl RayQuery {
         if counters.groups_done != groups * passes {
             return Err(GpuError::Lost.into());
         }
-        match counters.cut_off_paths {
+        match counters.cut_off {
             0 => Ok(seconds),
             _ => Err(RenderError::PathTooLong(LongPath::Crowded)),
         }

@@ -50,7 +50,7 @@ impl Slice {
 
     /// Whether every workgroup finished and no path was cut off.
     pub fn is_complete(&self, counters: &PackedCounters, lane_samples: u32) -> bool {
-        self.is_done(counters, lane_samples) && counters.cut_off_paths == 0
+        self.is_done(counters, lane_samples) && counters.cut_off == 0
     }
 
     /// Whether a slice is a part of this one.

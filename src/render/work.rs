@@ -1,13 +1,19 @@
 //! Submits work to the GPU slice by slice and collects the results.
 
 use super::{
-    Cursor, Integrator, RenderError, Renderer, device::Readback, effort::LongPath,
-    film_tile::FilmTile, film_tiles::FilmTiles, policy::Fetch, slice::Slice, sums::SAMPLE_BLOCK,
+    Cursor, Integrator, RenderError, Renderer,
+    device::Readback,
+    effort::LongPath,
+    film_tile::FilmTile,
+    film_tiles::FilmTiles,
+    policy::{Fetch, Stack},
+    slice::Slice,
+    sums::SAMPLE_BLOCK,
 };
 use crate::{
     clock::Instant,
     gpu::{GpuError, Reading},
-    layout::PackedCounters,
+    layout::{CUT_OFF_STACK, PackedCounters},
 };
 
 /// Paths that a lane traces in one submission.
@@ -234,7 +240,10 @@ impl Renderer {
         }
         self.device.loaded_tile = None;
         if !self.policy.host_copy {
-            self.policy.host_copy = true;
+            match self.is_stack_too_small(counters) {
+                true => self.enlarge_stack()?,
+                false => self.policy.host_copy = true,
+            }
             self.tiles = FilmTiles::new(&self.settings, self.policy.slicing.tile_side);
             self.cursor = Cursor::at_start(&self.tiles);
             self.work = None;
@@ -264,6 +273,9 @@ impl Renderer {
                 Some((first, last)) => vec![last, first],
                 None => vec![part],
             })
+        } else if self.is_stack_too_small(counters) {
+            self.enlarge_stack()?;
+            Ok(vec![part])
         } else if self.policy.fetch.allows_packets() && self.device.gpu.traces_packets() {
             // The rays of a packet share the loop limit, and a stack of fixed size. The portable kernels fetch
             // the same data.
@@ -280,6 +292,15 @@ impl Renderer {
         } else {
             Err(self.path_too_long())
         }
+    }
+
+    fn is_stack_too_small(&self, counters: &PackedCounters) -> bool {
+        counters.cut_off & CUT_OFF_STACK != 0 && self.policy.stack == Stack::Usual
+    }
+
+    fn enlarge_stack(&mut self) -> Result<(), RenderError> {
+        self.policy.stack = Stack::Deepest;
+        self.prepare_device(false, 0)
     }
 
     /// The error of a sample that exceeds the driver's loop limit.

@@ -4,7 +4,7 @@ mod framing;
 
 use super::{
     Attenuation, Background, Beyond, Camera, Curve, Easing, Geometry, Interpolation, Light,
-    LightKind, Node, NodeProperty, Scene, Shape, Target, Track, Values,
+    LightKind, Node, NodeProperty, Scene, Target, Track, Values,
 };
 use framing::Swept;
 use glam::{DAffine3, DQuat, DVec3, Vec3};
@@ -56,7 +56,7 @@ impl Default for Turntable {
 /// Geometry that moves is in frame at many times of its animation, so that all of it is. A scene without lights,
 /// or with those of [`Scene::staged`], gets a soft three-light rig attached to the camera, as if the
 /// scene turned on a table in front of it, and a grey background if its own is black or staged. The ground of
-/// a staged scene is removed: it would not turn with it.
+/// a staged scene is removed, as it would not turn with it, unless it only catches the shadow.
 pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
     let Some((min, max)) = scene.bounds_over_time() else {
         return false;
@@ -108,8 +108,13 @@ pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
     scene.camera_index = 0;
     scene.output.duration = Some(options.seconds);
     if scene.staged {
-        let is_ground = |shape: &Shape| matches!(shape.geometry, Geometry::Plane { .. });
-        scene.shapes.retain(|shape| !is_ground(shape));
+        let Scene {
+            shapes, materials, ..
+        } = scene;
+        shapes.retain(|shape| {
+            !matches!(shape.geometry, Geometry::Plane { .. })
+                || materials[shape.material].shadow_catcher
+        });
     }
     if scene.staged || scene.lights.is_empty() {
         light(scene, node, look_at, radius, axis);

@@ -516,9 +516,14 @@ fn files_of_environments_replace_the_background_or_are_refused() {
     assert!(matches!(error, ImportError::Unreadable(_)), "{error:?}");
 }
 
-/// The lines about a picture as the environment of a scene, and as the background that the scene names: what was skipped,
-/// or why it is refused.
-fn both_ways(file: &str, texel: impl Fn(u32, u32) -> f32, size: [u32; 2]) -> [Vec<String>; 2] {
+/// The lines about a picture as the environment of a scene, as the background that the scene names, and read alone: what was
+/// skipped, or why it is refused.
+fn three_ways(file: &str, texel: impl Fn(u32, u32) -> f32, size: [u32; 2]) -> [Vec<String>; 3] {
+    // Without the place.
+    let refusal = |error: ImportError| {
+        let line = error.to_string();
+        vec![line.split_once("): ").expect("a place").1.to_owned()]
+    };
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join(file);
     let [width, height] = size;
@@ -527,11 +532,16 @@ fn both_ways(file: &str, texel: impl Fn(u32, u32) -> f32, size: [u32; 2]) -> [Ve
     image.save(&path).expect("a picture");
     let scene = folder.path().join("scene.toml");
     let named = format!("background = {{ picture = '{file}' }}\n");
+    let alone = match import::environment(&path) {
+        Ok((_, notes)) => notes,
+        Err(error) => refusal(error),
+    };
     let environment = Environment {
         source: Some(EnvironmentSource::File(path)),
         ..Environment::default()
     };
-    [(BALL, environment), (&named, Environment::default())].map(|(text, environment)| {
+    let ways = [(BALL, environment), (&named, Environment::default())];
+    let [asked, named] = ways.map(|(text, environment)| {
         std::fs::write(&scene, text).expect("a scene");
         let options = Options {
             environment,
@@ -539,13 +549,10 @@ fn both_ways(file: &str, texel: impl Fn(u32, u32) -> f32, size: [u32; 2]) -> [Ve
         };
         match import::load_with(&scene, &options) {
             Ok(scene) => scene.skipped.clone(),
-            Err(error) => {
-                // Without the place.
-                let line = error.to_string();
-                vec![line.split_once("): ").expect("a place").1.to_owned()]
-            }
+            Err(error) => refusal(error),
         }
-    })
+    });
+    [asked, named, alone]
 }
 
 #[test]
@@ -576,18 +583,18 @@ fn pictures_of_backgrounds_are_checked_as_environments_are() {
         ),
     ];
     for (name, values, size, expected) in cases {
-        let [asked, named] = both_ways(&format!("{name}.exr"), at(values), size);
+        let [asked, named, alone] = three_ways(&format!("{name}.exr"), at(values), size);
         let is_told = match expected {
             "" => named.is_empty(),
             part => named.iter().any(|line| line.contains(part)),
         };
-        verdict.that(name, asked == named && is_told, || {
-            format!("{asked:?}, {named:?}")
+        verdict.that(name, asked == named && asked == alone && is_told, || {
+            format!("{asked:?}, {named:?}, {alone:?}")
         });
     }
     verdict.close();
     // A sky of 0.5 cannot be kept beside a sun of 1e12 in half floats.
-    let [asked, _] = both_ways("dark.exr", at([1e12, 0.5]), [8, 4]);
+    let [asked, ..] = three_ways("dark.exr", at([1e12, 0.5]), [8, 4]);
     assert_eq!(asked.len(), 1, "{asked:?}");
     assert!(asked[0].contains("too dark"), "{asked:?}");
 }

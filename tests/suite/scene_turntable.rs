@@ -216,6 +216,30 @@ fn the_loop_closes_and_the_model_turns_counter_clockwise() {
     }
 }
 
+/// The ground of a model is removed, as it would not turn with it; one that only catches the shadow cannot be seen to stand.
+#[test]
+fn only_a_ground_that_catches_the_shadow_stays() {
+    let grounds = |shadow_catcher| {
+        let mut scene = scene(vec![Vec3::ZERO, Vec3::ONE, Vec3::X]);
+        scene.materials.push(Material {
+            shadow_catcher,
+            ..Material::default()
+        });
+        scene.shapes.push(Shape {
+            geometry: Geometry::Plane {
+                point: DVec3::ZERO,
+                normal: DVec3::Y,
+            },
+            material: scene.materials.len() - 1,
+            node: None,
+        });
+        scene.staged = true;
+        assert!(turntable(&mut scene, &Turntable::default()));
+        scene.shapes.len()
+    };
+    assert_eq!([false, true].map(grounds), [0, 1]);
+}
+
 #[test]
 fn the_three_lights_follow_the_camera() {
     let mut scene = scene(vec![Vec3::ZERO, Vec3::ONE, Vec3::X]);

@@ -1,15 +1,18 @@
 //! The stack of the portable walk: registers of software adapters hold as many entries as the deepest way through a tree
-//! needs, and walks that need all of them do the same steps as with an array.
+//! needs, and walks that need all of them do the same steps as with an array. So do walks that need more than the usual number.
 
 use crate::instances::packed;
 use crate::pack_view::children;
-use crate::reference::compare::{assert_none, check_same_bits, fetched, sized, start_packed};
+use crate::reference::compare::{assert_none, check_same_bits, open_gpu, sized, start_packed};
 use crate::reference::scenes;
+
 use glam::{DAffine3, DQuat, DVec3, Vec3, vec3};
 use glimray::image::Image;
 use glimray::layout::{INSTANCE, LEAF, LEAF_FIRST_MASK, PackedInstance, PackedNode};
 use glimray::pack::{PackedScene, PackedView};
-use glimray::render::{Fetch, Integrator, RenderSettings, Tone};
+use glimray::render::{
+    ExecutionPolicy, Fetch, Integrator, QueryRay, RayQuery, RenderSettings, Stack, Tone,
+};
 use glimray::scene::{Instance, Mesh, Scene};
 use std::sync::Arc;
 
@@ -31,7 +34,7 @@ fn chain(count: i32, copies: i32) -> Scene {
     let mut scene = scenes::empty();
     scene.cameras[0].look_from = DVec3::ZERO;
     scene.cameras[0].look_at = DVec3::X;
-    scene.cameras[0].fov_y = 1e-6;
+    scene.cameras[0].fov_y = 1e-30;
     scene.meshes.push(mesh.into());
     scene.instances.extend((0..copies).map(|i| Instance {
         mesh: 0,
@@ -75,16 +78,36 @@ fn entries_on_the_way(packed: &PackedScene, view: &PackedView) -> usize {
     }
 }
 
-fn steps(packed: &Arc<PackedScene>, view: &PackedView, fetch: Fetch) -> Image {
+fn policy(fetch: Fetch, stack: Stack) -> ExecutionPolicy {
+    ExecutionPolicy {
+        fetch,
+        stack,
+        ..ExecutionPolicy::default()
+    }
+}
+
+/// The steps of all rays as a picture, and the submissions that it took.
+fn steps(packed: &Arc<PackedScene>, view: &PackedView, policy: ExecutionPolicy) -> (Image, u64) {
     let settings = RenderSettings {
         integrator: Integrator::Heat,
         ..sized(8, 8)
     };
-    let mut renderer = start_packed(packed.clone(), view, &fetched(&settings, fetch));
+    let mut renderer = start_packed(packed.clone(), view, &(settings, policy));
     while !renderer.is_done() {
         renderer.step().expect("a step that loses no entry");
     }
-    renderer.develop(&Tone::LINEAR).expect("a picture")
+    let picture = renderer.develop(&Tone::LINEAR).expect("a picture");
+    (picture, renderer.stats().submissions)
+}
+
+/// Chains of 1 to 59 triangles as they are packed.
+fn chains(copies: i32, most_baked: usize) -> impl Iterator<Item = (Arc<PackedScene>, PackedView)> {
+    (1..60).map(move |count| {
+        let scene = chain(count, copies);
+        let packed = packed(&scene, most_baked);
+        let view = packed.frame(&scene.frame(0.0)).expect("a view");
+        (packed, view)
+    })
 }
 
 #[test]
@@ -97,27 +120,59 @@ fn registers_hold_the_deepest_way_through_a_tree() {
     ] {
         for registers in registers {
             // Of the chains for which so many registers are just enough, the one that fills most of them.
-            let trees = (1..60).map(|count| {
-                let scene = chain(count, copies);
-                let packed = packed(&scene, most_baked);
-                let view = packed.frame(&scene.frame(0.0)).expect("a view");
-                (packed, view)
-            });
             let fits = |(packed, view): &(Arc<PackedScene>, PackedView)| {
                 packed.stack_entries(view).div_ceil(4) == registers
             };
             let entries =
                 |(packed, view): &(Arc<PackedScene>, PackedView)| entries_on_the_way(packed, view);
-            let deepest = trees.filter(fits).max_by_key(entries);
+            let deepest = chains(copies, most_baked).filter(fits).max_by_key(entries);
             let (packed, view) = deepest.expect("a chain");
             let entries = entries_on_the_way(&packed, &view);
             let name = format!("{registers} registers, {copies} copies, {entries} entries");
             assert!(entries > 4 * (registers - 1), "{name}");
-            let [expected, found] =
-                [Fetch::Buffer, Fetch::Image].map(|fetch| steps(&packed, &view, fetch));
-            assert!(expected.pixels[0][0] > 0.0, "{name}");
+            let [expected, found] = [Fetch::Buffer, Fetch::Image]
+                .map(|fetch| steps(&packed, &view, policy(fetch, Stack::Deepest)).0);
+            // Every entry is visited in the end.
+            assert!(expected.pixels[0][0] > entries as f32, "{name}");
             results.push(check_same_bits(&name, &expected, &found));
         }
+    }
+    assert_none(results);
+}
+
+/// Rays usually need at most 24 entries.
+#[test]
+fn rays_that_need_more_entries_than_usual_are_traced_again() {
+    let mut results = Vec::new();
+    // With an array in the end, or with all registers.
+    for bound in [33..=60, 29..=32] {
+        let is_deep = |(packed, view): &(Arc<PackedScene>, PackedView)| {
+            bound.contains(&packed.stack_entries(view)) && entries_on_the_way(packed, view) > 24
+        };
+        let (packed, view) = chains(1, usize::MAX).find(is_deep).expect("a chain");
+        let name = format!("{} entries", entries_on_the_way(&packed, &view));
+        let of = |policy| steps(&packed, &view, policy);
+        let (expected, _) = of(policy(Fetch::Buffer, Stack::Usual));
+        let (_, once) = of(policy(Fetch::Image, Stack::Deepest));
+        for host_copy in [true, false] {
+            let (found, again) = of(ExecutionPolicy {
+                host_copy,
+                ..policy(Fetch::Image, Stack::Usual)
+            });
+            assert!(again > once, "{name}: {again} and {once} submissions");
+            results.push(check_same_bits(&name, &expected, &found));
+        }
+
+        let hits = |fetch| {
+            let policy = policy(fetch, Stack::Usual);
+            let query = RayQuery::new(open_gpu(), packed.clone(), &view, policy);
+            let along_x = QueryRay::new(DVec3::ZERO, Vec3::X);
+            let hits = query.expect("a query").closest_hits(&[along_x; 64]);
+            hits.expect("hits")
+        };
+        let expected = hits(Fetch::Buffer);
+        assert!(expected[0].is_some(), "{name}");
+        assert_eq!(hits(Fetch::Image), expected, "{name}");
     }
     assert_none(results);
 }

@@ -69,10 +69,10 @@ pub fn of(scene: &Scene, side: u32) -> Vec<RaySet> {
             })
         })
         .collect();
-    let from_points = |name, test, ray: &dyn Fn(&Point) -> QueryRay| RaySet {
+    let from_points = |name, test, coherence, ray: &dyn Fn(&Point) -> QueryRay| RaySet {
         name,
         test,
-        coherence: Coherence::Coherent,
+        coherence,
         rays: points.iter().map(ray).collect(),
     };
     let light = scene.lights.first().map(|light| light.kind);
@@ -84,15 +84,25 @@ pub fn of(scene: &Scene, side: u32) -> Vec<RaySet> {
             coherence: Coherence::Coherent,
             rays: primary,
         },
-        from_points("shadow", RayTest::Any, &|point| shadow(point, light)),
-        from_points("ambient-occlusion", RayTest::Any, &|point| QueryRay {
-            t_max: occlusion_length,
-            ..point.ray(point.random(1).cosine(point.normal))
+        from_points("shadow", RayTest::Any, Coherence::Coherent, &|point| {
+            shadow(point, light)
         }),
-        from_points("diffuse", RayTest::Closest, &|point| {
-            point.ray(point.random(2).cosine(point.normal))
-        }),
-        from_points("mirror", RayTest::Closest, &|point| {
+        from_points(
+            "ambient-occlusion",
+            RayTest::Any,
+            Coherence::Coherent,
+            &|point| QueryRay {
+                t_max: occlusion_length,
+                ..point.ray(point.random(1).cosine(point.normal))
+            },
+        ),
+        from_points(
+            "diffuse",
+            RayTest::Closest,
+            Coherence::Incoherent,
+            &|point| point.ray(point.random(2).cosine(point.normal)),
+        ),
+        from_points("mirror", RayTest::Closest, Coherence::Coherent, &|point| {
             let along = point.incoming.dot(point.normal);
             point.ray(point.incoming - 2.0 * along * point.normal)
         }),

@@ -176,7 +176,7 @@ fn surround(session: &mut Session, path: PathBuf) {
     let from = path.clone();
     let read = move || {
         // The window may have been closed meanwhile.
-        let _ = sender.send(import::picture(&from));
+        let _ = sender.send(import::environment(&from));
     };
     match std::thread::Builder::new().name("load".into()).spawn(read) {
         Ok(_) => session.files.environment = Some((path, receiver)),
@@ -199,7 +199,7 @@ fn take_environment(session: &mut Session) {
             session.messages.warn(why);
         }
         Ok(Err(error)) => session.messages.warn(advice::import(&error)),
-        Ok(Ok(picture)) => {
+        Ok(Ok((picture, notes))) => {
             session.view.background = None;
             session.edit("change the background", |scene| {
                 scene.pictures.push(picture);
@@ -214,6 +214,9 @@ fn take_environment(session: &mut Session) {
             session
                 .messages
                 .notify(format!("{name} is now the environment"));
+            for note in notes {
+                session.messages.warn(note);
+            }
             session.files.surroundings.push(path);
         }
     }

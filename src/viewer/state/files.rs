@@ -17,7 +17,7 @@ use std::sync::mpsc::Receiver;
 use std::time::SystemTime;
 
 /// An image, or why it cannot be read.
-pub type PictureRead = Result<Arc<Picture>, ImportError>;
+pub type PictureRead = Result<(Arc<Picture>, Vec<String>), ImportError>;
 
 /// The state of files.
 #[derive(Default)]
