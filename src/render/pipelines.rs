@@ -217,7 +217,7 @@ mod tests {
                 positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
                 normals: vec![Vec3::Z; 3],
                 triangles: vec![[0, 1, 2]],
-                materials: vec![0],
+                materials: vec![0; 3],
                 ..Mesh::default()
             };
             scene.meshes.push(mesh.into());
