@@ -198,6 +198,7 @@ mod tests {
                     center: DVec3::Y,
                     radius: 0.1,
                 },
+                color: Vec3::ONE,
                 samples: lamp_rays,
                 ..Light::default()
             }],
