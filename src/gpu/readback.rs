@@ -46,6 +46,11 @@ impl Gpu {
         sources: &[Source],
         staging: &wgpu::Buffer,
     ) -> Result<Reading, GpuError> {
+        let all: u64 = sources.iter().map(|source| source.bytes).sum();
+        if all > staging.size() {
+            let what = format!("a staging buffer of {} bytes is for {all}", staging.size());
+            return Err(GpuError::Internal { what });
+        }
         let mut bytes = 0;
         for source in sources {
             encoder.copy_buffer_to_buffer(

@@ -14,13 +14,8 @@ pub(crate) struct Timer {
 impl Gpu {
     /// A timer; `None` if the adapter has no timestamps.
     pub(crate) fn timer(&self) -> Result<Option<Timer>, GpuError> {
-        // A software renderer has no clock of its own.
-        if self.is_cpu()
-            || !self
-                .device
-                .features()
-                .contains(wgpu::Features::TIMESTAMP_QUERY)
-        {
+        let features = self.device.features();
+        if !features.contains(wgpu::Features::TIMESTAMP_QUERY) {
             return Ok(None);
         }
         let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;

@@ -7,7 +7,7 @@ use super::{
     stats::Uploads,
 };
 use crate::{
-    gpu::{Gpu, GpuError, Ledger, Needs},
+    gpu::{Gpu, GpuError, Ledger, Needs, Timer},
     layout::{PackedCounters, PackedDispatch, PackedFrame, PackedTone},
     pack::{PackedScene, PackedView},
 };
@@ -178,14 +178,14 @@ impl SceneBuffers {
     }
 }
 
-/// A film with this many rows, and the staging buffer for reading it back together with the counters of a
-/// dispatch.
+/// A film with this many rows, and the staging buffer for reading it back together with the counters and the
+/// timestamps of a dispatch.
 fn film(gpu: &Gpu, rows: usize) -> Result<(Buffer, Buffer), GpuError> {
     let bytes = rows as u64 * ROW_BYTES;
     let film = gpu.allocate("film", bytes, READABLE)?;
     let staging = gpu.allocate(
         "staging",
-        bytes + size_of::<PackedCounters>() as u64,
+        bytes + (size_of::<PackedCounters>() + Timer::BYTES) as u64,
         BufferUsages::MAP_READ | BufferUsages::COPY_DST,
     )?;
     Ok((film, staging))

@@ -225,6 +225,30 @@ fn a_query_takes_any_number_of_rays() {
     }
 }
 
+/// A dispatch takes 1,048,576 rays, whose hits are read back together with its counters and timestamps.
+#[test]
+fn a_query_fills_whole_dispatches() {
+    const IN_DISPATCH: usize = 1 << 20;
+    let mut scene = scenes::empty();
+    scene.add_sphere(DVec3::ZERO, 1.0, 0);
+    let (query, ..) = query(&scene, usize::MAX, Fetch::Auto);
+    let rays: Vec<_> = (0..=IN_DISPATCH)
+        .map(|index| {
+            let y = 2.0 * index as f64 / IN_DISPATCH as f64;
+            QueryRay::new(dvec3(0.0, y, 3.0), glam::Vec3::NEG_Z)
+        })
+        .collect();
+    let hits = query.closest_hits(&rays).expect("hits");
+    // Rays up to the height of the radius hit; that which touches may do either.
+    let count = hits.iter().flatten().count();
+    assert!((count as i64 - (1 << 19)).abs() <= 1, "{count} hits");
+    for (ray, hit) in rays.iter().zip(&hits).step_by(4099) {
+        let expected = (1.0 - ray.origin.y.powi(2)).max(0.0).sqrt();
+        let z = hit.map_or(0.0, |hit| 3.0 - f64::from(hit.t));
+        assert!((z - expected).abs() < 2e-3, "{ray:?}: {z}, not {expected}");
+    }
+}
+
 #[test]
 fn steps_are_exact_and_any_hit_takes_no_more_of_them() {
     let scene = mixed();
