@@ -108,7 +108,7 @@
 //! bindings), `kernels/` (entry points). The binary embeds them linked to plain WGSL (`shaders/linked`),
 //! which `make shaders` updates.
 
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 #![warn(missing_docs)]
 
 #[cfg(feature = "cli")]

@@ -1138,15 +1138,16 @@ fn fetch__load_starts() {
 	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
-fn fetch__load_node(index: u32) -> tracing__Node {
+fn fetch__load_node(index: u32, inv: vec3f) -> tracing__Node {
 	let row = types__NODE_ROWS * index;
-	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
+	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u), inv);
 }
 
-fn fetch__load_moving_node(reference: u32, moment: motion__Moment) -> tracing__Node {
+fn fetch__load_moving_node(reference: u32, moment: motion__Moment, inv: vec3f) -> tracing__Node {
 	let moves = (reference & types__MOVING) != 0u;
 	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
-	return node__node_between(fetch__load_node(first), fetch__load_node(first + select(0u, 1u, moves)), moment.fraction);
+	let second = first + select(0u, 1u, moves);
+	return node__node_between(fetch__load_node(first, inv), fetch__load_node(second, inv), moment.fraction);
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
@@ -1410,12 +1411,12 @@ struct tracing__Hit {
 struct tracing__Node {
 	lo: vec3f,
 	scale: vec3f,
-	min_x: vec4f,
-	max_x: vec4f,
-	min_y: vec4f,
-	max_y: vec4f,
-	min_z: vec4f,
-	max_z: vec4f,
+	near_x: vec4f,
+	far_x: vec4f,
+	near_y: vec4f,
+	far_y: vec4f,
+	near_z: vec4f,
+	far_z: vec4f,
 	children: vec4u
 }
 
@@ -1921,7 +1922,7 @@ fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
 			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
 			if (is_node) {
 				loop {
-					let node = traverse__load_current_node(walk.current, walk.at.keys);
+					let node = traverse__load_current_node(walk.current, walk.at);
 					let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
 					let is_hit = keys < vec4u(node__MISS);
 					let top = stack__top_of_stack();
@@ -1989,11 +1990,11 @@ fn traverse__hit_count(keys: vec4u) -> i32 {
 	return hits.x + hits.y + hits.z + hits.w;
 }
 
-fn traverse__load_current_node(reference: u32, keys: deforming__Keys) -> tracing__Node {
+fn traverse__load_current_node(reference: u32, at: primitive__TraversalRay) -> tracing__Node {
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
-		return deforming__node_now(reference, keys);
+		return deforming__node_now(reference, at.keys, at.inv);
 	}
-	return fetch__load_node(reference);
+	return fetch__load_node(reference, at.inv);
 }
 
 struct triangle_watertight__Shear {
@@ -2115,12 +2116,12 @@ fn deforming__keys_of(instance: types__PackedInstance) -> deforming__Keys {
 	return deforming__NO_KEYS;
 }
 
-fn deforming__node_now(reference: u32, keys: deforming__Keys) -> tracing__Node {
+fn deforming__node_now(reference: u32, keys: deforming__Keys, inv: vec3f) -> tracing__Node {
 	var key_count = 2u;
 	if (bindings__HAS_DEFORMATION) {
 		key_count = select(2u, bindings__frame.deformation_key_count, keys.next != 0u);
 	}
-	return fetch__load_moving_node(reference, motion__moment_of(shutter__shutter_time, key_count));
+	return fetch__load_moving_node(reference, motion__moment_of(shutter__shutter_time, key_count), inv);
 }
 
 fn deforming__index_at(primitive: u32, keys: deforming__Keys, key: u32) -> u32 {
@@ -2202,6 +2203,14 @@ var<private> stack__s6: vec4u;
 
 var<private> stack__s7: vec4u;
 
+fn stack__entry_at(index: u32) -> u32 {
+	return stack__entries[index];
+}
+
+fn stack__put_entry(index: u32, reference: u32) {
+	stack__entries[index] = reference;
+}
+
 fn stack__start_stack() {
 	if (bindings__STACK_REGISTERS > 0u) {
 		stack__s0 = vec4u(stack__EMPTY);
@@ -2215,14 +2224,14 @@ fn stack__start_stack() {
 		return;
 	}
 	stack__top = 0u;
-	stack__entries[0] = stack__EMPTY;
+	stack__put_entry(0u, stack__EMPTY);
 }
 
 fn stack__top_of_stack() -> u32 {
 	if (bindings__STACK_REGISTERS > 0u) {
 		return stack__s0.x;
 	}
-	return stack__entries[stack__top];
+	return stack__entry_at(stack__top);
 }
 
 fn stack__pop() {
@@ -2238,13 +2247,24 @@ fn stack__move_stack(references: vec3u, count: i32) {
 		stack__move_registers(references, count);
 		return;
 	}
-	stack__entries[stack__top + 1u] = references.z;
-	stack__top += select(0u, 1u, count >= 3);
-	stack__entries[stack__top + 1u] = references.y;
-	stack__top += select(0u, 1u, count >= 2);
-	stack__entries[stack__top + 1u] = references.x;
-	stack__top += select(0u, 1u, count >= 1);
-	stack__top -= select(0u, 1u, (count < 0) & (stack__entries[stack__top] != stack__EMPTY));
+	if (count < 0) {
+		if (stack__entry_at(stack__top) != stack__EMPTY) {
+			stack__top -= 1u;
+		}
+		return;
+	}
+	if (count >= 3) {
+		stack__top += 1u;
+		stack__put_entry(stack__top, references.z);
+	}
+	if (count >= 2) {
+		stack__top += 1u;
+		stack__put_entry(stack__top, references.y);
+	}
+	if (count >= 1) {
+		stack__top += 1u;
+		stack__put_entry(stack__top, references.x);
+	}
 }
 
 fn stack__move_registers(references: vec3u, count: i32) {
@@ -2321,7 +2341,8 @@ const numeric__ROUNDING: f32 = 5.9604645e-8;
 fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
 	let largest = max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
 	let usable = largest > 1e-30;
-	let scaled = select(vec3f(1.0, 0.0, 0.0), v / select(1.0, largest, usable), usable);
+	let exponent = bitcast<u32>(select(1.0, largest, usable)) & 2139095040u;
+	let scaled = select(vec3f(1.0, 0.0, 0.0), bitcast<f32>(2139095040u - exponent) * v, usable);
 	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
 }
 
@@ -2383,29 +2404,28 @@ fn node__bytes(word: u32) -> vec4f {
 	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
 }
 
-fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> tracing__Node {
-	return tracing__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
+fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, inv: vec3f) -> tracing__Node {
+	let goes_down = inv < vec3f(0.0);
+	return tracing__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(select(r1.z, r1.w, goes_down.x)), node__bytes(select(r1.w, r1.z, goes_down.x)), node__bytes(select(r2.x, r2.y, goes_down.y)), node__bytes(select(r2.y, r2.x, goes_down.y)), node__bytes(select(r2.z, r2.w, goes_down.z)), node__bytes(select(r2.w, r2.z, goes_down.z)), r3);
 }
 
 fn node__node_between(a: tracing__Node, b: tracing__Node, fraction: f32) -> tracing__Node {
-	let lo = mix(a.lo, b.lo, vec3f(fraction));
-	let shift_a = a.lo - lo;
-	let shift_b = b.lo - lo;
+	let shift = b.lo - a.lo;
 	let s = vec4f(fraction);
-	return tracing__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+	return tracing__Node(a.lo, vec3f(1.0), mix(a.scale.x * a.near_x, b.scale.x * b.near_x + shift.x, s), mix(a.scale.x * a.far_x, b.scale.x * b.far_x + shift.x, s), mix(a.scale.y * a.near_y, b.scale.y * b.near_y + shift.y, s), mix(a.scale.y * a.far_y, b.scale.y * b.far_y + shift.y, s), mix(a.scale.z * a.near_z, b.scale.z * b.near_z + shift.z, s), mix(a.scale.z * a.far_z, b.scale.z * b.far_z + shift.z, s), a.children);
 }
 
 fn node__child_keys(node: tracing__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
 	let base = (node.lo - origin) * inv;
 	let step = node.scale * inv;
-	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
-	let x1 = bitcast<vec4i>(node.max_x * step.x + base.x);
-	let y0 = bitcast<vec4i>(node.min_y * step.y + base.y);
-	let y1 = bitcast<vec4i>(node.max_y * step.y + base.y);
-	let z0 = bitcast<vec4i>(node.min_z * step.z + base.z);
-	let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
-	let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
-	let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
+	let x0 = bitcast<vec4i>(node.near_x * step.x + base.x);
+	let x1 = bitcast<vec4i>(node.far_x * step.x + base.x);
+	let y0 = bitcast<vec4i>(node.near_y * step.y + base.y);
+	let y1 = bitcast<vec4i>(node.far_y * step.y + base.y);
+	let z0 = bitcast<vec4i>(node.near_z * step.z + base.z);
+	let z1 = bitcast<vec4i>(node.far_z * step.z + base.z);
+	let near = max(max(x0, y0), max(z0, vec4i(0)));
+	let far = min(min(x1, y1), z1);
 	let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
 	let hit = (near <= limit) & (node.children != vec4u(0u));
 	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);

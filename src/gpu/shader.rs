@@ -174,12 +174,10 @@ impl Gpu {
                     bind_group_layouts: groups,
                     immediate_size: 0,
                 });
-            let module = self
-                .device
-                .create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some(name),
-                    source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-                });
+            let module = self.shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(name),
+                source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+            });
             self.device
                 .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                     label: Some(name),

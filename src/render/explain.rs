@@ -193,14 +193,15 @@ impl Renderer {
             layouts,
             ..
         } = &self.device;
+        let kernel = match settings.integrator {
+            Integrator::Path => Kernel::EXPLAIN_PATH,
+            _ => Kernel::EXPLAIN,
+        };
         let compiled = pipelines::tracing(
             gpu,
             pipelines::portable(*fetch),
             layouts,
-            match settings.integrator {
-                Integrator::Path => Kernel::EXPLAIN_PATH,
-                _ => Kernel::EXPLAIN,
-            },
+            (kernel, Stack::Deepest),
             overrides,
         )?;
         Ok(compiled.pipeline)

@@ -1,6 +1,12 @@
 //! Pipelines of the kernels that trace rays.
 
-use super::{Integrator, effort, layouts::Layouts, overrides, policy::Fetch, task::Task};
+use super::{
+    Integrator, effort,
+    layouts::Layouts,
+    overrides,
+    policy::{Fetch, Stack},
+    task::Task,
+};
 use crate::{
     gpu::{Compiled, Gpu, GpuError, Kernel, Overrides, Variant},
     layout::PackedTone,
@@ -44,18 +50,26 @@ pub fn rendering(
     let refills = variant == Variant::Image && effort::has_uneven_trees(task);
     let mut overrides = overrides::of(task);
     overrides.push(("REFILLS_LANES", f64::from(u8::from(refills))));
-    let compiled = tracing(gpu, variant, layouts, kernel, overrides)?;
+    let compiled = tracing(
+        gpu,
+        variant,
+        layouts,
+        (kernel, task.policy.stack),
+        overrides,
+    )?;
     Ok((compiled, if refills { TREES_PER_LANE } else { 1 }))
 }
 
-/// A pipeline for bind groups 0 to 2 of a kernel, specialised by these overrides.
+/// A pipeline for bind groups 0 to 2 of a kernel with a stack of this size, specialised by these overrides.
 pub fn tracing(
     gpu: &Gpu,
     variant: Variant,
     layouts: &Layouts,
-    kernel: Kernel,
+    (kernel, stack): (Kernel, Stack),
     mut overrides: Overrides,
 ) -> Result<Compiled, GpuError> {
+    let shares_stack = stack == Stack::Usual && is_shared_stack_faster(gpu, kernel);
+    overrides.push(("SHARED_STACK", f64::from(u8::from(shares_stack))));
     if let (Variant::Packet, Some(lanes)) = (variant, gpu.packet_lanes()) {
         overrides.push(("PACKET_LANES", f64::from(lanes)));
     }
@@ -100,6 +114,13 @@ pub fn portable(fetch: Fetch) -> Variant {
         Fetch::Image => Variant::Image,
         _ => Variant::Buffer,
     }
+}
+
+/// Whether a stack in workgroup memory is faster than one in an array, where scenes are in buffers. Software adapters store
+/// elements of arrays lane by lane. On an H200 ray queries are up to 1.2 times as fast with an array, but renders up to 2.5
+/// times as fast with workgroup memory.
+fn is_shared_stack_faster(gpu: &Gpu, kernel: Kernel) -> bool {
+    gpu.is_cpu() || kernel.name != Kernel::TRACE_RAYS.name
 }
 
 /// Packets if the adapter traces them, the data are in images, and nothing moves while the shutter is open: then

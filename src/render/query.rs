@@ -302,8 +302,13 @@ impl RayQuery {
         let is_any = test == RayTest::Any;
         let overrides = overrides::of_query(&self.scene, &self.view, is_any, counts_steps, stack);
         let (gpu, layouts) = (&self.gpu, &self.layouts);
-        let Compiled { pipeline, .. } =
-            pipelines::tracing(gpu, variant, layouts, Kernel::TRACE_RAYS, overrides)?;
+        let Compiled { pipeline, .. } = pipelines::tracing(
+            gpu,
+            variant,
+            layouts,
+            (Kernel::TRACE_RAYS, stack),
+            overrides,
+        )?;
         Ok(pipeline)
     }
 
@@ -317,7 +322,7 @@ impl RayQuery {
     ) -> Result<f64, RenderError> {
         let Self { gpu, buffers, .. } = self;
         let groups = chunk.group_count();
-        gpu.write(&buffers.dispatch, 0, bytes_of(&packed(groups)))?;
+        gpu.write(&buffers.dispatch, 0, bytes_of(&self.packed(groups)))?;
         let timer = gpu.timer()?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
@@ -366,14 +371,19 @@ impl RayQuery {
             _ => Err(RenderError::PathTooLong(LongPath::Crowded)),
         }
     }
-}
 
-/// The dispatch parameters of so many workgroups. They visit the rays in strides of about the square root of
-/// their number: a software renderer gives each thread one contiguous part of them.
-fn packed(groups: u32) -> PackedDispatch {
-    PackedDispatch {
-        group_count: groups,
-        group_stride: coprime_stride(groups.isqrt() + 1, groups),
-        ..Default::default()
+    /// The dispatch parameters of so many workgroups. A software renderer gives each thread one contiguous part of them: there
+    /// they visit the rays in strides of about the square root of their number. Elsewhere neighbours run at the same time,
+    /// and share a cache.
+    fn packed(&self, groups: u32) -> PackedDispatch {
+        let group_stride = match self.gpu.is_cpu() {
+            true => coprime_stride(groups.isqrt() + 1, groups),
+            false => 1,
+        };
+        PackedDispatch {
+            group_count: groups,
+            group_stride,
+            ..Default::default()
+        }
     }
 }

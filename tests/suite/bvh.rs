@@ -1,9 +1,10 @@
 //! The BVH: properties that hold for every input, and rays that find the same with and without it.
 
-use crate::reference::compare::{assert_none, check_same_bits, render};
+use crate::reference::compare::{assert_none, check_same_bits, open_gpu, render};
 use crate::reference::scenes::{self, Build, Random};
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3};
 use glimray::bvh::{self, Aabb, Bvh, Child, Limits};
+use glimray::image::Image;
 use glimray::layout::{
     LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, SHAPE, STACK_SIZE,
 };
@@ -532,12 +533,31 @@ fn check_tree_against_brute_force(
             .0
         };
         let name = format!("{name}, {integrator:?}");
-        problems.extend(check_same_bits(&name, &of(true), &of(false)).err());
+        problems.extend(check_same_hits(&name, integrator, &of(true), &of(false)).err());
     }
     if problems.is_empty() {
         Ok(())
     } else {
         Err(problems.join("\n"))
+    }
+}
+
+/// The kernels with and without a tree are compiled apart. GPUs may fuse operations in one of them only, so distances differ
+/// by some units in the last place.
+fn check_same_hits(
+    name: &str,
+    integrator: Integrator,
+    expected: &Image,
+    actual: &Image,
+) -> Result<(), String> {
+    if integrator != Integrator::Depth || open_gpu().is_cpu() {
+        return check_same_bits(name, expected, actual);
+    }
+    let mut pairs = expected.pixels.iter().zip(&actual.pixels);
+    let differs = |(a, b): &(&[f32; 4], &[f32; 4])| (a[0] - b[0]).abs() > 2e-6 * a[0].abs();
+    match pairs.find(differs) {
+        Some((a, b)) => Err(format!("{name}: {a:?} became {b:?}")),
+        None => Ok(()),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The stack of the portable walk: registers of software adapters hold as many entries as the deepest way through a tree
-//! needs, and walks that need all of them do the same steps as with an array. So do walks that need more than the usual number.
+//! needs, and walks that need all of them do the same steps as with an array. So do walks that need more than the usual
+//! number, in registers or, where scenes are in buffers, in workgroup memory.
 
 use crate::instances::packed;
 use crate::pack_view::children;
@@ -152,12 +153,17 @@ fn rays_that_need_more_entries_than_usual_are_traced_again() {
         let (packed, view) = chains(1, usize::MAX).find(is_deep).expect("a chain");
         let name = format!("{} entries", entries_on_the_way(&packed, &view));
         let of = |policy| steps(&packed, &view, policy);
-        let (expected, _) = of(policy(Fetch::Buffer, Stack::Usual));
-        let (_, once) = of(policy(Fetch::Image, Stack::Deepest));
-        for host_copy in [true, false] {
+        let (expected, once) = of(policy(Fetch::Buffer, Stack::Deepest));
+        for (fetch, host_copy) in [
+            (Fetch::Image, true),
+            (Fetch::Image, false),
+            (Fetch::Buffer, true),
+            (Fetch::Buffer, false),
+        ] {
+            let name = format!("{name}, {fetch:?}");
             let (found, again) = of(ExecutionPolicy {
                 host_copy,
-                ..policy(Fetch::Image, Stack::Usual)
+                ..policy(fetch, Stack::Usual)
             });
             assert!(again > once, "{name}: {again} and {once} submissions");
             results.push(check_same_bits(&name, &expected, &found));

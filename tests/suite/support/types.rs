@@ -39,12 +39,12 @@ pub struct Candidate {
 pub struct Node {
     pub lo: [f32; 3],
     pub scale: [f32; 3],
-    pub min_x: [f32; 4],
-    pub max_x: [f32; 4],
-    pub min_y: [f32; 4],
-    pub max_y: [f32; 4],
-    pub min_z: [f32; 4],
-    pub max_z: [f32; 4],
+    pub near_x: [f32; 4],
+    pub far_x: [f32; 4],
+    pub near_y: [f32; 4],
+    pub far_y: [f32; 4],
+    pub near_z: [f32; 4],
+    pub far_z: [f32; 4],
     pub children: [u32; 4],
 }
 
@@ -130,12 +130,12 @@ shader_struct!(Candidate = "package::types::tracing::Candidate" { hit: bool, t: 
 shader_struct!(Node = "package::types::tracing::Node" {
     lo: [f32; 3],
     scale: [f32; 3],
-    min_x: [f32; 4],
-    max_x: [f32; 4],
-    min_y: [f32; 4],
-    max_y: [f32; 4],
-    min_z: [f32; 4],
-    max_z: [f32; 4],
+    near_x: [f32; 4],
+    far_x: [f32; 4],
+    near_y: [f32; 4],
+    far_y: [f32; 4],
+    near_z: [f32; 4],
+    far_z: [f32; 4],
     children: [u32; 4],
 });
 shader_struct!(Phong = "package::types::shading::Phong" {
