@@ -13,6 +13,7 @@ mod readback;
 mod shader;
 mod specialize;
 mod timer;
+mod trusted;
 
 pub use adapter::{AdapterChoice, AdapterReport, Backend, adapter_identity, adapters};
 pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
