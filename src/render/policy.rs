@@ -15,7 +15,7 @@ pub struct ExecutionPolicy {
     /// The storage that is faster on this adapter, if that is known ([`super::StorageTimes`]); only for
     /// [`Fetch::Auto`] and [`Fetch::Packet`]. By default the kind of the adapter decides.
     pub storage: Option<Storage>,
-    /// How many entries the stack of a walk has in registers.
+    /// How many entries the stack of a walk has in fast memory.
     pub stack: Stack,
     /// How many pictures like this one will be rendered, such as the frames of an animation, at least 1: a kernel that
     /// traces faster but takes longer to compile may be worth it for all of them together.
@@ -64,8 +64,8 @@ impl Fetch {
     }
 }
 
-/// The size of the stack of a ray's walk through the trees, where it is in registers because an array is slow: on software
-/// adapters. Each step moves all of its entries.
+/// The size of the stack of a ray's walk through the trees, where an array is slow: on software adapters it is in registers,
+/// and each step moves all of its entries; where scenes are in buffers it is in workgroup memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stack {
     /// As many entries as rays usually need. If one needs more, that part of the picture is rendered again, and the rest too,
