@@ -2341,8 +2341,8 @@ const numeric__ROUNDING: f32 = 5.9604645e-8;
 fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
 	let largest = max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
 	let usable = largest > 1e-30;
-	let exponent = bitcast<u32>(select(1.0, largest, usable)) & 2139095040u;
-	let scaled = select(vec3f(1.0, 0.0, 0.0), bitcast<f32>(2139095040u - exponent) * v, usable);
+	let shrink = select(1.0, 2.3283064e-10, largest > 1e37);
+	let scaled = select(vec3f(1.0, 0.0, 0.0), (shrink * v) / select(1.0, shrink * largest, usable), usable);
 	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
 }
 
