@@ -201,7 +201,7 @@ impl Renderer {
             gpu,
             pipelines::portable(*fetch),
             layouts,
-            (kernel, Stack::Deepest),
+            (kernel, task.policy.stack),
             overrides,
         )?;
         Ok(compiled.pipeline)

@@ -525,7 +525,7 @@ fn surfaces_have_the_normal_of_their_slope_and_u_and_v_from_0_to_1() {
             ) {
                 1e-3
             } else {
-                8.0 * ROUNDING
+                4.0 * ROUNDING
             };
             verdict.that(
                 "it lies on the surface",
