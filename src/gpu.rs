@@ -62,6 +62,9 @@ pub struct Gpu {
     on_compilation: Option<Arc<dyn Fn() + Send + Sync>>,
 }
 
+/// Storage images of a kernel that reads the scene from images. WebGPU guarantees four.
+const STORAGE_IMAGES: u32 = 5;
+
 /// Required limits that may exceed the defaults of WebGPU.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Needs {
@@ -227,6 +230,11 @@ impl Gpu {
         needs.binding_bytes <= limits.max_storage_buffer_binding_size
             && needs.binding_bytes <= limits.max_buffer_size
             && needs.texture_side <= limits.max_texture_dimension_2d
+    }
+
+    /// Whether kernels can read the scene from images.
+    pub(crate) fn reads_images(&self) -> bool {
+        self.device.limits().max_storage_textures_per_shader_stage >= STORAGE_IMAGES
     }
 
     /// The wgpu handles of the device, for other code that draws with it.
@@ -426,6 +434,7 @@ fn limits_for(needs: Needs, adapter: &wgpu::Limits) -> Result<wgpu::Limits, GpuE
         defaults.max_texture_dimension_2d.into(),
         adapter.max_texture_dimension_2d.into(),
     )?;
+    let images = (adapter.max_storage_textures_per_shader_stage).min(STORAGE_IMAGES);
     // Limits that an adapter cannot meet (a GL driver below the WebGPU minimum) are not requested; creating the
     // pipeline of a shader that needs them fails.
     let floor = defaults.or_worse_values_from(adapter);
@@ -433,6 +442,8 @@ fn limits_for(needs: Needs, adapter: &wgpu::Limits) -> Result<wgpu::Limits, GpuE
         max_storage_buffer_binding_size: binding,
         max_buffer_size: buffer,
         max_texture_dimension_2d: side as u32,
+        max_storage_textures_per_shader_stage: images
+            .max(floor.max_storage_textures_per_shader_stage),
         ..floor
     })
 }

@@ -915,7 +915,7 @@ var bindings__vertices: texture_storage_2d<rgba32uint, read>;
 var bindings__materials: texture_storage_2d<rgba32uint, read>;
 
 @group(0) @binding(4)
-var bindings__texels: texture_2d_array<u32>;
+var bindings__texels: texture_storage_2d_array<r32uint, read>;
 
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
@@ -3987,7 +3987,7 @@ fn picture__texel_at(picture: u32, index: u32) -> vec4f {
 fn picture__load_texel_word(index: u32) -> u32 {
 	let row = index >> types__IMAGE_WIDTH_LOG2;
 	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
-	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
+	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2).x;
 }
 
 const picture__PI: f32 = 3.14159265;

@@ -92,27 +92,21 @@ impl Gpu {
         })
     }
 
-    /// A read-only image with rows of `width` texels and room for `bytes`, zero-initialised: a storage image,
-    /// or with `layer_rows` a texture of layers of so many rows, or fewer if there is only one.
+    /// A read-only image with rows of `width` texels and room for `bytes`, zero-initialised; with `layer_rows` one of
+    /// layers of so many rows, or fewer if there is only one. `binding` is the usage in shaders.
     pub(crate) fn allocate_image(
         &self,
         what: &'static str,
         bytes: u64,
         (width, layer_rows): (u32, Option<u32>),
-        format: wgpu::TextureFormat,
+        (format, binding): (wgpu::TextureFormat, wgpu::TextureUsages),
     ) -> Result<wgpu::TextureView, GpuError> {
         if fault::should_fail(fault::Site::Allocation) {
             return Err(GpuError::OutOfMemory { what: what.into() });
         }
-        let (binding, dimension) = match layer_rows {
-            None => (
-                wgpu::TextureUsages::STORAGE_BINDING,
-                wgpu::TextureViewDimension::D2,
-            ),
-            Some(_) => (
-                wgpu::TextureUsages::TEXTURE_BINDING,
-                wgpu::TextureViewDimension::D2Array,
-            ),
+        let dimension = match layer_rows {
+            None => wgpu::TextureViewDimension::D2,
+            Some(_) => wgpu::TextureViewDimension::D2Array,
         };
         let rows = bytes.div_ceil(row_bytes(width, format)).max(1) as u32;
         let height = layer_rows.map_or(rows, |most| rows.min(most));

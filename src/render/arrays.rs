@@ -11,7 +11,7 @@ use crate::{
     pack::{PackedScene, PackedView, Segments},
 };
 use bytemuck::{Pod, cast_slice};
-use wgpu::{Buffer, BufferUsages, TextureFormat};
+use wgpu::{Buffer, BufferUsages, TextureFormat, TextureUsages};
 
 pub const ROW_BYTES: u64 = 16;
 pub const IMAGE_WIDTH: u32 = 1 << IMAGE_WIDTH_LOG2;
@@ -217,8 +217,13 @@ pub enum Rows {
 impl Rows {
     pub fn allocate(gpu: &Gpu, fetch: Fetch, array: &Array, bytes: u64) -> Result<Self, GpuError> {
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+        let binding = match fetch {
+            Fetch::Image => TextureUsages::STORAGE_BINDING,
+            _ => TextureUsages::TEXTURE_BINDING,
+        };
         let image = |layer_rows, format| {
-            let image = gpu.allocate_image(array.what, bytes, (IMAGE_WIDTH, layer_rows), format)?;
+            let size = (IMAGE_WIDTH, layer_rows);
+            let image = gpu.allocate_image(array.what, bytes, size, (format, binding))?;
             Ok(Self::Image(image))
         };
         match array.kind {

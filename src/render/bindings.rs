@@ -204,7 +204,7 @@ fn frame_group(
 }
 
 /// The fetch to use, image or buffer: the requested one, or by default that of the faster storage, unless the adapter has
-/// room for the scene only in the other.
+/// room for the scene only in the other or the device cannot bind as many images.
 pub fn choose_fetch(
     policy: &ExecutionPolicy,
     gpu: &Gpu,
@@ -216,6 +216,9 @@ pub fn choose_fetch(
     let fits_buffer = rows <= adapter.max_binding_bytes;
     let fits_image = image_side(rows) <= adapter.max_texture_2d;
     let preferred = policy.storage.unwrap_or_else(|| Storage::usual(gpu));
+    if !gpu.reads_images() {
+        return Fetch::Buffer;
+    }
     match (policy.fetch, preferred) {
         (Fetch::Auto | Fetch::Packet, Storage::Image) if fits_image || !fits_buffer => Fetch::Image,
         (Fetch::Auto | Fetch::Packet, Storage::Buffer) if !fits_buffer => Fetch::Image,

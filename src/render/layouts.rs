@@ -32,12 +32,12 @@ impl Layouts {
             has_dynamic_offset: false,
             min_binding_size: None,
         };
-        let image = BindingType::StorageTexture {
+        let image = |format, view_dimension| BindingType::StorageTexture {
             access: wgpu::StorageTextureAccess::ReadOnly,
-            format: ROW_FORMAT,
-            view_dimension: wgpu::TextureViewDimension::D2,
+            format,
+            view_dimension,
         };
-        let texels = BindingType::Texture {
+        let sampled = BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Uint,
             view_dimension: wgpu::TextureViewDimension::D2Array,
             multisampled: false,
@@ -47,7 +47,13 @@ impl Layouts {
             format: SCREEN_FORMAT,
             view_dimension: wgpu::TextureViewDimension::D2,
         };
-        let geometry = if fetch == Fetch::Image { image } else { read };
+        let (geometry, texels) = match fetch {
+            Fetch::Image => (
+                image(ROW_FORMAT, wgpu::TextureViewDimension::D2),
+                image(TEXEL_FORMAT, wgpu::TextureViewDimension::D2Array),
+            ),
+            _ => (read, sampled),
+        };
         let layout_at = |label, bindings: &[u32], types: &[BindingType]| {
             let entries: Vec<_> = (bindings.iter())
                 .zip(types)

@@ -1,21 +1,17 @@
-//! Writes a glTF model, a flower that sways and opens under a glass dome:
-//! `cargo run --example make_flower -- assets/scenes/flower.glb`
-//!
-//! It has what models of today have: a skin on a chain of joints, a morph target, a clip, pictures with
-//! roles (colour, normals, roughness, holes), metal, and glass with a volume.
+//! A flower that sways and opens under a glass dome: a skin on a chain of joints, a morph target, a clip, pictures with
+//! roles (colour, normals, holes), metal, and glass with a volume.
 
-#[path = "flower/glb.rs"]
-mod glb;
-#[path = "flower/pictures.rs"]
-mod pictures;
-#[path = "flower/surface.rs"]
-mod surface;
-
+use crate::{
+    glb::{Glb, floats},
+    pictures,
+    surface::Surface,
+};
 use glam::{Mat4, Quat, Vec3, vec3};
-use glb::{Glb, floats};
 use serde_json::{Value, json};
-use std::f32::consts::{PI, TAU};
-use surface::Surface;
+use std::{
+    error::Error,
+    f32::consts::{PI, TAU},
+};
 
 /// Joints of the stem, evenly spaced from the soil to the flower.
 const JOINTS: usize = 6;
@@ -28,10 +24,7 @@ const SECONDS: f32 = 4.0;
 /// Keys of the clip per second.
 const RATE: f32 = 12.0;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let path = std::env::args()
-        .nth(1)
-        .ok_or("name the .glb file to write")?;
+pub fn write(path: &str) -> Result<(), Box<dyn Error>> {
     let mut glb = Glb::default();
     let wood = glb.picture(&pictures::wood())?;
     let dents = glb.picture(&pictures::dents())?;
@@ -129,7 +122,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let inverses = glb.accessor(&floats(&inverses), "MAT4", JOINTS, json!({}));
     let joints: Vec<usize> = (first..first + JOINTS).collect();
     let clip = clip(&mut glb, &joints, first + JOINTS);
-    glb.write(&path, json!({
+    glb.write(path, json!({
         "asset": { "version": "2.0" },
         "extensionsUsed": ["KHR_materials_ior", "KHR_materials_transmission", "KHR_materials_volume"],
         "scene": 0,

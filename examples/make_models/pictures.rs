@@ -1,18 +1,20 @@
-//! The pictures of the model.
+//! Pictures for materials.
 
 use image::{Rgba, RgbaImage};
 use std::f32::consts::TAU;
 
-/// A picture of `size`² texels; `texel` gets the position from 0 to 1, v downwards, and returns values from 0 to 1.
-fn picture(size: u32, texel: impl Fn(f32, f32) -> [f32; 4]) -> RgbaImage {
-    RgbaImage::from_fn(size, size, |x, y| {
-        let at = |i: u32| (i as f32 + 0.5) / size as f32;
-        Rgba(texel(at(x), at(y)).map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8))
+/// A picture of so many columns and rows; `texel` gets the position from 0 to 1, v downwards, and returns values from 0
+/// to 1.
+pub fn picture([width, height]: [u32; 2], texel: impl Fn(f32, f32) -> [f32; 4]) -> RgbaImage {
+    RgbaImage::from_fn(width, height, |x, y| {
+        let at = |i: u32, size: u32| (i as f32 + 0.5) / size as f32;
+        let values = texel(at(x, width), at(y, height));
+        Rgba(values.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8))
     })
 }
 
 /// Waves of many directions and lengths that repeat over the picture, about from -1 to 1.
-fn waves(u: f32, v: f32) -> f32 {
+pub fn waves(u: f32, v: f32) -> f32 {
     let mut sum = 0.0;
     for i in 1..=6 {
         let i = i as f32;
@@ -24,7 +26,7 @@ fn waves(u: f32, v: f32) -> f32 {
 
 /// Wood around the axis of a turned disc: grain along v, which runs across the disc.
 pub fn wood() -> RgbaImage {
-    picture(256, |u, v| {
+    picture([256; 2], |u, v| {
         let grain = (TAU * (22.0 * v + 0.3 * waves(u, v))).sin() * 0.5 + 0.5;
         let mix = |dark: f32, light: f32| dark + (light - dark) * grain.powf(0.6);
         [mix(0.33, 0.46), mix(0.19, 0.28), mix(0.1, 0.15), 1.0]
@@ -33,8 +35,14 @@ pub fn wood() -> RgbaImage {
 
 /// A normal map of shallow dents.
 pub fn dents() -> RgbaImage {
-    let height = |u: f32, v: f32| 0.012 * waves(3.0 * u, v) + 0.004 * waves(11.0 * u, 5.0 * v);
-    picture(128, |u, v| {
+    normals([128; 2], |u, v| {
+        0.012 * waves(3.0 * u, v) + 0.004 * waves(11.0 * u, 5.0 * v)
+    })
+}
+
+/// The normal map of a height over u and v, which are 1 long.
+pub fn normals(size: [u32; 2], height: impl Fn(f32, f32) -> f32) -> RgbaImage {
+    picture(size, |u, v| {
         const STEP: f32 = 1.0 / 512.0;
         let slope = |ahead: f32, behind: f32| (ahead - behind) / (2.0 * STEP);
         let x = -slope(height(u + STEP, v), height(u - STEP, v));
@@ -48,7 +56,7 @@ pub fn dents() -> RgbaImage {
 
 /// A leaf from its stalk at the bottom to its tip at the top, with veins; the rest is transparent.
 pub fn leaf() -> RgbaImage {
-    picture(256, |u, v| {
+    picture([256; 2], |u, v| {
         let along = 1.0 - v;
         let side = (u - 0.5).abs() * 2.0;
         let width = (along.powf(0.55) * (1.0 - along).powf(0.8) * 1.75).min(1.0);

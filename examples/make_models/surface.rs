@@ -1,6 +1,6 @@
 //! Surfaces over u and v.
 
-use glam::{Vec3, vec3};
+use glam::{Quat, Vec3, vec3};
 use std::f32::consts::TAU;
 
 /// Triangles with smooth normals and texture coordinates, v downwards as in glTF.
@@ -93,6 +93,12 @@ impl Surface {
 
     pub fn moved(mut self, by: Vec3) -> Self {
         self.positions.iter_mut().for_each(|point| *point += by);
+        self
+    }
+
+    pub fn turned(mut self, by: Quat) -> Self {
+        let vectors = self.positions.iter_mut().chain(&mut self.normals);
+        vectors.for_each(|vector| *vector = by * *vector);
         self
     }
 
