@@ -149,7 +149,9 @@ fn copper(size: [u32; 2], alpha: impl Fn(f32, f32) -> f32) -> RgbaImage {
     picture(size, |u, v| {
         let dark = 0.4 + 0.4 * waves(u + 0.06 * waves(2.0 * v, u), v);
         let bare = vec3(0.93, 0.6, 0.48).lerp(vec3(0.72, 0.41, 0.3), dark.clamp(0.0, 1.0));
-        let [r, g, b] = bare.lerp(vec3(0.36, 0.56, 0.47), verdigris(u, v)).to_array();
+        let [r, g, b] = bare
+            .lerp(vec3(0.36, 0.56, 0.47), verdigris(u, v))
+            .to_array();
         [r, g, b, alpha(u, v)]
     })
 }
@@ -194,7 +196,10 @@ fn fittings(window: &Window) -> (Surface, Surface) {
         let part = 1.0 - i as f32 / 8.0;
         [r * part, 0.007 - 0.009 * part * part]
     });
-    let profile: Vec<_> = [[0.0, -0.006], [r, -0.006]].into_iter().chain(top).collect();
+    let profile: Vec<_> = [[0.0, -0.006], [r, -0.006]]
+        .into_iter()
+        .chain(top)
+        .collect();
     let pane = Surface::lathe(&profile, 64);
     let toward = window.toward.normalize();
     let turn = Quat::from_rotation_arc(Vec3::Y, toward);
@@ -264,7 +269,9 @@ fn corselet() -> Surface {
 fn rim() -> Surface {
     let outward = |u: f32| {
         let across = shoulder(u + 1e-3, 0.06) - shoulder(u - 1e-3, 0.06);
-        across.cross(shoulder(u, 0.061) - shoulder(u, 0.059)).normalize()
+        across
+            .cross(shoulder(u, 0.061) - shoulder(u, 0.059))
+            .normalize()
     };
     let mut rim = Surface::grid([96, 12], |u, v| {
         let (sin, cos) = (v * TAU).sin_cos();
@@ -285,7 +292,9 @@ fn valves() -> Surface {
     let on_bonnet = |surface: Surface, toward: Vec3| {
         let toward = toward.normalize();
         let turn = Quat::from_rotation_arc(Vec3::Y, toward);
-        surface.turned(turn).moved(CENTER + (RADIUS - 0.003) * toward)
+        surface
+            .turned(turn)
+            .moved(CENTER + (RADIUS - 0.003) * toward)
     };
     let outlet = [
         [0.017, 0.0],

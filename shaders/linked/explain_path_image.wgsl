@@ -1310,8 +1310,8 @@ fn albedo__sheen_albedo(cos_o: f32, alpha: f32) -> vec2f {
 fn albedo__glass_albedo(cos_o: f32, alpha: f32, eta: f32) -> vec2f {
 	let place = albedo__glass_slice(eta);
 	let slice = min(u32(place), albedo__GLASS_SLICES - 2u);
-	let entry = mix(albedo__blended(albedo__glass_lookup(slice, cos_o, alpha)), albedo__blended(albedo__glass_lookup(slice + 1u, cos_o, alpha)), place - f32(slice));
-	return albedo__glass_factors(entry, cos_o, eta);
+	let entry = mix(albedo__blended(albedo__glass_lookup(slice, cos_o, alpha, eta)), albedo__blended(albedo__glass_lookup(slice + 1u, cos_o, alpha, eta)), place - f32(slice));
+	return albedo__glass_factors(entry, cos_o, alpha, eta);
 }
 
 fn albedo__blended(place: albedo__AlbedoLookup) -> vec2f {
@@ -5409,13 +5409,34 @@ fn albedo__glass_slice(eta: f32) -> f32 {
 	return clamp_f32(albedo__GLASS_CLEAR + steps * sqrt(2.0 * abs(amplitude)), 0.0, f32(albedo__GLASS_SLICES - 1u));
 }
 
-fn albedo__glass_lookup(slice: u32, cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
-	return albedo__entries_around(albedo__GLASS_ALBEDO + slice * albedo__GLASS_ROWS * albedo__ALBEDO_SIDE, vec2u(albedo__ALBEDO_SIDE, albedo__GLASS_ROWS), albedo__facet_place(cos_o, alpha));
+fn albedo__glass_place(cos_o: f32, alpha: f32, eta: f32) -> vec2f {
+	let width = clamp_f32(alpha, 1e-5, 1.0);
+	let critical = sqrt(max_f32(1.0 - 1.0 / (eta * eta), 0.0));
+	let c = vec3f(0.0, clamp_f32(cos_o, 0.0, 1.0), 1.0);
+	let edge = asinh(1.5 * (c - vec3f(critical)) / width);
+	let place = albedo__facet_place(cos_o, alpha);
+	return vec2f(0.5 * (place.x + (edge.y - edge.x) / (edge.z - edge.x)), place.y);
 }
 
-fn albedo__glass_factors(entry: vec2f, cos_o: f32, eta: f32) -> vec2f {
-	let mirror = fresnel__fresnel(clamp_f32(cos_o, 0.0, 1.0), eta).reflectance;
-	return vec2f(entry.x, clamp_f32(mirror + 2.0 * entry.y - 1.0, 0.0, 1.0));
+fn albedo__glass_lookup(slice: u32, cos_o: f32, alpha: f32, eta: f32) -> albedo__AlbedoLookup {
+	let first = albedo__GLASS_ALBEDO + slice * albedo__GLASS_ROWS * albedo__ALBEDO_SIDE;
+	return albedo__entries_around(first, vec2u(albedo__ALBEDO_SIDE, albedo__GLASS_ROWS), albedo__glass_place(cos_o, alpha, eta));
+}
+
+fn albedo__glass_factors(entry: vec2f, cos_o: f32, alpha: f32, eta: f32) -> vec2f {
+	let c = clamp_f32(cos_o, 0.0, 1.0);
+	return vec2f(entry.x, clamp_f32(albedo__softened_fresnel(c, alpha, eta) + 2.0 * entry.y - 1.0, 0.0, 1.0));
+}
+
+fn albedo__softened_fresnel(cos_i: f32, alpha: f32, eta: f32) -> f32 {
+	let smooth_cos2_t = 1.0 - eta * eta * (1.0 - cos_i * cos_i);
+	let soft = alpha * sqrt(max_f32(eta * eta - 1.0, 0.0));
+	let cos2_t = clamp_f32(0.5 * (smooth_cos2_t + length(vec2f(smooth_cos2_t, soft))), 0.0, 1.0);
+	let cos_t = sqrt(cos2_t);
+	let c = sqrt(max_f32(1.0 - (1.0 - cos2_t) / (eta * eta), 0.0));
+	let s = (eta * c - cos_t) / max_f32(eta * c + cos_t, 1e-9);
+	let p = (c - eta * cos_t) / max_f32(c + eta * cos_t, 1e-9);
+	return 0.5 * (s * s + p * p);
 }
 
 fn albedo__blended_albedo(entries: vec4u, weights: vec4f) -> vec2f {
@@ -5564,6 +5585,7 @@ struct lobes__Bsdf {
 	y: vec3f,
 	ng: vec3f,
 	wo: vec3f,
+	metallic: f32,
 	diffuse: vec3f,
 	f0: vec3f,
 	f90: vec3f,
@@ -5611,6 +5633,7 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 		stretch = bsdf.alpha / width;
 	}
 	bsdf.wo = lobes__to_frame(bsdf, -direction);
+	bsdf.metallic = layers.metallic;
 	var seen = lobes__Split(vec3f(0.0), vec3f(0.0));
 	var inside = 1.0;
 	if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
@@ -5645,14 +5668,13 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && bsdf.boundary_alpha.x >= layers__SMOOTH) {
 		let glass = albedo__glass_albedo(bsdf.wo.z, sqrt(bsdf.alpha.x * bsdf.alpha.y), bsdf.eta);
 		let wall = max_f32(gloss.albedo.x + gloss.albedo.y, 0.001);
-		let along_normal = boundary__boundary_at(bsdf.flags, 1.0, bsdf.eta).reflectance;
-		let share = select((along_normal * gloss.albedo.x + gloss.albedo.y) / wall, glass.y, bsdf.bends);
+		let share = select(min_f32(glass.x * glass.y / wall, 1.0), glass.y, bsdf.bends);
 		bsdf.boundary_gain = 1.0 / select(wall, max_f32(glass.x, 0.001), bsdf.bends);
 		seen = lobes__Split(share * bsdf.reflect, (1.0 - share) * bsdf.transmit);
 	}
 	var left = 1.0 - numeric__max_component(gloss.over);
 	if ((optics.flags & types__MATERIAL_SUM) == 0u) {
-		left *= optics.opacity * (1.0 - numeric__max_component(seen.reflect));
+		left *= optics.opacity * (1.0 - lobes__beside_metal(bsdf, seen.reflect));
 	}
 	bsdf.diffuse = (inside * max_f32(left, 0.0)) * layers.diffuse;
 	let whole = select(bsdf.diffuse, inside * layers.diffuse, bindings__BSDF_SPEC && (optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u);
@@ -5676,6 +5698,10 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	bsdf.chances = weights / total;
 	bsdf.coating_chances = bsdf.coating.albedos / total;
 	return bsdf;
+}
+
+fn lobes__beside_metal(bsdf: lobes__Bsdf, reflected: vec3f) -> f32 {
+	return min_f32(numeric__max_component(reflected) / max_f32(1.0 - bsdf.metallic, 1e-6), 1.0);
 }
 
 fn lobes__coat_axis(bsdf: lobes__Bsdf, surface: shading__Surface) -> vec3f {
@@ -5711,7 +5737,7 @@ fn lobes__below_glossy(bsdf: lobes__Bsdf, cos_h: f32) -> f32 {
 	}
 	var left = 1.0 - numeric__max_component(fresnel__schlick_between(bsdf.over_f0, bsdf.over_f90, cos_h));
 	if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
-		left *= 1.0 - numeric__max_component(lobes__split_at(bsdf, cos_h).reflect);
+		left *= 1.0 - lobes__beside_metal(bsdf, lobes__split_at(bsdf, cos_h).reflect);
 	}
 	return left;
 }

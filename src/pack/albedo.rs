@@ -8,8 +8,9 @@
 /// columns of √(c (1 + 4α)/(c + 4α)) for c = cos θ, both from 0 to 1: what narrow microfacets shadow at grazing angles
 /// depends on c/α alone. A word of sheen has its albedo, at most 1, and the factor that keeps narrow sheen at grazing
 /// angles from reflecting more; rows are of ∜α, columns of ∜cos θ. A word of glass has what it reflects and transmits
-/// together, and by how much the reflected share of it is above that of smooth glass; places are those of microfacets,
-/// and there is a table for each relative index of refraction. A word of stretched microfacets is one of microfacets; rows
+/// together, and by how much the reflected share of it is above that of smooth glass whose edge of total reflection is soft;
+/// columns are of the mean of microfacets' and asinh(1.5 (c - c')/α), brought to 0 to 1, where total reflection begins at c';
+/// there is a table for each relative index of refraction. A word of stretched microfacets is one of microfacets; rows
 /// are of √α for the larger width, columns have the width along the azimuth φ of the direction for α, and there is a table for each
 /// 1 - cos φ and, within these, for each root of the ratio of the widths.
 pub fn words() -> &'static [u32] {

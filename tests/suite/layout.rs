@@ -200,7 +200,7 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (0, 2, "vertices", "geometry"),
     (0, 3, "materials", "geometry"),
     (0, 3, "rays", "geometry"),
-    (0, 4, "texels", "texture"),
+    (0, 4, "texels", "texels"),
     (1, 0, "frame", "read"),
     (1, 1, "dispatch", "read and write"),
     (2, 0, "film", "read and write"),
@@ -239,6 +239,18 @@ fn bindings(module: &Module) -> BTreeSet<(u32, u32, String, &'static str)> {
                     },
             },
         ) => "image",
+        (
+            AddressSpace::Handle,
+            TypeInner::Image {
+                dim: naga::ImageDimension::D2,
+                arrayed: true,
+                class:
+                    ImageClass::Storage {
+                        format: StorageFormat::R32Uint,
+                        access: StorageAccess::LOAD,
+                    },
+            },
+        ) => "layered image",
         (
             AddressSpace::Handle,
             TypeInner::Image {
@@ -286,10 +298,15 @@ fn bindings_are_where_the_host_puts_them() {
     let mut verdict = Verdict::on("bindings");
     let mut used = BTreeSet::new();
     for (kernel, module) in linked() {
-        let geometry = if kernel.ends_with("(Buffer)") {
-            "read"
+        let (geometry, texels) = if kernel.ends_with("(Buffer)") {
+            ("read", "texture")
         } else {
-            "image"
+            ("image", "layered image")
+        };
+        let kind_here = |kind| match kind {
+            "geometry" => geometry,
+            "texels" => texels,
+            kind => kind,
         };
         for (group, slot, name, kind) in bindings(&module) {
             // Two bindings may share a slot in different kernels.
@@ -297,8 +314,7 @@ fn bindings_are_where_the_host_puts_them() {
                 .iter()
                 .filter(|(g, s, ..)| (*g, *s) == (group, slot));
             let expected = (here.clone().find(|(.., known, _)| *known == name)).or(here.next());
-            let expected = expected
-                .map(|&(.., name, kind)| (name, if kind == "geometry" { geometry } else { kind }));
+            let expected = expected.map(|&(.., name, kind)| (name, kind_here(kind)));
             let found = (name.as_str(), kind);
             verdict.that(
                 format!("group {group}, binding {slot} in {kernel}"),

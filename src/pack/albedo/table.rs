@@ -64,12 +64,10 @@ pub fn words() -> Vec<u32> {
         for row in 0..GLASS[0] {
             let alpha = part(row, GLASS[0]).powi(2).max(NARROWEST);
             for column in 0..SIDE {
-                let cos_o = cosine(part(column, SIDE), alpha);
+                let cos_o = glass_cosine(part(column, SIDE), alpha, eta);
                 let [whole, reflected] = glass(cos_o, alpha, eta);
-                words.push(word(
-                    whole,
-                    shifted(reflected / whole - fresnel(cos_o, eta)),
-                ));
+                let share = reflected / whole;
+                words.push(word(whole, shifted(share - softened(cos_o, alpha, eta))));
             }
         }
     }
@@ -97,6 +95,34 @@ pub fn words() -> Vec<u32> {
 fn cosine(place: f64, alpha: f64) -> f64 {
     let (square, wide) = (place * place, 4.0 * alpha);
     (square * wide / (1.0 + wide - square)).clamp(GRAZING * alpha, 1.0)
+}
+
+/// The cosine of a column of rough glass, which is at `place` from 0 to 1, by bisection.
+fn glass_cosine(place: f64, alpha: f64, eta: f64) -> f64 {
+    let critical = (1.0 - 1.0 / (eta * eta)).max(0.0).sqrt();
+    let edge = |cos: f64| (1.5 * (cos - critical) / alpha).asinh();
+    let place_of = |cos: f64| {
+        let grazing = (cos * (1.0 + 4.0 * alpha) / (cos + 4.0 * alpha)).sqrt();
+        0.5 * grazing + 0.5 * (edge(cos) - edge(0.0)) / (edge(1.0) - edge(0.0))
+    };
+    let [mut least, mut most] = [0.0, 1.0];
+    for _ in 0..60 {
+        let middle = 0.5 * (least + most);
+        match place_of(middle) < place {
+            true => least = middle,
+            false => most = middle,
+        }
+    }
+    (0.5 * (least + most)).max(GRAZING * alpha)
+}
+
+/// Fresnel's reflectance with an edge of total reflection that is as soft as rough microfacets make it: that of an angle
+/// at which some light is always transmitted.
+fn softened(cos_i: f64, alpha: f64, eta: f64) -> f64 {
+    let cos2_t = 1.0 - eta * eta * (1.0 - cos_i * cos_i);
+    let soft = alpha * (eta * eta - 1.0).max(0.0).sqrt();
+    let cos2_t = (0.5 * (cos2_t + cos2_t.hypot(soft))).min(1.0);
+    fresnel((1.0 - (1.0 - cos2_t) / (eta * eta)).max(0.0).sqrt(), eta)
 }
 
 /// A difference from -1 to 1 as a number from 0 to 1.
