@@ -1296,7 +1296,7 @@ fn albedo__ggx_albedo(cos_o: f32, alpha: f32) -> vec2f {
 
 fn albedo__stretched_albedo(wo: vec3f, alpha: vec2f) -> vec2f {
 	let place = albedo__stretched_slice(wo, alpha);
-	let slice = min(vec2u(place), vec2u(albedo__STRETCHED_SIDE - 2u));
+	let slice = min(vec2u(place), albedo__STRETCHED_SLICES - 2u);
 	let part = place - vec2f(slice);
 	let at_azimuth = mix(albedo__blended(albedo__stretched_lookup(slice, wo, alpha)), albedo__blended(albedo__stretched_lookup(slice + vec2u(1u, 0u), wo, alpha)), part.x);
 	let at_next = mix(albedo__blended(albedo__stretched_lookup(slice + vec2u(0u, 1u), wo, alpha)), albedo__blended(albedo__stretched_lookup(slice + vec2u(1u, 1u), wo, alpha)), part.x);
@@ -5353,9 +5353,9 @@ const albedo__GLASS_CLEAR: f32 = 12.0;
 
 const albedo__STRETCHED_ALBEDO: u32 = 29696u;
 
-const albedo__STRETCHED_SIZE: vec2u = vec2u(16u, 12u);
+const albedo__STRETCHED_SIZE: vec2u = vec2u(16u, 16u);
 
-const albedo__STRETCHED_SIDE: u32 = 6u;
+const albedo__STRETCHED_SLICES: vec2u = vec2u(10u, 6u);
 
 struct albedo__AlbedoLookup {
 	words: vec4u,
@@ -5383,11 +5383,11 @@ fn albedo__ggx_lookup(cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
 
 fn albedo__stretched_slice(wo: vec3f, alpha: vec2f) -> vec2f {
 	let away_from_x = 1.0 - abs(wo.x) / max_f32(length(wo.xy), 1e-9);
-	return f32(albedo__STRETCHED_SIDE - 1u) * clamp_vec2f(vec2f(sqrt(alpha.y / alpha.x), away_from_x), vec2f(0.0), vec2f(1.0));
+	return vec2f(albedo__STRETCHED_SLICES - 1u) * clamp_vec2f(vec2f(sqrt(alpha.y / alpha.x), away_from_x), vec2f(0.0), vec2f(1.0));
 }
 
 fn albedo__stretched_lookup(slice: vec2u, wo: vec3f, alpha: vec2f) -> albedo__AlbedoLookup {
-	let first = albedo__STRETCHED_ALBEDO + (slice.y * albedo__STRETCHED_SIDE + slice.x) * albedo__STRETCHED_SIZE.x * albedo__STRETCHED_SIZE.y;
+	let first = albedo__STRETCHED_ALBEDO + (slice.y * albedo__STRETCHED_SLICES.x + slice.x) * albedo__STRETCHED_SIZE.x * albedo__STRETCHED_SIZE.y;
 	let along = length(alpha * wo.xy) / max_f32(length(wo.xy), 1e-9);
 	let place = vec2f(albedo__facet_place(wo.z, along).x, albedo__facet_place(wo.z, alpha.x).y);
 	return albedo__entries_around(first, albedo__STRETCHED_SIZE, place);

@@ -1,6 +1,6 @@
 //! The tables of directional albedos that the path tracer reads: `lib/albedo.wesl`.
 
-/// The tables, one after the other: 32 × 32 words of microfacets, as many of sheen, 36 × 24 × 32 of rough glass, and 6 × 6 × 12 × 16 of
+/// The tables, one after the other: 32 × 32 words of microfacets, as many of sheen, 36 × 24 × 32 of rough glass, and 6 × 10 × 16 × 16 of
 /// stretched microfacets. A word has two half floats, the first in its lower half.
 ///
 /// Microfacets reflect f0 · A + f90 · B with Schlick's Fresnel factor. A word has E = A + B, and by how much B is above
@@ -14,6 +14,6 @@
 /// are of √α for the larger width, columns have the width along the azimuth φ of the direction for α, and there is a table for each
 /// 1 - cos φ and, within these, for each root of the ratio of the widths.
 pub fn words() -> &'static [u32] {
-    static WORDS: [u32; 36608] = include!(concat!(env!("OUT_DIR"), "/albedo.txt"));
+    static WORDS: [u32; 45056] = include!(concat!(env!("OUT_DIR"), "/albedo.txt"));
     &WORDS
 }

@@ -169,11 +169,11 @@ fn boxes_are_met_exactly_for_every_combination_of_signs_and_places() {
             let expected = slab(corners, o, d).map_or(MISS, |(near, _)| {
                 ((near as f32).to_bits() & !3) | child as u32
             });
-            // The builder moves planes outwards, so a ray within a plane has nothing to hit there, nor has one that leaves
-            // the box where it starts, and either result is correct.
+            // The builder moves planes outwards, so a ray within a plane has nothing to hit there, nor, where
+            // GPUs fuse operations, one that leaves the box where it starts, and either result is correct.
             let on_plane = |i: usize| d[i] == 0.0 && corners.iter().any(|corner| corner[i] == o[i]);
             let leaves = slab(corners, o, d).is_some_and(|(_, far)| far == 0.0);
-            let is_either = leaves || (0..3).any(on_plane);
+            let is_either = (0..3).any(on_plane) || leaves && gpu().bound(false, true);
             let name = format!("box {child} from {origin:?} along {direction:?}");
             if !is_either || expected == MISS {
                 verdict.near(name, &key, &expected, Tolerance::Exact);

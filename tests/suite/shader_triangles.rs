@@ -231,7 +231,7 @@ fn random_triangles_agree_with_exact_arithmetic() {
                 format!("{method}: {input:?}"),
                 &got,
                 expected,
-                Tolerance::Absolute(4e-5),
+                Tolerance::Absolute(gpu().bound(2e-5, 4e-5)),
             );
         }
     }

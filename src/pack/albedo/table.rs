@@ -30,8 +30,8 @@ const GLASS: [usize; 2] = [24, 36];
 const CLEAR: usize = 12;
 
 /// Columns and rows of a table of stretched microfacets, and the number of ratios of their widths, and of azimuths:
-/// `STRETCHED_SIZE` and `STRETCHED_SIDE` in `lib/albedo.wesl`.
-const STRETCHED: [usize; 3] = [16, 12, 6];
+/// `STRETCHED_SIZE` and `STRETCHED_SLICES` in `lib/albedo.wesl`.
+const STRETCHED: [usize; 4] = [16, 16, 10, 6];
 
 /// All tables: microfacets, then sheen, then rough glass, then stretched microfacets, with rows and columns as
 /// `lib/albedo.wesl` looks them up.
@@ -71,12 +71,12 @@ pub fn words() -> Vec<u32> {
             }
         }
     }
-    let [columns, rows, side] = STRETCHED;
-    for azimuth in 0..side {
-        let cos = 1.0 - part(azimuth, side);
+    let [columns, rows, ratios, azimuths] = STRETCHED;
+    for azimuth in 0..azimuths {
+        let cos = 1.0 - part(azimuth, azimuths);
         let along = [cos, (1.0 - cos * cos).sqrt()];
-        for ratio in 0..side {
-            let ratio = part(ratio, side).powi(2);
+        for ratio in 0..ratios {
+            let ratio = part(ratio, ratios).powi(2);
             for row in 0..rows {
                 let wide = part(row, rows).powi(2).max(NARROWEST);
                 let alpha = [wide, (wide * ratio).max(NARROWEST)];

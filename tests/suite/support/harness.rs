@@ -21,6 +21,7 @@ const MOST_ROWS: usize = 64 * 65_535;
 pub struct Harness {
     device: wgpu::Device,
     queue: wgpu::Queue,
+    is_cpu: bool,
 }
 
 /// A software renderer if available, so that results do not depend on the machine; if `GLIMRAY_TEST_ADAPTER` is
@@ -45,9 +46,19 @@ impl Harness {
             .into_iter()
             .min_by_key(|adapter| adapter.get_info().device_type != wgpu::DeviceType::Cpu)
             .expect("an adapter; Mesa's lavapipe will do");
+        let is_cpu = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let (device, queue) =
             pollster::block_on(adapter.request_device(&Default::default())).expect("a device");
-        Self { device, queue }
+        Self {
+            device,
+            queue,
+            is_cpu,
+        }
+    }
+
+    /// A bound on rounding errors: software adapters round after each operation, GPUs may fuse some.
+    pub fn bound<T>(&self, on_cpu: T, on_gpu: T) -> T {
+        if self.is_cpu { on_cpu } else { on_gpu }
     }
 
     /// Evaluates a function such as `lib::phong::phong` for each row of arguments.
