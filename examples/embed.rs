@@ -102,7 +102,19 @@ impl View {
             ..Default::default()
         };
         let adapter = pollster::block_on(instance.request_adapter(&options))?;
-        let (device, queue) = pollster::block_on(adapter.request_device(&Default::default()))?;
+        // With a fifth storage image glimray can read scenes from images, which is faster on software adapters.
+        let images = adapter
+            .limits()
+            .max_storage_textures_per_shader_stage
+            .min(5);
+        let descriptor = wgpu::DeviceDescriptor {
+            required_limits: wgpu::Limits {
+                max_storage_textures_per_shader_stage: images,
+                ..Default::default()
+            },
+            ..Default::default()
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))?;
         let mut configuration = surface
             .get_default_config(&adapter, width, height)
             .ok_or("the adapter cannot draw on this window")?;

@@ -76,7 +76,7 @@ pub struct Needs {
 
 impl Gpu {
     /// Opens the adapter that `choice` names, or the fastest kind available. The device requires only the
-    /// default limits of WebGPU. It has subgroups where [`Gpu::traces_packets`].
+    /// default limits of WebGPU, and a fifth storage image where the adapter has it. It has subgroups where [`Gpu::traces_packets`].
     pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
         Self::open(choice, Needs::default())
     }
@@ -156,8 +156,8 @@ impl Gpu {
     }
 
     /// Wraps a device that another program opened, with its instance, adapter and queue. It needs at least the
-    /// default limits of WebGPU. The program keeps control of it: its limits decide which scenes can be
-    /// rendered, its callbacks are not touched, and if it is lost the program has to open another one
+    /// default limits of WebGPU; with five storage images in a shader, kernels can read the scene from images. The
+    /// program keeps control of it: its limits decide which scenes can be rendered, its callbacks are not touched, and if it is lost the program has to open another one
     /// ([`GpuError::Lost`]).
     pub fn from_wgpu(
         instance: wgpu::Instance,
@@ -434,7 +434,6 @@ fn limits_for(needs: Needs, adapter: &wgpu::Limits) -> Result<wgpu::Limits, GpuE
         defaults.max_texture_dimension_2d.into(),
         adapter.max_texture_dimension_2d.into(),
     )?;
-    let images = (adapter.max_storage_textures_per_shader_stage).min(STORAGE_IMAGES);
     // Limits that an adapter cannot meet (a GL driver below the WebGPU minimum) are not requested; creating the
     // pipeline of a shader that needs them fails.
     let floor = defaults.or_worse_values_from(adapter);
@@ -442,8 +441,9 @@ fn limits_for(needs: Needs, adapter: &wgpu::Limits) -> Result<wgpu::Limits, GpuE
         max_storage_buffer_binding_size: binding,
         max_buffer_size: buffer,
         max_texture_dimension_2d: side as u32,
-        max_storage_textures_per_shader_stage: images
-            .max(floor.max_storage_textures_per_shader_stage),
+        max_storage_textures_per_shader_stage: adapter
+            .max_storage_textures_per_shader_stage
+            .min(STORAGE_IMAGES),
         ..floor
     })
 }

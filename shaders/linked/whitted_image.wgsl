@@ -4593,9 +4593,13 @@ fn fresnel__fresnel(cos_i: f32, eta: f32) -> fresnel__Boundary {
 	let sin2_t = eta * eta * max_f32(1.0 - cos_i * cos_i, 0.0);
 	let total = (sin2_t >= 1.0) & (eta > 1.0);
 	let cos_t = sqrt(max_f32(1.0 - sin2_t, 0.0));
+	return fresnel__Boundary(select(fresnel__unpolarised(cos_i, cos_t, eta), 1.0, total), cos_t, total);
+}
+
+fn fresnel__unpolarised(cos_i: f32, cos_t: f32, eta: f32) -> f32 {
 	let r_s = fresnel__ratio(eta * cos_i - cos_t, eta * cos_i + cos_t);
 	let r_p = fresnel__ratio(cos_i - eta * cos_t, cos_i + eta * cos_t);
-	return fresnel__Boundary(select(0.5 * (r_s * r_s + r_p * r_p), 1.0, total), cos_t, total);
+	return 0.5 * (r_s * r_s + r_p * r_p);
 }
 
 fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {

@@ -211,14 +211,14 @@ pub fn choose_fetch(
     scene: &PackedScene,
     view: &PackedView,
 ) -> Fetch {
+    if !gpu.reads_images() {
+        return Fetch::Buffer;
+    }
     let adapter = gpu.adapter();
     let rows = largest_row_bytes(scene, view);
     let fits_buffer = rows <= adapter.max_binding_bytes;
     let fits_image = image_side(rows) <= adapter.max_texture_2d;
     let preferred = policy.storage.unwrap_or_else(|| Storage::usual(gpu));
-    if !gpu.reads_images() {
-        return Fetch::Buffer;
-    }
     match (policy.fetch, preferred) {
         (Fetch::Auto | Fetch::Packet, Storage::Image) if fits_image || !fits_buffer => Fetch::Image,
         (Fetch::Auto | Fetch::Packet, Storage::Buffer) if !fits_buffer => Fetch::Image,

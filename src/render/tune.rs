@@ -38,7 +38,8 @@ pub struct StorageTimes {
 impl StorageTimes {
     /// Traces camera rays, which are coherent, and rays in random directions from random points of a surface, both in a
     /// height field, and takes the least of a few times. It takes up to 2 seconds on a software adapter that has to
-    /// compile the kernels, and up to 0.2 on a GPU. `None` if compiling one of them used up the time.
+    /// compile the kernels, and up to 0.2 on a GPU. `None` if compiling one of them used up the time, or if the device cannot
+    /// bind the images.
     ///
     /// # Errors
     /// The device failed.
@@ -48,6 +49,9 @@ impl StorageTimes {
             true => (SIDE_ON_CPU, BUDGET_ON_CPU),
             false => (SIDE, BUDGET),
         };
+        if !gpu.reads_images() {
+            return Ok(None);
+        }
         let scene = height_field();
         let rays = rays(side);
         let packed = match pack::scene(&scene) {

@@ -514,9 +514,12 @@ fn lookups_of_rough_glass_meet_the_entries() {
             (grazing + (edge(cos) - edge(0.0)) / (edge(1.0) - edge(0.0))) / 2.0
         };
         let wanted = column as f64 / 31.0;
-        let steps = (0..=1_000_000).map(|i| f64::from(i) * 1e-6);
-        let cos = steps.take_while(|&cos| at(cos) <= wanted).last();
-        (eta, alpha, cos.unwrap_or(0.0))
+        let (mut cos, mut step) = (0.0, 0.5);
+        for _ in 0..50 {
+            cos += if at(cos + step) <= wanted { step } else { 0.0 };
+            step *= 0.5;
+        }
+        (eta, alpha, cos)
     };
     let rows = [
         (0_usize, 5, 3),
@@ -538,7 +541,7 @@ fn lookups_of_rough_glass_meet_the_entries() {
             .filter(|(word, _)| **word == own as f32)
             .map(|(_, w)| w)
             .sum();
-        verdict.that(format!("{slice}, {column}, {row}"), weight > 0.99, || {
+        verdict.that(format!("{slice}, {column}, {row}"), weight > 0.999, || {
             format!("{words:?} {weights:?}")
         });
         let (eta, alpha, cos) = place((slice, column, row));
