@@ -9,6 +9,8 @@ pub use tags::*;
 
 /// A BVH node in the encoding that the shader's `decode_node` reads: four rows of four words.
 pub type PackedNode = [u32; 16];
+/// The same for `float_node`: for each axis the lower, then the upper planes of four children, as `f32`; then references.
+pub type FloatNode = [u32; 28];
 
 /// The reference to a leaf of `count` (1 to 8) primitives, shapes or triangles, from `first` (below 2²⁷).
 pub const fn leaf_reference(first: u32, count: u32, is_shape: bool) -> u32 {

@@ -33,6 +33,7 @@ mod trees;
 pub use features::Features;
 pub use frame::PackedView;
 pub use instance::MAX_BAKED;
+pub use nodes::with_float_planes;
 pub use segments::Segments;
 pub use trees::TreeWork;
 

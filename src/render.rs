@@ -124,8 +124,10 @@ impl Renderer {
         effort::check(view, &settings)?;
         let view = view.with_aspect(settings.size.0, settings.size.1);
         let tiles = FilmTiles::new(&settings, policy.slicing.tile_side);
+        let fetch = bindings::choose_fetch(&policy, &gpu, &scene, &view);
+        let shown = (&*scene, &view, fetch);
         let mut stats = Stats {
-            gpu_bytes: planned_bytes(&scene, &view, settings.region(), &policy, &tiles)?,
+            gpu_bytes: planned_bytes(shown, settings.region(), &policy, &tiles)?,
             rays: policy.count_rays.then(Rays::default),
             ..Default::default()
         };
@@ -136,7 +138,6 @@ impl Renderer {
             policy: &policy,
             film_rows: tiles.largest(),
         };
-        let fetch = bindings::choose_fetch(&policy, &gpu, &scene, &view);
         let gpu = gpu.with_limits_for(bindings::needs(&scene, &view, fetch, task.film_rows))?;
         let (choice, is_own) = (gpu.choice().clone(), gpu.is_own());
         let device = Device::new(gpu, fetch, task, &mut stats);
@@ -189,7 +190,9 @@ impl Renderer {
         self.work = None;
         let view = view.with_aspect(settings.size.0, settings.size.1);
         let tiles = FilmTiles::new(&settings, policy.slicing.tile_side);
-        let bytes = planned_bytes(&scene, &view, settings.region(), &policy, &tiles)?;
+        let fetch = bindings::choose_fetch(&policy, &self.device.gpu, &scene, &view);
+        let shown = (&*scene, &view, fetch);
+        let bytes = planned_bytes(shown, settings.region(), &policy, &tiles)?;
         self.stats.gpu_bytes = self.stats.gpu_bytes.max(bytes);
         self.earlier_losses = self.stats.device_losses;
         if policy.count_rays {
@@ -325,14 +328,13 @@ impl Renderer {
 /// # Errors
 /// It exceeds the memory limit of the policy.
 fn planned_bytes(
-    scene: &PackedScene,
-    view: &PackedView,
+    (scene, view, fetch): (&PackedScene, &PackedView, Fetch),
     [.., width, height]: [u32; 4],
     policy: &ExecutionPolicy,
     tiles: &FilmTiles,
 ) -> Result<u64, GpuError> {
     let pixels = u64::from(width) * u64::from(height);
-    let mut ledger = bindings::ledger(scene, view, tiles.largest(), pixels);
+    let mut ledger = bindings::ledger(scene, view, fetch, tiles.largest(), pixels);
     if tiles.has_totals() {
         ledger.plan(
             "totals of the film",

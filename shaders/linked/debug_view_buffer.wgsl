@@ -212,7 +212,7 @@ const types__CUT_OFF_LOOP: u32 = 1u;
 
 const types__CUT_OFF_STACK: u32 = 2u;
 
-const types__NODE_ROWS: u32 = 4u;
+const types__FLOAT_NODE_ROWS: u32 = 7u;
 
 const types__INSTANCE_ROWS: u32 = 10u;
 
@@ -546,8 +546,10 @@ fn fetch__load_starts() {
 }
 
 fn fetch__load_node(index: u32, inv: vec3f) -> tracing__Node {
-	let row = types__NODE_ROWS * index;
-	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u), inv);
+	let row = types__FLOAT_NODE_ROWS * index;
+	let near = select(vec3u(0u), vec3u(1u), inv < vec3f(0.0));
+	let far = vec3u(1u) - near;
+	return node__float_node(fetch__node_row(row + near.x), fetch__node_row(row + far.x), fetch__node_row(row + 2u + near.y), fetch__node_row(row + 2u + far.y), fetch__node_row(row + 4u + near.z), fetch__node_row(row + 4u + far.z), fetch__node_row(row + 6u));
 }
 
 fn fetch__load_moving_node(reference: u32, moment: motion__Moment, inv: vec3f) -> tracing__Node {
@@ -675,6 +677,8 @@ override bindings__BRUTE_FORCE: bool = false;
 
 override bindings__SHARED_STACK: bool = false;
 
+override bindings__SHORT_STACK: bool = false;
+
 override bindings__STRATIFIED: bool = false;
 
 override bindings__COUNT_RAYS: bool = false;
@@ -751,9 +755,13 @@ const stack__SHARED_ENTRIES: u32 = 24u;
 
 const stack__LANES: u32 = 64u;
 
+const stack__SHORT_ENTRIES: u32 = 32u;
+
 var<private> stack__top: u32;
 
 var<private> stack__entries: array<u32, types__STACK_SIZE>;
+
+var<private> stack__short_entries: array<u32, stack__SHORT_ENTRIES>;
 
 var<workgroup> stack__shared_entries: array<u32, stack__LANES * stack__SHARED_ENTRIES>;
 
@@ -769,12 +777,19 @@ fn stack__entry_at(index: u32) -> u32 {
 	if (bindings__SHARED_STACK) {
 		return stack__shared_entries[stack__LANES * index + stack__shared_lane];
 	}
+	if (bindings__SHORT_STACK) {
+		return stack__short_entries[index];
+	}
 	return stack__entries[index];
 }
 
 fn stack__put_entry(index: u32, reference: u32) {
 	if (bindings__SHARED_STACK) {
 		stack__shared_entries[stack__LANES * index + stack__shared_lane] = reference;
+		return;
+	}
+	if (bindings__SHORT_STACK) {
+		stack__short_entries[index] = reference;
 		return;
 	}
 	stack__entries[index] = reference;
@@ -789,37 +804,25 @@ fn stack__top_of_stack() -> u32 {
 	return stack__entry_at(stack__top);
 }
 
-fn stack__pop() {
-	stack__move_stack(vec3u(stack__EMPTY), -1);
-}
-
 fn stack__push(reference: u32) {
-	stack__move_stack(vec3u(reference, stack__EMPTY, stack__EMPTY), 1);
+	{
+		if (bindings__SHARED_STACK && stack__top + 1u >= stack__SHARED_ENTRIES) {
+			loops__is_stack_full = true;
+			return;
+		}
+		stack__top += 1u;
+		stack__put_entry(stack__top, reference);
+	}
 }
 
-fn stack__move_stack(references: vec3u, count: i32) {
-	if (count < 0) {
-		if (stack__entry_at(stack__top) != stack__EMPTY) {
+fn stack__popped() -> u32 {
+	let reference = stack__top_of_stack();
+	{
+		if (reference != stack__EMPTY) {
 			stack__top -= 1u;
 		}
-		return;
 	}
-	if (bindings__SHARED_STACK && stack__top + u32(count) >= stack__SHARED_ENTRIES) {
-		loops__is_stack_full = true;
-		return;
-	}
-	if (count >= 3) {
-		stack__top += 1u;
-		stack__put_entry(stack__top, references.z);
-	}
-	if (count >= 2) {
-		stack__top += 1u;
-		stack__put_entry(stack__top, references.y);
-	}
-	if (count >= 1) {
-		stack__top += 1u;
-		stack__put_entry(stack__top, references.x);
-	}
+	return reference;
 }
 
 struct block__Work {
@@ -1045,39 +1048,15 @@ fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
 			}
 			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
 			if (is_node) {
-				loop {
-					let node = traverse__load_current_node(walk.current, walk.at);
-					let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
-					let is_hit = keys < vec4u(node__MISS);
-					let top = stack__top_of_stack();
-					let next = vec3u(node.children[keys.y & 3u], node.children[keys.z & 3u], node.children[keys.w & 3u]);
-					stack__move_stack(next, traverse__hit_count(keys) - 1);
-					walk.current = select(top, node.children[keys.x & 3u], keys.x < node__MISS);
-					if (bindings__COUNT_STEPS) {
-						loops__nodes_visited += 1u;
-					}
-					continuing {
-					
-						break if (walk.current & types__LEAF) != 0u;
-					}
+				{
+					walk = branching__through_nodes(walk);
 				}
 				loops__cut_off |= (walk.current & types__LEAF) == 0u;
 			}
 			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
 			if (is_leaf) {
-				loop {
-					walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
-					let is_last = (walk.current & types__LEAF_COUNT_MASK) == 0u;
-					walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__top_of_stack(), is_last);
-					stack__move_stack(vec3u(stack__EMPTY), select(0, -1, is_last));
-					walk.current = select(walk.current, stack__EMPTY, walk.any & (walk.hit.primitive != types__NONE));
-					if (bindings__COUNT_STEPS) {
-						loops__primitives_tested += 1u;
-					}
-					continuing {
-					
-						break if ((walk.current & types__LEAF) == 0u) | (walk.current >= types__INSTANCE);
-					}
+				{
+					walk = branching__through_leaves(walk);
 				}
 			}
 			round += 1u;
@@ -1095,8 +1074,7 @@ fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	if (walk.current == traverse__RETURN) {
 		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
-		walk.current = stack__top_of_stack();
-		stack__pop();
+		walk.current = stack__popped();
 	}
 	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
 		let index = walk.current & types__LEAF_FIRST_MASK;
@@ -1107,11 +1085,6 @@ fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
 		walk.current = instance.root;
 	}
 	return walk;
-}
-
-fn traverse__hit_count(keys: vec4u) -> i32 {
-	let hits = select(vec4i(0), vec4i(1), keys < vec4u(node__MISS));
-	return hits.x + hits.y + hits.z + hits.w;
 }
 
 fn traverse__load_current_node(reference: u32, at: primitive__TraversalRay) -> tracing__Node {
@@ -1419,17 +1392,77 @@ fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
 	return still;
 }
 
+fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	loop {
+		let node = traverse__load_current_node(walk.current, walk.at);
+		let limit = traverse__search_limit(walk.ray, walk.hit);
+		let keys = node__sort4(node__float_child_keys(node, walk.at.ray.origin, walk.at.inv, limit));
+		if (bindings__COUNT_STEPS) {
+			loops__nodes_visited += 1u;
+		}
+		if (keys.x < node__MISS) {
+			branching__push_farther(node.children, keys);
+			walk.current = branching__child(node.children, keys.x);
+		}
+		else {
+			walk.current = stack__popped();
+		}
+		continuing {
+		
+			break if (walk.current & types__LEAF) != 0u;
+		}
+	}
+	return walk;
+}
+
+fn branching__push_farther(children: vec4u, keys: vec4u) {
+	if (keys.y < node__MISS) {
+		if (keys.z < node__MISS) {
+			if (keys.w < node__MISS) {
+				stack__push(branching__child(children, keys.w));
+			}
+			stack__push(branching__child(children, keys.z));
+		}
+		stack__push(branching__child(children, keys.y));
+	}
+}
+
+fn branching__child(children: vec4u, key: u32) -> u32 {
+	let first = select(children.xz, children.yw, vec2<bool>((key & 1u) != 0u));
+	return select(first.x, first.y, (key & 2u) != 0u);
+}
+
+fn branching__through_leaves(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	loop {
+		walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
+		if (bindings__COUNT_STEPS) {
+			loops__primitives_tested += 1u;
+		}
+		if (walk.any && walk.hit.primitive != types__NONE) {
+			walk.current = stack__EMPTY;
+		}
+		else if ((walk.current & types__LEAF_COUNT_MASK) == 0u) {
+			walk.current = stack__popped();
+		}
+		else {
+			walk.current += 1u - types__LEAF_COUNT_ONE;
+		}
+		continuing {
+		
+			break if ((walk.current & types__LEAF) == 0u) | (walk.current >= types__INSTANCE);
+		}
+	}
+	return walk;
+}
+
 const node__MISS: u32 = 4294967292u;
 
 const node__WIDENING: i32 = 8;
 
-fn node__bytes(word: u32) -> vec4f {
-	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
-}
-
-fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, inv: vec3f) -> tracing__Node {
-	let goes_down = inv < vec3f(0.0);
-	return tracing__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(select(r1.z, r1.w, goes_down.x)), node__bytes(select(r1.w, r1.z, goes_down.x)), node__bytes(select(r2.x, r2.y, goes_down.y)), node__bytes(select(r2.y, r2.x, goes_down.y)), node__bytes(select(r2.z, r2.w, goes_down.z)), node__bytes(select(r2.w, r2.z, goes_down.z)), r3);
+fn node__float_node(near_x: vec4u, far_x: vec4u, near_y: vec4u, far_y: vec4u, near_z: vec4u, far_z: vec4u, children: vec4u) -> tracing__Node {
+	return tracing__Node(vec3f(0.0), vec3f(1.0), bitcast<vec4f>(near_x), bitcast<vec4f>(far_x), bitcast<vec4f>(near_y), bitcast<vec4f>(far_y), bitcast<vec4f>(near_z), bitcast<vec4f>(far_z), children);
 }
 
 fn node__node_between(a: tracing__Node, b: tracing__Node, fraction: f32) -> tracing__Node {
@@ -1438,21 +1471,25 @@ fn node__node_between(a: tracing__Node, b: tracing__Node, fraction: f32) -> trac
 	return tracing__Node(a.lo, vec3f(1.0), mix(a.scale.x * a.near_x, b.scale.x * b.near_x + shift.x, s), mix(a.scale.x * a.far_x, b.scale.x * b.far_x + shift.x, s), mix(a.scale.y * a.near_y, b.scale.y * b.near_y + shift.y, s), mix(a.scale.y * a.far_y, b.scale.y * b.far_y + shift.y, s), mix(a.scale.z * a.near_z, b.scale.z * b.near_z + shift.z, s), mix(a.scale.z * a.far_z, b.scale.z * b.far_z + shift.z, s), a.children);
 }
 
-fn node__child_keys(node: tracing__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
-	let base = (node.lo - origin) * inv;
-	let step = node.scale * inv;
-	let x0 = bitcast<vec4i>(node.near_x * step.x + base.x);
-	let x1 = bitcast<vec4i>(node.far_x * step.x + base.x);
-	let y0 = bitcast<vec4i>(node.near_y * step.y + base.y);
-	let y1 = bitcast<vec4i>(node.far_y * step.y + base.y);
-	let z0 = bitcast<vec4i>(node.near_z * step.z + base.z);
-	let z1 = bitcast<vec4i>(node.far_z * step.z + base.z);
-	let near = max(max(x0, y0), max(z0, vec4i(0)));
-	let far = min(min(x1, y1), z1);
-	let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
-	let hit = (near <= limit) & (node.children != vec4u(0u));
+fn node__float_child_keys(node: tracing__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
+	let base = -origin * inv;
+	let slack = abs(base) * vec3f(1.0 / 4194304.0);
+	let early = base - slack;
+	let late = base + slack;
+	let x0 = bitcast<vec4i>(node.near_x * inv.x + early.x);
+	let x1 = bitcast<vec4i>(node.far_x * inv.x + late.x);
+	let y0 = bitcast<vec4i>(node.near_y * inv.y + early.y);
+	let y1 = bitcast<vec4i>(node.far_y * inv.y + late.y);
+	let z0 = bitcast<vec4i>(node.near_z * inv.z + early.z);
+	let z1 = bitcast<vec4i>(node.far_z * inv.z + late.z);
+	return node__keys_of(max(max(x0, y0), z0), min(min(x1, y1), z1), t_max, vec4<bool>(true));
+}
+
+fn node__keys_of(enter: vec4i, leave: vec4i, t_max: f32, exist: vec4<bool>) -> vec4u {
+	let near = max(enter, vec4i(0));
+	let limit = min(leave + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
 	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
-	return select(vec4u(node__MISS), keys, hit);
+	return select(vec4u(node__MISS), keys, (near <= limit) & exist);
 }
 
 fn node__sort4(keys: vec4u) -> vec4u {

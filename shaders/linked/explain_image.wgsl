@@ -1971,8 +1971,7 @@ fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	if (walk.current == traverse__RETURN) {
 		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
-		walk.current = stack__top_of_stack();
-		stack__pop();
+		walk.current = stack__popped();
 	}
 	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
 		let index = walk.current & types__LEAF_FIRST_MASK;
@@ -2234,12 +2233,18 @@ fn stack__top_of_stack() -> u32 {
 	return stack__entry_at(stack__top);
 }
 
-fn stack__pop() {
-	stack__move_stack(vec3u(stack__EMPTY), -1);
+fn stack__push(reference: u32) {
+	{
+		stack__move_stack(vec3u(reference, stack__EMPTY, stack__EMPTY), 1);
+	}
 }
 
-fn stack__push(reference: u32) {
-	stack__move_stack(vec3u(reference, stack__EMPTY, stack__EMPTY), 1);
+fn stack__popped() -> u32 {
+	let reference = stack__top_of_stack();
+	{
+		stack__move_stack(vec3u(stack__EMPTY), -1);
+	}
+	return reference;
 }
 
 fn stack__move_stack(references: vec3u, count: i32) {
@@ -2424,12 +2429,15 @@ fn node__child_keys(node: tracing__Node, origin: vec3f, inv: vec3f, t_max: f32) 
 	let y1 = bitcast<vec4i>(node.far_y * step.y + base.y);
 	let z0 = bitcast<vec4i>(node.near_z * step.z + base.z);
 	let z1 = bitcast<vec4i>(node.far_z * step.z + base.z);
-	let near = max(max(x0, y0), max(z0, vec4i(0)));
-	let far = min(min(x1, y1), z1);
-	let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
-	let hit = (near <= limit) & (node.children != vec4u(0u));
+	let hit = node.children != vec4u(0u);
+	return node__keys_of(max(max(x0, y0), z0), min(min(x1, y1), z1), t_max, hit);
+}
+
+fn node__keys_of(enter: vec4i, leave: vec4i, t_max: f32, exist: vec4<bool>) -> vec4u {
+	let near = max(enter, vec4i(0));
+	let limit = min(leave + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
 	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
-	return select(vec4u(node__MISS), keys, hit);
+	return select(vec4u(node__MISS), keys, (near <= limit) & exist);
 }
 
 fn node__sort4(keys: vec4u) -> vec4u {

@@ -28,6 +28,8 @@ pub const CUT_OFF_LOOP: u32 = 1;
 pub const CUT_OFF_STACK: u32 = 2;
 /// Rows of 16 bytes of a [`super::PackedNode`].
 pub const NODE_ROWS: u32 = 4;
+/// Rows of 16 bytes of a [`super::FloatNode`].
+pub const FLOAT_NODE_ROWS: u32 = 7;
 /// Rows of 16 bytes of a [`super::PackedInstance`].
 pub const INSTANCE_ROWS: u32 = 10;
 /// Rows of 16 bytes of a [`super::PackedKey`].

@@ -290,7 +290,23 @@ impl PackedView {
         parts
     }
 
-    /// The data after the scene's nodes on the GPU.
+    /// The frame on a device whose nodes have this many rows of 16 bytes instead of [`NODE_ROWS`]: what follows them starts
+    /// later.
+    pub fn frame_after(&self, node_rows: u32) -> PackedFrame {
+        let nodes = self.tlas.first_node + self.tlas.nodes.len() as u32;
+        let moved = |row: u32| row + (node_rows - NODE_ROWS) * nodes;
+        let frame = self.frame;
+        PackedFrame {
+            instance_row: moved(frame.instance_row),
+            key_row: moved(frame.key_row),
+            light_row: moved(frame.light_row),
+            emitter_row: moved(frame.emitter_row),
+            cluster_row: moved(frame.cluster_row),
+            ..frame
+        }
+    }
+
+    /// The data after the scene's nodes on the GPU: first nodes, then other rows.
     pub fn node_parts(&self) -> [&[u8]; 7] {
         [
             cast_slice(&self.tlas.nodes),

@@ -3,7 +3,7 @@
 
 use crate::{
     bvh::{Aabb, Child},
-    layout::{LEAF, LEAF_FIRST_MASK, PackedNode, SHAPE, leaf_reference},
+    layout::{FloatNode, LEAF, LEAF_FIRST_MASK, PackedNode, SHAPE, leaf_reference},
 };
 use glam::Vec3;
 
@@ -126,6 +126,34 @@ pub fn quantize(children: &[(Aabb, u32)]) -> PackedNode {
     for (i, (_, reference)) in children.iter().enumerate() {
         words[12 + i] = *reference;
     }
+    words
+}
+
+/// Where the planes of an absent child are, beyond all coordinates: the lower ones there, the upper ones opposite, so that no
+/// ray is inside.
+const ABSENT: f32 = 1e16;
+
+/// The same node with planes as floats, of boxes that contain those of `node`.
+pub fn with_float_planes(node: &PackedNode) -> FloatNode {
+    let mut words = [0; 28];
+    for axis in 0..3 {
+        let [base, scale] =
+            [node[axis], node[3 + axis]].map(|word| f64::from(f32::from_bits(word)));
+        let [lower, upper] = [node[6 + 2 * axis], node[7 + 2 * axis]].map(u32::to_le_bytes);
+        for child in 0..4 {
+            let plane = |step: u8| (base + scale * f64::from(step)) as f32;
+            let [low, high] = match node[12 + child] {
+                0 => [ABSENT, -ABSENT],
+                _ => [
+                    plane(lower[child]).next_down(),
+                    plane(upper[child]).next_up(),
+                ],
+            };
+            words[8 * axis + child] = low.to_bits();
+            words[8 * axis + 4 + child] = high.to_bits();
+        }
+    }
+    words[24..].copy_from_slice(&node[12..]);
     words
 }
 

@@ -7,10 +7,14 @@ use super::{
 };
 use crate::{
     gpu::{Gpu, GpuError},
-    layout::{IMAGE_WIDTH_LOG2, LAYER_ROWS_LOG2, PackedNode, PackedTriangle},
-    pack::{PackedScene, PackedView, Segments},
+    layout::{
+        FLOAT_NODE_ROWS, FloatNode, IMAGE_WIDTH_LOG2, LAYER_ROWS_LOG2, NODE_ROWS, PackedNode,
+        PackedTriangle,
+    },
+    pack::{PackedScene, PackedView, Segments, with_float_planes},
 };
-use bytemuck::{Pod, cast_slice};
+use bytemuck::{Pod, cast_slice, pod_collect_to_vec};
+use std::borrow::Cow;
 use wgpu::{Buffer, BufferUsages, TextureFormat, TextureUsages};
 
 pub const ROW_BYTES: u64 = 16;
@@ -35,6 +39,8 @@ pub struct Array<'a> {
 pub struct Piece<'a> {
     offset: u64,
     bytes: &'a [u8],
+    /// Whether the bytes are nodes whose planes the device has as floats.
+    is_float_nodes: bool,
     counts_as: Upload,
 }
 
@@ -49,12 +55,26 @@ enum Kind {
 /// A member of [`Uploads`].
 type Upload = fn(&mut Uploads) -> &mut u64;
 
-/// All arrays, in binding order.
-pub fn arrays<'a>(scene: &'a PackedScene, view: &'a PackedView) -> [Array<'a>; ARRAY_COUNT] {
+/// The rows of 16 bytes of a node for this fetch, image or buffer.
+pub fn node_rows(fetch: Fetch) -> u32 {
+    match fetch {
+        Fetch::Image => NODE_ROWS,
+        _ => FLOAT_NODE_ROWS,
+    }
+}
+
+/// All arrays for this fetch, image or buffer, in binding order.
+pub fn arrays<'a>(
+    scene: &'a PackedScene,
+    view: &'a PackedView,
+    fetch: Fetch,
+) -> [Array<'a>; ARRAY_COUNT] {
     let geometry: Upload = |uploads| &mut uploads.geometry;
     let surfaces: Upload = |uploads| &mut uploads.surfaces;
-    let mut nodes = Array::of("nodes", Kind::Rows, &scene.nodes, geometry);
-    nodes.add_view(scene, view);
+    let mut nodes = Array::new("nodes", Kind::Rows);
+    let runs = scene.nodes.bytes();
+    runs.for_each(|run| nodes.push_nodes(run, fetch, geometry));
+    nodes.add_view(scene, view, fetch);
     let [later_triangles, later_vertices] = view.later_keys();
     let mut triangles = Array::new("triangles", Kind::Rows);
     for (first, run) in scene.triangles.runs() {
@@ -125,9 +145,26 @@ impl<'a> Array<'a> {
             self.pieces.push(Piece {
                 offset: self.bytes,
                 bytes,
+                is_float_nodes: false,
                 counts_as,
             });
             self.bytes += bytes.len() as u64;
+        }
+    }
+
+    fn push_nodes(&mut self, bytes: &'a [u8], fetch: Fetch, counts_as: Upload) {
+        if fetch == Fetch::Image {
+            return self.push(bytes, counts_as);
+        }
+        let piece = Piece {
+            offset: self.bytes,
+            bytes,
+            is_float_nodes: true,
+            counts_as,
+        };
+        if !bytes.is_empty() {
+            self.bytes += piece.len();
+            self.pieces.push(piece);
         }
     }
 
@@ -139,15 +176,17 @@ impl<'a> Array<'a> {
     }
 
     /// Adds the data of a view to the nodes, with some spare room.
-    fn add_view(&mut self, scene: &PackedScene, view: &'a PackedView) {
+    fn add_view(&mut self, scene: &PackedScene, view: &'a PackedView, fetch: Fetch) {
         let [nodes, instances, keys, lights, cameras, emitters, clusters] = view.node_parts();
         let scene_bytes = self.bytes;
-        let first = u64::from(scene.first_view_node()) * size_of::<PackedNode>() as u64;
+        let node_bytes = u64::from(node_rows(fetch)) * ROW_BYTES;
+        let first = u64::from(scene.first_view_node()) * node_bytes;
         self.bytes = first;
         for part in view.deformed_nodes() {
-            self.push(part, |uploads| &mut uploads.geometry);
+            self.push_nodes(part, fetch, |uploads| &mut uploads.geometry);
         }
-        for part in [nodes, instances, keys] {
+        self.push_nodes(nodes, fetch, |uploads| &mut uploads.tlas);
+        for part in [instances, keys] {
             self.push(part, |uploads| &mut uploads.tlas);
         }
         for part in [lights, cameras, emitters, clusters] {
@@ -167,7 +206,7 @@ impl<'a> Array<'a> {
     /// Size in bytes without spare room.
     pub fn least_bytes(&self) -> u64 {
         let last = self.pieces.last();
-        last.map_or(0, |last| last.offset + last.bytes.len() as u64)
+        last.map_or(0, |last| last.offset + last.len())
     }
 
     /// Uploads the pieces that differ from the `known` contents of the array.
@@ -188,23 +227,59 @@ impl<'a> Array<'a> {
         // Adjacent pieces are written together.
         let (mut start, mut gathered) = (0, Vec::new());
         for piece in self.pieces.iter().filter(|piece| !is_there(piece)) {
-            *(piece.counts_as)(uploads) += piece.bytes.len() as u64;
+            *(piece.counts_as)(uploads) += piece.len();
             let is_next = start + gathered.len() as u64 == piece.offset;
-            if !is_next || gathered.len() + piece.bytes.len() > MAX_GATHERED {
+            if !is_next || gathered.len() as u64 + piece.len() > MAX_GATHERED as u64 {
                 rows.write(gpu, start, &gathered)?;
                 gathered.clear();
             }
-            if piece.bytes.len() > MAX_GATHERED {
-                rows.write(gpu, piece.offset, piece.bytes)?;
-                start = piece.offset + piece.bytes.len() as u64;
+            if piece.len() > MAX_GATHERED as u64 {
+                start = piece.offset;
+                for bytes in piece.on_device() {
+                    rows.write(gpu, start, &bytes)?;
+                    start += bytes.len() as u64;
+                }
                 continue;
             }
             if gathered.is_empty() {
                 start = piece.offset;
             }
-            gathered.extend_from_slice(piece.bytes);
+            piece
+                .on_device()
+                .for_each(|bytes| gathered.extend_from_slice(&bytes));
         }
         rows.write(gpu, start, &gathered)
+    }
+}
+
+impl<'a> Piece<'a> {
+    /// Its length on the device, in bytes.
+    fn len(&self) -> u64 {
+        let bytes = self.bytes.len() as u64;
+        match self.is_float_nodes {
+            true => bytes * u64::from(FLOAT_NODE_ROWS) / u64::from(NODE_ROWS),
+            false => bytes,
+        }
+    }
+
+    /// Its bytes on the device, in one part or several.
+    fn on_device(&self) -> impl Iterator<Item = Cow<'a, [u8]>> {
+        const NODES: usize = 1 << 16;
+        let is_float_nodes = self.is_float_nodes;
+        let part = match is_float_nodes {
+            true => NODES * size_of::<PackedNode>(),
+            false => self.bytes.len(),
+        };
+        self.bytes
+            .chunks(part)
+            .map(move |bytes| match is_float_nodes {
+                false => Cow::Borrowed(bytes),
+                true => {
+                    let nodes: Vec<PackedNode> = pod_collect_to_vec(bytes);
+                    let nodes: Vec<FloatNode> = nodes.iter().map(with_float_planes).collect();
+                    Cow::Owned(pod_collect_to_vec(&nodes))
+                }
+            })
     }
 }
 

@@ -1,7 +1,7 @@
 //! The contents of the bind groups of `bindings.wesl`.
 
 use super::{
-    arrays::{ARRAY_COUNT, Array, IMAGE_WIDTH, ROW_BYTES, Rows, arrays},
+    arrays::{ARRAY_COUNT, Array, IMAGE_WIDTH, ROW_BYTES, Rows, arrays, node_rows},
     layouts::{Layouts, group},
     policy::{ExecutionPolicy, Fetch, Storage},
     stats::Uploads,
@@ -50,7 +50,7 @@ impl Buffers {
         let scene_group = buffers.group(gpu, layouts);
         let dispatch = gpu.allocate("dispatch", size_of::<PackedDispatch>() as u64, READABLE)?;
         let (film, staging) = film(gpu, film_rows)?;
-        let frame_group = frame_group(gpu, layouts, view, &dispatch)?;
+        let frame_group = frame_group(gpu, layouts, fetch, view, &dispatch)?;
         uploads.frames += FRAME_BYTES;
         let film_group = group(gpu, &layouts.film, &[film.as_entire_binding()]);
         Ok(Self {
@@ -101,7 +101,7 @@ impl Buffers {
         if self.scene.set(gpu, scene, view, spare, uploads)? {
             self.scene_group = self.scene.group(gpu, layouts);
         }
-        self.frame_group = frame_group(gpu, layouts, view, &self.dispatch)?;
+        self.frame_group = frame_group(gpu, layouts, self.scene.fetch, view, &self.dispatch)?;
         uploads.frames += FRAME_BYTES;
         Ok(())
     }
@@ -144,9 +144,12 @@ impl SceneBuffers {
         uploads: &mut Uploads,
     ) -> Result<bool, GpuError> {
         let before = self.on_device.take();
-        let old = before.as_ref().map(|(scene, view)| arrays(scene, view));
+        let fetch = self.fetch;
+        let old = before
+            .as_ref()
+            .map(|(scene, view)| arrays(scene, view, fetch));
         let mut is_other = false;
-        for (index, array) in arrays(scene, view).iter().enumerate() {
+        for (index, array) in arrays(scene, view, fetch).iter().enumerate() {
             let rows = self.buffers.get(index);
             let fits = |rows: &Rows| old.is_some() && array.least_bytes() <= rows.bytes();
             let mut known = old.as_ref().map_or(&[][..], |old| &old[index].pieces);
@@ -158,7 +161,7 @@ impl SceneBuffers {
                 if let Some(rows) = rows {
                     rows.destroy();
                 }
-                let rows = Rows::allocate(gpu, self.fetch, array, bytes)?;
+                let rows = Rows::allocate(gpu, fetch, array, bytes)?;
                 match self.buffers.get_mut(index) {
                     Some(place) => *place = rows,
                     None => self.buffers.push(rows),
@@ -195,10 +198,11 @@ fn film(gpu: &Gpu, rows: usize) -> Result<(Buffer, Buffer), GpuError> {
 fn frame_group(
     gpu: &Gpu,
     layouts: &Layouts,
+    fetch: Fetch,
     view: &PackedView,
     dispatch: &Buffer,
 ) -> Result<wgpu::BindGroup, GpuError> {
-    let frame = gpu.upload("frame", bytes_of(&view.frame))?;
+    let frame = gpu.upload("frame", bytes_of(&view.frame_after(node_rows(fetch))))?;
     let resources = [frame.as_entire_binding(), dispatch.as_entire_binding()];
     Ok(group(gpu, &layouts.frame, &resources))
 }
@@ -215,9 +219,9 @@ pub fn choose_fetch(
         return Fetch::Buffer;
     }
     let adapter = gpu.adapter();
-    let rows = largest_row_bytes(scene, view);
-    let fits_buffer = rows <= adapter.max_binding_bytes;
-    let fits_image = image_side(rows) <= adapter.max_texture_2d;
+    let bytes = |fetch| largest_row_bytes(scene, view, fetch);
+    let fits_buffer = bytes(Fetch::Buffer) <= adapter.max_binding_bytes;
+    let fits_image = image_side(bytes(Fetch::Image)) <= adapter.max_texture_2d;
     let preferred = policy.storage.unwrap_or_else(|| Storage::usual(gpu));
     match (policy.fetch, preferred) {
         (Fetch::Auto | Fetch::Packet, Storage::Image) if fits_image || !fits_buffer => Fetch::Image,
@@ -230,7 +234,7 @@ pub fn choose_fetch(
 /// The device limits needed for this scene and film.
 pub fn needs(scene: &PackedScene, view: &PackedView, fetch: Fetch, film_rows: usize) -> Needs {
     let film = film_rows as u64 * ROW_BYTES;
-    let rows = largest_row_bytes(scene, view);
+    let rows = largest_row_bytes(scene, view, fetch);
     if fetch != Fetch::Image {
         return Needs {
             binding_bytes: film.max(rows),
@@ -250,8 +254,10 @@ fn image_side(bytes: u64) -> u32 {
     IMAGE_WIDTH.max(height.try_into().unwrap_or(u32::MAX))
 }
 
-fn largest_row_bytes(scene: &PackedScene, view: &PackedView) -> u64 {
-    let rows = arrays(scene, view).into_iter().filter(Array::is_row_image);
+fn largest_row_bytes(scene: &PackedScene, view: &PackedView, fetch: Fetch) -> u64 {
+    let rows = arrays(scene, view, fetch)
+        .into_iter()
+        .filter(Array::is_row_image);
     rows.map(|array| array.bytes).max().unwrap_or(0)
 }
 
@@ -259,11 +265,12 @@ fn largest_row_bytes(scene: &PackedScene, view: &PackedView) -> u64 {
 pub fn ledger(
     scene: &PackedScene,
     view: &PackedView,
+    fetch: Fetch,
     film_rows: usize,
     picture_pixels: u64,
 ) -> Ledger {
     let mut ledger = Ledger::default();
-    for array in arrays(scene, view) {
+    for array in arrays(scene, view, fetch) {
         ledger.plan(array.what, array.bytes);
     }
     let tone = size_of::<PackedTone>() as u64;

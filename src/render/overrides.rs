@@ -221,7 +221,7 @@ pub fn of_denoiser(is_first: bool) -> Overrides {
 }
 
 /// The overrides for the contents of the trees.
-fn geometry(scene: &PackedScene, view: &PackedView, stack: Stack) -> [(&'static str, f64); 9] {
+fn geometry(scene: &PackedScene, view: &PackedView, stack: Stack) -> [(&'static str, f64); 10] {
     let features = scene.features;
     [
         ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
@@ -234,6 +234,7 @@ fn geometry(scene: &PackedScene, view: &PackedView, stack: Stack) -> [(&'static 
             "STACK_REGISTERS",
             f64::from(stack_registers(scene, view, stack)),
         ),
+        ("SHORT_STACK", flag(has_short_stack(scene, view))),
         ("HAS_MOTION", flag(view.has_moving_instances())),
         ("HAS_DEFORMATION", flag(view.deforms())),
     ]
@@ -261,6 +262,12 @@ fn stack_registers(scene: &PackedScene, view: &PackedView, stack: Stack) -> u32 
         Stack::Deepest if all > MOST => 0,
         Stack::Deepest => all as u32,
     }
+}
+
+/// Whether the smaller array of `scene/stack.wesl` is enough. Trees over instances differ between frames, as above.
+fn has_short_stack(scene: &PackedScene, view: &PackedView) -> bool {
+    const ENTRIES: usize = 32;
+    !scene.features.instances && scene.stack_entries(view) <= ENTRIES
 }
 
 /// What all lights have in common.

@@ -6,7 +6,7 @@ pub use rays::{Coherence, QueryHit, QueryRay, RaySteps, RayTest};
 
 use super::{
     ExecutionPolicy, LongPath, RenderError,
-    arrays::{Array, Rows},
+    arrays::{self, Array, Rows},
     bindings::{self, Buffers},
     device,
     film_tile::coprime_stride,
@@ -98,8 +98,8 @@ impl RayQuery {
         view: &PackedView,
         policy: ExecutionPolicy,
     ) -> Result<Self, RenderError> {
-        bindings::ledger(&scene, view, MAX_RAYS, 0).check(policy.memory_limit_bytes)?;
         let fetch = bindings::choose_fetch(&policy, &gpu, &scene, view);
+        bindings::ledger(&scene, view, fetch, MAX_RAYS, 0).check(policy.memory_limit_bytes)?;
         let gpu = gpu.with_limits_for(bindings::needs(&scene, view, fetch, MAX_RAYS))?;
         let layouts = Layouts::new(&gpu, fetch);
         let shown = (&scene, view);
@@ -114,6 +114,11 @@ impl RayQuery {
             scene,
             view: view.clone(),
         })
+    }
+
+    /// Bytes of a node of the tree on the device: 64 with planes as bytes, 112 with planes as floats.
+    pub fn node_bytes(&self) -> u64 {
+        u64::from(arrays::node_rows(self.fetch)) * arrays::ROW_BYTES
     }
 
     /// The closest hit of each ray.

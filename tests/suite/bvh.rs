@@ -2,6 +2,7 @@
 
 use crate::reference::compare::{assert_none, check_same_bits, open_gpu, render};
 use crate::reference::scenes::{self, Build, Random};
+use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3};
 use glimray::bvh::{self, Aabb, Bvh, Child, Limits};
 use glimray::image::Image;
@@ -365,6 +366,51 @@ fn quantised_nodes_decode_to_boxes_that_hold_the_exact_ones() {
             .map(|_| ())
             .map_err(|why| format!("{name}: {why}"))
     }));
+}
+
+#[test]
+fn nodes_with_float_planes_have_the_same_boxes() {
+    let mut far = soup(3, 5000);
+    far.cameras[0].look_from = dvec3(3e4, -2e5, 1e3);
+    let mut verdict = Verdict::on("with_float_planes");
+    for (name, scene) in [
+        ("mixed", scenes::everything()),
+        ("far from the camera", far),
+    ] {
+        let packed = pack::scene(&scene).expect("packed");
+        for (index, node) in packed.nodes.iter().enumerate() {
+            let real = |word: u32| f64::from(f32::from_bits(word));
+            let words = pack::with_float_planes(node);
+            verdict.that(
+                format!("{name}, references of node {index}"),
+                words[24..] == node[12..],
+                || format!("{words:x?}"),
+            );
+            for (axis, child) in (0..3).flat_map(|axis| (0..4).map(move |child| (axis, child))) {
+                let exact = |word: usize| {
+                    let steps = node[word].to_le_bytes()[child];
+                    real(node[axis]) + real(node[3 + axis]) * f64::from(steps)
+                };
+                let [low, high] = [words[8 * axis + child], words[8 * axis + 4 + child]].map(real);
+                let is_right = match node[12 + child] {
+                    // No ray is above the one and below the other.
+                    0 => low > 1e15 && high < -1e15,
+                    _ => {
+                        let most = |plane: f64| 2.0 * f64::from(f32::EPSILON) * plane.abs() + 1e-40;
+                        let (lower, upper) = (exact(6 + 2 * axis), exact(7 + 2 * axis));
+                        (lower - most(lower)..=lower).contains(&low)
+                            && (upper..=upper + most(upper)).contains(&high)
+                    }
+                };
+                verdict.that(
+                    format!("{name}, node {index}, axis {axis}"),
+                    is_right,
+                    || format!("{low} to {high}"),
+                );
+            }
+        }
+    }
+    verdict.close();
 }
 
 /// Whether all boxes down to some leaf with the triangle hold the point.

@@ -1,5 +1,5 @@
 //! Ray and boxes: `lib/intersect/node.wesl`. A box test may accept a ray that misses the box; it must never
-//! reject one that hits.
+//! reject one that hits. That holds for nodes with planes as bytes and as floats.
 
 use crate::support::{
     harness::gpu,
@@ -8,6 +8,7 @@ use crate::support::{
     verdict::{Tolerance, Verdict},
 };
 use glam::DVec3;
+use glimray::pack::with_float_planes;
 
 /// `MISS` of node.wesl.
 const MISS: u32 = 0xffff_fffc;
@@ -24,8 +25,69 @@ const KEYS: &str = "
     }
 ";
 
+/// The same of the node with planes as floats, whose lower and upper planes traversal reads in the ray's order.
+const FLOAT_KEYS: &str = "
+    import package::lib::intersect::node::{float_child_keys, float_node};
+    import package::lib::numeric::safe_reciprocal;
+    fn probe(
+        lx: vec4u, ux: vec4u, ly: vec4u, uy: vec4u, lz: vec4u, uz: vec4u, children: vec4u,
+        origin: vec3f, direction: vec3f, t_max: f32,
+    ) -> vec4u {
+        let inv = safe_reciprocal(direction);
+        let down = inv < vec3f(0.0);
+        let node = float_node(
+            select(lx, ux, down.x), select(ux, lx, down.x),
+            select(ly, uy, down.y), select(uy, ly, down.y),
+            select(lz, uz, down.z), select(uz, lz, down.z),
+            children,
+        );
+        return float_child_keys(node, origin, inv, t_max);
+    }
+";
+
+/// How the planes of a node are stored.
+#[derive(Clone, Copy, Debug)]
+enum Planes {
+    Bytes,
+    Floats,
+}
+
+/// A node, and the origin, direction and end of a ray.
+type Case = (Boxes, [f32; 3], [f32; 3], f32);
+
+/// The keys of the children in each case.
+fn keys(planes: Planes, cases: &[Case]) -> Vec<[u32; 4]> {
+    match planes {
+        Planes::Bytes => {
+            let inputs = cases
+                .iter()
+                .map(|&(node, o, d, end)| (rows(&node), o, d, end));
+            gpu().map_source(KEYS, &inputs.collect::<Vec<_>>())
+        }
+        Planes::Floats => {
+            let inputs = cases
+                .iter()
+                .map(|&(node, o, d, end)| (float_rows(&node), o, d, end));
+            gpu().map_source(FLOAT_KEYS, &inputs.collect::<Vec<_>>())
+        }
+    }
+}
+
+/// A row of 16 bytes.
+type Row = [u32; 4];
+
 /// The rows of a packed node.
-type Rows = ([u32; 4], [u32; 4], [u32; 4], [u32; 4]);
+type Rows = (Row, Row, Row, Row);
+
+/// The rows of a node in floats.
+type FloatRows = (Rows, (Row, Row, Row));
+
+fn float_rows(node: &Boxes) -> FloatRows {
+    let (r0, r1, r2, r3) = rows(node);
+    let words = [r0, r1, r2, r3].concat().try_into().expect("16 words");
+    let [lx, ux, ly, uy, lz, uz, children] = bytemuck::cast(with_float_planes(&words));
+    ((lx, ux, ly, uy), (lz, uz, children))
+}
 
 /// Lower and upper planes of a child as steps from the node's corner.
 type Steps = ([u8; 3], [u8; 3]);
@@ -128,17 +190,41 @@ fn decode_node_takes_the_rows_apart() {
     assert_eq!(nodes[1], reversed);
 }
 
-/// All planes lie a power of two away from the corner of the node at -4, and directions are powers of two, so
-/// the arithmetic of the shader and the expected result are exact.
 #[test]
-fn boxes_are_met_exactly_for_every_combination_of_signs_and_places() {
-    let boxes = [
-        ([2, 1, 2], [8, 4, 4]), // [-2, 4] x [-3, 0] x [-2, 0]
-        ([4, 1, 2], [4, 8, 8]), // flat: x = 0
-        ([4, 2, 1], [4, 2, 8]), // a line along z
-        ([2, 4, 4], [2, 4, 4]), // the point (-2, 0, 0)
-    ];
-    let node = node([-4.0; 3], [1.0; 3], boxes);
+fn float_node_holds_the_rows() {
+    let rows: [[f32; 4]; 6] =
+        std::array::from_fn(|row| std::array::from_fn(|i| (10 * row + i) as f32 - 20.5));
+    let [a, b, c, d, e, f] = rows.map(|row| row.map(f32::to_bits));
+    let children = [7, 0, 0x8000_0001, 0xc800_0009];
+    let nodes: Vec<Node> = gpu().map(
+        "lib::intersect::node::float_node",
+        &[((a, b, c, d), (e, f, children))],
+    );
+    let expected = Node {
+        lo: [0.0; 3],
+        scale: [1.0; 3],
+        near_x: rows[0],
+        far_x: rows[1],
+        near_y: rows[2],
+        far_y: rows[3],
+        near_z: rows[4],
+        far_z: rows[5],
+        children,
+    };
+    assert_eq!(nodes[0], expected);
+}
+
+/// Boxes whose planes all lie a power of two away from the corner of their node at -4.
+const GRID: [Steps; 4] = [
+    ([2, 1, 2], [8, 4, 4]), // [-2, 4] x [-3, 0] x [-2, 0]
+    ([4, 1, 2], [4, 8, 8]), // flat: x = 0
+    ([4, 2, 1], [4, 2, 8]), // a line along z
+    ([2, 4, 4], [2, 4, 4]), // the point (-2, 0, 0)
+];
+
+/// Rays towards these boxes and past them, for every combination of signs and places. Directions are powers of two.
+fn grid() -> Vec<Case> {
+    let node = node([-4.0; 3], [1.0; 3], GRID);
     let places = [-3.5, -3.0, -2.0, -1.0, 0.0, 4.0, 5.0];
     let slopes = [1.0, -1.0, 0.5, 0.0, -0.0];
     let grid = |values: &[f32]| -> Vec<[f32; 3]> {
@@ -147,39 +233,86 @@ fn boxes_are_met_exactly_for_every_combination_of_signs_and_places() {
             .map(|i| [values[i % n], values[i / n % n], values[i / n / n]])
             .collect()
     };
-    let directions: Vec<_> = grid(&slopes)
-        .into_iter()
+    let directions: Vec<_> = (grid(&slopes).into_iter())
         .filter(|d| *d != [0.0; 3])
         .collect();
-    let inputs: Vec<_> = grid(&places)
-        .into_iter()
-        .flat_map(|origin| {
-            directions
-                .iter()
-                .map(move |d| (rows(&node), origin, *d, 1e6f32))
-        })
-        .collect();
-    let keys: Vec<[u32; 4]> = gpu().map_source(KEYS, &inputs);
+    let from = |origin| directions.iter().map(move |d| (node, origin, *d, 1e6f32));
+    grid(&places).into_iter().flat_map(from).collect()
+}
+
+/// A box of the grid and a ray, in f64.
+struct Meeting {
+    corners: [DVec3; 2],
+    origin: DVec3,
+    direction: DVec3,
+}
+
+impl Meeting {
+    fn of(&(node, origin, direction, _): &Case, child: usize) -> Self {
+        Self {
+            corners: corners(&node, GRID[child]),
+            origin: DVec3::from(origin.map(f64::from)),
+            direction: DVec3::from(direction.map(f64::from)),
+        }
+    }
+
+    /// Where the ray enters the box enlarged by `more`.
+    fn entry(&self, more: f64) -> Option<f64> {
+        let larger = [self.corners[0] - more, self.corners[1] + more];
+        slab(larger, self.origin, self.direction).map(|(near, _)| near)
+    }
+
+    /// Whether a miss is as correct as a hit: the builder moves planes outwards, so a ray within a plane has nothing to hit
+    /// there, nor, where GPUs fuse operations, one that leaves the box where it starts.
+    fn is_either(&self) -> bool {
+        let (o, d) = (self.origin, self.direction);
+        let on_plane = |i: usize| d[i] == 0.0 && self.corners.iter().any(|c| c[i] == o[i]);
+        let leaves = slab(self.corners, o, d).is_some_and(|(_, far)| far == 0.0);
+        (0..3).any(on_plane) || leaves && gpu().bound(false, true)
+    }
+}
+
+/// The arithmetic of the shader and the expected result are exact.
+#[test]
+fn boxes_are_met_exactly_for_every_combination_of_signs_and_places() {
+    let cases = grid();
     let mut verdict = Verdict::on("child_keys");
-    for ((_, origin, direction, _), keys) in inputs.iter().zip(&keys) {
-        let o = DVec3::from(origin.map(f64::from));
-        let d = DVec3::from(direction.map(f64::from));
-        for (child, (&steps, &key)) in boxes.iter().zip(keys).enumerate() {
-            let corners = corners(&node, steps);
-            let expected = slab(corners, o, d).map_or(MISS, |(near, _)| {
-                ((near as f32).to_bits() & !3) | child as u32
-            });
-            // The builder moves planes outwards, so a ray within a plane has nothing to hit there, nor, where
-            // GPUs fuse operations, one that leaves the box where it starts, and either result is correct.
-            let on_plane = |i: usize| d[i] == 0.0 && corners.iter().any(|corner| corner[i] == o[i]);
-            let leaves = slab(corners, o, d).is_some_and(|(_, far)| far == 0.0);
-            let is_either = (0..3).any(on_plane) || leaves && gpu().bound(false, true);
-            let name = format!("box {child} from {origin:?} along {direction:?}");
-            if !is_either || expected == MISS {
+    for (case, keys) in cases.iter().zip(&keys(Planes::Bytes, &cases)) {
+        for (child, &key) in keys.iter().enumerate() {
+            let meeting = Meeting::of(case, child);
+            let expected = (meeting.entry(0.0))
+                .map_or(MISS, |near| ((near as f32).to_bits() & !3) | child as u32);
+            let name = format!("box {child} from {:?} along {:?}", case.1, case.2);
+            if !meeting.is_either() || expected == MISS {
                 verdict.near(name, &key, &expected, Tolerance::Exact);
             } else {
                 verdict.that(name, key == MISS || key == expected, || format!("{key:#x}"));
             }
+        }
+    }
+    verdict.close();
+}
+
+/// They are larger by a few roundings of the coordinates, which are up to 8.
+#[test]
+fn boxes_in_floats_are_met_where_they_are() {
+    const LARGER: f64 = 1e-5;
+    let cases = grid();
+    let mut verdict = Verdict::on("float_child_keys");
+    for (case, keys) in cases.iter().zip(&keys(Planes::Floats, &cases)) {
+        for (child, &key) in keys.iter().enumerate() {
+            let meeting = Meeting::of(case, child);
+            let found = (key != MISS).then(|| f64::from(f32::from_bits(key & !3)));
+            let is_right = match (meeting.entry(0.0), found, meeting.entry(LARGER)) {
+                (Some(own), Some(found), Some(least)) => {
+                    (least - LARGER..=own + LARGER).contains(&found)
+                }
+                (Some(_), None, _) => meeting.is_either(),
+                (None, Some(_), larger) => larger.is_some(),
+                _ => found.is_none(),
+            };
+            let name = format!("box {child} from {:?} along {:?}", case.1, case.2);
+            verdict.that(name, is_right, || format!("{key:#x}"));
         }
     }
     verdict.close();
@@ -198,19 +331,17 @@ fn the_largest_boxes_are_met_along_the_axes() {
         [0.0, 0.0, 1.0],
         [-0.0, 0.0, -1.0],
     ];
-    let inputs: Vec<_> = axes
-        .iter()
-        .map(|d| (rows(&node), d.map(|c| -9e14 * c), *d, 3e38f32))
-        .collect();
-    let keys: Vec<[u32; 4]> = gpu().map_source(KEYS, &inputs);
+    let inputs = axes.map(|d| (node, d.map(|c| -9e14 * c), d, 3e38f32));
     let mut verdict = Verdict::on("child_keys");
-    for (direction, keys) in axes.iter().zip(&keys) {
-        verdict.near(
-            format!("from inside along {direction:?}"),
-            keys,
-            &[0, 1, 2, 3],
-            Tolerance::Exact,
-        );
+    for planes in [Planes::Bytes, Planes::Floats] {
+        for (direction, keys) in axes.iter().zip(&keys(planes, &inputs)) {
+            verdict.near(
+                format!("{planes:?}, from inside along {direction:?}"),
+                keys,
+                &[0, 1, 2, 3],
+                Tolerance::Exact,
+            );
+        }
     }
     verdict.close();
 }
@@ -232,14 +363,17 @@ fn boxes_beyond_the_ray_s_end_and_absent_children_are_not_met() {
         ("an end on its plane leaves it", 16.0, [16.0f32.to_bits(), MISS, MISS, MISS]),
         ("an end before it leaves none", 15.9, [MISS; 4]),
     ];
-    let inputs: Vec<_> = ends
-        .iter()
-        .map(|(_, t_max, _)| (rows(&one), [0f32; 3], [0f32, 0.0, 1.0], *t_max as f32))
-        .collect();
-    let keys: Vec<[u32; 4]> = gpu().map_source(KEYS, &inputs);
+    let inputs = ends.map(|(_, t_max, _)| (one, [0f32; 3], [0f32, 0.0, 1.0], t_max as f32));
     let mut verdict = Verdict::on("child_keys");
-    for ((name, _, expected), keys) in ends.iter().zip(&keys) {
+    for ((name, _, expected), keys) in ends.iter().zip(&keys(Planes::Bytes, &inputs)) {
         verdict.near(name, keys, expected, Tolerance::Exact);
+    }
+    for ((name, _, expected), keys) in ends.iter().zip(&keys(Planes::Floats, &inputs)) {
+        let is_met = |keys: &[u32; 4]| keys.map(|key| key != MISS);
+        let name = format!("{name}, planes as floats");
+        verdict.that(name, is_met(keys) == is_met(expected), || {
+            format!("{keys:x?}")
+        });
     }
     verdict.close();
 }
@@ -277,23 +411,50 @@ fn a_ray_at_something_in_a_box_meets_the_box() {
         if min.cmple(max).all()
             && slab([min, max], origin.as_dvec3(), direction.as_dvec3()).is_some()
         {
-            inputs.push((
-                rows(&node),
-                origin.to_array(),
-                direction.to_array(),
-                3e38f32,
-            ));
+            inputs.push((node, origin.to_array(), direction.to_array(), 3e38f32));
             aimed_at.push(child);
         }
     }
-    let keys: Vec<[u32; 4]> = gpu().map_source(KEYS, &inputs);
     let mut verdict = Verdict::on("child_keys");
-    for ((input, child), keys) in inputs.iter().zip(aimed_at).zip(&keys) {
-        verdict.that(
-            format!("child {child} of {input:?}"),
-            keys[child] != MISS,
-            || "missed",
-        );
+    for planes in [Planes::Bytes, Planes::Floats] {
+        let found = keys(planes, &inputs);
+        for ((input, &child), keys) in inputs.iter().zip(&aimed_at).zip(&found) {
+            let name = format!("{planes:?}, child {child} of {input:?}");
+            verdict.that(name, keys[child] != MISS, || "missed");
+        }
+    }
+    verdict.close();
+}
+
+/// Boxes of floats need no slack: no ray that meets one is rejected, wherever it is and however close the ray starts.
+#[test]
+fn a_ray_that_meets_a_box_of_floats_is_not_rejected() {
+    let mut random = Random::new(15);
+    let mut inputs = Vec::new();
+    while inputs.len() < 100_000 {
+        let size = 10f64.powf(random.between(-4.0, 4.0));
+        let min = (random.in_cube() * size * 10f64.powf(random.between(0.0, 4.0))).as_vec3();
+        let max = (min.as_dvec3() + (random.in_cube() + 1.0) * size).as_vec3();
+        let corners = [min.as_dvec3(), max.as_dvec3()];
+        let fraction = (1.2 * random.in_cube() + 0.5).clamp(DVec3::ZERO, DVec3::ONE);
+        let target = corners[0] + fraction * (corners[1] - corners[0]);
+        let away = size * 10f64.powf(random.between(-3.0, 2.0));
+        let origin = (target + away * random.direction()).as_vec3();
+        let direction = (target - origin.as_dvec3())
+            .normalize_or(DVec3::X)
+            .as_vec3();
+        if slab(corners, origin.as_dvec3(), direction.as_dvec3()).is_some() {
+            let [lower, upper] =
+                [min, max].map(|corner| corner.to_array().map(|c| [c.to_bits(); 4]));
+            let first = (lower[0], upper[0], lower[1], upper[1]);
+            let rows: FloatRows = (first, (lower[2], upper[2], [1; 4]));
+            inputs.push((rows, origin.to_array(), direction.to_array(), 3e38f32));
+        }
+    }
+    let keys: Vec<[u32; 4]> = gpu().map_source(FLOAT_KEYS, &inputs);
+    let mut verdict = Verdict::on("float_child_keys");
+    for (input, keys) in inputs.iter().zip(&keys) {
+        verdict.that(format!("{input:?}"), keys[0] != MISS, || "missed");
     }
     verdict.close();
 }

@@ -11,6 +11,7 @@ use crate::cli::args::BenchArgs;
 use crate::cli::job;
 use crate::gpu::Gpu;
 use crate::import::{self, Memory};
+use crate::layout::PackedNode;
 use crate::pack::{PackedScene, PackedView};
 use crate::render::{Coherence, RayBatch, RayQuery, RaySteps, RayTest};
 use crate::scene::Scene;
@@ -119,11 +120,16 @@ struct SetRow {
     primitives_per_packet: Option<f64>,
 }
 
+/// Pixels along a side of the picture of the ray sets.
+pub fn side(is_quick: bool) -> u32 {
+    if is_quick { QUICK_SIDE } else { SIDE }
+}
+
 impl SceneRuns {
     /// Generates the scene and its rays.
     pub fn new(procedural: &Procedural, is_quick: bool) -> Self {
         let scene = (procedural.scene)(Detail::Full);
-        let side = if is_quick { QUICK_SIDE } else { SIDE };
+        let side = side(is_quick);
         let sets = ray_sets::of(&scene, side).into_iter().map(|set| Set {
             set,
             counts: None,
@@ -158,9 +164,9 @@ impl SceneRuns {
         let rendered = renders::render(&self.workload, arguments, Purpose::Time)?;
         self.times.push(rendered.times);
         let (packed, view) = (rendered.packed, rendered.view);
-        (self.tree_bytes, self.all_bytes) = bytes(&packed, &view);
         let policy = tuning::with_known(gpu, job::policy(&arguments.device, false))?;
-        let query = RayQuery::new(gpu.clone(), packed, &view, policy)?;
+        let query = RayQuery::new(gpu.clone(), packed.clone(), &view, policy)?;
+        (self.tree_bytes, self.all_bytes) = bytes(&packed, &view, query.node_bytes());
         self.sets.iter_mut().try_for_each(|set| set.run(&query))
     }
 
@@ -266,12 +272,18 @@ fn counts(query: &RayQuery, batch: &RayBatch, test: RayTest) -> Result<Counts, A
     })
 }
 
-/// Bytes on the GPU: of trees and primitives, and of everything.
-fn bytes(packed: &PackedScene, view: &PackedView) -> (u64, u64) {
+/// Bytes on the GPU, where a node takes `node_bytes`: of trees and primitives, and of everything.
+fn bytes(packed: &PackedScene, view: &PackedView, node_bytes: u64) -> (u64, u64) {
     let length = |parts: &[&[u8]]| parts.iter().map(|part| part.len() as u64).sum::<u64>();
     let trees = packed.nodes.byte_len() + packed.triangles.byte_len() + packed.shapes.byte_len();
     let trees = trees + length(&view.node_parts());
-    (trees, length(&packed.parts()) + length(&view.parts()))
+    let nodes = packed.nodes.byte_len() + view.node_parts()[0].len() as u64;
+    let more =
+        nodes / size_of::<PackedNode>() as u64 * (node_bytes - size_of::<PackedNode>() as u64);
+    (
+        trees + more,
+        length(&packed.parts()) + length(&view.parts()) + more,
+    )
 }
 
 /// An OBJ file of a scene that consists of one small enough mesh.
