@@ -4,6 +4,9 @@
 Mitsuba's LLVM variant calls Embree with packets of 8 rays or as many as the processor takes, in a coherent and an
 incoherent way; both are measured. The renders are direct lighting of diffuse meshes: one camera ray through each
 pixel and one shadow ray per light at each hit, as `glimray render --max-depth 0` traces.
+
+With `--variant cuda_ad_rgb` OptiX traces the ray sets on an NVIDIA GPU. Seconds are then those of the kernels, and nothing is
+rendered.
 """
 
 import argparse
@@ -21,8 +24,6 @@ import raysets
 import spd
 import tables
 
-mi.set_variant("llvm_ad_rgb")
-
 SIDE = 1024
 
 
@@ -37,6 +38,8 @@ def mesh(triangles):
 
 def trace_sets(parsed):
     """A record for each ray set, number of threads and kind of query."""
+    is_cuda = parsed.variant.startswith("cuda")
+    dr.set_flag(dr.JitFlag.KernelHistory, is_cuda)
     records = []
     for triangles, sets in raysets.scenes(parsed.folder):
         scene = mi.load_dict({"type": "scene", "mesh": mesh(triangles)})
@@ -47,9 +50,10 @@ def trace_sets(parsed):
             dr.eval(ray)
             on_device[ray_set.name] = ray
 
-        for threads in map(int, parsed.threads.split(",")):
-            dr.set_thread_count(threads)
-            for coherent in (True, False):
+        for threads in [0] if is_cuda else map(int, parsed.threads.split(",")):
+            if not is_cuda:
+                dr.set_thread_count(threads)
+            for coherent in (True,) if is_cuda else (True, False):
 
                 def query(ray_set):
                     ray = on_device[ray_set.name]
@@ -62,14 +66,17 @@ def trace_sets(parsed):
                     return found
 
                 def trace(ray_set):
+                    dr.kernel_history_clear()
                     seconds, found = raysets.timed(query, ray_set)
+                    if is_cuda:
+                        seconds = sum(kernel["execution_time"] for kernel in dr.kernel_history()) / 1e3
                     found = found.numpy()
                     if ray_set.any_hit:
                         return seconds, np.count_nonzero(found), 0.0
                     is_hit = np.isfinite(found)
                     return seconds, np.count_nonzero(is_hit), found[is_hit].sum(dtype=np.float64)
 
-                peer = "Mitsuba, " + ("coherent" if coherent else "incoherent")
+                peer = "Mitsuba, " + ("OptiX" if is_cuda else "coherent" if coherent else "incoherent")
                 records += raysets.measure(peer, sets, threads, parsed.rounds, trace)
     return records
 
@@ -214,8 +221,12 @@ def render_meshes(parsed):
 def main():
     parser = raysets.arguments(argparse.ArgumentParser(description=__doc__))
     parser.add_argument("--glimray", default="target/release/glimray", help="the program [default: %(default)s]")
+    parser.add_argument("--variant", default="llvm_ad_rgb", help="of Mitsuba [default: %(default)s]")
     parsed = parser.parse_args()
+    mi.set_variant(parsed.variant)
     raysets.report(trace_sets(parsed), parsed.json)
+    if parsed.variant.startswith("cuda"):
+        return
     renders = list(render_meshes(parsed))
     print(tables.renders(renders))
     for r in renders:

@@ -20,17 +20,6 @@ class RaySet(NamedTuple):
     rays: np.ndarray
 
 
-def write_scene(folder, triangles):
-    """`triangles` has the shape (n, 3, 3)."""
-    folder.mkdir(parents=True, exist_ok=True)
-    triangles.astype("<f4").tofile(folder / "triangles.f32")
-
-
-def write_rays(folder, name, any_hit, rays):
-    """`rays` has the shape (n, 7)."""
-    rays.astype("<f4").tofile(folder / f"{name}.{'any' if any_hit else 'closest'}.f32")
-
-
 def scenes(folder):
     """Yields the triangles of each scene, of the shape (n, 3, 3), and the list of its ray sets."""
     for path in sorted(Path(folder).glob("*/triangles.f32")):
@@ -78,7 +67,7 @@ def timed(function, *arguments):
 
 def arguments(parser):
     """Adds the arguments that all peers have."""
-    parser.add_argument("folder", type=Path, help="ray sets, written by rays.py or another exporter")
+    parser.add_argument("folder", type=Path, help="ray sets, written by `glimray bench --export-rays`")
     parser.add_argument("--threads", default="1,2", help="numbers of threads [default: 1,2]")
     parser.add_argument("--rounds", type=int, default=5, help="measurements of each set [default: 5]")
     parser.add_argument("--json", type=Path, metavar="FILE", help="also write the results as JSON lines")

@@ -47,7 +47,7 @@ measure() { # NAME COMMAND…: one peer; the command gets the file for its resul
 bench() {
 	"$glimray" bench --only heightfield --repeats "$rounds" --json >"$1"
 }
-"$python" $peers/rays.py "$out/rays" >&3
+"$glimray" bench --only heightfield --export-rays "$out/rays" >&3
 sets=("$out/rays" --rounds "$rounds" --threads "1,$threads")
 for pass in 1 2; do
 	order=(povray glimray embree mitsuba obvhs)

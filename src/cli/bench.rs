@@ -3,6 +3,7 @@
 //! medians are reported.
 
 mod comparison;
+mod export;
 mod figure;
 mod first_picture;
 mod playing;
@@ -29,23 +30,31 @@ use scene_runs::SceneRuns;
 pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(), AppError> {
     Interrupt::install()?;
     let is_quick = arguments.quick;
+    let is_selected = |name: &str| match &arguments.only {
+        Some(part) => name.contains(part.as_str()),
+        None => true,
+    };
+    let procedural: Vec<_> = (scenes::ALL.iter())
+        .filter(|scene| is_selected(scene.name) && !(is_quick && scene.is_large))
+        .collect();
+    if let Some(folder) = &arguments.export_rays {
+        return match (&procedural[..], &arguments.only) {
+            ([], Some(part)) => Err(nothing_named(part, "no scene")),
+            (scenes, _) => export::write(folder, scenes, is_quick),
+        };
+    }
     let baseline = match &arguments.compare {
         Some(path) => Some((path, Baseline::read(path, is_quick)?)),
         None => None,
     };
     let gpu = device::open(&arguments.device)?;
-    let is_selected = |name: &str| match &arguments.only {
-        Some(part) => name.contains(part.as_str()),
-        None => true,
-    };
     let mut pictures = first_picture::selected(is_selected, &arguments.device)?;
     let mut renders: Vec<_> = workloads::all(is_quick)?
         .into_iter()
         .filter(|workload| is_selected(workload.name))
         .map(Renders::new)
         .collect();
-    let mut scenes: Vec<_> = (scenes::ALL.iter())
-        .filter(|scene| is_selected(scene.name) && !(is_quick && scene.is_large))
+    let mut scenes: Vec<_> = (procedural.into_iter())
         .map(|scene| SceneRuns::new(scene, is_quick))
         .collect();
     let mut playing = match is_selected(playing::NAME) {
@@ -56,10 +65,7 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
     let has_none =
         pictures.is_empty() && renders.is_empty() && scenes.is_empty() && playing.is_none();
     if let (true, None, Some(part)) = (has_none, program, &arguments.only) {
-        return Err(AppError::Usage(format!(
-            "nothing to measure (--only {part}): no measurement has such a name. `glimray bench --quick` prints \
-             most names."
-        )));
+        return Err(nothing_named(part, "no measurement"));
     }
     for _ in 0..arguments.repeats() {
         pictures.iter_mut().try_for_each(|picture| picture.run())?;
@@ -104,6 +110,12 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
     text.extend(viewer_text);
     text.extend(compared.map(|(path, comparison)| comparison.text(path)));
     console::print(&text)
+}
+
+fn nothing_named(part: &str, which: &str) -> AppError {
+    AppError::Usage(format!(
+        "nothing to measure (--only {part}): {which} has such a name. `glimray bench --quick` prints most names."
+    ))
 }
 
 /// Measures the window: as JSON, and as a line for people.

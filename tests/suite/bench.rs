@@ -1,6 +1,7 @@
 //! `glimray bench`: its scenes and ray sets are the same everywhere, and its exact counters do not grow.
 
 mod comparing;
+mod exporting;
 mod packets;
 
 use crate::reference::compare::open_gpu;

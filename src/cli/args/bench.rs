@@ -19,6 +19,11 @@ pub struct BenchArgs {
     /// Print the ratios to an earlier run, whose output with --json is in this file
     #[arg(long, value_name = "OLD.json")]
     pub compare: Option<PathBuf>,
+    /// Measure nothing, but write the triangles and rays of the scenes into this folder, for other programs
+    ///
+    /// One folder for each scene without spheres; the format is in benches/peers/README.md.
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["compare", "json", "repeats"])]
+    pub export_rays: Option<PathBuf>,
     /// Print JSON instead of text
     #[arg(long)]
     pub json: bool,
