@@ -192,6 +192,8 @@ const types__MOVING: u32 = 1073741824u;
 
 const types__STACK_SIZE: u32 = 96u;
 
+const types__SHORT_STACK_SIZE: u32 = 32u;
+
 const types__NO_INSTANCE: u32 = 1048575u;
 
 const types__CUT_OFF_LOOP: u32 = 1u;
@@ -387,13 +389,11 @@ const stack__SHARED_ENTRIES: u32 = 24u;
 
 const stack__LANES: u32 = 64u;
 
-const stack__SHORT_ENTRIES: u32 = 32u;
-
 var<private> stack__top: u32;
 
 var<private> stack__entries: array<u32, types__STACK_SIZE>;
 
-var<private> stack__short_entries: array<u32, stack__SHORT_ENTRIES>;
+var<private> stack__short_entries: array<u32, types__SHORT_STACK_SIZE>;
 
 var<workgroup> stack__shared_entries: array<u32, stack__LANES * stack__SHARED_ENTRIES>;
 

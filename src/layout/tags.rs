@@ -54,6 +54,8 @@ pub const LIGHT_INDEX_MASK: u32 = 0x1fff_ffff;
 pub const SHAPE_ROWS: u32 = 5;
 /// Size of the traversal stack in entries.
 pub const STACK_SIZE: u32 = 96;
+/// Size of a smaller one, for scenes that need no more entries.
+pub const SHORT_STACK_SIZE: u32 = 32;
 /// Texels in a row of the geometry images, as a power of two.
 pub const IMAGE_WIDTH_LOG2: u32 = 12;
 /// Rows in a layer of the words of texels, as a power of two.

@@ -141,25 +141,18 @@ impl<'a> Array<'a> {
     }
 
     fn push(&mut self, bytes: &'a [u8], counts_as: Upload) {
-        if !bytes.is_empty() {
-            self.pieces.push(Piece {
-                offset: self.bytes,
-                bytes,
-                is_float_nodes: false,
-                counts_as,
-            });
-            self.bytes += bytes.len() as u64;
-        }
+        self.push_as(false, bytes, counts_as);
     }
 
     fn push_nodes(&mut self, bytes: &'a [u8], fetch: Fetch, counts_as: Upload) {
-        if fetch == Fetch::Image {
-            return self.push(bytes, counts_as);
-        }
+        self.push_as(fetch != Fetch::Image, bytes, counts_as);
+    }
+
+    fn push_as(&mut self, is_float_nodes: bool, bytes: &'a [u8], counts_as: Upload) {
         let piece = Piece {
             offset: self.bytes,
             bytes,
-            is_float_nodes: true,
+            is_float_nodes,
             counts_as,
         };
         if !bytes.is_empty() {
@@ -275,8 +268,8 @@ impl<'a> Piece<'a> {
             .map(move |bytes| match is_float_nodes {
                 false => Cow::Borrowed(bytes),
                 true => {
-                    let nodes: Vec<PackedNode> = pod_collect_to_vec(bytes);
-                    let nodes: Vec<FloatNode> = nodes.iter().map(with_float_planes).collect();
+                    let nodes = cast_slice::<u8, PackedNode>(bytes).iter();
+                    let nodes: Vec<FloatNode> = nodes.map(with_float_planes).collect();
                     Cow::Owned(pod_collect_to_vec(&nodes))
                 }
             })

@@ -12,7 +12,8 @@ use crate::{
     layout::{
         BACKDROP_BACKGROUND, BACKDROP_COLOR, BACKDROP_TRANSPARENT, FILTER_BLACKMAN_HARRIS,
         FILTER_BOX, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_TENT, MIXED_LIGHTS, PackedLight,
-        PackedTone, TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT,
+        PackedTone, SHORT_STACK_SIZE, TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE,
+        TRIANGLE_TEST_WATERTIGHT,
     },
     pack::{PackedScene, PackedView},
     scene::{Antialias, Backdrop, Filter},
@@ -266,8 +267,7 @@ fn stack_registers(scene: &PackedScene, view: &PackedView, stack: Stack) -> u32 
 
 /// Whether the smaller array of `scene/stack.wesl` is enough. Trees over instances differ between frames, as above.
 fn has_short_stack(scene: &PackedScene, view: &PackedView) -> bool {
-    const ENTRIES: usize = 32;
-    !scene.features.instances && scene.stack_entries(view) <= ENTRIES
+    !scene.features.instances && scene.stack_entries(view) <= SHORT_STACK_SIZE as usize
 }
 
 /// What all lights have in common.

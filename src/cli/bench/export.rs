@@ -1,7 +1,7 @@
 //! Scenes and their ray sets as files, so that other programs trace the same rays. The format is in
 //! benches/peers/README.md: little-endian `f32` without headers, in a folder for each scene.
 
-use super::ray_sets::{self, RaySet};
+use super::ray_sets;
 use super::scene_runs;
 use super::scenes::{Detail, Procedural};
 use crate::app::console;
@@ -38,7 +38,7 @@ pub fn write(folder: &Path, scenes: &[&Procedural], is_quick: bool) -> Result<()
                 RayTest::Any => "any",
             };
             let path = folder.join(format!("{}.{test}.f32", set.name));
-            write_floats(&path, rows(&set))?;
+            write_floats(&path, set.rows())?;
             text.push_str(&format!("{name}: {} {} rays\n", set.rays.len(), set.name));
         }
     }
@@ -56,22 +56,6 @@ fn triangles(scene: &Scene) -> impl Iterator<Item = [f32; 9]> {
             });
             [a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z]
         })
-    })
-}
-
-/// Origin, direction and `t_max` of each ray.
-fn rows(set: &RaySet) -> impl Iterator<Item = [f32; 7]> {
-    set.rays.iter().map(|ray| {
-        let (origin, direction) = (ray.origin.as_vec3(), ray.direction);
-        [
-            origin.x,
-            origin.y,
-            origin.z,
-            direction.x,
-            direction.y,
-            direction.z,
-            ray.t_max,
-        ]
     })
 }
 

@@ -30,13 +30,16 @@ pub struct RaySet {
 impl RaySet {
     /// A checksum of all rays (FNV-1a over their components as f32).
     pub fn checksum(&self) -> u64 {
-        let components = self.rays.iter().flat_map(|ray| {
+        fnv(self.rows().flatten().flat_map(f32::to_le_bytes))
+    }
+
+    /// Origin, direction and `t_max` of each ray.
+    pub fn rows(&self) -> impl Iterator<Item = [f32; 7]> {
+        self.rays.iter().map(|ray| {
             let [ox, oy, oz] = ray.origin.as_vec3().to_array();
             let [dx, dy, dz] = ray.direction.to_array();
             [ox, oy, oz, dx, dy, dz, ray.t_max]
-        });
-        let bytes = components.flat_map(|component| component.to_bits().to_le_bytes());
-        fnv(bytes)
+        })
     }
 }
 

@@ -1,5 +1,6 @@
 //! `glimray bench --export-rays`: the files are what benches/peers/README.md says.
 
+use crate::ray_query::triangle;
 use crate::support::program::Workspace;
 use glam::DVec3;
 use std::path::Path;
@@ -18,16 +19,11 @@ fn rows<const N: usize>(path: &Path) -> Vec<[f64; N]> {
     rows.to_vec()
 }
 
-/// The smallest distance at which a ray meets a triangle, by Cramer's rule in f64.
+/// The smallest distance at which a ray meets a triangle.
 fn nearest(triangles: &[[f64; 9]], origin: DVec3, direction: DVec3) -> Option<f64> {
     let meet = |corners: &[f64; 9]| {
-        let [a, b, c] = [0, 3, 6].map(|first| DVec3::from_slice(&corners[first..]));
-        let (e1, e2, from_a) = (b - a, c - a, origin - a);
-        let det = direction.cross(e2).dot(e1);
-        let u = direction.cross(e2).dot(from_a) / det;
-        let v = direction.dot(from_a.cross(e1)) / det;
-        let t = e2.dot(from_a.cross(e1)) / det;
-        (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0).then_some(t)
+        let corners = [0, 3, 6].map(|first| DVec3::from_slice(&corners[first..]));
+        triangle(origin, direction, corners)
     };
     triangles.iter().filter_map(meet).min_by(f64::total_cmp)
 }
