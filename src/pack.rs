@@ -10,6 +10,7 @@ mod environment;
 mod features;
 mod frame;
 mod geometry;
+mod glow;
 mod instance;
 mod layers;
 mod light;
@@ -50,6 +51,7 @@ use deform::DeformingMesh;
 use environment::Environment;
 use geometry::Flat;
 use glam::DVec3;
+use glow::Glow;
 use instance::{Instance, InstancedBlas, Plan, TransformSource};
 use mesh::CachedMesh;
 use object::Origins;
@@ -105,8 +107,8 @@ pub struct PackedScene {
     pub tree_from: usize,
     /// Dielectric volumes that are transparent at some time, which the camera may be inside of.
     volumes: Vec<media::Volume>,
-    /// Triangles that emit light at some time, by their index.
-    emissive: Vec<emitters::Emissive>,
+    /// Triangles and shapes that emit light at some time.
+    emissive: emitters::EmissiveParts,
     /// Half of the diagonal of the scene's bounds, where the chances of lights depend on it.
     radius: f64,
     meshes: Vec<Arc<CachedMesh>>,
@@ -273,7 +275,9 @@ fn pack(
     };
     let tangents = trees.tangents();
     let has_uvs = scene.meshes.iter().any(|mesh| !mesh.uvs.is_empty());
-    let (materials, animated_materials) = surfaces::materials(scene, &rest);
+    let emits = material::may_emit(scene);
+    let glows = Glow::of_materials(scene, &emits);
+    let (materials, animated_materials) = surfaces::materials(scene, &rest, &glows);
     let mut packed = PackedScene {
         nodes,
         triangles: trees.triangles(&plan),
@@ -300,7 +304,7 @@ fn pack(
         features,
         volumes: media::volumes(scene, &meshes),
         radius: light::radius(scene),
-        emissive: Vec::new(),
+        emissive: emitters::EmissiveParts::default(),
         tree_from: light_tree::LEAST_LIGHTS,
         origins: Origins::new(scene, &plan, &trees),
         work: trees.work,
@@ -313,7 +317,7 @@ fn pack(
         origin,
         build_seconds,
     };
-    packed.emissive = packed.emissive(&material::may_emit(scene));
+    packed.emissive = packed.emissive(&emits, &glows);
     Ok(packed)
 }
 

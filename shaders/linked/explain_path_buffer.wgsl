@@ -195,6 +195,8 @@ override bindings__HAS_EMITTERS: bool = false;
 
 override bindings__HAS_EMISSIVE_SHAPES: bool = false;
 
+override bindings__HAS_EMITTER_GLOWS: bool = false;
+
 override bindings__HAS_ENVIRONMENT: bool = false;
 
 override bindings__SHAPE_KINDS: u32 = 4294967295u;
@@ -1218,6 +1220,11 @@ fn fetch__load_light_end(index: u32) -> f32 {
 fn fetch__load_emitter(index: u32) -> types__PackedEmitter {
 	let r0 = fetch__node_row(bindings__frame.emitter_row + index);
 	return types__PackedEmitter(r0.x, r0.y, bitcast<f32>(r0.z), r0.w);
+}
+
+fn fetch__load_emitter_glow(index: u32) -> f32 {
+	let row = fetch__node_row(bindings__frame.emitter_row + bindings__frame.emitter_count + index / 4u);
+	return bitcast<f32>(row[index % 4u]);
 }
 
 fn fetch__load_cluster(index: u32) -> types__PackedCluster {
@@ -4747,7 +4754,7 @@ fn emitters__sample_emitter(p: vec3f, source: light_choice__Source, u: vec2f) ->
 	let actual = source.chance / max_f32(0.5 * length(across), 1e-30);
 	let fading = 1.0 / max_f32(distance * distance, 1e-30);
 	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
-	return emitters__LightSample(shading__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max_f32(actual, 1e-30)) * radiance), glow.luminance * source.rate / max_f32(abs(cosine) * fading, 1e-30));
+	return emitters__LightSample(shading__Incident(direction, area_light__short_of(distance, reach, abs(cosine)), (facing * fading / max_f32(actual, 1e-30)) * radiance), light_weight__emitter_glow(source.index, glow) * source.rate / max_f32(abs(cosine) * fading, 1e-30));
 }
 
 fn emitters__sample_shape(p: vec3f, emitter: types__PackedEmitter, source: light_choice__Source, u: vec2f) -> emitters__LightSample {
@@ -4768,7 +4775,7 @@ fn emitters__sample_shape(p: vec3f, emitter: types__PackedEmitter, source: light
 	let shines = cosine > 0.0 || (material__load_optics(shape.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
 	radiance *= select(0.0, coating__through_coat(surface, abs(cosine)), shines && source.chance > 0.0);
 	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
-	return emitters__LightSample(shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max_f32(source.chance * found.pdf, 1e-30)), glow.luminance * source.rate * emissive_shape__area_of(light) * found.pdf);
+	return emitters__LightSample(shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max_f32(source.chance * found.pdf, 1e-30)), light_weight__emitter_glow(source.index, glow) * source.rate * emissive_shape__area_of(light) * found.pdf);
 }
 
 fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: vec3f) -> vec3f {
@@ -5399,26 +5406,6 @@ fn albedo__multiple_scattering(f0: vec3f, f90: vec3f, albedo: vec2f) -> vec3f {
 	return 1.0 + kept * (leaves * (1.0 - single) / single) / (1.0 - kept * (1.0 - leaves));
 }
 
-fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
-	let x = clamp_f32((cos_angle - cos_outer) / max_f32(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
-	return x * x * (3.0 - 2.0 * x);
-}
-
-fn light__incident(light: types__PackedLight, p: vec3f) -> shading__Incident {
-	let to_light = light.position - p;
-	let distance = length(to_light);
-	let is_directional = light.kind == types__LIGHT_DIRECTIONAL;
-	let direction = select(numeric__normalize_or(to_light, -light.direction), -light.direction, is_directional);
-	var strength = select(0.0, 1.0, is_directional || distance > 1e-30);
-	if (light.attenuation == types__ATTENUATION_INVERSE_SQUARE) {
-		strength /= max_f32(distance * distance, 1e-30);
-	}
-	if (light.kind == types__LIGHT_SPOT) {
-		strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
-	}
-	return shading__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
-}
-
 struct light_weight__Sender {
 	p: vec3f,
 	n: vec3f,
@@ -5444,13 +5431,15 @@ fn light_weight__emission_weight(batch: dispatch__Batch, surface: shading__Surfa
 		counts = light_weight__can_be_hit(light);
 	}
 	else if (bindings__HAS_EMITTERS) {
-		density = glow.luminance * light_weight__emitter_density(surface, hit, sender.p, direction, distance);
+		density = light_weight__emitter_density(surface, hit, sender.p, direction, distance);
 		chance = 1.0 / batch.emitter_power;
-		if (bindings__HAS_LIGHT_TREE) {
-			let emitter = light_weight__emitter_of(batch, hit.primitive, hit.instance);
-			trail = emitter.trail;
-			density = select(density, 0.0, emitter.primitive == types__NONE);
+		var luminance = glow.luminance;
+		if (bindings__HAS_LIGHT_TREE || bindings__HAS_EMITTER_GLOWS) {
+			let own = light_weight__emitter_of(batch, hit.primitive, hit.instance);
+			trail = own.trail;
+			luminance = select(light_weight__emitter_glow(own.index, glow), 0.0, own.index == types__NONE);
 		}
+		density *= luminance;
 	}
 	if (bindings__HAS_LIGHT_TREE && density > 0.0) {
 		let leaf = light_tree__leaf_at(batch, trail, sender.p, sender.n);
@@ -5472,7 +5461,19 @@ fn light_weight__can_be_hit(light: types__PackedLight) -> bool {
 	return light.visible != 0u && light.attenuation == types__ATTENUATION_INVERSE_SQUARE;
 }
 
-fn light_weight__emitter_of(batch: dispatch__Batch, primitive: u32, instance: u32) -> types__PackedEmitter {
+fn light_weight__emitter_glow(index: u32, of_material: material__Glow) -> f32 {
+	if (!bindings__HAS_EMITTER_GLOWS) {
+		return of_material.luminance;
+	}
+	return fetch__load_emitter_glow(select(index, 0u, index == types__NONE));
+}
+
+struct light_weight__FoundEmitter {
+	index: u32,
+	trail: u32
+}
+
+fn light_weight__emitter_of(batch: dispatch__Batch, primitive: u32, instance: u32) -> light_weight__FoundEmitter {
 	var low = 0u;
 	var high = batch.emitter_count - 1u;
 	loop {
@@ -5489,7 +5490,27 @@ fn light_weight__emitter_of(batch: dispatch__Batch, primitive: u32, instance: u3
 	loops__cut_off |= low < high;
 	let found = fetch__load_emitter(low);
 	let is_it = found.instance == instance && found.primitive == primitive;
-	return types__PackedEmitter(select(types__NONE, primitive, is_it), instance, found.end, found.trail);
+	return light_weight__FoundEmitter(select(types__NONE, low, is_it), found.trail);
+}
+
+fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
+	let x = clamp_f32((cos_angle - cos_outer) / max_f32(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
+	return x * x * (3.0 - 2.0 * x);
+}
+
+fn light__incident(light: types__PackedLight, p: vec3f) -> shading__Incident {
+	let to_light = light.position - p;
+	let distance = length(to_light);
+	let is_directional = light.kind == types__LIGHT_DIRECTIONAL;
+	let direction = select(numeric__normalize_or(to_light, -light.direction), -light.direction, is_directional);
+	var strength = select(0.0, 1.0, is_directional || distance > 1e-30);
+	if (light.attenuation == types__ATTENUATION_INVERSE_SQUARE) {
+		strength /= max_f32(distance * distance, 1e-30);
+	}
+	if (light.kind == types__LIGHT_SPOT) {
+		strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
+	}
+	return shading__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
 }
 
 fn direct__shadow_ray(surface: shading__Surface, arriving: shading__Incident) -> tracing__Ray {

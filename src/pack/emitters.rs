@@ -5,6 +5,7 @@ use super::{
     PackedScene,
     deform::Deformed,
     emitter_places::Places,
+    glow::Glow,
     light_cluster::{Cluster, LUMINANCE},
     light_tree::Leaf,
     tlas::Tlas,
@@ -13,9 +14,8 @@ use crate::layout::{
     MATERIAL_TWO_SIDED, NO_INSTANCE, PackedEmitter, PackedMaterial, PackedShape, PackedTriangle,
     PackedVertex, SHAPE, SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_SPHERE,
 };
-use crate::scene::{Pattern, Scene, Texture};
 use glam::{DVec3, Mat3, Vec3};
-use std::f32::consts::PI;
+use std::{array::from_fn, collections::HashMap, f32::consts::PI};
 
 /// Groups of emitters that the light tree has room for: for more emitters the groups become larger.
 const MAX_GROUPS: usize = 1 << 16;
@@ -35,6 +35,19 @@ pub struct Emissive {
     normals: [Vec3; 3],
     /// Whether it is a sphere, which no instance may stretch.
     is_sphere: bool,
+    /// The mean luminance of the texture of its emission.
+    glow: f32,
+}
+
+/// All emissive triangles and shapes of a scene.
+#[derive(Clone, Debug, Default)]
+pub struct EmissiveParts {
+    /// By primitive.
+    list: Vec<Emissive>,
+    /// Whether a texture is brighter on some triangles than on others.
+    is_uneven: bool,
+    /// Luminances of textures by the vertices of triangles, which meshes keep when they deform.
+    glow_of: HashMap<[u32; 3], f32>,
 }
 
 /// The emitters of a view, and their share of its light.
@@ -48,6 +61,8 @@ pub struct Emitters {
     pub group: usize,
     /// Whether lights of this view are to be chosen from the light tree.
     pub in_tree: bool,
+    /// The luminance of each, if that of its material is not it; four in a row.
+    pub glows: Vec<[f32; 4]>,
     /// What the light tree must know of each.
     clusters: Vec<Cluster>,
 }
@@ -58,34 +73,8 @@ const DENSE: f64 = 0.4;
 /// The cosine of the angle up to which they point one way.
 const SAME_WAY: f64 = 0.99;
 
-/// The mean luminance of the texture of each material's emission; 1 without one.
-pub fn mean_glow(scene: &Scene) -> Vec<f32> {
-    let mut known = vec![None; scene.textures.len()];
-    let mut mean = |index: usize| {
-        *known[index].get_or_insert_with(|| mean_luminance(scene, &scene.textures[index]))
-    };
-    let materials = scene.materials.iter();
-    (materials.map(|material| material.textures.emission.map_or(1.0, &mut mean))).collect()
-}
-
-fn mean_luminance(scene: &Scene, texture: &Texture) -> f32 {
-    match texture.pattern {
-        Pattern::Checker { a, b }
-        | Pattern::Stripes { a, b }
-        | Pattern::Gradient { a, b }
-        | Pattern::Noise { a, b, .. } => LUMINANCE.dot(a + b) / 2.0,
-        Pattern::Picture { picture, .. } => {
-            let picture = &scene.pictures[picture];
-            let texels = picture
-                .linear()
-                .map(|texel| f64::from(LUMINANCE.dot(texel.truncate())));
-            (texels.sum::<f64>() / picture.texels.len().max(1) as f64) as f32
-        }
-    }
-}
-
 /// A shape that paths sample; `None` for other kinds.
-fn emissive_shape(primitive: u32, shape: &PackedShape) -> Option<Emissive> {
+fn emissive_shape(primitive: u32, shape: &PackedShape, glow: f32) -> Option<Emissive> {
     let center = Vec3::from(shape.position);
     let own = Emissive {
         primitive,
@@ -95,6 +84,7 @@ fn emissive_shape(primitive: u32, shape: &PackedShape) -> Option<Emissive> {
         share: 4.0 * PI,
         normals: [shape.row_y.into(); 3],
         is_sphere: true,
+        glow,
     };
     let flat = |share| {
         let rows = [shape.row_x, shape.row_y, shape.row_z];
@@ -120,6 +110,7 @@ fn emissive_triangle(
     primitive: u32,
     triangle: &PackedTriangle,
     vertices: [&PackedVertex; 3],
+    glow: f32,
 ) -> Emissive {
     let [v0, v1, v2] = [triangle.v0, triangle.v1, triangle.v2].map(Vec3::from);
     Emissive {
@@ -130,6 +121,7 @@ fn emissive_triangle(
         share: 0.5,
         normals: vertices.map(|vertex| vertex.normal.into()),
         is_sphere: false,
+        glow,
     }
 }
 
@@ -202,21 +194,36 @@ impl Emitters {
 
 impl PackedScene {
     /// The triangles, spheres, rectangles and discs whose material `emits`, by material index.
-    pub(super) fn emissive(&self, emits: &[bool]) -> Vec<Emissive> {
+    pub(super) fn emissive(&self, emits: &[bool], glows: &[Glow]) -> EmissiveParts {
+        let mut found = EmissiveParts::default();
         if !emits.contains(&true) {
-            return Vec::new();
+            return found;
         }
         let vertices: Vec<&PackedVertex> = self.vertices.iter().collect();
-        let mut found = Vec::new();
+        let uvs: Vec<&[f32; 4]> = self.uvs.iter().collect();
         for (index, triangle) in self.triangles.iter().enumerate() {
-            let own = [triangle.i0, triangle.i1, triangle.i2].map(|i| vertices[i as usize]);
-            if emits.get(own[0].material as usize) == Some(&true) {
-                found.push(emissive_triangle(index as u32, triangle, own));
+            let corners = [triangle.i0, triangle.i1, triangle.i2];
+            let own = corners.map(|i| vertices[i as usize]);
+            let material = own[0].material as usize;
+            if emits.get(material) != Some(&true) {
+                continue;
             }
+            let of_texture = &glows[material];
+            let uvs = || corners.map(|i| uvs.get(i as usize).map_or([0.0; 4], |uv| **uv));
+            let glow = of_texture.over(uvs());
+            if of_texture.is_uneven() {
+                found.is_uneven = true;
+                if !self.deforming.is_empty() {
+                    found.glow_of.insert(corners, glow);
+                }
+            }
+            (found.list).push(emissive_triangle(index as u32, triangle, own, glow));
         }
         for (index, shape) in self.shapes.iter().enumerate() {
-            if emits.get(shape.material as usize) == Some(&true) {
-                found.extend(emissive_shape(index as u32 | SHAPE, shape));
+            let material = shape.material as usize;
+            if emits.get(material) == Some(&true) {
+                let glow = glows[material].mean;
+                (found.list).extend(emissive_shape(index as u32 | SHAPE, shape, glow));
             }
         }
         found
@@ -230,18 +237,23 @@ impl PackedScene {
         materials: &[PackedMaterial],
         lamp_count: usize,
     ) -> Emitters {
+        let EmissiveParts {
+            list,
+            is_uneven,
+            glow_of,
+        } = &self.emissive;
         let within = |from: u32, to: u32| {
-            let start = self.emissive.partition_point(|one| one.primitive < from);
-            let end = self.emissive.partition_point(|one| one.primitive < to);
-            &self.emissive[start..end]
+            let start = list.partition_point(|one| one.primitive < from);
+            let end = list.partition_point(|one| one.primitive < to);
+            &list[start..end]
         };
         let mut all = Emitters::default();
-        let (mut weights, mut area) = (Vec::new(), 0.0);
+        let (mut weights, mut area, mut glows) = (Vec::new(), 0.0, Vec::new());
         let no_keys: &dyn Fn() -> Vec<DVec3> = &Vec::new;
         let mut add =
             |instance: u32, places: &Places, one: &Emissive, later: &dyn Fn() -> Vec<DVec3>| {
                 let material = &materials[one.material as usize];
-                let radiance = LUMINANCE.dot(material.emission.into()) * material.layers.glow;
+                let radiance = LUMINANCE.dot(material.emission.into()) * one.glow;
                 let [a, b] = one.edges.map(|edge| places.linear() * edge);
                 let own_area = f64::from(a.cross(b).length() * one.share);
                 let weight = f64::from(radiance) * own_area;
@@ -256,6 +268,7 @@ impl PackedScene {
                         ..PackedEmitter::default()
                     });
                     weights.push(weight);
+                    glows.push(radiance);
                     area += own_area;
                 }
             };
@@ -268,7 +281,10 @@ impl PackedScene {
             match deformed.starting_at(instance.first) {
                 // Their order may differ from that at rest.
                 Some(tree) => tree.triangles().for_each(|(own, triangle, vertices)| {
-                    let one = emissive_triangle(own, triangle, vertices);
+                    let corners = [triangle.i0, triangle.i1, triangle.i2];
+                    let of_material = || materials[vertices[0].material as usize].layers.glow;
+                    let glow = glow_of.get(&corners).copied().unwrap_or_else(of_material);
+                    let one = emissive_triangle(own, triangle, vertices, glow);
                     add(index as u32, &places, &one, &|| tree.later_corners(own));
                 }),
                 _ => (list.iter()).for_each(|one| add(index as u32, &places, one, no_keys)),
@@ -278,6 +294,10 @@ impl PackedScene {
         let baked = within(self.first_baked_triangle, SHAPE | self.baked_shape_count);
         let here = Places::default();
         (baked.iter()).for_each(|one| add(NO_INSTANCE, &here, one, no_keys));
+        if *is_uneven {
+            let row = |four: &[f32]| from_fn(|k| four.get(k).copied().unwrap_or(0.0));
+            all.glows = glows.chunks(4).map(row).collect();
+        }
         all.power = weights.iter().sum();
         all.in_tree = all.rows.len() + lamp_count >= self.tree_from
             && (lamp_count > 0 || !all.is_patch(area));

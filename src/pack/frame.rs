@@ -44,6 +44,8 @@ pub struct PackedView {
     pub textures: Arc<[PackedTexture]>,
     /// Emissive triangles and shapes, by instance and primitive.
     pub emitters: Vec<PackedEmitter>,
+    /// The mean luminance of each, four in a row, if a texture is brighter on some than on others; otherwise empty.
+    pub emitter_glows: Vec<[f32; 4]>,
     /// The tree over many lamps and emitters, shared as long as they are the same.
     pub(super) light_tree: Arc<LightTree>,
     /// Whether the camera is orthographic.
@@ -195,7 +197,7 @@ impl PackedScene {
                 environment_width: environment.map_or(0, |table| table.width),
                 environment_share: environment_share as f32,
                 albedo_first: self.albedo_first(),
-                cluster_row: emitter_row + emitters.rows.len() as u32,
+                cluster_row: emitter_row + (emitters.rows.len() + emitters.glows.len()) as u32,
                 light_root: light_tree.root(),
                 lights_share: lights_share as f32,
                 ..self.background(&first.background)
@@ -208,6 +210,7 @@ impl PackedScene {
             orthographic: first.camera.orthographic_height.is_some(),
             has_lights,
             emitters: emitters.rows,
+            emitter_glows: emitters.glows,
             light_tree,
             has_area_lights: lights.iter().any(|light| light.kind >= LIGHT_RECTANGLE),
             lights,
@@ -307,7 +310,7 @@ impl PackedView {
     }
 
     /// The data after the scene's nodes on the GPU: first nodes, then other rows.
-    pub fn node_parts(&self) -> [&[u8]; 7] {
+    pub fn node_parts(&self) -> [&[u8]; 8] {
         [
             cast_slice(&self.tlas.nodes),
             cast_slice(&self.tlas.instances),
@@ -315,6 +318,7 @@ impl PackedView {
             cast_slice(&self.lights),
             cast_slice(&self.cameras),
             cast_slice(&self.emitters),
+            cast_slice(&self.emitter_glows),
             cast_slice(&self.light_tree.nodes),
         ]
     }

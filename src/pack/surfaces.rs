@@ -1,6 +1,6 @@
 //! Packs the materials of a scene and of its visible lights.
 
-use super::{emitters, light, material};
+use super::{glow::Glow, light, material};
 use crate::layout::PackedMaterial;
 use crate::scene::{Frame, Material, Scene};
 use std::sync::Arc;
@@ -13,11 +13,12 @@ pub struct AnimatedMaterials {
     pub lamps: Vec<usize>,
 }
 
-/// Packed materials in scene order, then those of visible lights; and their source if they may change over
+/// Packed materials in scene order, with what textures of emission they have, then those of visible lights; and their source if they may change over
 /// time.
 pub fn materials(
     scene: &Scene,
     rest: &Frame,
+    glows: &[Glow],
 ) -> (Arc<[PackedMaterial]>, Option<AnimatedMaterials>) {
     let lamps: Vec<usize> = light::visible(scene).collect();
     let lamp_materials = lamps
@@ -27,10 +28,9 @@ pub fn materials(
         [] => &scene.materials,
         changed => changed,
     };
-    let glows = emitters::mean_glow(scene);
     let own = rest_materials.iter().zip(glows).map(|(one, glow)| {
         let mut packed = material::material(one, None);
-        packed.layers.glow = glow;
+        packed.layers.glow = glow.mean;
         packed
     });
     let materials = own.chain(lamp_materials).collect();

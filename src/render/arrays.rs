@@ -170,7 +170,7 @@ impl<'a> Array<'a> {
 
     /// Adds the data of a view to the nodes, with some spare room.
     fn add_view(&mut self, scene: &PackedScene, view: &'a PackedView, fetch: Fetch) {
-        let [nodes, instances, keys, lights, cameras, emitters, clusters] = view.node_parts();
+        let [nodes, instances, keys, rest @ ..] = view.node_parts();
         let scene_bytes = self.bytes;
         let node_bytes = u64::from(node_rows(fetch)) * ROW_BYTES;
         let first = u64::from(scene.first_view_node()) * node_bytes;
@@ -182,7 +182,7 @@ impl<'a> Array<'a> {
         for part in [instances, keys] {
             self.push(part, |uploads| &mut uploads.tlas);
         }
-        for part in [lights, cameras, emitters, clusters] {
+        for part in rest {
             self.push(part, |uploads| &mut uploads.frames);
         }
         self.bytes = match self.bytes - first {

@@ -142,6 +142,10 @@ pub fn of(task: Task) -> Overrides {
             flag(is_path && view.has_emissive_shapes()),
         ),
         (
+            "HAS_EMITTER_GLOWS",
+            flag(is_path && !view.emitter_glows.is_empty()),
+        ),
+        (
             "HAS_ENVIRONMENT",
             flag(is_path && view.frame.environment_share > 0.0),
         ),

@@ -128,6 +128,40 @@ fn every_profile_and_feature_that_is_named_is_in_the_manifest() {
     verdict.close();
 }
 
+/// `feature` with all features that it switches on.
+fn implied(features: &toml::Table, feature: &str) -> BTreeSet<String> {
+    let list = features[feature].as_array().expect("a list");
+    let names = list.iter().filter_map(toml::Value::as_str);
+    let names = names.filter(|name| features.contains_key(*name));
+    let mut found: BTreeSet<_> = names.flat_map(|name| implied(features, name)).collect();
+    found.insert(feature.to_owned());
+    found
+}
+
+#[test]
+fn each_feature_is_compiled_without_each_other_one() {
+    let manifest = manifest();
+    let features = manifest["features"].as_table().expect("features");
+    let makefile = read("Makefile");
+    let (_, list) = makefile.split_once("\nFEATURE_SETS := ").expect("sets");
+    let sets = list.lines().next().expect("a line").split(' ');
+    let sets = sets.map(|set| set.split(',').flat_map(|name| implied(features, name)));
+    let sets: Vec<BTreeSet<_>> = sets.map(Iterator::collect).collect();
+    let mut verdict = Verdict::on("features");
+    let names = || features.keys().filter(|name| *name != "default");
+    for one in names() {
+        for other in names().filter(|other| !implied(features, one).contains(*other)) {
+            let is_apart = |set: &BTreeSet<String>| set.contains(one) && !set.contains(other);
+            verdict.that(
+                format!("{one} without {other}"),
+                sets.iter().any(is_apart),
+                || "is in no set of the Makefile's FEATURE_SETS",
+            );
+        }
+    }
+    verdict.close();
+}
+
 /// Rust is named by the same version everywhere.
 #[test]
 fn containers_and_workflows_use_the_rust_of_the_manifest() {

@@ -1,6 +1,7 @@
 //! The path tracer against closed forms and against the classical integrator.
 
 mod backdrop;
+mod emission_maps;
 mod emitter_sides;
 mod emitter_tree;
 mod emitters;

@@ -232,7 +232,7 @@ fn white_metal_reflects_everything_at_every_roughness() {
 #[test]
 fn rough_glass_scatters_everything_at_every_roughness_and_index() {
     let mut verdict = Verdict::on("rough glass");
-    for index in [1.2, 1.33, 1.5, 1.8, 2.0, 2.25, 2.5] {
+    for index in [1.2, 1.5, 2.0, 2.5] {
         for eta in [index, 1.0 / index] {
             let [place]: [f32; 1] = gpu()
                 .map("lib::albedo::glass_slice", &[eta as f32])

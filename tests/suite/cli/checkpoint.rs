@@ -59,7 +59,7 @@ fn runs_killed_at_random_end_with_the_bytes_of_an_undisturbed_one() {
     for (flags, ending) in WORK {
         let workspace = Workspace::new();
         let expected = undisturbed(&workspace, flags, ending);
-        for round in 0..4 {
+        for round in 0..2 {
             let line =
                 format!("render a.scene {flags} -o a.{ending} --checkpoint a.ckpt --every 0.05s");
             let mut kills = 0;
@@ -85,7 +85,7 @@ fn runs_killed_at_random_end_with_the_bytes_of_an_undisturbed_one() {
         }
     }
     verdict.close();
-    assert!(resumed >= 10, "only {resumed} runs went on");
+    assert!(resumed >= 5, "only {resumed} runs went on");
 }
 
 /// The shares of the work that a run reports, with their times in seconds, until it is at `share`; then it is sent the

@@ -62,7 +62,7 @@ fn random_cuts_killed_at_random_merge_to_the_bytes_of_one_run() {
     let mut random = Random::new(2026);
     let mut verdict = Verdict::on("random cuts");
     let mut killed = 0;
-    for round in 0..20 {
+    for round in 0..8 {
         let pieces = cut(&mut random, 3 + round % 5);
         let mut waiting: VecDeque<usize> = (0..pieces.len()).collect();
         while let Some(number) = waiting.pop_front() {
@@ -102,7 +102,7 @@ fn random_cuts_killed_at_random_merge_to_the_bytes_of_one_run() {
         }
     }
     verdict.close();
-    assert!(killed >= 10, "only {killed} processes were killed");
+    assert!(killed >= 4, "only {killed} processes were killed");
     assert_eq!(workspace.made(), ["all.film", "one.film"]);
 }
 

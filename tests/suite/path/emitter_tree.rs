@@ -321,7 +321,7 @@ fn between(a: &PackedKey, b: &PackedKey, fraction: f64) -> DAffine3 {
 
 /// The cluster of a leaf.
 fn leaf_at(view: &PackedView, trail: u32) -> PackedCluster {
-    let clusters: &[PackedCluster] = cast_slice(view.node_parts()[6]);
+    let clusters: &[PackedCluster] = cast_slice(view.node_parts()[7]);
     let (mut leaf, mut left) = (clusters[0], trail);
     while leaf.child & LIGHT_LEAF == 0 {
         leaf = clusters[(leaf.child & LIGHT_INDEX_MASK) as usize + (left & 1) as usize];

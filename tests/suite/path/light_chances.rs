@@ -69,7 +69,7 @@ pub struct Chances {
 }
 
 pub fn chances(view: &PackedView, p: DVec3, n: DVec3) -> Chances {
-    let clusters: &[PackedCluster] = cast_slice(view.node_parts()[6]);
+    let clusters: &[PackedCluster] = cast_slice(view.node_parts()[7]);
     let mut found = Chances {
         lamps: vec![(0.0, 0); view.frame.light_count as usize],
         emitters: vec![(0.0, 0); view.emitters.len()],

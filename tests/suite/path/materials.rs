@@ -173,8 +173,8 @@ fn boundary(material: Material, side: f64, cos: f64) -> Scene {
 #[test]
 fn rough_glass_is_invisible_in_even_light() {
     let mut verdict = Verdict::on("boundaries of rough glass under a background of 1");
-    for ior in [1.1, 1.5, 2.0, 2.5] {
-        for roughness in [0.0, 0.2, 0.3, 0.5, 0.7, 0.9, 1.0] {
+    for ior in [1.1, 1.5, 2.5] {
+        for roughness in [0.0, 0.2, 0.5, 1.0] {
             for thickness in [0.0, 1.0] {
                 for (side, cos) in [
                     (1.0, 0.95_f64),
@@ -266,9 +266,9 @@ fn partly_transmissive_boundaries_are_invisible_in_even_light() {
 #[test]
 fn balls_of_rough_glass_are_invisible_in_even_light() {
     let mut verdict = Verdict::on("balls of rough glass under a background of 1");
-    for (ior, roughness) in [1.5, 2.0, 2.5]
+    for (ior, roughness) in [1.5, 2.5]
         .iter()
-        .flat_map(|ior| [0.05, 0.2, 0.5, 0.85, 1.0].map(|r| (*ior, r)))
+        .flat_map(|ior| [0.05, 0.3, 1.0].map(|r| (*ior, r)))
     {
         for thickness in [0.0, 1.0] {
             let mut scene = ball_in(1.0, glass(roughness, thickness, ior));

@@ -1,5 +1,5 @@
 //! Measures work independently of the machine and its load: the CPU time of this thread, in units of a
-//! calculation that is timed on the same thread before and after.
+//! calculation that is timed on the same thread after it.
 
 use super::random::Random;
 use std::hint::black_box;
@@ -17,6 +17,10 @@ fn seconds() -> f64 {
     )
 }
 
+/// CPU seconds that a million random numbers take at least: two steps of a clock of 10 GHz each. Work that is within
+/// its limit by this measure, as most is, needs no measurement of the machine.
+const LEAST_UNIT: f64 = 2e-4;
+
 /// CPU seconds for a million random numbers, which on a usual machine is about a millisecond.
 fn unit() -> f64 {
     const MILLIONS: u64 = 20;
@@ -30,12 +34,13 @@ fn unit() -> f64 {
 /// limit is many times the expected value: it detects a wrong order of growth, not a slow machine.
 #[track_caller]
 pub fn within<T>(millions: f64, work: impl FnOnce() -> T) -> T {
-    let before = unit();
     let start = seconds();
     let result = work();
     let spent = seconds() - start;
-    // The slower of the two: clocks and load on the same core change.
-    let took = spent / before.max(unit());
+    if spent < millions * LEAST_UNIT {
+        return result;
+    }
+    let took = spent / unit();
     println!("as much work as {took:.0} million random numbers, {millions} allowed");
     assert!(
         took <= millions,

@@ -168,6 +168,18 @@ impl Desktop {
         })
     }
 
+    /// What each thread of the program does, for messages.
+    fn threads(&self) -> String {
+        let tasks = std::fs::read_dir(format!("/proc/{}/task", self.program.get()));
+        let said = tasks.into_iter().flatten().flatten().map(|task| {
+            let read = |name: &str| std::fs::read_to_string(task.path().join(name));
+            [read("comm"), read("wchan"), read("syscall")]
+                .map(|it| it.unwrap_or_default().trim().to_owned())
+                .join(" ")
+        });
+        format!("threads: {}", said.collect::<Vec<_>>().join(", "))
+    }
+
     fn open(&self, arguments: &[&str], settings: &Path, variables: &[(&str, &str)]) -> Opened<'_> {
         let mut opened = Opened {
             desktop: self,
@@ -326,7 +338,8 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
 
     let dropped = scene("sphere.scene");
     let target = opened.id.parse().expect("the window's number");
-    drag_source::drop_file(&desktop.display, target, (560, 300), &dropped).expect("a drop");
+    drag_source::drop_file(&desktop.display, target, (560, 300), &dropped)
+        .unwrap_or_else(|error| panic!("{error}; {}", desktop.threads()));
     wait_for("the dropped scene", || {
         opened.title().contains("sphere.scene").then_some(())
     });

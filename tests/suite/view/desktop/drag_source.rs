@@ -16,6 +16,9 @@ use x11rb::wrapper::ConnectionExt as _;
 
 const VERSION: u32 = 5;
 
+/// Between two movements of the hand.
+const MOVEMENT: Duration = Duration::from_secs(2);
+
 struct Atoms {
     selection: u32,
     uri_list: u32,
@@ -65,10 +68,18 @@ pub fn drop_file(
     };
     send(atoms.enter, [VERSION << 24, atoms.uri_list, 0, 0])?;
     let place = u32::from(x) << 16 | u32::from(y);
-    send(atoms.position, [0, place, x11rb::CURRENT_TIME, atoms.copy])?;
-    serve_until(&connection, &atoms, atoms.status, path)?;
+    let start = Instant::now();
+    loop {
+        // A hand keeps moving, so that a message which did not wake the program is no end.
+        send(atoms.position, [0, place, x11rb::CURRENT_TIME, atoms.copy])?;
+        match serve_until(&connection, &atoms, atoms.status, path, MOVEMENT) {
+            Err(error) if start.elapsed() > PATIENCE => return Err(error),
+            Err(_) => {}
+            Ok(()) => break,
+        }
+    }
     send(atoms.drop, [0, x11rb::CURRENT_TIME, 0, 0])?;
-    serve_until(&connection, &atoms, atoms.finished, path)
+    serve_until(&connection, &atoms, atoms.finished, path, PATIENCE)
 }
 
 /// Hands the path to whoever asks for it until a message of this kind comes.
@@ -77,9 +88,10 @@ fn serve_until(
     atoms: &Atoms,
     kind: u32,
     path: &Path,
+    patience: Duration,
 ) -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
-    while start.elapsed() < PATIENCE {
+    while start.elapsed() < patience {
         match connection.poll_for_event()? {
             None => std::thread::sleep(Duration::from_millis(5)),
             Some(Event::ClientMessage(message)) if message.type_ == kind => return Ok(()),
