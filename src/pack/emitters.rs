@@ -5,7 +5,7 @@ use super::{
     PackedScene,
     deform::Deformed,
     emitter_places::Places,
-    glow::Glow,
+    glow::{self, Glow},
     light_cluster::{Cluster, LUMINANCE},
     light_tree::Leaf,
     tlas::Tlas,
@@ -201,6 +201,11 @@ impl PackedScene {
         }
         let vertices: Vec<&PackedVertex> = self.vertices.iter().collect();
         let uvs: Vec<&[f32; 4]> = self.uvs.iter().collect();
+        let is_uneven = |triangle: &&PackedTriangle| {
+            let material = vertices[triangle.i0 as usize].material as usize;
+            glows.get(material).is_some_and(Glow::is_uneven)
+        };
+        let most_texels = glow::most_texels(self.triangles.iter().filter(is_uneven).count());
         for (index, triangle) in self.triangles.iter().enumerate() {
             let corners = [triangle.i0, triangle.i1, triangle.i2];
             let own = corners.map(|i| vertices[i as usize]);
@@ -210,7 +215,7 @@ impl PackedScene {
             }
             let of_texture = &glows[material];
             let uvs = || corners.map(|i| uvs.get(i as usize).map_or([0.0; 4], |uv| **uv));
-            let glow = of_texture.over(uvs());
+            let glow = of_texture.over(uvs(), most_texels);
             if of_texture.is_uneven() {
                 found.is_uneven = true;
                 if !self.deforming.is_empty() {

@@ -2,11 +2,12 @@
 //! should not look for light there.
 
 use super::light_cluster::LUMINANCE;
-use crate::scene::{Pattern, Picture, Scene, Space, Target, Texture, Wrap};
+use crate::scene::{Material, Pattern, Picture, Scene, Space, Target, Texture, Wrap};
 use glam::{DAffine3, DVec2, USizeVec2};
+use std::sync::Arc;
 
-/// Texels along the longer side of a triangle's box that are looked at; where there are more, a smaller level is.
-const MOST_TEXELS: f64 = 64.0;
+/// Texels that are looked at for all triangles together, about a tenth of a second.
+const ALL_TEXELS: f64 = 16_777_216.0;
 
 /// The weight of a texel beyond an edge of a triangle, whose colour reaches it by interpolation only.
 const REACHED: f64 = 0.02;
@@ -26,7 +27,7 @@ struct Map {
     wrap: [Wrap; 2],
     is_second: bool,
     /// Each with half of the width and height of the one before; the last one has a single texel.
-    levels: Vec<Level>,
+    levels: Arc<[Level]>,
 }
 
 /// Luminances, row by row from the top left.
@@ -45,17 +46,20 @@ impl Glow {
 
     /// One for each material of a scene: even for those that do not emit.
     pub fn of_materials(scene: &Scene, emits: &[bool]) -> Vec<Self> {
-        let of = |(material, emits): (&crate::scene::Material, &bool)| match material
-            .textures
-            .emission
-        {
-            Some(texture) if *emits => Self::of_texture(scene, texture),
+        let mut pictures = vec![None; scene.pictures.len()];
+        let mut textures = vec![None; scene.textures.len()];
+        let mut of = |material: &Material, emits: bool| match material.textures.emission {
+            Some(index) if emits => (textures[index])
+                .get_or_insert_with(|| Self::of_texture(scene, index, &mut pictures))
+                .clone(),
             _ => Self::EVEN,
         };
-        scene.materials.iter().zip(emits).map(of).collect()
+        let materials = scene.materials.iter().zip(emits);
+        (materials.map(|(material, emits)| of(material, *emits))).collect()
     }
 
-    fn of_texture(scene: &Scene, index: usize) -> Self {
+    /// `pictures` keeps the levels of each.
+    fn of_texture(scene: &Scene, index: usize, pictures: &mut [Option<Arc<[Level]>>]) -> Self {
         let texture = &scene.textures[index];
         let moves = (scene.tracks.iter()).any(|track| {
             track
@@ -72,7 +76,9 @@ impl Glow {
                 map: None,
             },
             Pattern::Picture { picture, wrap, .. } => {
-                let levels = levels(&scene.pictures[picture]);
+                let levels = (pictures[picture])
+                    .get_or_insert_with(|| levels(&scene.pictures[picture]))
+                    .clone();
                 let mean = levels.last().map_or(0.0, |level| level.texels[0]);
                 // A moving picture is bright elsewhere later.
                 let is_map = texture.space != Space::World && !moves;
@@ -87,17 +93,25 @@ impl Glow {
         self.map.is_some()
     }
 
-    /// The mean luminance over a triangle with the two sets of texture coordinates of its corners.
-    pub fn over(&self, corners: [[f32; 4]; 3]) -> f32 {
+    /// The mean luminance over a triangle with the two sets of texture coordinates of its corners, where so many of
+    /// the level's texels at most are along the longer side of its box.
+    pub fn over(&self, corners: [[f32; 4]; 3], most_texels: f64) -> f32 {
         match &self.map {
-            Some(map) => map.over(corners),
+            Some(map) => map.over(corners, most_texels),
             None => self.mean,
         }
     }
 }
 
+/// How many texels along the longer side of a triangle's box are looked at, when there are so many triangles.
+pub fn most_texels(triangles: usize) -> f64 {
+    (ALL_TEXELS / triangles.max(1) as f64)
+        .sqrt()
+        .clamp(8.0, 64.0)
+}
+
 /// Means of four texels, until one is left.
-fn levels(picture: &Picture) -> Vec<Level> {
+fn levels(picture: &Picture) -> Arc<[Level]> {
     let texels = picture.linear();
     let mut levels = vec![Level {
         size: USizeVec2::new(picture.width as usize, picture.height as usize),
@@ -106,7 +120,7 @@ fn levels(picture: &Picture) -> Vec<Level> {
     while let Some(level) = levels.last().filter(|level| level.texels.len() > 1) {
         levels.push(level.halved());
     }
-    levels
+    levels.into()
 }
 
 impl Level {
@@ -130,7 +144,7 @@ impl Level {
 }
 
 impl Map {
-    fn new(texture: &Texture, wrap: [Wrap; 2], levels: Vec<Level>) -> Self {
+    fn new(texture: &Texture, wrap: [Wrap; 2], levels: Arc<[Level]>) -> Self {
         Self {
             picture_from_uv: texture.pattern_from_space,
             wrap,
@@ -139,7 +153,7 @@ impl Map {
         }
     }
 
-    fn over(&self, corners: [[f32; 4]; 3]) -> f32 {
+    fn over(&self, corners: [[f32; 4]; 3], most_texels: f64) -> f32 {
         // From the top left, in widths and heights of the picture.
         let places = corners.map(|[u, v, second_u, second_v]| {
             let (u, v) = match self.is_second {
@@ -156,7 +170,7 @@ impl Map {
         };
         let last = &self.levels[self.levels.len() - 1];
         // What is not finite is larger than any level.
-        let fits = |level: &&Level| extent(level) <= MOST_TEXELS;
+        let fits = |level: &&Level| extent(level) <= most_texels;
         match self.levels.iter().find(fits) {
             Some(level) => self.mean_in(level, places),
             None => last.texels[0],
