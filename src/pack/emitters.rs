@@ -200,7 +200,6 @@ impl PackedScene {
             return found;
         }
         let vertices: Vec<&PackedVertex> = self.vertices.iter().collect();
-        let uvs: Vec<&[f32; 4]> = self.uvs.iter().collect();
         let is_uneven = |triangle: &&PackedTriangle| {
             let material = vertices[triangle.i0 as usize].material as usize;
             glows.get(material).is_some_and(Glow::is_uneven)
@@ -214,8 +213,8 @@ impl PackedScene {
                 continue;
             }
             let of_texture = &glows[material];
-            let uvs = || corners.map(|i| uvs.get(i as usize).map_or([0.0; 4], |uv| **uv));
-            let glow = of_texture.over(uvs(), most_texels);
+            let uvs = corners.map(|i| self.uvs.get(i as usize).copied().unwrap_or_default());
+            let glow = of_texture.over(uvs, most_texels);
             if of_texture.is_uneven() {
                 found.is_uneven = true;
                 if !self.deforming.is_empty() {

@@ -79,7 +79,10 @@ impl Glow {
                 let levels = (pictures[picture])
                     .get_or_insert_with(|| levels(&scene.pictures[picture]))
                     .clone();
-                let mean = levels.last().map_or(0.0, |level| level.texels[0]);
+                // The smallest level is not quite it where sizes are odd.
+                let texels = &levels[0].texels;
+                let sum: f64 = texels.iter().map(|texel| f64::from(*texel)).sum();
+                let mean = (sum / texels.len() as f64) as f32;
                 // A moving picture is bright elsewhere later.
                 let is_map = texture.space != Space::World && !moves;
                 let map = is_map.then(|| Map::new(texture, wrap, levels));

@@ -60,7 +60,7 @@ fn panel_and_quad(bright: [u32; 2]) -> [Scene; 2] {
         true => Vec3::ONE,
         false => Vec3::ZERO,
     });
-    textured.add_picture_texture(Picture::opaque(SIDE, SIDE, texels));
+    add_picture_texture(&mut textured, Picture::opaque(SIDE, SIDE, texels));
     let material = textured.add_material(glowing(Some(0)));
     textured.add_mesh(panel(places, material as u32), DAffine3::IDENTITY);
     let mut alone = dark_floor();
@@ -69,24 +69,18 @@ fn panel_and_quad(bright: [u32; 2]) -> [Scene; 2] {
     [textured, alone]
 }
 
-trait AddTexture {
-    fn add_picture_texture(&mut self, picture: Picture);
-}
-
-impl AddTexture for Scene {
-    fn add_picture_texture(&mut self, picture: Picture) {
-        self.pictures.push(picture.into());
-        self.textures.push(Texture {
-            pattern: Pattern::Picture {
-                picture: self.pictures.len() - 1,
-                nearest: true,
-                minify: Minify::Nearest,
-                wrap: [Wrap::Repeat; 2],
-            },
-            space: Space::Uv,
-            pattern_from_space: DAffine3::IDENTITY,
-        });
-    }
+fn add_picture_texture(scene: &mut Scene, picture: Picture) {
+    scene.pictures.push(picture.into());
+    scene.textures.push(Texture {
+        pattern: Pattern::Picture {
+            picture: scene.pictures.len() - 1,
+            nearest: true,
+            minify: Minify::Nearest,
+            wrap: [Wrap::Repeat; 2],
+        },
+        space: Space::Uv,
+        pattern_from_space: DAffine3::IDENTITY,
+    });
 }
 
 /// The relative mean squared error of a picture with few samples, and the mean luminance with many.
@@ -202,7 +196,7 @@ fn emitters_know_the_mean_of_their_part_of_a_picture() {
                 let at = at / f64::from(TEXELS);
                 Vec3::splat(wave(at.x, at.y) as f32)
             });
-            scene.add_picture_texture(Picture::opaque(TEXELS, TEXELS, texels));
+            add_picture_texture(&mut scene, Picture::opaque(TEXELS, TEXELS, texels));
             let texture = &mut scene.textures[0];
             (texture.space, texture.pattern_from_space) = (space, transform);
             if let Pattern::Picture { wrap: own, .. } = &mut texture.pattern {
@@ -213,13 +207,11 @@ fn emitters_know_the_mean_of_their_part_of_a_picture() {
             for k in 0..60 {
                 let corner = DVec2::new(random.between(-1.0, 2.0), random.between(-1.0, 2.0));
                 let size = [0.03, 0.08, 0.2][k % 3];
-                for corner_index in 0..3 {
+                let first = 3 * k as u32;
+                mesh.triangles.push([first, first + 1, first + 2]);
+                for _ in 0..3 {
                     let [x, y] = [0, 1].map(|_| random.between(-size, size));
                     let uv = (corner + DVec2::new(x, y)).as_vec2();
-                    mesh.triangles.extend(match corner_index {
-                        0 => Some([3 * k as u32, 3 * k as u32 + 1, 3 * k as u32 + 2]),
-                        _ => None,
-                    });
                     let place = random.in_cube() + 3.0 * k as f64 * DVec3::X;
                     mesh.positions.push(place.as_vec3());
                     mesh.normals.push(Vec3::Y);
