@@ -4610,11 +4610,10 @@ fn fresnel__unpolarised(cos_i: f32, cos_t: f32, eta: f32) -> f32 {
 	return 0.5 * (r_s * r_s + r_p * r_p);
 }
 
-fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
-	let exact = fresnel__fresnel(cos_i, eta);
+fn fresnel__schlick(cos_i: f32, eta: f32, exact: fresnel__Boundary) -> f32 {
 	let r0 = fresnel__ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
 	let grazing = fresnel__schlick_weight(select(cos_i, exact.cos_t, eta > 1.0));
-	return fresnel__Boundary(select(mix(r0, 1.0, grazing), 1.0, exact.total), exact.cos_t, exact.total);
+	return select(mix(r0, 1.0, grazing), 1.0, exact.total);
 }
 
 fn fresnel__schlick_weight(cosine: f32) -> f32 {
@@ -4633,10 +4632,11 @@ fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f
 }
 
 fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
+	var boundary = fresnel__fresnel(cos_i, eta);
 	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
-		return fresnel__schlick(cos_i, eta);
+		boundary.reflectance = fresnel__schlick(cos_i, eta, boundary);
 	}
-	return fresnel__fresnel(cos_i, eta);
+	return boundary;
 }
 
 fn leaving__leaving_ray(surface: shading__Surface, direction: vec3f, t_max: f32) -> tracing__Ray {
@@ -4822,6 +4822,8 @@ fn phong__phong(coefficients: shading__Phong, n: vec3f, l: vec3f, v: vec3f) -> v
 
 const shadow__MAX_CROSSINGS: u32 = 64u;
 
+const shadow__NO_WIDTH: tracing__Cone = tracing__Cone(0.0, 0.0);
+
 struct shadow__Passage {
 	ray: tracing__Ray,
 	media: vec4u,
@@ -4829,21 +4831,26 @@ struct shadow__Passage {
 	crossings: u32
 }
 
-fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
+fn shadow__may_pass(hit: tracing__Hit) -> bool {
+	return (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) && hit.primitive != types__NONE;
+}
+
+fn shadow__arrived(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
 	var passage = before;
 	passage.ray = rays__DEAD;
-	if (hit.primitive == types__NONE) {
-		if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-			passage.through *= medium__transmittance(medium__medium_of(medium__dominant(before.media)), hit.t);
-		}
-		return passage;
-	}
-	if (!(bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS))) {
+	if (hit.primitive != types__NONE) {
 		record__record_met(hit, before.ray.t_max);
 		passage.through = vec3f(0.0);
-		return passage;
 	}
-	let contact = contact__contact_at(before.ray, hit, tracing__Cone(0.0, 0.0));
+	else if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+		passage.through *= medium__transmittance(medium__medium_of(medium__dominant(before.media)), hit.t);
+	}
+	return passage;
+}
+
+fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit, contact: contact__Contact, coverage: f32) -> shadow__Passage {
+	var passage = before;
+	passage.ray = rays__DEAD;
 	record__record_met(record__seen, before.ray.t_max);
 	let surface = contact.surface;
 	var through = vec3f(0.0);
@@ -4851,7 +4858,7 @@ fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passag
 		passage.media = contact__media_behind(before.media, contact);
 		through = shadow__passing(before.ray, hit.t, surface, before.media, medium__dominant(passage.media));
 	}
-	passage.through *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
+	passage.through *= mix(vec3f(1.0), through, coverage);
 	passage.crossings += 1u;
 	let rest = before.ray.t_max - hit.t;
 	if (any(passage.through > vec3f(0.0)) && rest > 0.0) {
@@ -4930,7 +4937,15 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__
 			let ray = rays__ray_at(rays, k);
 			if (ray.t_max >= 0.0) {
 				ray_stack__current_tree = k;
-				let passage = shadow__crossed(shadow__Passage(ray, ray_states__media_at(media, k), wide__vector_at(transmitted, k), crossings), rays__hit_at(hits, k));
+				let hit = rays__hit_at(hits, k);
+				var passage = shadow__Passage(ray, ray_states__media_at(media, k), wide__vector_at(transmitted, k), crossings);
+				if (shadow__may_pass(hit)) {
+					let contact = contact__contact_at(ray, hit, shadow__NO_WIDTH);
+					passage = shadow__crossed(passage, hit, contact, coverage__coverage_at(contact.surface));
+				}
+				else {
+					passage = shadow__arrived(passage, hit);
+				}
 				if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
 					media = ray_states__media_set(media, k, passage.media);
 				}

@@ -12,8 +12,8 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 		var path = path__path_along(batch, dispatch__sample_ray(batch, pixel, key, probe.sample), pixel, probe.sample);
 		loop {
 			let hit = traverse__walked(path__next_walk(path), traverse__NO_LIMIT).hit;
-			if (path__is_to_lamp(path)) {
-				path = path__lit(path, hit);
+			if (path__is_to_lamp(path) && !shadow__may_pass(hit)) {
+				path = path__lit(path, shadow__arrived(path.lamp, hit));
 			}
 			else if (path__is_going(path)) {
 				path = traced(batch, path, hit);
@@ -37,18 +37,26 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 
 fn traced(batch: dispatch__Batch, before: path__Path, hit: tracing__Hit) -> path__Path {
 	var path = before;
-	let ray = path.ray;
-	dispatch__count_hit(path.kind, hit);
-	record__open_ray(ray, hit, path.kind, path.throughput, path.media);
-	record_path__record_density(path.pdf);
-	if (hit.primitive == types__NONE) {
-		let weight = environment__background_weight(batch, ray.direction, path.pdf);
-		let seen = backdrop__radiance_behind(batch, path);
-		record_path__record_found(seen, weight);
-		features__see_albedo(path.throughput * seen, vec3f(0.0));
-		return path__ended(path__gained(path, path.throughput * (weight * seen), path.bounces));
+	let is_shadow = path__is_to_lamp(path) && shadow__may_pass(hit);
+	if (!is_shadow) {
+		dispatch__count_hit(path.kind, hit);
+		record__open_ray(path.ray, hit, path.kind, path.throughput, path.media);
+		record_path__record_density(path.pdf);
+		if (hit.primitive == types__NONE) {
+			return backdrop__missed(batch, path);
+		}
 	}
-	let contact = contact__contact_at(ray, hit, path.cone);
+	var ray = path.ray;
+	var cone = path.cone;
+	if (is_shadow) {
+		ray = path.lamp.ray;
+		cone = shadow__NO_WIDTH;
+	}
+	let contact = contact__contact_at(ray, hit, cone);
+	let coverage = coverage__coverage_at(contact.surface);
+	if (is_shadow) {
+		return path__lit(path, shadow__crossed(path.lamp, hit, contact, coverage));
+	}
 	let surface = contact.surface;
 	let optics = material__load_optics(surface.material);
 	var met = interface__interface_at(path.media, contact, optics);
@@ -58,7 +66,7 @@ fn traced(batch: dispatch__Batch, before: path__Path, hit: tracing__Hit) -> path
 	}
 	record__record_surface(surface);
 	record__record_arriving(path.throughput);
-	if (bindings__HAS_COVERAGE && path.passes < path__MAX_PASSES && path__random_1d(path, dimensions__COVERAGE_CHOICE) >= coverage__coverage_at(surface)) {
+	if (bindings__HAS_COVERAGE && path.passes < path__MAX_PASSES && path__random_1d(path, dimensions__COVERAGE_CHOICE) >= coverage) {
 		record_path__record_passing();
 		return path__passed(path, surface);
 	}
@@ -81,25 +89,9 @@ fn traced(batch: dispatch__Batch, before: path__Path, hit: tracing__Hit) -> path
 	seen__see_surface(path, bsdf, emission);
 	record_path__record_interface(met, bsdf);
 	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
-		path = toward_lamp(batch, path, surface, bsdf, met);
+		path = toward_lamp__toward_lamp(batch, path, surface, bsdf, met);
 	}
 	return scattered(batch, path, surface, bsdf, met);
-}
-
-fn toward_lamp(batch: dispatch__Batch, before: path__Path, surface: shading__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
-	var path = before;
-	let light = emitters__sample_light(batch, surface.p, bsdf__receiving_normal(bsdf), path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
-	let found = bsdf__bsdf_eval(bsdf, light.incident.direction);
-	let weight = select(1.0, mis__power_heuristic(light.pdf, found.pdf), light.pdf > 0.0);
-	let unshadowed = weight * found.value * light.incident.radiance;
-	if (any(unshadowed > vec3f(0.0))) {
-		let media = select(path.media, met.media, vec4<bool>(dot(light.incident.direction, bsdf.ng) < 0.0));
-		path.lamp = shadow__passage_of(direct__shadow_ray(surface, light.incident), media);
-		path.lamp_light = path.throughput * unshadowed;
-		path.lamp_scatterings = path.bounces + 1u;
-	}
-	record_path__record_light_sample(surface, path.lamp.ray, light, found, weight, unshadowed);
-	return path;
 }
 
 fn scattered(batch: dispatch__Batch, before: path__Path, surface: shading__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
@@ -1405,9 +1397,9 @@ fn path__next_walk(path: path__Path) -> traverse__Walk {
 	return traverse__walk_of(ray, any);
 }
 
-fn path__lit(before: path__Path, hit: tracing__Hit) -> path__Path {
+fn path__lit(before: path__Path, left: shadow__Passage) -> path__Path {
 	var path = before;
-	path.lamp = shadow__crossed(path.lamp, hit);
+	path.lamp = left;
 	if (path__is_to_lamp(path)) {
 		return path;
 	}
@@ -1502,6 +1494,8 @@ struct tracing__Cone {
 
 const shadow__MAX_CROSSINGS: u32 = 64u;
 
+const shadow__NO_WIDTH: tracing__Cone = tracing__Cone(0.0, 0.0);
+
 struct shadow__Passage {
 	ray: tracing__Ray,
 	media: vec4u,
@@ -1514,21 +1508,26 @@ fn shadow__passage_of(ray: tracing__Ray, media: vec4u) -> shadow__Passage {
 	return shadow__Passage(ray, media, vec3f(1.0), 0u);
 }
 
-fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
+fn shadow__may_pass(hit: tracing__Hit) -> bool {
+	return (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) && hit.primitive != types__NONE;
+}
+
+fn shadow__arrived(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
 	var passage = before;
 	passage.ray = rays__DEAD;
-	if (hit.primitive == types__NONE) {
-		if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-			passage.through *= medium__transmittance(medium__medium_of(medium__dominant(before.media)), hit.t);
-		}
-		return passage;
-	}
-	if (!(bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS))) {
+	if (hit.primitive != types__NONE) {
 		record__record_met(hit, before.ray.t_max);
 		passage.through = vec3f(0.0);
-		return passage;
 	}
-	let contact = contact__contact_at(before.ray, hit, tracing__Cone(0.0, 0.0));
+	else if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+		passage.through *= medium__transmittance(medium__medium_of(medium__dominant(before.media)), hit.t);
+	}
+	return passage;
+}
+
+fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit, contact: contact__Contact, coverage: f32) -> shadow__Passage {
+	var passage = before;
+	passage.ray = rays__DEAD;
 	record__record_met(record__seen, before.ray.t_max);
 	let surface = contact.surface;
 	var through = vec3f(0.0);
@@ -1536,7 +1535,7 @@ fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passag
 		passage.media = contact__media_behind(before.media, contact);
 		through = shadow__passing(before.ray, hit.t, surface, before.media, medium__dominant(passage.media));
 	}
-	passage.through *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
+	passage.through *= mix(vec3f(1.0), through, coverage);
 	passage.crossings += 1u;
 	let rest = before.ray.t_max - hit.t;
 	if (any(passage.through > vec3f(0.0)) && rest > 0.0) {
@@ -3195,6 +3194,132 @@ fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing_
 	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
+struct opacity__Clearness {
+	nothing: f32,
+	catchers: f32,
+	light: f32,
+	unshadowed: f32
+}
+
+var<private> opacity__clearness: opacity__Clearness;
+
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+
+var<private> record_path__sampled: types__PackedRay;
+
+var<private> record_path__is_sampled: bool;
+
+fn record_path__record_gain(light: vec3f) {
+	if (record_path__is_sampled) {
+		record_path__sampled.contribution = light;
+		record__store_ray(record__ray_count, record_path__sampled);
+		record__ray_count += 1u;
+		record_path__is_sampled = false;
+	}
+	else {
+		record__traced.contribution += light;
+	}
+}
+
+fn record_path__record_density(pdf: f32) {
+	record__traced.own_pdf = pdf;
+}
+
+fn record_path__record_light_density(pdf: f32) {
+	record__traced.other_pdf = pdf;
+}
+
+fn record_path__record_found(radiance: vec3f, weight: f32) {
+	record__traced.emission = radiance;
+	record__traced.mis_weight = weight;
+}
+
+fn record_path__record_source(source: u32, index: u32, chance: f32) {
+	record_path__sampled = types__PackedRay();
+	record_path__sampled.lobe = source;
+	record_path__sampled.light = index;
+	record_path__sampled.chance = chance;
+}
+
+fn record_path__record_light_sample(surface: shading__Surface, ray: tracing__Ray, light: emitters__LightSample, found: bsdf__BsdfValue, weight: f32, unshadowed: vec3f) {
+	let is_traced = ray.t_max >= 0.0;
+	record_path__sampled.origin = select(surface.p, ray.origin, is_traced);
+	record_path__sampled.kind = types__RAY_SHADOW;
+	record_path__sampled.direction = light.incident.direction;
+	record_path__sampled.t = ray.t_max;
+	record_path__sampled.t_max = select(light.incident.distance, ray.t_max, is_traced);
+	record_path__sampled.primitive = types__NONE;
+	record_path__sampled.instance = types__NO_INSTANCE;
+	record_path__sampled.material = types__NONE;
+	record_path__sampled.throughput = record__traced.arriving;
+	record_path__sampled.parent = record__traced_index;
+	record_path__sampled.flags = select(types__RAY_UNTRACED, 0u, is_traced);
+	record_path__sampled.ambient = unshadowed;
+	record_path__sampled.emission = light.incident.radiance;
+	record_path__sampled.medium = types__NONE;
+	record_path__sampled.medium_behind = types__NONE;
+	record_path__sampled.media = vec4u(types__NONE);
+	record_path__sampled.value = found.value;
+	record_path__sampled.own_pdf = light.pdf;
+	record_path__sampled.other_pdf = found.pdf;
+	record_path__sampled.mis_weight = weight;
+	record_path__is_sampled = true;
+	if (!is_traced) {
+		record_path__record_gain(vec3f(0.0));
+	}
+}
+
+fn record_path__record_passage(through: vec3f) {
+	record_path__sampled.t = record__met.t;
+	record_path__sampled.primitive = record__met.primitive;
+	record_path__sampled.instance = record__met.instance;
+	record_path__sampled.crossings = record__met_count;
+	record_path__sampled.transmit = through;
+	record_path__sampled.arriving = record_path__sampled.throughput * through;
+}
+
+fn record_path__record_interface(met_here: interface__Interface, bsdf: lobes__Bsdf) {
+	record__record_media(met_here.here, medium__dominant(met_here.media), met_here.is_transparent);
+	let split = lobes__split_at(bsdf, bsdf.wo.z);
+	let boundary = boundary__boundary_at(bsdf.flags, clamp_f32(bsdf.wo.z, 0.0, 1.0), bsdf.eta);
+	record__record_scatter(split.reflect, split.transmit, boundary, vec2f(met_here.ior, met_here.ior_behind), met_here.is_boundary);
+}
+
+fn record_path__record_lobe(lobe: u32) {
+	record__traced.lobe = lobe;
+}
+
+fn record_path__record_step(next: bsdf__BsdfSample) {
+	record__traced.value = next.pdf * next.weight;
+	record__traced.pdf = next.pdf;
+	record__traced.weight = next.weight;
+	record__traced.chance = 1.0;
+	record__traced.step = types__STEP_SCATTERED;
+}
+
+fn record_path__record_passing() {
+	record__traced.weight = vec3f(1.0);
+	record__traced.chance = 1.0;
+	record__traced.step = types__STEP_PASSED;
+}
+
+fn record_path__record_limit() {
+	record__traced.step = types__STEP_LIMIT;
+}
+
+fn record_path__record_roulette(throughput: vec3f, chance: f32, ends: bool) {
+	record__traced.chance = chance;
+	if (ends) {
+		record__traced.step = select(types__STEP_ROULETTE, types__STEP_ABSORBED, all(throughput <= vec3f(0.0)));
+	}
+}
+
+fn record_path__record_straight(is_straight: bool) {
+	if (is_straight) {
+		record__traced.step = types__STEP_PASSED;
+	}
+}
+
 const medium__VACUUM: shading__Medium = shading__Medium(vec3f(0.0), 1.0, 0);
 
 fn medium__dominant(media: vec4u) -> u32 {
@@ -3383,6 +3508,179 @@ fn material__load_glow(index: u32) -> material__Glow {
 fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
 	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
 	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
+}
+
+fn backdrop__is_seen(path: path__Path) -> bool {
+	return path.bounces == 0u;
+}
+
+fn backdrop__radiance_behind(batch: dispatch__Batch, path: path__Path) -> vec3f {
+	if (bindings__BACKDROP == types__BACKDROP_BACKGROUND || !backdrop__is_seen(path)) {
+		return background__background(batch, path.ray.direction);
+	}
+	if (bindings__BACKDROP == types__BACKDROP_TRANSPARENT) {
+		opacity__clearness.nothing += dot(path.throughput, tone__LUMINANCE_REC709);
+		return vec3f(0.0);
+	}
+	return batch.backdrop;
+}
+
+fn backdrop__missed(batch: dispatch__Batch, path: path__Path) -> path__Path {
+	let weight = environment__background_weight(batch, path.ray.direction, path.pdf);
+	let seen = backdrop__radiance_behind(batch, path);
+	record_path__record_found(seen, weight);
+	features__see_albedo(path.throughput * seen, vec3f(0.0));
+	return path__ended(path__gained(path, path.throughput * (weight * seen), path.bounces));
+}
+
+struct environment__EnvironmentSample {
+	direction: vec3f,
+	pdf: f32
+}
+
+fn environment__sample_environment(batch: dispatch__Batch, u: vec2f) -> environment__EnvironmentSample {
+	let width = batch.environment_width;
+	var place = quad_warp__quad_root(picture__load_texel_word(batch.environment_first), u);
+	var first = batch.environment_first + 1u;
+	var columns = 2u;
+	loop {
+		place = quad_warp__quad_step(picture__load_texel_word(first + place.cell.y * columns + place.cell.x), place);
+		first += columns * columns / 2u;
+		columns *= 2u;
+		continuing {
+		
+			break if columns >= width;
+		}
+	}
+	loops__cut_off |= columns < width;
+	let uv = (vec2f(place.cell) + place.u) / vec2f(f32(width), f32(width / 2u));
+	let direction = picture__equirectangular_direction(uv, batch.background_rotation);
+	return environment__EnvironmentSample(direction, environment__density_at(batch, place.cell, direction));
+}
+
+fn environment__environment_pdf(batch: dispatch__Batch, direction: vec3f) -> f32 {
+	let size = vec2u(batch.environment_width, batch.environment_width / 2u);
+	let uv = picture__equirectangular(direction, batch.background_rotation);
+	let place = vec2f(fract(uv.x), clamp_f32(uv.y, 0.0, 1.0)) * vec2f(size);
+	return environment__density_at(batch, min(vec2u(place), size - 1u), direction);
+}
+
+fn environment__background_weight(batch: dispatch__Batch, direction: vec3f, pdf: f32) -> f32 {
+	if (!bindings__HAS_ENVIRONMENT || pdf <= 0.0) {
+		return 1.0;
+	}
+	let density = batch.environment_share * environment__environment_pdf(batch, direction);
+	record_path__record_light_density(density);
+	return mis__power_heuristic(pdf, density);
+}
+
+fn environment__density_at(batch: dispatch__Batch, cell: vec2u, direction: vec3f) -> f32 {
+	let height = batch.environment_width / 2u;
+	let first = batch.environment_first + 1u + 2u * ((height * height - 1u) / 3u);
+	let density = bitcast<f32>(picture__load_texel_word(first + cell.y * batch.environment_width + cell.x));
+	return density / (2.0 * picture__PI * picture__PI * max_f32(length(direction.xz), 1e-6));
+}
+
+const picture__PI: f32 = 3.14159265;
+
+struct picture__Neighbours {
+	first: u32,
+	second: u32,
+	weight: f32
+}
+
+fn picture__neighbours(at: f32, count: u32, nearest: bool, wrap: u32) -> picture__Neighbours {
+	let mirrored = 1.0 - abs(1.0 - 2.0 * fract(0.5 * at));
+	let inside = select(select(clamp_f32(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
+	let place = f32(count) * inside + select(-0.5, 0.0, nearest);
+	let below = floor(place);
+	let last = i32(count) - 1;
+	let index = min(i32(below), last);
+	let first = picture__within(index, last, wrap == types__WRAP_REPEAT);
+	let second = picture__within(index + 1, last, wrap == types__WRAP_REPEAT);
+	return picture__Neighbours(u32(first), u32(second), select(place - below, 0.0, nearest));
+}
+
+fn picture__within(index: i32, last: i32, repeats: bool) -> i32 {
+	let before = select(0, last, repeats);
+	let after = select(last, 0, repeats);
+	return select(select(index, before, index < 0), after, index > last);
+}
+
+fn picture__halves(bits: u32) -> vec2f {
+	let codes = vec2u(bits & 65535u, bits >> 16u);
+	let normal = bitcast<vec2f>(codes << vec2u(13u)) * 5.192296858534828e33;
+	return select(normal, vec2f(codes) * 5.960464477539063e-8, codes < vec2u(1024u));
+}
+
+fn picture__linear_from_srgb(encoded: vec3f) -> vec3f {
+	var power = vec3f(-0.1110666543);
+	power = power * encoded + vec3f(0.5140681863);
+	power = power * encoded + vec3f(-1.0304795504);
+	power = power * encoded + vec3f(1.2059204578);
+	power = power * encoded + vec3f(-0.9925410748);
+	power = power * encoded + vec3f(0.8972986937);
+	power = power * encoded + vec3f(0.4803068042);
+	power = power * encoded + vec3f(0.0356449671);
+	power = power * encoded + vec3f(0.0008464342);
+	return select(power, encoded / 12.92, encoded <= vec3f(0.04045));
+}
+
+fn picture__equirectangular(direction: vec3f, rotation: f32) -> vec2f {
+	let level = length(direction.xz);
+	let around = atan2(direction.x, select(-direction.z, 1.0, level < 1e-12));
+	return vec2f(0.5 + (around + rotation) / (2.0 * picture__PI), 0.5 + atan2(direction.y, level) / picture__PI);
+}
+
+fn picture__equirectangular_direction(uv: vec2f, rotation: f32) -> vec3f {
+	let around = (uv.x - 0.5) * 2.0 * picture__PI - rotation;
+	let up = (uv.y - 0.5) * picture__PI;
+	return vec3f(cos(up) * sin(around), sin(up), -cos(up) * cos(around));
+}
+
+fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec4f {
+	let lower = (height - 1u - rows.first) * width;
+	let upper = (height - 1u - rows.second) * width;
+	return mix(mix(picture__texel_at(picture, lower + columns.first), picture__texel_at(picture, lower + columns.second), columns.weight), mix(picture__texel_at(picture, upper + columns.first), picture__texel_at(picture, upper + columns.second), columns.weight), rows.weight);
+}
+
+fn picture__texel_at(picture: u32, index: u32) -> vec4f {
+	let first = picture & types__PICTURE_FIRST_MASK;
+	if (bindings__HAS_HALF_TEXELS && (!bindings__HAS_BYTE_TEXELS || (picture & types__PICTURE_HALF) != 0u)) {
+		let low = picture__load_texel_word(first + 2u * index);
+		let high = picture__load_texel_word(first + 2u * index + 1u);
+		return vec4f(picture__halves(low), picture__halves(high));
+	}
+	let values = unpack4x8unorm(picture__load_texel_word(first + index));
+	return vec4f(select(values.xyz, picture__linear_from_srgb(values.xyz), (picture & types__PICTURE_SRGB) != 0u), values.w);
+}
+
+fn picture__load_texel_word(index: u32) -> u32 {
+	let row = index >> types__IMAGE_WIDTH_LOG2;
+	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
+	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2).x;
+}
+
+fn mis__power_heuristic(own: f32, other: f32) -> f32 {
+	let ratio = other / max_f32(own, 1e-30);
+	return select(0.0, 1.0 / (1.0 + min_f32(ratio * ratio, 1e30)), own > 0.0);
+}
+
+fn mis__survival_chance(throughput: vec3f) -> f32 {
+	return min_f32(max_f32(throughput.x, max_f32(throughput.y, throughput.z)), 1.0);
+}
+
+fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
+	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
+		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
+	}
+	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE) {
+		let size = batch.background_size;
+		let uv = picture__equirectangular(direction, batch.background_rotation);
+		let color = picture__blend_texels(batch.background_picture, size.x, size.y, picture__neighbours(uv.x, size.x, false, types__WRAP_REPEAT), picture__neighbours(uv.y, size.y, false, types__WRAP_CLAMP));
+		return batch.background * color.xyz;
+	}
+	return batch.background;
 }
 
 const contact__NEAR: f32 = 1e-5;
@@ -3879,86 +4177,6 @@ fn mipmap__level_of(picture: u32, level: u32) -> u32 {
 	return picture + picture__load_texel_word((picture & types__PICTURE_FIRST_MASK) - level);
 }
 
-fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec4f {
-	let lower = (height - 1u - rows.first) * width;
-	let upper = (height - 1u - rows.second) * width;
-	return mix(mix(picture__texel_at(picture, lower + columns.first), picture__texel_at(picture, lower + columns.second), columns.weight), mix(picture__texel_at(picture, upper + columns.first), picture__texel_at(picture, upper + columns.second), columns.weight), rows.weight);
-}
-
-fn picture__texel_at(picture: u32, index: u32) -> vec4f {
-	let first = picture & types__PICTURE_FIRST_MASK;
-	if (bindings__HAS_HALF_TEXELS && (!bindings__HAS_BYTE_TEXELS || (picture & types__PICTURE_HALF) != 0u)) {
-		let low = picture__load_texel_word(first + 2u * index);
-		let high = picture__load_texel_word(first + 2u * index + 1u);
-		return vec4f(picture__halves(low), picture__halves(high));
-	}
-	let values = unpack4x8unorm(picture__load_texel_word(first + index));
-	return vec4f(select(values.xyz, picture__linear_from_srgb(values.xyz), (picture & types__PICTURE_SRGB) != 0u), values.w);
-}
-
-fn picture__load_texel_word(index: u32) -> u32 {
-	let row = index >> types__IMAGE_WIDTH_LOG2;
-	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
-	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2).x;
-}
-
-const picture__PI: f32 = 3.14159265;
-
-struct picture__Neighbours {
-	first: u32,
-	second: u32,
-	weight: f32
-}
-
-fn picture__neighbours(at: f32, count: u32, nearest: bool, wrap: u32) -> picture__Neighbours {
-	let mirrored = 1.0 - abs(1.0 - 2.0 * fract(0.5 * at));
-	let inside = select(select(clamp_f32(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
-	let place = f32(count) * inside + select(-0.5, 0.0, nearest);
-	let below = floor(place);
-	let last = i32(count) - 1;
-	let index = min(i32(below), last);
-	let first = picture__within(index, last, wrap == types__WRAP_REPEAT);
-	let second = picture__within(index + 1, last, wrap == types__WRAP_REPEAT);
-	return picture__Neighbours(u32(first), u32(second), select(place - below, 0.0, nearest));
-}
-
-fn picture__within(index: i32, last: i32, repeats: bool) -> i32 {
-	let before = select(0, last, repeats);
-	let after = select(last, 0, repeats);
-	return select(select(index, before, index < 0), after, index > last);
-}
-
-fn picture__halves(bits: u32) -> vec2f {
-	let codes = vec2u(bits & 65535u, bits >> 16u);
-	let normal = bitcast<vec2f>(codes << vec2u(13u)) * 5.192296858534828e33;
-	return select(normal, vec2f(codes) * 5.960464477539063e-8, codes < vec2u(1024u));
-}
-
-fn picture__linear_from_srgb(encoded: vec3f) -> vec3f {
-	var power = vec3f(-0.1110666543);
-	power = power * encoded + vec3f(0.5140681863);
-	power = power * encoded + vec3f(-1.0304795504);
-	power = power * encoded + vec3f(1.2059204578);
-	power = power * encoded + vec3f(-0.9925410748);
-	power = power * encoded + vec3f(0.8972986937);
-	power = power * encoded + vec3f(0.4803068042);
-	power = power * encoded + vec3f(0.0356449671);
-	power = power * encoded + vec3f(0.0008464342);
-	return select(power, encoded / 12.92, encoded <= vec3f(0.04045));
-}
-
-fn picture__equirectangular(direction: vec3f, rotation: f32) -> vec2f {
-	let level = length(direction.xz);
-	let around = atan2(direction.x, select(-direction.z, 1.0, level < 1e-12));
-	return vec2f(0.5 + (around + rotation) / (2.0 * picture__PI), 0.5 + atan2(direction.y, level) / picture__PI);
-}
-
-fn picture__equirectangular_direction(uv: vec2f, rotation: f32) -> vec3f {
-	let around = (uv.x - 0.5) * 2.0 * picture__PI - rotation;
-	let up = (uv.y - 0.5) * picture__PI;
-	return vec3f(cos(up) * sin(around), sin(up), -cos(up) * cos(around));
-}
-
 fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) -> vec4f {
 	let area = d1.x * d2.y - d1.y * d2.x;
 	let hand = select(1.0, -1.0, area < 0.0);
@@ -4186,6 +4404,25 @@ fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direct
 	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
 }
 
+fn coverage__coverage_at(surface: shading__Surface) -> f32 {
+	if (!bindings__HAS_COVERAGE) {
+		return 1.0;
+	}
+	let material = material__load_coverage(surface.material);
+	if ((material.flags & types__MATERIAL_COVERAGE) == 0u) {
+		return 1.0;
+	}
+	var alpha = material.alpha;
+	if (bindings__HAS_TEXTURES) {
+		let index = material__load_texture_indices(surface.material).w >> 16u;
+		if (index != types__NO_TEXTURE) {
+			alpha *= texture__texture_alpha(material__load_texture(index), surface, (material.flags & types__MATERIAL_MASK) != 0u);
+		}
+	}
+	let masked = select(0.0, 1.0, alpha >= 0.999999);
+	return select(clamp_f32(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
+}
+
 fn media__has_room(media: vec4u) -> bool {
 	return media.w == types__NONE;
 }
@@ -4322,10 +4559,11 @@ fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
 }
 
 fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
+	var boundary = fresnel__fresnel(cos_i, eta);
 	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
-		return fresnel__schlick(cos_i, eta);
+		boundary.reflectance = fresnel__schlick(cos_i, eta, boundary);
 	}
-	return fresnel__fresnel(cos_i, eta);
+	return boundary;
 }
 
 struct fresnel__Boundary {
@@ -4351,11 +4589,10 @@ fn fresnel__unpolarised(cos_i: f32, cos_t: f32, eta: f32) -> f32 {
 	return 0.5 * (r_s * r_s + r_p * r_p);
 }
 
-fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
-	let exact = fresnel__fresnel(cos_i, eta);
+fn fresnel__schlick(cos_i: f32, eta: f32, exact: fresnel__Boundary) -> f32 {
 	let r0 = fresnel__ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
 	let grazing = fresnel__schlick_weight(select(cos_i, exact.cos_t, eta > 1.0));
-	return fresnel__Boundary(select(mix(r0, 1.0, grazing), 1.0, exact.total), exact.cos_t, exact.total);
+	return select(mix(r0, 1.0, grazing), 1.0, exact.total);
 }
 
 fn fresnel__schlick_weight(cosine: f32) -> f32 {
@@ -4373,25 +4610,6 @@ fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f
 	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
-fn coverage__coverage_at(surface: shading__Surface) -> f32 {
-	if (!bindings__HAS_COVERAGE) {
-		return 1.0;
-	}
-	let material = material__load_coverage(surface.material);
-	if ((material.flags & types__MATERIAL_COVERAGE) == 0u) {
-		return 1.0;
-	}
-	var alpha = material.alpha;
-	if (bindings__HAS_TEXTURES) {
-		let index = material__load_texture_indices(surface.material).w >> 16u;
-		if (index != types__NO_TEXTURE) {
-			alpha *= texture__texture_alpha(material__load_texture(index), surface, (material.flags & types__MATERIAL_MASK) != 0u);
-		}
-	}
-	let masked = select(0.0, 1.0, alpha >= 0.999999);
-	return select(clamp_f32(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
-}
-
 fn leaving__leaving_ray(surface: shading__Surface, direction: vec3f, t_max: f32) -> tracing__Ray {
 	if (bindings__FIXED_OFFSET > 0.0) {
 		let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
@@ -4399,217 +4617,6 @@ fn leaving__leaving_ray(surface: shading__Surface, direction: vec3f, t_max: f32)
 	}
 	let origin = offset__offset_origin(surface.p, surface.error, surface.ng, direction);
 	return tracing__Ray(origin, t_max, direction, surface.leaving, surface.instance);
-}
-
-struct opacity__Clearness {
-	nothing: f32,
-	catchers: f32,
-	light: f32,
-	unshadowed: f32
-}
-
-var<private> opacity__clearness: opacity__Clearness;
-
-const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
-
-var<private> record_path__sampled: types__PackedRay;
-
-var<private> record_path__is_sampled: bool;
-
-fn record_path__record_gain(light: vec3f) {
-	if (record_path__is_sampled) {
-		record_path__sampled.contribution = light;
-		record__store_ray(record__ray_count, record_path__sampled);
-		record__ray_count += 1u;
-		record_path__is_sampled = false;
-	}
-	else {
-		record__traced.contribution += light;
-	}
-}
-
-fn record_path__record_density(pdf: f32) {
-	record__traced.own_pdf = pdf;
-}
-
-fn record_path__record_light_density(pdf: f32) {
-	record__traced.other_pdf = pdf;
-}
-
-fn record_path__record_found(radiance: vec3f, weight: f32) {
-	record__traced.emission = radiance;
-	record__traced.mis_weight = weight;
-}
-
-fn record_path__record_source(source: u32, index: u32, chance: f32) {
-	record_path__sampled = types__PackedRay();
-	record_path__sampled.lobe = source;
-	record_path__sampled.light = index;
-	record_path__sampled.chance = chance;
-}
-
-fn record_path__record_light_sample(surface: shading__Surface, ray: tracing__Ray, light: emitters__LightSample, found: bsdf__BsdfValue, weight: f32, unshadowed: vec3f) {
-	let is_traced = ray.t_max >= 0.0;
-	record_path__sampled.origin = select(surface.p, ray.origin, is_traced);
-	record_path__sampled.kind = types__RAY_SHADOW;
-	record_path__sampled.direction = light.incident.direction;
-	record_path__sampled.t = ray.t_max;
-	record_path__sampled.t_max = select(light.incident.distance, ray.t_max, is_traced);
-	record_path__sampled.primitive = types__NONE;
-	record_path__sampled.instance = types__NO_INSTANCE;
-	record_path__sampled.material = types__NONE;
-	record_path__sampled.throughput = record__traced.arriving;
-	record_path__sampled.parent = record__traced_index;
-	record_path__sampled.flags = select(types__RAY_UNTRACED, 0u, is_traced);
-	record_path__sampled.ambient = unshadowed;
-	record_path__sampled.emission = light.incident.radiance;
-	record_path__sampled.medium = types__NONE;
-	record_path__sampled.medium_behind = types__NONE;
-	record_path__sampled.media = vec4u(types__NONE);
-	record_path__sampled.value = found.value;
-	record_path__sampled.own_pdf = light.pdf;
-	record_path__sampled.other_pdf = found.pdf;
-	record_path__sampled.mis_weight = weight;
-	record_path__is_sampled = true;
-	if (!is_traced) {
-		record_path__record_gain(vec3f(0.0));
-	}
-}
-
-fn record_path__record_passage(through: vec3f) {
-	record_path__sampled.t = record__met.t;
-	record_path__sampled.primitive = record__met.primitive;
-	record_path__sampled.instance = record__met.instance;
-	record_path__sampled.crossings = record__met_count;
-	record_path__sampled.transmit = through;
-	record_path__sampled.arriving = record_path__sampled.throughput * through;
-}
-
-fn record_path__record_interface(met_here: interface__Interface, bsdf: lobes__Bsdf) {
-	record__record_media(met_here.here, medium__dominant(met_here.media), met_here.is_transparent);
-	let split = lobes__split_at(bsdf, bsdf.wo.z);
-	let boundary = boundary__boundary_at(bsdf.flags, clamp_f32(bsdf.wo.z, 0.0, 1.0), bsdf.eta);
-	record__record_scatter(split.reflect, split.transmit, boundary, vec2f(met_here.ior, met_here.ior_behind), met_here.is_boundary);
-}
-
-fn record_path__record_lobe(lobe: u32) {
-	record__traced.lobe = lobe;
-}
-
-fn record_path__record_step(next: bsdf__BsdfSample) {
-	record__traced.value = next.pdf * next.weight;
-	record__traced.pdf = next.pdf;
-	record__traced.weight = next.weight;
-	record__traced.chance = 1.0;
-	record__traced.step = types__STEP_SCATTERED;
-}
-
-fn record_path__record_passing() {
-	record__traced.weight = vec3f(1.0);
-	record__traced.chance = 1.0;
-	record__traced.step = types__STEP_PASSED;
-}
-
-fn record_path__record_limit() {
-	record__traced.step = types__STEP_LIMIT;
-}
-
-fn record_path__record_roulette(throughput: vec3f, chance: f32, ends: bool) {
-	record__traced.chance = chance;
-	if (ends) {
-		record__traced.step = select(types__STEP_ROULETTE, types__STEP_ABSORBED, all(throughput <= vec3f(0.0)));
-	}
-}
-
-fn record_path__record_straight(is_straight: bool) {
-	if (is_straight) {
-		record__traced.step = types__STEP_PASSED;
-	}
-}
-
-struct environment__EnvironmentSample {
-	direction: vec3f,
-	pdf: f32
-}
-
-fn environment__sample_environment(batch: dispatch__Batch, u: vec2f) -> environment__EnvironmentSample {
-	let width = batch.environment_width;
-	var place = quad_warp__quad_root(picture__load_texel_word(batch.environment_first), u);
-	var first = batch.environment_first + 1u;
-	var columns = 2u;
-	loop {
-		place = quad_warp__quad_step(picture__load_texel_word(first + place.cell.y * columns + place.cell.x), place);
-		first += columns * columns / 2u;
-		columns *= 2u;
-		continuing {
-		
-			break if columns >= width;
-		}
-	}
-	loops__cut_off |= columns < width;
-	let uv = (vec2f(place.cell) + place.u) / vec2f(f32(width), f32(width / 2u));
-	let direction = picture__equirectangular_direction(uv, batch.background_rotation);
-	return environment__EnvironmentSample(direction, environment__density_at(batch, place.cell, direction));
-}
-
-fn environment__environment_pdf(batch: dispatch__Batch, direction: vec3f) -> f32 {
-	let size = vec2u(batch.environment_width, batch.environment_width / 2u);
-	let uv = picture__equirectangular(direction, batch.background_rotation);
-	let place = vec2f(fract(uv.x), clamp_f32(uv.y, 0.0, 1.0)) * vec2f(size);
-	return environment__density_at(batch, min(vec2u(place), size - 1u), direction);
-}
-
-fn environment__background_weight(batch: dispatch__Batch, direction: vec3f, pdf: f32) -> f32 {
-	if (!bindings__HAS_ENVIRONMENT || pdf <= 0.0) {
-		return 1.0;
-	}
-	let density = batch.environment_share * environment__environment_pdf(batch, direction);
-	record_path__record_light_density(density);
-	return mis__power_heuristic(pdf, density);
-}
-
-fn environment__density_at(batch: dispatch__Batch, cell: vec2u, direction: vec3f) -> f32 {
-	let height = batch.environment_width / 2u;
-	let first = batch.environment_first + 1u + 2u * ((height * height - 1u) / 3u);
-	let density = bitcast<f32>(picture__load_texel_word(first + cell.y * batch.environment_width + cell.x));
-	return density / (2.0 * picture__PI * picture__PI * max_f32(length(direction.xz), 1e-6));
-}
-
-fn mis__power_heuristic(own: f32, other: f32) -> f32 {
-	let ratio = other / max_f32(own, 1e-30);
-	return select(0.0, 1.0 / (1.0 + min_f32(ratio * ratio, 1e30)), own > 0.0);
-}
-
-fn mis__survival_chance(throughput: vec3f) -> f32 {
-	return min_f32(max_f32(throughput.x, max_f32(throughput.y, throughput.z)), 1.0);
-}
-
-fn backdrop__is_seen(path: path__Path) -> bool {
-	return path.bounces == 0u;
-}
-
-fn backdrop__radiance_behind(batch: dispatch__Batch, path: path__Path) -> vec3f {
-	if (bindings__BACKDROP == types__BACKDROP_BACKGROUND || !backdrop__is_seen(path)) {
-		return background__background(batch, path.ray.direction);
-	}
-	if (bindings__BACKDROP == types__BACKDROP_TRANSPARENT) {
-		opacity__clearness.nothing += dot(path.throughput, tone__LUMINANCE_REC709);
-		return vec3f(0.0);
-	}
-	return batch.backdrop;
-}
-
-fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
-	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
-		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
-	}
-	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE) {
-		let size = batch.background_size;
-		let uv = picture__equirectangular(direction, batch.background_rotation);
-		let color = picture__blend_texels(batch.background_picture, size.x, size.y, picture__neighbours(uv.x, size.x, false, types__WRAP_REPEAT), picture__neighbours(uv.y, size.y, false, types__WRAP_CLAMP));
-		return batch.background * color.xyz;
-	}
-	return batch.background;
 }
 
 struct interface__Interface {
@@ -5340,7 +5347,7 @@ fn coating__coat_eval(coating: coating__Coating, wo: vec3f, wi: vec3f) -> vec2f 
 
 fn coating__coating_sample(coating: coating__Coating, wo: vec3f, u: vec2f, is_coat: bool) -> vec3f {
 	let own = coating__to_coat(coating, wo);
-	var reflected = bsdf__reflected_at(own, bsdf_ggx__ggx_normal(own, vec2f(coating.coat_alpha), u));
+	var reflected = boundary_lobe__reflected_at(own, bsdf_ggx__ggx_normal(own, vec2f(coating.coat_alpha), u));
 	if (bindings__HAS_COAT_NORMALS) {
 		reflected = warp__turn_to(coating.coat_axis, reflected);
 	}
@@ -5640,7 +5647,9 @@ struct lobes__Bsdf {
 
 struct lobes__Split {
 	reflect: vec3f,
-	transmit: vec3f
+	transmit: vec3f,
+	reflectance: f32,
+	cos_t: f32
 }
 
 fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: layers__Layers, met: interface__Interface, direction: vec3f) -> lobes__Bsdf {
@@ -5663,7 +5672,7 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	}
 	bsdf.wo = lobes__to_frame(bsdf, -direction);
 	bsdf.metallic = layers.metallic;
-	var seen = lobes__Split(vec3f(0.0), vec3f(0.0));
+	var seen = lobes__Split();
 	var inside = 1.0;
 	if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
 		inside = select(0.0, 1.0, met.is_boundary);
@@ -5699,7 +5708,8 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 		let wall = max_f32(gloss.albedo.x + gloss.albedo.y, 0.001);
 		let share = select(min_f32(glass.x * glass.y / wall, 1.0), glass.y, bsdf.bends);
 		bsdf.boundary_gain = 1.0 / select(wall, max_f32(glass.x, 0.001), bsdf.bends);
-		seen = lobes__Split(share * bsdf.reflect, (1.0 - share) * bsdf.transmit);
+		seen.reflect = share * bsdf.reflect;
+		seen.transmit = (1.0 - share) * bsdf.transmit;
 	}
 	var left = 1.0 - numeric__max_component(gloss.over);
 	if ((optics.flags & types__MATERIAL_SUM) == 0u) {
@@ -5773,13 +5783,16 @@ fn lobes__below_glossy(bsdf: lobes__Bsdf, cos_h: f32) -> f32 {
 
 fn lobes__split_at(bsdf: lobes__Bsdf, cos_i: f32) -> lobes__Split {
 	let boundary = boundary__boundary_at(bsdf.flags, clamp_f32(cos_i, 0.0, 1.0), bsdf.eta);
+	var split = lobes__Split(bsdf.reflect, bsdf.transmit, boundary.reflectance, boundary.cos_t);
 	if ((bsdf.flags & types__MATERIAL_FRESNEL) != 0u) {
-		return lobes__Split(boundary.reflectance * bsdf.reflect, (1.0 - boundary.reflectance) * bsdf.transmit);
+		split.reflect *= boundary.reflectance;
+		split.transmit *= 1.0 - boundary.reflectance;
 	}
-	if (boundary.total && bsdf.bends) {
-		return lobes__Split(bsdf.reflect + select(bsdf.transmit, vec3f(0.0), (bsdf.flags & types__MATERIAL_SUM) != 0u), vec3f(0.0));
+	else if (boundary.total && bsdf.bends) {
+		split.reflect += select(bsdf.transmit, vec3f(0.0), (bsdf.flags & types__MATERIAL_SUM) != 0u);
+		split.transmit = vec3f(0.0);
 	}
-	return lobes__Split(bsdf.reflect, bsdf.transmit);
+	return split;
 }
 
 fn lobes__to_frame(bsdf: lobes__Bsdf, direction: vec3f) -> vec3f {
@@ -5874,10 +5887,20 @@ fn seen__see_surface(path: path__Path, bsdf: lobes__Bsdf, glow: vec3f) {
 	}
 }
 
-const bsdf__MOST_REDRAWS: u32 = 64u;
-
-fn bsdf__draws_again() -> bool {
-	return bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC;
+fn toward_lamp__toward_lamp(batch: dispatch__Batch, before: path__Path, surface: shading__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
+	var path = before;
+	let light = emitters__sample_light(batch, surface.p, bsdf__receiving_normal(bsdf), path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
+	let found = bsdf__bsdf_eval(bsdf, light.incident.direction);
+	let weight = select(1.0, mis__power_heuristic(light.pdf, found.pdf), light.pdf > 0.0);
+	let unshadowed = weight * found.value * light.incident.radiance;
+	if (any(unshadowed > vec3f(0.0))) {
+		let media = select(path.media, met.media, vec4<bool>(dot(light.incident.direction, bsdf.ng) < 0.0));
+		path.lamp = shadow__passage_of(direct__shadow_ray(surface, light.incident), media);
+		path.lamp_light = path.throughput * unshadowed;
+		path.lamp_scatterings = path.bounces + 1u;
+	}
+	record_path__record_light_sample(surface, path.lamp.ray, light, found, weight, unshadowed);
+	return path;
 }
 
 struct bsdf__BsdfValue {
@@ -5891,12 +5914,8 @@ struct bsdf__BsdfSample {
 	pdf: f32
 }
 
-fn bsdf__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
-	return (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && bsdf.chances.z > 0.0 && bsdf.boundary_alpha.x >= layers__SMOOTH;
-}
-
 fn bsdf__receiving_normal(bsdf: lobes__Bsdf) -> vec3f {
-	let passes = (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) || (bindings__HAS_COATINGS && any(bsdf.through > vec3f(0.0)));
+	let passes = (bindings__HAS_ROUGH_GLASS && bindings__HAS_REFRACTION && boundary_lobe__has_rough_boundary(bsdf)) || (bindings__HAS_COATINGS && any(bsdf.through > vec3f(0.0)));
 	let normal = select(bsdf.normal, bsdf.ng, bindings__HAS_COAT_NORMALS && bsdf.coating.coat > 0.0);
 	return select(normal, vec3f(0.0), passes);
 }
@@ -5920,24 +5939,23 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 			value += sheen.x * bsdf.coating.sheen;
 			pdf += bsdf.coating_chances.y * sheen.y;
 		}
-		if (bsdf__has_rough_boundary(bsdf)) {
+		if (bindings__HAS_ROUGH_GLASS && boundary_lobe__has_rough_boundary(bsdf)) {
 			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, bindings__BSDF_SPEC);
 			let split = lobes__split_at(bsdf, cos_h);
 			value += (boundary.x * bsdf.boundary_gain) * split.reflect;
-			pdf += bsdf.chances.z * bsdf__reflection_chance(bsdf, split, cos_h) * bsdf__boundary_density(bsdf, boundary);
+			pdf += bsdf.chances.z * boundary_lobe__reflection_chance(bsdf, split) * boundary_lobe__boundary_density(bsdf, boundary);
 		}
 	}
-	else if (bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) {
+	else if (bindings__HAS_ROUGH_GLASS && bindings__HAS_REFRACTION && boundary_lobe__has_rough_boundary(bsdf)) {
 		var boundary = bsdf_ggx__ggx_eval(bsdf.wo, vec3f(wi.xy, -wi.z), bsdf.boundary_alpha, bindings__BSDF_SPEC);
 		var h = normalize(bsdf.wo + vec3f(wi.xy, -wi.z));
 		if (bsdf.bends) {
 			boundary = bsdf_ggx_transmission__ggx_transmission(bsdf.wo, wi, bsdf.boundary_alpha, bsdf.eta);
 			h = bsdf_ggx_transmission__transmission_half(bsdf.wo, wi, bsdf.eta);
 		}
-		let cos_h = dot(bsdf.wo, h);
-		let split = lobes__split_at(bsdf, cos_h);
+		let split = lobes__split_at(bsdf, dot(bsdf.wo, h));
 		value = (boundary.x * bsdf.boundary_gain) * split.transmit;
-		pdf = bsdf.chances.z * (1.0 - bsdf__reflection_chance(bsdf, split, cos_h)) * bsdf__boundary_density(bsdf, boundary);
+		pdf = bsdf.chances.z * (1.0 - boundary_lobe__reflection_chance(bsdf, split)) * boundary_lobe__boundary_density(bsdf, boundary);
 	}
 	if (bindings__HAS_COATINGS && wi.z < 0.0) {
 		let through = bsdf_diffuse__diffuse_eval(-wi);
@@ -5956,33 +5974,46 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 
 fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
 	let chances = bsdf.chances;
-	let is_diffuse = choice < chances.x;
-	let is_glossy = !is_diffuse && choice < chances.x + chances.y;
 	let first = chances.x + chances.y + bsdf.coating_chances.x + bsdf.coating_chances.y;
+	var draw: boundary_lobe__Draw;
 	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && choice >= first && chances.z > 0.0) {
 		record_path__record_lobe(types__LOBE_BOUNDARY);
-		return bsdf__boundary_sample(bsdf, clamp_f32((choice - first) / chances.z, 0.0, 1.0), u);
+		draw = boundary_lobe__boundary_draw(bsdf, clamp_f32((choice - first) / chances.z, 0.0, 1.0), u);
 	}
+	else {
+		draw = bsdf__lobe_draw(bsdf, choice, u);
+	}
+	let direction = lobes__from_frame(bsdf, draw.wi);
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && draw.is_smooth) {
+		let stays = (dot(direction, bsdf.ng) > 0.0) == draw.is_on_side;
+		return bsdf__BsdfSample(direction, select(vec3f(0.0), draw.fraction / chances.z, stays), 0.0);
+	}
+	let found = bsdf__bsdf_eval(bsdf, direction);
+	let weight = select(vec3f(0.0), found.value / max_f32(found.pdf, 1e-30), draw.is_on_side);
+	return bsdf__BsdfSample(direction, weight, found.pdf);
+}
+
+fn bsdf__lobe_draw(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> boundary_lobe__Draw {
+	let chances = bsdf.chances;
+	let is_diffuse = choice < chances.x;
+	let is_glossy = !is_diffuse && choice < chances.x + chances.y;
 	record_path__record_lobe(select(types__LOBE_GLOSSY, types__LOBE_DIFFUSE, is_diffuse));
 	var wi = bsdf_diffuse__diffuse_sample(u);
 	if (bindings__HAS_GLOSS && !is_diffuse) {
-		wi = bsdf__reflected_at(bsdf.wo, bsdf_ggx__ggx_normal(bsdf.wo, bsdf.alpha, u));
+		wi = boundary_lobe__reflected_at(bsdf.wo, bsdf_ggx__ggx_normal(bsdf.wo, bsdf.alpha, u));
 	}
+	var is_on_side = wi.z > 0.0;
 	if (bindings__HAS_COATINGS) {
 		if (!is_diffuse && !is_glossy) {
 			let is_coat = choice < chances.x + chances.y + bsdf.coating_chances.x;
-			wi = coating__coating_sample(bsdf.coating, bsdf.wo, u, is_coat);
 			record_path__record_lobe(select(types__LOBE_SHEEN, types__LOBE_COAT, is_coat));
-			if (is_coat) {
-				return bsdf__rough_sample(bsdf, wi, coating__to_coat(bsdf.coating, wi).z > 0.0);
-			}
+			wi = coating__coating_sample(bsdf.coating, bsdf.wo, u, is_coat);
+			is_on_side = select(wi.z, coating__to_coat(bsdf.coating, wi).z, is_coat) > 0.0;
 		}
 		let passes = is_diffuse && choice < chances.x * bsdf__through_share(bsdf);
-		if (passes) {
-			return bsdf__rough_sample(bsdf, vec3f(wi.xy, -wi.z), wi.z > 0.0);
-		}
+		wi.z = select(wi.z, -wi.z, passes);
 	}
-	return bsdf__rough_sample(bsdf, wi, wi.z > 0.0);
+	return boundary_lobe__Draw(wi, is_on_side, false, vec3f(0.0));
 }
 
 fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
@@ -5993,44 +6024,59 @@ fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
 	return through / max_f32(through + dot(bsdf.diffuse, tone__LUMINANCE_REC709), 1e-30);
 }
 
-struct bsdf__Facet {
+const boundary_lobe__MOST_REDRAWS: u32 = 64u;
+
+struct boundary_lobe__Draw {
+	wi: vec3f,
+	is_on_side: bool,
+	is_smooth: bool,
+	fraction: vec3f
+}
+
+fn boundary_lobe__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
+	return bsdf.chances.z > 0.0 && bsdf.boundary_alpha.x >= layers__SMOOTH;
+}
+
+struct boundary_lobe__Facet {
 	wi: vec3f,
 	reflects: bool,
 	split: lobes__Split,
 	chance: f32
 }
 
-fn bsdf__facet_at(bsdf: lobes__Bsdf, h: vec3f, choice: f32) -> bsdf__Facet {
-	let cos_h = clamp_f32(dot(bsdf.wo, h), 0.0, 1.0);
-	let split = lobes__split_at(bsdf, cos_h);
-	let chance = bsdf__reflection_chance(bsdf, split, cos_h);
+fn boundary_lobe__facet_at(bsdf: lobes__Bsdf, h: vec3f, choice: f32) -> boundary_lobe__Facet {
+	let split = lobes__split_at(bsdf, dot(bsdf.wo, h));
+	let chance = boundary_lobe__reflection_chance(bsdf, split);
 	let reflects = choice < chance;
-	let mirrored = bsdf__reflected_at(bsdf.wo, h);
+	let mirrored = boundary_lobe__reflected_at(bsdf.wo, h);
 	var wi = select(vec3f(mirrored.xy, -mirrored.z), mirrored, reflects);
 	if (!reflects && bsdf.bends) {
-		wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, boundary__boundary_at(bsdf.flags, cos_h, bsdf.eta).cos_t);
+		wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, split.cos_t);
 	}
-	return bsdf__Facet(wi, reflects, split, chance);
+	return boundary_lobe__Facet(wi, reflects, split, chance);
 }
 
-fn bsdf__unshadowed(bsdf: lobes__Bsdf, facet: bsdf__Facet, alpha: vec2f) -> f32 {
+fn boundary_lobe__unshadowed(bsdf: lobes__Bsdf, facet: boundary_lobe__Facet, alpha: vec2f) -> f32 {
 	let seen = 1.0 + bsdf_ggx__ggx_lambda(bsdf.wo, alpha);
 	let lit = bsdf_ggx__ggx_lambda(facet.wi, alpha);
 	let part = select(seen / (seen + lit), 1.0 / (1.0 + lit), !facet.reflects && bsdf.bends);
 	return select(0.0, part, (facet.wi.z > 0.0) == facet.reflects);
 }
 
-fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
+fn boundary_lobe__boundary_draw(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> boundary_lobe__Draw {
+	if (!bindings__HAS_ROUGH_GLASS) {
+		return boundary_lobe__smooth_draw(boundary_lobe__facet_at(bsdf, vec3f(0.0, 0.0, 1.0), choice));
+	}
 	let is_smooth = bsdf.boundary_alpha.x < layers__SMOOTH;
 	let alpha = max_vec2f(bsdf.boundary_alpha, vec2f(layers__SMOOTH));
 	var numbers = vec3f(choice, u);
 	var key = rng__hash_combine(bitcast<u32>(choice), rng__hash_combine(bitcast<u32>(u.x), bitcast<u32>(u.y)));
-	var draws = select(1u, 1u + bsdf__MOST_REDRAWS, bsdf__draws_again() && !is_smooth);
-	var facet: bsdf__Facet;
+	var draws = select(1u, 1u + boundary_lobe__MOST_REDRAWS, !bindings__BSDF_SPEC && !is_smooth);
+	var facet: boundary_lobe__Facet;
 	loop {
 		let h = select(bsdf_ggx__ggx_normal(bsdf.wo, alpha, numbers.yz), vec3f(0.0, 0.0, 1.0), is_smooth);
-		facet = bsdf__facet_at(bsdf, h, numbers.x);
-		let is_found = rng__unit_float(key) < bsdf__unshadowed(bsdf, facet, alpha);
+		facet = boundary_lobe__facet_at(bsdf, h, numbers.x);
+		let is_found = rng__unit_float(key) < boundary_lobe__unshadowed(bsdf, facet, alpha);
 		draws = select(draws - 1u, 0u, is_found);
 		let fresh = vec3u(rng__hash(key ^ 1757159915u), rng__hash(key ^ 48610963u), rng__hash(key ^ 2524612763u));
 		numbers = vec3f(rng__unit_float(fresh.x), rng__unit_float(fresh.y), rng__unit_float(fresh.z));
@@ -6040,36 +6086,31 @@ fn bsdf__boundary_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__Bsdf
 			break if draws == 0u;
 		}
 	}
-	if (!is_smooth) {
-		return bsdf__rough_sample(bsdf, facet.wi, (facet.wi.z > 0.0) == facet.reflects);
+	if (is_smooth) {
+		return boundary_lobe__smooth_draw(facet);
 	}
+	return boundary_lobe__Draw(facet.wi, (facet.wi.z > 0.0) == facet.reflects, false, vec3f(0.0));
+}
+
+fn boundary_lobe__smooth_draw(facet: boundary_lobe__Facet) -> boundary_lobe__Draw {
 	let transmitted = facet.split.transmit / max_f32(1.0 - facet.chance, 1e-6);
-	let fraction = select(transmitted, facet.split.reflect / max_f32(facet.chance, 1e-6), facet.reflects);
-	let direction = lobes__from_frame(bsdf, facet.wi);
-	let stays = (dot(direction, bsdf.ng) > 0.0) == facet.reflects;
-	return bsdf__BsdfSample(direction, select(vec3f(0.0), fraction / bsdf.chances.z, stays), 0.0);
+	let reflected = facet.split.reflect / max_f32(facet.chance, 1e-6);
+	return boundary_lobe__Draw(facet.wi, facet.reflects, true, select(transmitted, reflected, facet.reflects));
 }
 
-fn bsdf__boundary_density(bsdf: lobes__Bsdf, boundary: vec2f) -> f32 {
-	return select(boundary.y, boundary.x * bsdf.boundary_gain, bsdf__draws_again());
+fn boundary_lobe__boundary_density(bsdf: lobes__Bsdf, boundary: vec2f) -> f32 {
+	return select(boundary.x * bsdf.boundary_gain, boundary.y, bindings__BSDF_SPEC);
 }
 
-fn bsdf__rough_sample(bsdf: lobes__Bsdf, wi: vec3f, is_on_side: bool) -> bsdf__BsdfSample {
-	let direction = lobes__from_frame(bsdf, wi);
-	let found = bsdf__bsdf_eval(bsdf, direction);
-	let weight = select(vec3f(0.0), found.value / max_f32(found.pdf, 1e-30), is_on_side);
-	return bsdf__BsdfSample(direction, weight, found.pdf);
-}
-
-fn bsdf__reflection_chance(bsdf: lobes__Bsdf, split: lobes__Split, cos_h: f32) -> f32 {
-	if (bsdf__draws_again() && (bsdf.flags & types__MATERIAL_FRESNEL) != 0u && bsdf.boundary_alpha.x >= layers__SMOOTH) {
-		return boundary__boundary_at(bsdf.flags, clamp_f32(cos_h, 0.0, 1.0), bsdf.eta).reflectance;
+fn boundary_lobe__reflection_chance(bsdf: lobes__Bsdf, split: lobes__Split) -> f32 {
+	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && (bsdf.flags & types__MATERIAL_FRESNEL) != 0u && bsdf.boundary_alpha.x >= layers__SMOOTH) {
+		return split.reflectance;
 	}
 	let reflected = dot(split.reflect, tone__LUMINANCE_REC709);
 	return reflected / max_f32(reflected + dot(split.transmit, tone__LUMINANCE_REC709), 1e-30);
 }
 
-fn bsdf__reflected_at(wo: vec3f, h: vec3f) -> vec3f {
+fn boundary_lobe__reflected_at(wo: vec3f, h: vec3f) -> vec3f {
 	return normalize(2.0 * dot(wo, h) * h - wo);
 }
 

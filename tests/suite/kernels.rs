@@ -6,7 +6,7 @@ use naga::{
     Expression, MathFunction, ScalarKind,
     valid::{Capabilities, ValidationFlags, Validator},
 };
-use std::fs;
+use std::{collections::HashMap, fs};
 
 #[path = "../../shaders/link.rs"]
 mod link;
@@ -338,6 +338,93 @@ fn selected_extremes_are_those_of_ieee_754() {
         verdict.that(format!("{a:e}, {b:e}"), got == expected, || {
             format!("{got:?}")
         });
+    }
+    verdict.close();
+}
+
+/// How often drivers inline each function of a module that is called, by its name without its module.
+fn inlined(module: &naga::Module) -> HashMap<String, usize> {
+    fn called(block: &naga::Block, found: &mut Vec<naga::Handle<naga::Function>>) {
+        for statement in block {
+            let inner: Vec<&naga::Block> = match statement {
+                naga::Statement::Call { function, .. } => {
+                    found.push(*function);
+                    Vec::new()
+                }
+                naga::Statement::Block(body) => vec![body],
+                naga::Statement::If { accept, reject, .. } => vec![accept, reject],
+                naga::Statement::Loop {
+                    body, continuing, ..
+                } => vec![body, continuing],
+                naga::Statement::Switch { cases, .. } => cases.iter().map(|it| &it.body).collect(),
+                _ => Vec::new(),
+            };
+            inner.into_iter().for_each(|block| called(block, found));
+        }
+    }
+    let mut counts = vec![0; module.functions.len()];
+    let add = |counts: &mut Vec<usize>, function: &naga::Function, times: usize| {
+        let mut found = Vec::new();
+        called(&function.body, &mut found);
+        for function in found {
+            counts[function.index()] += times;
+        }
+    };
+    add(&mut counts, &module.entry_points[0].function, 1);
+    // Functions come before those that call them.
+    for (handle, function) in module.functions.iter().rev() {
+        let times = counts[handle.index()];
+        add(&mut counts, function, times);
+    }
+    let name = |function: &naga::Function| {
+        let name = function.name.clone().unwrap_or_default();
+        name.rsplit("__").next().unwrap_or_default().to_owned()
+    };
+    (module.functions.iter())
+        .map(|(handle, function)| (name(function), counts[handle.index()]))
+        .collect()
+}
+
+/// Each copy of a long function takes time to compile, on lavapipe to run, and GPUs the space for other code.
+#[test]
+fn long_functions_of_the_path_tracer_are_not_inlined_again_and_again() {
+    let glass = [
+        ("HAS_REFLECTION", 1.0),
+        ("HAS_REFRACTION", 1.0),
+        ("HAS_COVERAGE", 1.0),
+        ("HAS_TREES", 1.0),
+        ("FILTERED_SHADOWS", 1.0),
+        ("HAS_LAYERS", 1.0),
+        ("HAS_GLOSS", 1.0),
+        ("HAS_TRIANGLES", 1.0),
+        ("HAS_ENVIRONMENT", 1.0),
+        ("HAS_LIGHTS", 1.0),
+    ];
+    let module = (Kernel::PATH_TRACE.specialized(Variant::Image, &glass)).expect("WGSL");
+    let counts = inlined(&module);
+    let mut verdict = Verdict::on("functions");
+    for (name, most) in [
+        ("walked", 1),
+        ("contact_at", 1),
+        ("surface_at", 1),
+        ("coverage_at", 1),
+        ("layers_at", 1),
+        ("bsdf_at", 1),
+        ("bsdf_eval", 2),
+        ("sample_light", 1),
+        // Without rough glass nothing is evaluated at microfacets of a boundary.
+        ("ggx_transmission", 0),
+        ("boundary_density", 0),
+        // For the whole surface, and for a microfacet.
+        ("boundary_at", 2),
+    ] {
+        let count = counts.get(name).copied().unwrap_or_default();
+        verdict.that(name, count <= most, || {
+            format!("{count} copies, {most} allowed")
+        });
+        // A renamed function would never be found.
+        let is_known = most == 0 || count > 0;
+        verdict.that(format!("{name} is there"), is_known, || "is not");
     }
     verdict.close();
 }

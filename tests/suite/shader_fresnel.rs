@@ -11,7 +11,7 @@ const BOUNDARY: &str = "
     import package::lib::fresnel::{fresnel, schlick};
     fn probe(cos_i: f32, eta: f32) -> vec4f {
         let exact = fresnel(cos_i, eta);
-        return vec4f(exact.reflectance, exact.cos_t, select(0.0, 1.0, exact.total), schlick(cos_i, eta).reflectance);
+        return vec4f(exact.reflectance, exact.cos_t, select(0.0, 1.0, exact.total), schlick(cos_i, eta, exact));
     }
 ";
 
