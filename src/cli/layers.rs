@@ -118,7 +118,12 @@ impl LayerFlags {
                     .into(),
             ));
         };
-        let mut finished = Finished::plain(film.develop(gpu, tone)?, opacity);
+        // The raw picture is only seen among the layers.
+        let raw = match self.layers.is_empty() {
+            true => Image::new(0, 0),
+            false => film.develop(gpu, tone)?,
+        };
+        let mut finished = Finished::plain(raw, opacity);
         // In the order of the table, each once.
         let known = LAYERS.0.iter().map(|(.., layer)| layer);
         let wanted = known.filter(|layer| self.layers.contains(layer));

@@ -7,6 +7,7 @@ use super::{
 use crate::{
     gpu::{Gpu, GpuError, Source},
     image::Image,
+    threads,
 };
 use bytemuck::{bytes_of, cast_slice};
 use wgpu::{BufferUsages, TextureFormat};
@@ -47,29 +48,30 @@ impl Image {
             }
             .into());
         }
-        let own = self.pixels.iter().zip(&features.pixels);
-        let signals: Vec<_> = own
-            .map(|(pixel, features)| signal(*pixel, features))
-            .collect();
+        let pixels = &features.pixels;
+        let signals = threads::collect(pixels.len(), |at| signal(self.pixels[at], &pixels[at]));
         let guides = guides(features);
         let filtered = filter(gpu, (width, height), &signals, &guides)?;
-        let mut image = self.clone();
-        if features.pixels.iter().any(|pixel| pixel.transparency > 0.0) {
-            let signals: Vec<_> = features.pixels.iter().map(clear).collect();
-            let clear = filter(gpu, (width, height), &signals, &guides)?;
-            for (pixel, [clear, ..]) in image.pixels.iter_mut().zip(clear) {
-                pixel[3] = 1.0 - clear.clamp(0.0, 1.0);
+        let clear = match pixels.iter().any(|pixel| pixel.transparency > 0.0) {
+            true => {
+                let signals = threads::collect(pixels.len(), |at| clear(&pixels[at]));
+                Some(filter(gpu, (width, height), &signals, &guides)?)
             }
-        }
-        for ((pixel, found), features) in (image.pixels.iter_mut())
-            .zip(filtered)
-            .zip(&features.pixels)
-        {
-            let albedo = albedo(features);
-            let color = [0, 1, 2].map(|channel| found[channel] * albedo[channel]);
-            *pixel = straight(color, pixel[3]);
-        }
-        Ok(image)
+            false => None,
+        };
+        let color = |at: usize| {
+            let albedo = albedo(&pixels[at]);
+            let color = [0, 1, 2].map(|channel| filtered[at][channel] * albedo[channel]);
+            let opacity = (clear.as_ref()).map_or(self.pixels[at][3], |clear| {
+                1.0 - clear[at][0].clamp(0.0, 1.0)
+            });
+            straight(color, opacity)
+        };
+        Ok(Self {
+            width,
+            height,
+            pixels: threads::collect(pixels.len(), color),
+        })
     }
 }
 
@@ -118,7 +120,8 @@ fn guides(features: &Features) -> Vec<[u32; 4]> {
         let least = apart(before).min(apart(after));
         if least.is_finite() { least } else { 0.0 }
     };
-    let guide = |(index, pixel): (usize, &PixelFeatures)| {
+    let guide = |index: usize| {
+        let pixel = &features.pixels[index];
         let (x, y) = (index % width, index / width);
         let left = (x > 0).then(|| depth(x - 1, y));
         let right = (x + 1 < width).then(|| depth(x + 1, y));
@@ -136,7 +139,7 @@ fn guides(features: &Features) -> Vec<[u32; 4]> {
             if own.is_finite() { own.to_bits() } else { 0 },
         ]
     };
-    features.pixels.iter().enumerate().map(guide).collect()
+    threads::collect(features.pixels.len(), guide)
 }
 
 fn snorm(number: f32) -> u32 {
@@ -219,9 +222,11 @@ fn read(
         bytes,
     };
     gpu.submit_and_read(encoder, &[source], &staging, |bytes| {
-        let rows = bytes.chunks_exact(row as usize);
-        let rows = rows.flat_map(|row| cast_slice(&row[..(TEXEL_BYTES * width) as usize]));
-        rows.copied().collect()
+        let mut texels = Vec::with_capacity(width as usize * height as usize);
+        for row in bytes.chunks_exact(row as usize) {
+            texels.extend_from_slice(cast_slice(&row[..(TEXEL_BYTES * width) as usize]));
+        }
+        texels
     })
 }
 

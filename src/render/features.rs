@@ -5,10 +5,12 @@ use super::{
     layers::{self, Layer},
     luminance::luminance,
     opacity::{opacity, straight},
+    sums::fill_rectangle,
 };
 use crate::image::Image;
 use crate::pack::{PackedScene, PackedView};
 use crate::scene::ObjectRef;
+use crate::threads;
 use glam::DVec3;
 
 /// What the pixels of a rectangle show besides the picture.
@@ -35,7 +37,7 @@ impl Features {
         Image {
             width: self.width,
             height: self.height,
-            pixels: self.pixels.iter().map(pixel).collect(),
+            pixels: threads::collect(self.pixels.len(), |index| pixel(&self.pixels[index])),
         }
     }
 }
@@ -167,31 +169,28 @@ impl Renderer {
     /// The device failed.
     pub fn features(&mut self) -> Result<Features, RenderError> {
         self.fetch_film()?;
-        let [x, y, width, height] = self.settings.region();
-        let Some(places) = Places::new(layers::of_pictures(&self.settings)) else {
+        let layers = layers::of_pictures(&self.settings);
+        let Some(places) = Places::new(layers) else {
             return Ok(Features::default());
         };
+        let region = self.settings.region();
+        let [.., width, height] = region;
         let whole = f64::from(self.settings.samples_to_render().len() as u32);
         let is_done = self.is_done();
         let mut pixels = vec![PixelFeatures::default(); width as usize * height as usize];
-        for (region, rows) in self.tiles.rows(layers::of_pictures(&self.settings)) {
-            let [left, top, across, _] = region;
-            let count = rows.len() / (across * region[3]) as usize;
-            for (index, rows) in rows.chunks_exact(count).enumerate() {
-                let (row, column) = (index as u32 / across, index as u32 % across);
-                let at = (top + row - y) * width + left + column - x;
+        for (part, sums) in self.tiles.sums(layers) {
+            let sums = (&sums, layers::pixel_rows(layers));
+            // A renderer itself stays on its thread in browsers.
+            let (scene, view) = (&*self.scene, &self.view);
+            fill_rectangle(&mut pixels, region, part, sums, |rows| {
                 let samples = if is_done { whole } else { rows[0][3].abs() };
-                let mut pixel = places.pixel(rows, samples);
-                if pixel.material > 0 {
-                    let [.., instance] = rows[places.first];
-                    let [.., low, high] = rows[places.first + 2];
-                    let primitive = low as u32 | (high as u32) << 16;
-                    pixel.object = number_of(&self.scene, &self.view, primitive, instance as u32);
-                    let [x, y, z, _] = rows[places.first + 1];
-                    pixel.position = single(in_world(&self.scene, [x, y, z]));
-                }
-                pixels[at as usize] = pixel;
-            }
+                in_scene(
+                    scene,
+                    view,
+                    places.pixel(rows, samples),
+                    &rows[places.first..],
+                )
+            });
         }
         Ok(Features {
             width,
@@ -199,6 +198,22 @@ impl Renderer {
             pixels,
         })
     }
+}
+
+/// A pixel with its object, and its position in world space, from the rows of the first surface.
+fn in_scene(
+    scene: &PackedScene,
+    view: &PackedView,
+    mut pixel: PixelFeatures,
+    first: &[[f64; 4]],
+) -> PixelFeatures {
+    if pixel.material > 0 {
+        let ([.., instance], [x, y, z, _], [.., low, high]) = (first[0], first[1], first[2]);
+        let primitive = low as u32 | (high as u32) << 16;
+        pixel.object = number_of(scene, view, primitive, instance as u32);
+        pixel.position = single(in_world(scene, [x, y, z]));
+    }
+    pixel
 }
 
 /// A point in world space, from one in render space.

@@ -172,7 +172,13 @@ impl Film {
             let own = Coverage::rectangle(piece.region, header.blocks(piece.samples.clone())?);
             coverage = united(&coverage, &own)?;
         }
-        let mut film = FilmOutline { header, coverage }.blank();
+        let outline = FilmOutline { header, coverage };
+        // A single piece is the film.
+        if pieces.len() == 1 {
+            let sums = pieces.into_iter().map(|piece| piece.sums).collect();
+            return Ok(outline.with_sums(sums));
+        }
+        let mut film = outline.blank();
         for piece in &pieces {
             film.add_rectangle(piece.region, &piece.sums);
         }

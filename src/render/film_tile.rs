@@ -9,7 +9,7 @@ use super::{
     sums::{PixelRows, SAMPLE_BLOCK, Sums, Totals},
 };
 use crate::threads;
-use std::ops::Range;
+use std::{borrow::Cow, ops::Range};
 
 /// Pixels of a workgroup.
 pub const GROUP_PIXELS: usize = 64;
@@ -64,8 +64,12 @@ impl FilmTile {
 
     /// The same rectangle without sums.
     pub fn blank(&self) -> Self {
-        let region = [self.x, self.y, self.width, self.height];
-        Self::new(region, self.samples.clone(), self.rows)
+        Self::new(self.region(), self.samples.clone(), self.rows)
+    }
+
+    /// x, y, width, height.
+    pub fn region(&self) -> [u32; 4] {
+        [self.x, self.y, self.width, self.height]
     }
 
     /// Number of pixels without padding.
@@ -85,11 +89,6 @@ impl FilmTile {
     /// Film rows per pixel.
     pub fn rows_per_pixel(&self) -> usize {
         self.rows.count
-    }
-
-    /// The rows of a pixel.
-    pub fn pixel_rows(&self) -> PixelRows {
-        self.rows
     }
 
     pub fn group_columns(&self) -> u32 {
@@ -214,8 +213,41 @@ impl FilmTile {
         match &self.closed {
             None if self.sums.is_empty() => None,
             None => Some(Totals::Block(&self.sums)),
-            Some(_) => self.all_sums().map(Totals::Blocks),
+            Some(closed) if self.sums.is_empty() => Some(Totals::Blocks(Cow::Borrowed(closed))),
+            Some(_) => self.all_sums().map(|sums| Totals::Blocks(Cow::Owned(sums))),
         }
+    }
+
+    /// The rows of the pixels of a rectangle, row by row instead of in film order.
+    pub fn by_rows(&self, totals: &Totals) -> Sums {
+        match totals {
+            Totals::Block(block) => Sums::Block(self.gathered(block, [0.0; 4])),
+            Totals::Blocks(sums) => match &**sums {
+                Sums::Block(block) => Sums::Block(self.gathered(block, [0.0; 4])),
+                Sums::Totals(totals) => Sums::Totals(self.gathered(totals, [0; 4])),
+            },
+        }
+    }
+
+    fn gathered<R: Copy + Send + Sync>(&self, from: &[R], zero: R) -> Vec<R> {
+        let mut places = vec![0; self.sampled_pixels() as usize];
+        for (index, pixel) in self.pixels().enumerate() {
+            if let Some([x, y]) = pixel {
+                places[((y - self.y) * self.width + x - self.x) as usize] = index as u32;
+            }
+        }
+        let count = self.rows.count;
+        let mut rows = vec![zero; count * places.len()];
+        let len = threads::chunk_len(places.len());
+        threads::for_each(
+            rows.chunks_mut(count * len).zip(places.chunks(len)),
+            |(rows, places)| {
+                for (own, place) in rows.chunks_exact_mut(count).zip(places) {
+                    own.copy_from_slice(&from[count * *place as usize..][..count]);
+                }
+            },
+        );
+        rows
     }
 
     /// The rows for `develop`: sums and weights of a single block, otherwise means with a weight of 1.

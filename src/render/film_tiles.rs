@@ -11,7 +11,7 @@ use super::{
     film_tile::{FilmTile, rectangles},
     layers::{self, Layer},
     settings::RenderSettings,
-    sums::{PixelRows, SAMPLE_BLOCK, Sums},
+    sums::{PixelRows, SAMPLE_BLOCK, Sums, Totals},
 };
 use std::borrow::Cow;
 use std::ops::Range;
@@ -111,31 +111,37 @@ impl FilmTiles {
         for (index, tile) in self.list.iter().enumerate() {
             let Range { start, end } = tile.samples;
             let (samples, sums) = match index < done {
-                true => (start..end, tile.all_sums()),
-                false => (start..sample - sample % SAMPLE_BLOCK, tile.closed.clone()),
+                true => (start..end, tile.totals()),
+                false => {
+                    let closed = tile.closed.as_ref().map(Cow::Borrowed);
+                    (
+                        start..sample - sample % SAMPLE_BLOCK,
+                        closed.map(Totals::Blocks),
+                    )
+                }
             };
             if let (Some(sums), true) = (sums, index <= done) {
-                pieces.push(piece(tile, samples, &sums));
+                pieces.push(Piece {
+                    region: tile.region(),
+                    samples,
+                    sums: tile.by_rows(&sums),
+                });
             }
         }
         Film::new(header, pieces)
     }
 
-    /// The rows of the pixels with samples so far, in the order of films, by rectangle (x, y, width, height).
-    pub fn rows(&self, layers: &[&Layer]) -> Vec<([u32; 4], Vec<[f64; 4]>)> {
+    /// The sums of the pixels with samples so far, in the order of films, by rectangle (x, y, width, height).
+    pub fn sums(&self, layers: &[&Layer]) -> Vec<([u32; 4], Sums)> {
         if let Some(adaptive) = &self.adaptive {
             let so_far = match self.list.is_empty() {
                 true => Cow::Borrowed(adaptive),
                 false => Cow::Owned(adaptive.with_part_of_round(&self.list)),
             };
-            let rows = so_far.means_and_counts(layers).into_iter();
-            let rows = rows.map(|row| row.map(f64::from)).collect();
-            return vec![(adaptive.crop(), rows)];
+            let rows = so_far.means_and_counts(layers);
+            return vec![(adaptive.crop(), Sums::Block(rows))];
         }
-        let of_tile = |tile: &FilmTile| {
-            let Piece { region, sums, .. } = piece(tile, 0..0, &tile.all_sums()?);
-            Some((region, sums.rounded(tile.pixel_rows())))
-        };
+        let of_tile = |tile: &FilmTile| Some((tile.region(), tile.by_rows(&tile.totals()?)));
         self.list.iter().filter_map(of_tile).collect()
     }
 
@@ -181,23 +187,5 @@ impl FilmTiles {
     fn largest_row_count(&self) -> usize {
         let counts = self.list.iter().map(FilmTile::row_count);
         counts.max().unwrap_or(0)
-    }
-}
-
-/// The sums of a tile, with its pixels row by row.
-fn piece(tile: &FilmTile, samples: Range<u32>, sums: &Sums) -> Piece {
-    let rows = tile.rows_per_pixel();
-    let pixels = tile.sampled_pixels() as usize;
-    let mut ordered = Sums::zeros(rows * pixels, matches!(sums, Sums::Block(_)));
-    for (index, pixel) in tile.pixels().enumerate() {
-        if let Some([x, y]) = pixel {
-            let to = (y - tile.y) as usize * tile.width as usize + (x - tile.x) as usize;
-            ordered.add(rows * to, sums, rows * index, rows, tile.pixel_rows());
-        }
-    }
-    Piece {
-        region: [tile.x, tile.y, tile.width, tile.height],
-        samples,
-        sums: ordered,
     }
 }

@@ -14,8 +14,10 @@
 use super::{
     RenderError, Renderer,
     layers::{self, Layer},
+    sums::{Sums, fill_rectangle},
 };
 use crate::image::Image;
+use std::borrow::Borrow;
 
 /// The least opacity by which colours are divided.
 const LEAST: f32 = 1e-4;
@@ -44,29 +46,27 @@ pub fn straight([r, g, b]: [f32; 3], opacity: f32) -> [f32; 4] {
     }
 }
 
-/// The picture in linear radiance of a film with opacity: of the rows of rectangles (x, y, width, height) of pixels. Pixels
+/// The picture in linear radiance of a film with opacity: of the sums of rectangles (x, y, width, height) of pixels. Pixels
 /// without samples are transparent.
-pub fn picture(
-    [left, top, width, height]: [u32; 4],
+pub fn picture<S: Borrow<Sums>>(
+    region: [u32; 4],
     layers: &[&Layer],
-    patches: impl IntoIterator<Item = ([u32; 4], Vec<[f64; 4]>)>,
+    patches: impl IntoIterator<Item = ([u32; 4], S)>,
 ) -> Option<Image> {
     let place = layers::row_of(layers, &layers::OPACITY)?;
-    let count = layers::rows(layers);
+    let [.., width, height] = region;
     let mut image = Image {
         width,
         height,
         pixels: vec![[0.0; 4]; width as usize * height as usize],
     };
-    for ([x, y, across, _], rows) in patches {
-        for (index, rows) in (0..).zip(rows.chunks_exact(count)) {
-            let (row, column) = (index / across, index % across);
-            let at = (y + row - top) as usize * width as usize + (x + column - left) as usize;
+    for (patch, sums) in patches {
+        let sums = (sums.borrow(), layers::pixel_rows(layers));
+        fill_rectangle(&mut image.pixels, region, patch, sums, |rows| {
             let weight = rows[0][3];
-            let opacity = opacity(weight, &rows[place..]);
             let mean = [0, 1, 2].map(|channel| (rows[0][channel] / weight).max(0.0) as f32);
-            image.pixels[at] = straight(mean, opacity);
-        }
+            straight(mean, opacity(weight, &rows[place..]))
+        });
     }
     Some(image)
 }
@@ -79,7 +79,7 @@ impl Renderer {
         }
         self.fetch_film()?;
         let layers = layers::of_pictures(&self.settings);
-        let rows = self.tiles.rows(layers);
-        Ok(picture(self.settings.region(), layers, rows))
+        let sums = self.tiles.sums(layers);
+        Ok(picture(self.settings.region(), layers, sums))
     }
 }

@@ -4,6 +4,9 @@
 //! added as integers, for which addition is associative and commutative. Any split of a picture between blocks,
 //! merged in any order, therefore has the same bits as a single run.
 
+use crate::threads;
+use std::borrow::Cow;
+
 /// Samples of a pixel that are summed in f32. A picture can be split at multiples of this number; the last
 /// block of a picture may be shorter.
 pub const SAMPLE_BLOCK: u32 = 64;
@@ -150,27 +153,23 @@ impl Sums {
     pub fn developable(&self) -> Vec<[f32; 4]> {
         match self {
             Self::Block(block) => block.clone(),
-            Self::Totals(totals) => (totals.iter())
-                .map(|row| {
-                    let [r, g, b, weight] = row.map(|sum| sum as f64 * UNIT);
-                    // With more than one block of samples the weights do not cancel.
-                    let scale = 1.0 / weight.max(1.0);
-                    let any = if weight == 0.0 { 0.0 } else { 1.0 };
-                    [r * scale, g * scale, b * scale, any].map(|c| c as f32)
-                })
-                .collect(),
+            Self::Totals(totals) => totals.iter().copied().map(mean).collect(),
         }
     }
 
-    /// The sums in f64.
-    pub fn rounded(&self, rows: PixelRows) -> Vec<[f64; 4]> {
-        let len = match self {
-            Self::Block(block) => block.len(),
-            Self::Totals(totals) => totals.len(),
-        };
-        (0..len)
-            .map(|index| self.rounded_row(index, rows))
-            .collect()
+    /// A row of [`Self::developable`].
+    pub fn developable_row(&self, index: usize) -> [f32; 4] {
+        match self {
+            Self::Block(block) => block[index],
+            Self::Totals(totals) => mean(totals[index]),
+        }
+    }
+
+    /// Puts the rows of a pixel, in f64, into a list.
+    pub fn round_pixel(&self, pixel: usize, rows: PixelRows, into: &mut Vec<[f64; 4]>) {
+        let first = pixel * rows.count;
+        into.clear();
+        into.extend((first..first + rows.count).map(|index| self.rounded_row(index, rows)));
     }
 
     /// A row in f64.
@@ -187,11 +186,11 @@ impl Sums {
     }
 }
 
-/// The sums of all blocks of a film tile. Those of a single block are not copied.
+/// The sums of blocks of a film tile. Those of a single block are not copied.
 pub enum Totals<'a> {
     /// As added by the GPU.
     Block(&'a [[f32; 4]]),
-    Blocks(Sums),
+    Blocks(Cow<'a, Sums>),
 }
 
 impl Totals<'_> {
@@ -202,6 +201,15 @@ impl Totals<'_> {
             Self::Blocks(sums) => sums.rounded_row(index, rows),
         }
     }
+}
+
+/// The mean of a row of totals with a weight of 1, or zeros.
+fn mean(row: [i128; 4]) -> [f32; 4] {
+    let [r, g, b, weight] = row.map(|sum| sum as f64 * UNIT);
+    // With more than one block of samples the weights do not cancel.
+    let scale = 1.0 / weight.max(1.0);
+    let any = if weight == 0.0 { 0.0 } else { 1.0 };
+    [r * scale, g * scale, b * scale, any].map(|c| c as f32)
 }
 
 fn add_blocks(totals: &mut [[i128; 4]], block: &[[f32; 4]], rows: PixelRows) {
@@ -215,4 +223,31 @@ fn add_blocks(totals: &mut [[i128; 4]], block: &[[f32; 4]], rows: PixelRows) {
 fn exact(sum: f32) -> i128 {
     let scaled = f64::from(sum) / UNIT;
     (scaled.round() as i128).clamp(-LARGEST, LARGEST)
+}
+
+/// Makes the pixels of a rectangle (x, y, width, height) of a picture from the rows of their sums, by all cores. `whole` is
+/// the rectangle of the picture.
+pub fn fill_rectangle<T: Send>(
+    picture: &mut [T],
+    whole: [u32; 4],
+    region: [u32; 4],
+    (sums, rows): (&Sums, PixelRows),
+    make: impl Fn(&[[f64; 4]]) -> T + Sync,
+) {
+    let [left, top, full, _] = whole.map(|number| number as usize);
+    let [x, y, width, height] = region.map(|number| number as usize);
+    let lines = &mut picture[(y - top) * full..][..height * full];
+    let count = threads::chunk_len(lines.len()).div_ceil(full);
+    threads::for_each(
+        lines.chunks_mut(count * full).enumerate(),
+        |(index, lines)| {
+            let mut pixel_rows = Vec::new();
+            for (row, line) in (index * count..).zip(lines.chunks_exact_mut(full)) {
+                for (column, pixel) in line[x - left..][..width].iter_mut().enumerate() {
+                    sums.round_pixel(row * width + column, rows, &mut pixel_rows);
+                    *pixel = make(&pixel_rows);
+                }
+            }
+        },
+    );
 }

@@ -10,6 +10,7 @@ use crate::{
         layers::{self, LayerKind},
         levels, opacity,
     },
+    threads,
 };
 
 impl Film {
@@ -36,8 +37,7 @@ impl Film {
         }
         let layers = self.header.layers;
         let patches = self.coverage.patches().zip(&self.sums);
-        let patches =
-            patches.map(|((region, _), sums)| (region, sums.rounded(layers::pixel_rows(layers))));
+        let patches = patches.map(|((region, _), sums)| (region, sums));
         if let Some(image) = opacity::picture(region, layers, patches) {
             return tone.develop(gpu, &image);
         }
@@ -101,14 +101,13 @@ impl Film {
         let first = layer.and_then(|layer| layers::row_of(layers, layer));
         let patches = self.coverage.patches().zip(&self.sums);
         patches.map(move |((region, samples), sums)| {
-            let pixels = sums.developable();
-            let pixels = pixels.chunks_exact(self.rows());
+            let pixels = region[2] as usize * region[3] as usize;
             let rows = match first {
-                Some(first) => pixels.map(|pixel| pixel[first]).collect(),
+                Some(first) => threads::collect(pixels, |pixel| {
+                    sums.developable_row(pixel * self.rows() + first)
+                }),
                 // All pixels have the same number of samples if no layer counts them.
-                None => pixels
-                    .map(|_| [samples.len() as f32, 0.0, 0.0, 0.0])
-                    .collect(),
+                None => vec![[samples.len() as f32, 0.0, 0.0, 0.0]; pixels],
             };
             (region, rows)
         })

@@ -4,6 +4,7 @@ use super::Film;
 use crate::render::{
     features::{Features, PixelFeatures, Places},
     layers,
+    sums::fill_rectangle,
 };
 
 impl Film {
@@ -12,19 +13,17 @@ impl Film {
     pub fn features(&self) -> Option<Features> {
         let places = Places::new(self.header.layers)?;
         let rows = layers::pixel_rows(self.header.layers);
-        let [left, top, full, height] = self.region();
-        let mut pixels = vec![PixelFeatures::default(); full as usize * height as usize];
-        for (([x, y, width, _], samples), sums) in self.coverage.patches().zip(&self.sums) {
-            let start = (y - top) as usize * full as usize + (x - left) as usize;
+        let region = self.region();
+        let [.., width, height] = region;
+        let mut pixels = vec![PixelFeatures::default(); width as usize * height as usize];
+        for ((patch, samples), sums) in self.coverage.patches().zip(&self.sums) {
             let samples = f64::from(samples.len());
-            let sums = sums.rounded(rows);
-            for (index, pixel) in sums.chunks_exact(rows.count).enumerate() {
-                let (row, column) = (index / width as usize, index % width as usize);
-                pixels[start + row * full as usize + column] = places.pixel(pixel, samples);
-            }
+            fill_rectangle(&mut pixels, region, patch, (sums, rows), |pixel| {
+                places.pixel(pixel, samples)
+            });
         }
         Some(Features {
-            width: full,
+            width,
             height,
             pixels,
         })

@@ -77,6 +77,12 @@ impl FilmOutline {
             Sums::zeros(rows * pixels, header.is_block(samples))
         };
         let sums = coverage.patches().map(zeros).collect();
+        Self { header, coverage }.with_sums(sums)
+    }
+
+    /// The film with these sums, for each patch of the coverage.
+    pub(super) fn with_sums(self, sums: Vec<Sums>) -> Film {
+        let Self { header, coverage } = self;
         Film {
             header,
             coverage,
