@@ -160,42 +160,44 @@ fn a_picture_is_compared_with_its_snapshot_before_an_edit() {
 #[test]
 fn every_panel_is_legible_in_both_themes_at_both_scales() {
     let mut verdict = Verdict::on("panels");
-    for (theme, color) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
-        for (scale, percent) in [(1.0, "100"), (2.0, "200")] {
-            let scene = "assets/scenes/orbits.toml";
-            let mut window = Window::open(&[scene, "--size", "160x120", "--samples", "1"]);
-            {
-                let mut session = window.session();
-                session.shows_statistics = false;
-                session.preferences.theme = theme;
-                session.selection = Some(Id::Object(ObjectRef::Shape(0)));
-            }
-            let viewports = &mut window.harness.input_mut().viewports;
-            let root = viewports.get_mut(&egui::ViewportId::ROOT);
-            root.expect("a window").native_pixels_per_point = Some(scale);
+    let looks = [
+        (Theme::Dark, "dark", 1.0, "100"),
+        (Theme::Light, "light", 2.0, "200"),
+    ];
+    for (theme, color, scale, percent) in looks {
+        let scene = "assets/scenes/orbits.toml";
+        let mut window = Window::open(&[scene, "--size", "160x120", "--samples", "1"]);
+        {
+            let mut session = window.session();
+            session.shows_statistics = false;
+            session.preferences.theme = theme;
+            session.selection = Some(Id::Object(ObjectRef::Shape(0)));
+        }
+        let viewports = &mut window.harness.input_mut().viewports;
+        let root = viewports.get_mut(&egui::ViewportId::ROOT);
+        root.expect("a window").native_pixels_per_point = Some(scale);
+        window.settle();
+        let mut compare = |window: &mut Window, panel: Panel| {
             window.settle();
-            let mut compare = |window: &mut Window, panel: Panel| {
-                window.settle();
-                let rect = window.harness.state().layout().rect(panel);
-                let rect = rect.unwrap_or_else(|| panic!("{panel:?} is hidden"));
-                let image = window.harness.render().expect("a picture of the window");
-                let name = format!("panels/{panel:?}_{color}_{percent}").to_lowercase();
-                let outcome = check_part(&image, rect, scale, &name);
-                verdict.that(name, outcome.is_ok(), || format!("{:?}", outcome.err()));
-            };
-            for panel in [
-                Panel::Picture,
-                Panel::Outline,
-                Panel::Properties,
-                Panel::Time,
-                Panel::Render,
-            ] {
-                compare(&mut window, panel);
-            }
-            inspect_the_centre(&mut window);
-            for panel in [Panel::Rays, Panel::Outside] {
-                compare(&mut window, panel);
-            }
+            let rect = window.harness.state().layout().rect(panel);
+            let rect = rect.unwrap_or_else(|| panic!("{panel:?} is hidden"));
+            let image = window.harness.render().expect("a picture of the window");
+            let name = format!("panels/{panel:?}_{color}_{percent}").to_lowercase();
+            let outcome = check_part(&image, rect, scale, &name);
+            verdict.that(name, outcome.is_ok(), || format!("{:?}", outcome.err()));
+        };
+        for panel in [
+            Panel::Picture,
+            Panel::Outline,
+            Panel::Properties,
+            Panel::Time,
+            Panel::Render,
+        ] {
+            compare(&mut window, panel);
+        }
+        inspect_the_centre(&mut window);
+        for panel in [Panel::Rays, Panel::Outside] {
+            compare(&mut window, panel);
         }
     }
     verdict.close();
