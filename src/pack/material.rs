@@ -193,7 +193,7 @@ pub fn features(scene: &Scene) -> Features {
             let own = layers.and_then(|layers| layers.clearcoat_normal);
             model.clearcoat > 0.0 && own.or(material.textures.normal).is_some()
         }),
-        rough_glass: has_layers(scene, |_, it| it.transmission > 0.0 && it.roughness > 0.0),
+        rough_glass: has_rough_glass(scene),
         dispersion: has_layers(scene, |material, it| it.dispersion > 0.0 && !material.thin),
         thin_walls: (may_transmit(scene).into_iter().zip(&scene.materials))
             .any(|(transmits, material)| transmits && material.thin),
@@ -221,6 +221,21 @@ pub fn features(scene: &Scene) -> Features {
         emission: emission || light::visible(scene).next().is_some(),
         ..Features::default()
     }
+}
+
+/// Whether some material is rough and transparent at some time.
+fn has_rough_glass(scene: &Scene) -> bool {
+    let is_animated = |index, property| {
+        let mut targets = scene.tracks.iter().flat_map(|track| &track.targets);
+        targets.any(|target| *target == Target::Layer(index, property))
+    };
+    let mut materials = scene.materials.iter().enumerate();
+    materials.any(|(index, material)| {
+        material.metallic_roughness.as_ref().is_some_and(|model| {
+            (model.transmission > 0.0 || is_animated(index, LayerProperty::Transmission))
+                && (model.roughness > 0.0 || is_animated(index, LayerProperty::Roughness))
+        })
+    })
 }
 
 /// Whether a metallic-roughness material and its model satisfy `holds`.

@@ -589,6 +589,7 @@ fn pointers_animate_the_layers_of_materials() {
     // Both integrators get them, and the code for glass.
     let packed = glimray::pack::scene(&scene).expect("a scene that can be packed");
     assert!(packed.features.refraction && packed.features.thin_walls);
+    assert!(packed.features.rough_glass);
     let view = packed.frame(&scene.frame(1.0)).expect("a frame");
     let layers = view.materials[0].layers;
     assert!(near(layers.roughness, 0.4) && near(layers.transmission, 0.5));
