@@ -135,7 +135,9 @@ impl LayerFlags {
             let denoised = features.picture().denoised(gpu, &features)?;
             finished.denoise_seconds = Some(started.elapsed().as_secs_f64());
             finished.image = tone.develop(gpu, &denoised)?;
-            layers.push(color("denoised", &finished.image, opacity));
+            if !self.layers.is_empty() {
+                layers.push(color("denoised", &finished.image, opacity));
+            }
         }
         finished.layers = (!self.layers.is_empty()).then_some(LayeredImage {
             width: features.width,

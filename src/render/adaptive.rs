@@ -179,7 +179,7 @@ impl Adaptive {
     pub fn means_and_counts(&self, layers: &[&Layer]) -> Vec<[f32; 4]> {
         let [x, y, width, height] = self.crop;
         let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
-        let mut rows = Vec::new();
+        let mut rows = Vec::with_capacity((width * height) as usize * layers::rows(layers));
         for pixel in pixels {
             for layer in layers {
                 if **layer == RADIANCE {

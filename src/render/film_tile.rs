@@ -230,20 +230,20 @@ impl FilmTile {
     }
 
     fn gathered<R: Copy + Send + Sync>(&self, from: &[R], zero: R) -> Vec<R> {
-        let mut places = vec![0; self.sampled_pixels() as usize];
+        let mut indices = vec![0; self.sampled_pixels() as usize];
         for (index, pixel) in self.pixels().enumerate() {
             if let Some([x, y]) = pixel {
-                places[((y - self.y) * self.width + x - self.x) as usize] = index as u32;
+                indices[((y - self.y) * self.width + x - self.x) as usize] = index as u32;
             }
         }
         let count = self.rows.count;
-        let mut rows = vec![zero; count * places.len()];
-        let len = threads::chunk_len(places.len());
+        let mut rows = vec![zero; count * indices.len()];
+        let len = threads::chunk_len(indices.len());
         threads::for_each(
-            rows.chunks_mut(count * len).zip(places.chunks(len)),
-            |(rows, places)| {
-                for (own, place) in rows.chunks_exact_mut(count).zip(places) {
-                    own.copy_from_slice(&from[count * *place as usize..][..count]);
+            rows.chunks_mut(count * len).zip(indices.chunks(len)),
+            |(rows, indices)| {
+                for (own, index) in rows.chunks_exact_mut(count).zip(indices) {
+                    own.copy_from_slice(&from[count * *index as usize..][..count]);
                 }
             },
         );
@@ -252,9 +252,10 @@ impl FilmTile {
 
     /// The rows for `develop`: sums and weights of a single block, otherwise means with a weight of 1.
     pub fn developable(&self) -> Vec<[f32; 4]> {
-        match self.all_sums() {
+        match self.totals() {
             None => vec![[0.0; 4]; self.row_count()],
-            Some(sums) => sums.developable(),
+            Some(Totals::Block(block)) => block.to_vec(),
+            Some(Totals::Blocks(sums)) => sums.developable(),
         }
     }
 }

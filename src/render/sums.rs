@@ -186,7 +186,7 @@ impl Sums {
     }
 }
 
-/// The sums of blocks of a film tile. Those of a single block are not copied.
+/// The sums of blocks of a film tile, copied only where they have to be added first.
 pub enum Totals<'a> {
     /// As added by the GPU.
     Block(&'a [[f32; 4]]),
@@ -237,7 +237,7 @@ pub fn fill_rectangle<T: Send>(
     let [left, top, full, _] = whole.map(|number| number as usize);
     let [x, y, width, height] = region.map(|number| number as usize);
     let lines = &mut picture[(y - top) * full..][..height * full];
-    let count = threads::chunk_len(lines.len()).div_ceil(full);
+    let count = threads::chunk_len(width * height).div_ceil(width);
     threads::for_each(
         lines.chunks_mut(count * full).enumerate(),
         |(index, lines)| {

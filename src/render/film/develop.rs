@@ -97,6 +97,7 @@ impl Film {
     /// The developable values of a layer for the pixels with samples, by rectangle (x, y, width, height).
     fn patches(&self, kind: LayerKind) -> impl Iterator<Item = ([u32; 4], Vec<[f32; 4]>)> {
         let layers = self.header.layers;
+        let rows_per_pixel = self.rows();
         let layer = layers.iter().find(|layer| layer.kind == kind);
         let first = layer.and_then(|layer| layers::row_of(layers, layer));
         let patches = self.coverage.patches().zip(&self.sums);
@@ -104,7 +105,7 @@ impl Film {
             let pixels = region[2] as usize * region[3] as usize;
             let rows = match first {
                 Some(first) => threads::collect(pixels, |pixel| {
-                    sums.developable_row(pixel * self.rows() + first)
+                    sums.developable_row(pixel * rows_per_pixel + first)
                 }),
                 // All pixels have the same number of samples if no layer counts them.
                 None => vec![[samples.len() as f32, 0.0, 0.0, 0.0]; pixels],
