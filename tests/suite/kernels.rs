@@ -121,48 +121,36 @@ fn random_overrides(seed: u64) -> Vec<(String, f64)> {
         .collect()
 }
 
-/// Whether a block or a nested block branches on a literal.
-fn branches_on_a_literal(function: &naga::Function, block: &naga::Block) -> bool {
-    block.iter().any(|statement| match statement {
-        naga::Statement::If {
-            condition,
-            accept,
-            reject,
-        } => {
-            matches!(function.expressions[*condition], Expression::Literal(_))
-                || branches_on_a_literal(function, accept)
-                || branches_on_a_literal(function, reject)
-        }
-        naga::Statement::Block(inner) => branches_on_a_literal(function, inner),
+/// The blocks inside a statement.
+fn inner_blocks(statement: &naga::Statement) -> Vec<&naga::Block> {
+    match statement {
+        naga::Statement::Block(body) => vec![body],
+        naga::Statement::If { accept, reject, .. } => vec![accept, reject],
         naga::Statement::Loop {
             body, continuing, ..
-        } => branches_on_a_literal(function, body) || branches_on_a_literal(function, continuing),
-        naga::Statement::Switch { cases, .. } => cases
-            .iter()
-            .any(|case| branches_on_a_literal(function, &case.body)),
-        _ => false,
+        } => vec![body, continuing],
+        naga::Statement::Switch { cases, .. } => cases.iter().map(|case| &case.body).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// Whether a block or a nested block branches on a literal.
+fn branches_on_a_literal(function: &naga::Function, block: &naga::Block) -> bool {
+    block.iter().any(|statement| {
+        let is_literal = matches!(statement, naga::Statement::If { condition, .. }
+            if matches!(function.expressions[*condition], Expression::Literal(_)));
+        let mut inner = inner_blocks(statement).into_iter();
+        is_literal || inner.any(|block| branches_on_a_literal(function, block))
     })
 }
 
 /// How many loops of a block have a `continuing` block.
 fn continuing_loops(block: &naga::Block) -> usize {
-    let of = |statement: &naga::Statement| match statement {
-        naga::Statement::If { accept, reject, .. } => {
-            continuing_loops(accept) + continuing_loops(reject)
-        }
-        naga::Statement::Block(inner) => continuing_loops(inner),
-        naga::Statement::Loop {
-            body,
-            continuing,
-            break_if,
-        } => {
-            let continues = !continuing.is_empty() || break_if.is_some();
-            continuing_loops(body) + usize::from(continues)
-        }
-        naga::Statement::Switch { cases, .. } => {
-            cases.iter().map(|case| continuing_loops(&case.body)).sum()
-        }
-        _ => 0,
+    let of = |statement: &naga::Statement| {
+        let continues = matches!(statement, naga::Statement::Loop { continuing, break_if, .. }
+            if !continuing.is_empty() || break_if.is_some());
+        let inner = inner_blocks(statement).into_iter().map(continuing_loops);
+        usize::from(continues) + inner.sum::<usize>()
     };
     block.iter().map(of).sum()
 }
@@ -346,20 +334,12 @@ fn selected_extremes_are_those_of_ieee_754() {
 fn inlined(module: &naga::Module) -> HashMap<String, usize> {
     fn called(block: &naga::Block, found: &mut Vec<naga::Handle<naga::Function>>) {
         for statement in block {
-            let inner: Vec<&naga::Block> = match statement {
-                naga::Statement::Call { function, .. } => {
-                    found.push(*function);
-                    Vec::new()
-                }
-                naga::Statement::Block(body) => vec![body],
-                naga::Statement::If { accept, reject, .. } => vec![accept, reject],
-                naga::Statement::Loop {
-                    body, continuing, ..
-                } => vec![body, continuing],
-                naga::Statement::Switch { cases, .. } => cases.iter().map(|it| &it.body).collect(),
-                _ => Vec::new(),
-            };
-            inner.into_iter().for_each(|block| called(block, found));
+            if let naga::Statement::Call { function, .. } = statement {
+                found.push(*function);
+            }
+            for inner in inner_blocks(statement) {
+                called(inner, found);
+            }
         }
     }
     let mut counts = vec![0; module.functions.len()];
