@@ -118,33 +118,31 @@ impl LayerFlags {
                     .into(),
             ));
         };
-        // The raw picture is only seen among the layers.
-        let raw = match self.layers.is_empty() {
-            true => Image::new(0, 0),
-            false => film.develop(gpu, tone)?,
-        };
-        let mut finished = Finished::plain(raw, opacity);
-        // In the order of the table, each once.
-        let known = LAYERS.0.iter().map(|(.., layer)| layer);
-        let wanted = known.filter(|layer| self.layers.contains(layer));
-        let mut layers: Vec<_> = wanted
-            .map(|layer| layer.of(&finished.image, opacity, &features))
-            .collect();
+        let mut finished = Finished::plain(Image::new(0, 0), opacity);
+        // Beside a denoised picture the raw one is only seen among the layers.
+        if !self.layers.is_empty() {
+            finished.image = film.develop(gpu, tone)?;
+            // In the order of the table, each once.
+            let known = LAYERS.0.iter().map(|(.., layer)| layer);
+            let wanted = known.filter(|layer| self.layers.contains(layer));
+            finished.layers = Some(LayeredImage {
+                width: features.width,
+                height: features.height,
+                layers: wanted
+                    .map(|layer| layer.of(&finished.image, opacity, &features))
+                    .collect(),
+                in_parts: self.layers_parts,
+            });
+        }
         if tone.denoise {
             let started = Instant::now();
             let denoised = features.picture().denoised(gpu, &features)?;
             finished.denoise_seconds = Some(started.elapsed().as_secs_f64());
             finished.image = tone.develop(gpu, &denoised)?;
-            if !self.layers.is_empty() {
-                layers.push(color("denoised", &finished.image, opacity));
+            if let Some(layered) = &mut finished.layers {
+                (layered.layers).push(color("denoised", &finished.image, opacity));
             }
         }
-        finished.layers = (!self.layers.is_empty()).then_some(LayeredImage {
-            width: features.width,
-            height: features.height,
-            layers,
-            in_parts: self.layers_parts,
-        });
         Ok(finished)
     }
 }

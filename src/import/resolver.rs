@@ -118,6 +118,7 @@ pub(super) fn located<T>(
 }
 
 /// Whether the name stays in its folder or a subfolder.
+#[cfg(any(feature = "archive", not(target_arch = "wasm32")))]
 pub(super) fn goes_down(name: &Path) -> bool {
     name.components()
         .all(|part| matches!(part, Component::Normal(_) | Component::CurDir))

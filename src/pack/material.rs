@@ -184,17 +184,19 @@ pub fn features(scene: &Scene) -> Features {
             || !refraction && has_thin_material(scene),
         refraction,
         gloss: (may_be_nonblack(scene, |m| m.specular, MaterialProperty::Specular)).contains(&true)
-            || has_layers(scene, |_, model| !model.unlit),
-        metallic_roughness: has_layers(scene, |_, _| true),
-        coatings: has_layers(scene, |_, model| model.is_coated()),
-        coated_emission: emission && has_layers(scene, |_, model| model.clearcoat > 0.0),
-        coat_normals: has_layers(scene, |material, model| {
+            || has_layers(scene, |_, _, model| !model.unlit),
+        metallic_roughness: has_layers(scene, |_, _, _| true),
+        coatings: has_layers(scene, |_, _, model| model.is_coated()),
+        coated_emission: emission && has_layers(scene, |_, _, model| model.clearcoat > 0.0),
+        coat_normals: has_layers(scene, |_, material, model| {
             let layers = material.layer_textures.as_ref();
             let own = layers.and_then(|layers| layers.clearcoat_normal);
             model.clearcoat > 0.0 && own.or(material.textures.normal).is_some()
         }),
         rough_glass: has_rough_glass(scene),
-        dispersion: has_layers(scene, |material, it| it.dispersion > 0.0 && !material.thin),
+        dispersion: has_layers(scene, |_, material, it| {
+            it.dispersion > 0.0 && !material.thin
+        }),
         thin_walls: (may_transmit(scene).into_iter().zip(&scene.materials))
             .any(|(transmits, material)| transmits && material.thin),
         shadow_catchers: scene.materials.iter().any(|it| it.shadow_catcher),
@@ -229,20 +231,17 @@ fn has_rough_glass(scene: &Scene) -> bool {
         let mut targets = scene.tracks.iter().flat_map(|track| &track.targets);
         targets.any(|target| *target == Target::Layer(index, property))
     };
-    let mut materials = scene.materials.iter().enumerate();
-    materials.any(|(index, material)| {
-        material.metallic_roughness.as_ref().is_some_and(|model| {
-            (model.transmission > 0.0 || is_animated(index, LayerProperty::Transmission))
-                && (model.roughness > 0.0 || is_animated(index, LayerProperty::Roughness))
-        })
+    has_layers(scene, |index, _, model| {
+        (model.transmission > 0.0 || is_animated(index, LayerProperty::Transmission))
+            && (model.roughness > 0.0 || is_animated(index, LayerProperty::Roughness))
     })
 }
 
-/// Whether a metallic-roughness material and its model satisfy `holds`.
-fn has_layers(scene: &Scene, holds: impl Fn(&Material, &MetallicRoughness) -> bool) -> bool {
-    (scene.materials.iter()).any(|material| {
+/// Whether a metallic-roughness material, its index and its model satisfy `holds`.
+fn has_layers(scene: &Scene, holds: impl Fn(usize, &Material, &MetallicRoughness) -> bool) -> bool {
+    (scene.materials.iter().enumerate()).any(|(index, material)| {
         let model = material.metallic_roughness.as_ref();
-        model.is_some_and(|model| holds(material, model))
+        model.is_some_and(|model| holds(index, material, model))
     })
 }
 

@@ -195,7 +195,7 @@ impl Adaptive {
     }
 
     /// The rows of a layer of a pixel.
-    fn feature(&self, pixel: [u32; 2], layer: &Layer) -> Vec<[f32; 4]> {
+    fn feature(&self, pixel: [u32; 2], layer: &Layer) -> impl Iterator<Item = [f32; 4]> {
         let PixelRows { count, .. } = layers::pixel_rows(self.layers);
         let index = self.index(pixel);
         let first = index * count + layers::row_of(self.layers, layer).unwrap_or_default();
@@ -206,12 +206,11 @@ impl Adaptive {
             [x, y, z, 1.0]
         };
         let squares = 1.0 / f64::from(statistics.count.max(1));
-        rows.map(|&row| match layer {
+        rows.map(move |&row| match layer {
             layer if *layer == FIRST => row.map(|number| number as f32),
             layer if *layer == SQUARES => to_mean([row[0], 0.0, 0.0, 0.0], squares),
             _ => to_mean(row, statistics.scale()),
         })
-        .collect()
     }
 
     pub fn samples_at(&self, pixel: [u32; 2]) -> u32 {
