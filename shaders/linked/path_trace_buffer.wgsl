@@ -5289,9 +5289,9 @@ const albedo__GLASS_CLEAR: f32 = 12.0;
 
 const albedo__STRETCHED_ALBEDO: u32 = 29696u;
 
-const albedo__STRETCHED_SIZE: vec2u = vec2u(16u, 16u);
+const albedo__STRETCHED_SIZE: vec2u = vec2u(24u, 20u);
 
-const albedo__STRETCHED_SLICES: vec2u = vec2u(10u, 6u);
+const albedo__STRETCHED_SLICES: vec2u = vec2u(14u, 5u);
 
 struct albedo__AlbedoLookup {
 	words: vec4u,
@@ -5318,14 +5318,17 @@ fn albedo__ggx_lookup(cos_o: f32, alpha: f32) -> albedo__AlbedoLookup {
 }
 
 fn albedo__stretched_slice(wo: vec3f, alpha: vec2f) -> vec2f {
-	let away_from_x = 1.0 - abs(wo.x) / max_f32(length(wo.xy), 1e-9);
-	return vec2f(albedo__STRETCHED_SLICES - 1u) * clamp_vec2f(vec2f(sqrt(alpha.y / alpha.x), away_from_x), vec2f(0.0), vec2f(1.0));
+	let ratio = sqrt(alpha.y / alpha.x);
+	let along = vec2f(abs(wo.x), ratio * sqrt(ratio) * abs(wo.y));
+	let away_from_x = 1.0 - along.x / max_f32(length(along), 1e-9);
+	return vec2f(albedo__STRETCHED_SLICES - 1u) * clamp_vec2f(vec2f(ratio, away_from_x), vec2f(0.0), vec2f(1.0));
 }
 
 fn albedo__stretched_lookup(slice: vec2u, wo: vec3f, alpha: vec2f) -> albedo__AlbedoLookup {
 	let first = albedo__STRETCHED_ALBEDO + (slice.y * albedo__STRETCHED_SLICES.x + slice.x) * albedo__STRETCHED_SIZE.x * albedo__STRETCHED_SIZE.y;
-	let along = length(alpha * wo.xy) / max_f32(length(wo.xy), 1e-9);
-	let place = vec2f(albedo__facet_place(wo.z, along).x, albedo__facet_place(wo.z, alpha.x).y);
+	let flat = length(alpha * wo.xy) / alpha.x;
+	let tangent = wo.z / max_f32(flat + length(vec2f(flat, wo.z)), 1e-9);
+	let place = vec2f(albedo__facet_place(tangent, alpha.x).x, pow(clamp_f32(alpha.x, 0.0, 1.0), 2.0 / 3.0));
 	return albedo__entries_around(first, albedo__STRETCHED_SIZE, place);
 }
 

@@ -1,6 +1,6 @@
 //! The tables of directional albedos that the path tracer reads: `lib/albedo.wesl`.
 
-/// The tables, one after the other: 32 × 32 words of microfacets, as many of sheen, 36 × 24 × 32 of rough glass, and 6 × 10 × 16 × 16 of
+/// The tables, one after the other: 32 × 32 words of microfacets, as many of sheen, 36 × 24 × 32 of rough glass, and 5 × 14 × 20 × 24 of
 /// stretched microfacets. A word has two half floats, the first in its lower half.
 ///
 /// Microfacets reflect f0 · A + f90 · B with Schlick's Fresnel factor. A word has E = A + B, and by how much B is above
@@ -10,10 +10,11 @@
 /// angles from reflecting more; rows are of ∜α, columns of ∜cos θ. A word of glass has what it reflects and transmits
 /// together, and by how much the reflected share of it is above that of smooth glass whose edge of total reflection is soft;
 /// columns are of the mean of microfacets' and asinh(1.5 (c - c')/α), brought to 0 to 1, where total reflection begins at c';
-/// there is a table for each relative index of refraction. A word of stretched microfacets is one of microfacets; rows
-/// are of √α for the larger width, columns have the width along the azimuth φ of the direction for α, and there is a table for each
-/// 1 - cos φ and, within these, for each root of the ratio of the widths.
+/// there is a table for each relative index of refraction. A word of stretched microfacets is one of microfacets. Rows
+/// are of the larger width w to the power of 2/3. With θ' for the angle whose tangent is v/w · tan θ, where v is the width
+/// along the azimuth φ of the direction, columns have w for α and tan(π/4 - θ'/2) for c. There is a table for each
+/// 1 - cos φ', where tan φ' = r^¾ tan φ for the ratio r of the widths, and within these for each √r.
 pub fn words() -> &'static [u32] {
-    static WORDS: [u32; 45056] = include!(concat!(env!("OUT_DIR"), "/albedo.txt"));
+    static WORDS: [u32; 63296] = include!(concat!(env!("OUT_DIR"), "/albedo.txt"));
     &WORDS
 }

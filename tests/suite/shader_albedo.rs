@@ -156,7 +156,7 @@ fn cosine(column: f64, alpha: f64) -> f64 {
 
 #[test]
 fn entries_are_the_albedos_of_the_formulas() {
-    assert_eq!(albedo::words().len(), STRETCHED + 6 * 10 * 16 * 16);
+    assert_eq!(albedo::words().len(), STRETCHED + 5 * 14 * 20 * 24);
     let mut verdict = Verdict::on("pack/albedo.rs");
     // Along the normal, with α = 1, the integral has a closed form.
     let [whole, _] = entry(GGX, 31, 31);
@@ -314,7 +314,7 @@ fn stretched_albedo(wo: DVec3, widths: [f64; 2]) -> f64 {
 #[test]
 fn brushed_white_metal_reflects_everything_from_every_side() {
     let mut rows = Vec::new();
-    for roughness in [0.1_f32, 0.2, 0.4, 0.6, 0.8, 0.95] {
+    for roughness in [0.05_f32, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95] {
         for strength in [0.2_f32, 0.45, 0.7, 0.9, 1.0] {
             for (cos, azimuth) in [
                 (0.97_f32, 0.3_f32),
@@ -322,6 +322,7 @@ fn brushed_white_metal_reflects_everything_from_every_side() {
                 (0.6, 0.0),
                 (0.6, 0.7),
                 (0.4, 1.2),
+                (0.36, 1.46),
                 (0.25, 0.4),
                 (0.1, 1.0),
                 (0.05, 0.1),
@@ -342,7 +343,7 @@ fn brushed_white_metal_reflects_everything_from_every_side() {
         }";
     let mut whole = vec![0.0_f64; rows.len()];
     for corner in [[0, 0], [1, 0], [0, 1], [1, 1]] {
-        let at = |slice: &[f32; 2]| [slice[0].floor().min(8.0), slice[1].floor().min(4.0)];
+        let at = |slice: &[f32; 2]| [slice[0].floor().min(12.0), slice[1].floor().min(3.0)];
         let inputs: Vec<_> = (rows.iter().zip(&slices))
             .map(|(row, slice)| {
                 let [x, y] = at(slice).map(|place| place as u32);
@@ -370,7 +371,7 @@ fn brushed_white_metal_reflects_everything_from_every_side() {
         offs.push(all - 1.0);
         verdict.that(
             format!("{wo}, α {widths:?}"),
-            (all - 1.0).abs() < 0.006,
+            all > 0.995 && all < 1.002,
             || all,
         );
     }

@@ -1,13 +1,13 @@
 //! Computes the tables of directional albedos that `lib/albedo.wesl` reads. `build.rs` includes this file, so it may
 //! use only the standard library.
 
-use std::f64::consts::PI;
+use std::{f64::consts::PI, thread};
 
 /// Entries along each side of a table; `ALBEDO_SIDE` in `lib/albedo.wesl`.
 pub const SIDE: usize = 32;
 
 /// Points of an integral over visible normals, and the step between their angles: Fibonacci numbers, whose lattice is
-/// even. Many are for microfacets, and for glass seen from inside, where total reflection begins at an edge.
+/// even. Many are for round microfacets, and for glass seen from inside, where total reflection begins at an edge.
 const FEW: [usize; 2] = [987, 610];
 const MANY: [usize; 2] = [2584, 1597];
 
@@ -31,70 +31,103 @@ const CLEAR: usize = 12;
 
 /// Columns and rows of a table of stretched microfacets, and the number of ratios of their widths, and of azimuths:
 /// `STRETCHED_SIZE` and `STRETCHED_SLICES` in `lib/albedo.wesl`.
-const STRETCHED: [usize; 4] = [16, 16, 10, 6];
+const STRETCHED: [usize; 4] = [24, 20, 14, 5];
 
 /// All tables: microfacets, then sheen, then rough glass, then stretched microfacets, with rows and columns as
 /// `lib/albedo.wesl` looks them up.
 pub fn words() -> Vec<u32> {
-    let part = |i: usize, count: usize| i as f64 / (count - 1) as f64;
-    let mut words = Vec::new();
-    for row in 0..SIDE {
-        let alpha = part(row, SIDE).powi(2).max(NARROWEST);
-        for column in 0..SIDE {
-            let cos_o = cosine(part(column, SIDE), alpha);
-            words.push(facet_word(ggx(cos_o, alpha), cos_o));
-        }
-    }
-    for row in 0..SIDE {
-        for column in 0..SIDE {
-            let [cos_o, alpha] = [column, row].map(|i| part(i, SIDE).powi(4));
-            let [albedo, most] = sheen(cos_o.max(1e-6), alpha.max(NARROWEST_SHEEN));
-            words.push(word(albedo, most));
-        }
-    }
-    for slice in 0..GLASS[1] {
-        let steps = if slice < CLEAR {
-            CLEAR
-        } else {
-            GLASS[1] - 1 - CLEAR
-        };
-        let root = (slice as f64 - CLEAR as f64) / steps as f64;
-        let amplitude = 0.5 * root * root.abs();
-        let eta = (1.0 + amplitude) / (1.0 - amplitude);
-        for row in 0..GLASS[0] {
-            let alpha = part(row, GLASS[0]).powi(2).max(NARROWEST);
-            for column in 0..SIDE {
-                let cos_o = glass_cosine(part(column, SIDE), alpha, eta);
-                let [whole, reflected] = glass(cos_o, alpha, eta);
-                let share = reflected / whole;
-                words.push(word(whole, shifted(share - softened(cos_o, alpha, eta))));
-            }
-        }
-    }
-    let [columns, rows, ratios, azimuths] = STRETCHED;
-    for azimuth in 0..azimuths {
-        let cos = 1.0 - part(azimuth, azimuths);
-        let along = [cos, (1.0 - cos * cos).sqrt()];
-        for ratio in 0..ratios {
-            let ratio = part(ratio, ratios).powi(2);
-            for row in 0..rows {
-                let wide = part(row, rows).powi(2).max(NARROWEST);
-                let alpha = [wide, (wide * ratio).max(NARROWEST)];
-                let seen = (alpha[0] * along[0]).hypot(alpha[1] * along[1]);
-                for column in 0..columns {
-                    let cos_o = cosine(part(column, columns), seen);
-                    words.push(facet_word(stretched(cos_o, along, alpha), cos_o));
-                }
-            }
-        }
-    }
+    let mut words = table(SIDE * SIDE, microfacets_at);
+    words.extend(table(SIDE * SIDE, sheen_at));
+    words.extend(table(GLASS[1] * GLASS[0] * SIDE, glass_at));
+    words.extend(table(STRETCHED.iter().product(), stretched_at));
     words
+}
+
+/// The words of a table, computed by all threads.
+fn table(len: usize, word_at: impl Fn(usize) -> u32 + Sync) -> Vec<u32> {
+    let mut words = vec![0; len];
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let part = len.div_ceil(threads);
+    let word_at = &word_at;
+    thread::scope(|scope| {
+        for (index, words) in words.chunks_mut(part).enumerate() {
+            scope.spawn(move || {
+                for (place, word) in words.iter_mut().enumerate() {
+                    *word = word_at(index * part + place);
+                }
+            });
+        }
+    });
+    words
+}
+
+/// Index `i` of `count` as a number from 0 to 1.
+fn fraction(i: usize, count: usize) -> f64 {
+    i as f64 / (count - 1) as f64
+}
+
+fn microfacets_at(index: usize) -> u32 {
+    let alpha = fraction(index / SIDE, SIDE).powi(2).max(NARROWEST);
+    let cos_o = cosine(fraction(index % SIDE, SIDE), alpha);
+    facet_word(ggx(cos_o, alpha), cos_o)
+}
+
+fn sheen_at(index: usize) -> u32 {
+    let [cos_o, alpha] = [index % SIDE, index / SIDE].map(|i| fraction(i, SIDE).powi(4));
+    let [albedo, most] = sheen(cos_o.max(1e-6), alpha.max(NARROWEST_SHEEN));
+    word(albedo, most)
+}
+
+fn glass_at(index: usize) -> u32 {
+    let [rows, slices] = GLASS;
+    let slice = index / (rows * SIDE);
+    let steps = match slice < CLEAR {
+        true => CLEAR,
+        false => slices - 1 - CLEAR,
+    };
+    let root = (slice as f64 - CLEAR as f64) / steps as f64;
+    let amplitude = 0.5 * root * root.abs();
+    let eta = (1.0 + amplitude) / (1.0 - amplitude);
+    let alpha = fraction(index / SIDE % rows, rows).powi(2).max(NARROWEST);
+    let cos_o = glass_cosine(fraction(index % SIDE, SIDE), alpha, eta);
+    let [whole, reflected] = glass(cos_o, alpha, eta);
+    let share = reflected / whole;
+    word(whole, shifted(share - softened(cos_o, alpha, eta)))
+}
+
+fn stretched_at(index: usize) -> u32 {
+    let [columns, rows, ratios, azimuths] = STRETCHED;
+    let wide = fraction(index / columns % rows, rows).powf(1.5);
+    let ratio = fraction(index / (columns * rows) % ratios, ratios).powi(2);
+    let alpha = [wide, wide * ratio].map(|width| width.max(NARROWEST));
+    let cos = 1.0 - fraction(index / (columns * rows * ratios), azimuths);
+    let along = azimuth(cos, alpha[1] / alpha[0]);
+    let cos_o = stretched_cosine(fraction(index % columns, columns), along, alpha);
+    facet_word(stretched(cos_o, along, alpha), cos_o)
 }
 
 /// The cosine of a column of microfacets, which is at `place` from 0 to 1: c (1 + 4α)/(c + 4α) is its square.
 fn cosine(place: f64, alpha: f64) -> f64 {
     let (square, wide) = (place * place, 4.0 * alpha);
     (square * wide / (1.0 + wide - square)).clamp(GRAZING * alpha, 1.0)
+}
+
+/// The azimuth of a table of stretched microfacets: the angle with this cosine has the tangent of the azimuth times
+/// `ratio` to the power of 3/4.
+fn azimuth(cos: f64, ratio: f64) -> [f64; 2] {
+    let (x, y) = (cos * ratio.powf(0.75), (1.0 - cos * cos).sqrt());
+    let length = x.hypot(y);
+    [x / length, y / length]
+}
+
+/// The cosine of a column of stretched microfacets, for a direction with the azimuth `along`. Where slopes are divided by
+/// the widths it looks as steep as another direction does at round microfacets of the larger width; with the angle θ of
+/// that one, the column is that of microfacets for c = tan(π/4 - θ/2).
+fn stretched_cosine(place: f64, along: [f64; 2], alpha: [f64; 2]) -> f64 {
+    let seen = (alpha[0] * along[0]).hypot(alpha[1] * along[1]);
+    let half = cosine(place, alpha[0]);
+    let slope = 0.5 * (1.0 - half * half) / half * alpha[0] / seen;
+    (1.0 / 1.0_f64.hypot(slope)).clamp(GRAZING * seen, 1.0)
 }
 
 /// The cosine of a column of rough glass, which is at `place` from 0 to 1, by bisection.
@@ -239,7 +272,7 @@ fn stretched(cos_o: f64, along: [f64; 2], alpha: [f64; 2]) -> [f64; 2] {
     };
     let pole = unit([alpha[0] * wo[0], alpha[1] * wo[1], wo[2]]);
     let seen = 1.0 + smith(wo);
-    let [count, step] = MANY;
+    let [count, step] = FEW;
     let mut sums = [0.0; 2];
     for i in 0..count {
         // As in `visible_normals`, on the whole circle.
