@@ -41,6 +41,7 @@ mod work;
 
 pub use crate::scene::{Antialias, Filter};
 pub use checkpoint::{Checkpoint, CheckpointError};
+pub use denoise::Denoised;
 pub use effort::{LongPath, least_rays};
 pub use error::RenderError;
 pub use explain::{

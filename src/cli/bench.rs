@@ -1,8 +1,9 @@
 //! `glimray bench`: whole renders of built-in workloads, ray sets in procedural scenes, a skinned figure that plays,
-//! and the time to the first picture. Everything is measured once, then again, so that a change of the machine's speed affects all alike;
+//! the denoiser, and the time to the first picture. Everything is measured once, then again, so that a change of the machine's speed affects all alike;
 //! medians are reported.
 
 mod comparison;
+mod denoiser;
 mod export;
 mod figure;
 mod first_picture;
@@ -23,6 +24,7 @@ use crate::cli::device;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job;
 use comparison::Baseline;
+use denoiser::Denoiser;
 use playing::Playing;
 use renders::Renders;
 use scene_runs::SceneRuns;
@@ -61,9 +63,16 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
         true => Some(Playing::new(is_quick)?),
         false => None,
     };
+    let mut denoiser = match is_selected(denoiser::NAME) {
+        true => Some(Denoiser::new(&gpu, is_quick)?),
+        false => None,
+    };
     let program = program.filter(|_| is_selected("viewer"));
-    let has_none =
-        pictures.is_empty() && renders.is_empty() && scenes.is_empty() && playing.is_none();
+    let has_none = pictures.is_empty()
+        && renders.is_empty()
+        && scenes.is_empty()
+        && playing.is_none()
+        && denoiser.is_none();
     if let (true, None, Some(part)) = (has_none, program, &arguments.only) {
         return Err(nothing_named(part, "no measurement"));
     }
@@ -72,11 +81,13 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
         (renders.iter_mut()).try_for_each(|workload| workload.run(arguments))?;
         (scenes.iter_mut()).try_for_each(|scene| scene.run(&gpu, arguments))?;
         (playing.iter_mut()).try_for_each(|playing| playing.run(&gpu, arguments))?;
+        (denoiser.iter_mut()).try_for_each(|denoiser| denoiser.run(&gpu))?;
     }
     let pictures: Vec<_> = pictures.iter().map(|picture| picture.row()).collect();
     let renders: Vec<_> = renders.iter().map(Renders::row).collect();
     let scenes: Vec<_> = scenes.iter().map(SceneRuns::row).collect();
     let playing: Vec<_> = playing.iter().map(Playing::row).collect();
+    let denoiser: Vec<_> = denoiser.iter().map(Denoiser::row).collect();
     let window = window(arguments, program)?;
     let (viewer, viewer_text) = window.unzip();
 
@@ -89,6 +100,7 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
         "workloads": renders,
         "scenes": scenes,
         "playing": playing,
+        "denoiser": denoiser,
         "viewer": viewer,
     });
     let compared = baseline.map(|(path, baseline)| (path, baseline.compare(&run, is_selected)));
@@ -107,6 +119,7 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
     text.extend(renders.iter().map(renders::Row::text));
     text.extend(scenes.iter().map(scene_runs::Row::text));
     text.extend(playing.iter().map(playing::Row::text));
+    text.extend(denoiser.iter().map(denoiser::Row::text));
     text.extend(viewer_text);
     text.extend(compared.map(|(path, comparison)| comparison.text(path)));
     console::print(&text)

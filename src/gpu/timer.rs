@@ -3,7 +3,7 @@
 use super::{Gpu, GpuError, Source};
 use bytemuck::pod_collect_to_vec;
 
-/// Two timestamps: the beginning and the end of a pass.
+/// Two timestamps: the beginning of a pass, and the end of it or of a later one.
 pub(crate) struct Timer {
     queries: wgpu::QuerySet,
     resolved: wgpu::Buffer,
@@ -39,16 +39,21 @@ impl Timer {
     /// Bytes of its source.
     pub const BYTES: usize = 16;
 
-    /// For the descriptor of the pass.
+    /// For the descriptor of the only pass.
     pub fn writes(&self) -> wgpu::ComputePassTimestampWrites<'_> {
+        self.writes_of(true, true)
+    }
+
+    /// For the descriptor of a pass that is the first of several, or the last.
+    pub fn writes_of(&self, is_first: bool, is_last: bool) -> wgpu::ComputePassTimestampWrites<'_> {
         wgpu::ComputePassTimestampWrites {
             query_set: &self.queries,
-            beginning_of_pass_write_index: Some(0),
-            end_of_pass_write_index: Some(1),
+            beginning_of_pass_write_index: is_first.then_some(0),
+            end_of_pass_write_index: is_last.then_some(1),
         }
     }
 
-    /// Makes the timestamps readable after the pass.
+    /// Makes the timestamps readable after the passes.
     pub fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.resolve_query_set(&self.queries, 0..2, &self.resolved, 0);
     }

@@ -5,7 +5,7 @@ use super::{
     luminance::luminance, opacity::straight, pipelines,
 };
 use crate::{
-    gpu::{Gpu, GpuError, Source},
+    gpu::{Gpu, GpuError, Source, Timer},
     image::Image,
     threads,
 };
@@ -25,6 +25,14 @@ const SIGNAL: TextureFormat = TextureFormat::Rgba32Float;
 const GUIDES: TextureFormat = TextureFormat::Rgba32Uint;
 const TEXEL_BYTES: u32 = 16;
 
+/// A denoised picture.
+pub struct Denoised {
+    /// The picture.
+    pub image: Image,
+    /// How long the adapter took for the passes, by its timestamps; `None` if it has none.
+    pub pass_seconds: Option<f64>,
+}
+
 impl Image {
     /// Denoises linear radiance with the features of its pixels, and opacity where these have transparency. Pixels that are not finite are
     /// replaced by what is around them.
@@ -32,10 +40,21 @@ impl Image {
     /// # Errors
     /// The device failed, a side exceeds the adapter's textures, or the features are those of another picture.
     pub fn denoised(&self, gpu: &Gpu, features: &Features) -> Result<Self, RenderError> {
+        Ok(self.denoise(gpu, features)?.image)
+    }
+
+    /// As [`Self::denoised`], with the time that it took.
+    ///
+    /// # Errors
+    /// As [`Self::denoised`].
+    pub fn denoise(&self, gpu: &Gpu, features: &Features) -> Result<Denoised, RenderError> {
         let (width, height) = (self.width, self.height);
         let is_same = features.pixels.len() == self.pixels.len() && features.width == width;
         if !is_same || self.pixels.is_empty() {
-            return Ok(self.clone());
+            return Ok(Denoised {
+                image: self.clone(),
+                pass_seconds: None,
+            });
         }
         check_memory(width, height)?;
         let limit = gpu.device.limits().max_texture_dimension_2d;
@@ -51,11 +70,13 @@ impl Image {
         let pixels = &features.pixels;
         let signals = threads::collect(pixels.len(), |at| signal(self.pixels[at], &pixels[at]));
         let guides = guides(features);
-        let filtered = filter(gpu, (width, height), &signals, &guides)?;
+        let (filtered, mut pass_seconds) = filter(gpu, (width, height), &signals, &guides)?;
         let clear = match pixels.iter().any(|pixel| pixel.transparency > 0.0) {
             true => {
                 let signals = threads::collect(pixels.len(), |at| clear(&pixels[at]));
-                Some(filter(gpu, (width, height), &signals, &guides)?)
+                let (clear, seconds) = filter(gpu, (width, height), &signals, &guides)?;
+                pass_seconds = pass_seconds.zip(seconds).map(|(a, b)| a + b);
+                Some(clear)
             }
             false => None,
         };
@@ -67,10 +88,13 @@ impl Image {
             });
             straight(color, opacity)
         };
-        Ok(Self {
-            width,
-            height,
-            pixels: threads::collect(pixels.len(), color),
+        Ok(Denoised {
+            image: Self {
+                width,
+                height,
+                pixels: threads::collect(pixels.len(), color),
+            },
+            pass_seconds,
         })
     }
 }
@@ -151,22 +175,24 @@ fn unorm(number: f32) -> u32 {
     (number.clamp(0.0, 1.0) * 255.0).round() as u32
 }
 
-/// Runs all passes.
+/// Runs all passes. Returns the filtered signal, and the seconds of the passes if the adapter has timestamps.
 fn filter(
     gpu: &Gpu,
     (width, height): (u32, u32),
     signal: &[[f32; 4]],
     guides: &[[u32; 4]],
-) -> Result<Vec<[f32; 4]>, GpuError> {
+) -> Result<(Vec<[f32; 4]>, Option<f64>), GpuError> {
     let image = |format| gpu.allocate_screen(width, height, format);
     let mut images = [image(SIGNAL)?, image(SIGNAL)?];
     let guide_image = image(GUIDES)?;
     gpu.write_image(&images[0], 0, cast_slice(signal))?;
     gpu.write_image(&guide_image, 0, cast_slice(guides))?;
     let layout = layout(gpu);
+    let timer = gpu.timer()?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     for (pass, stride) in [1].into_iter().chain(STRIDES).enumerate() {
-        let pipeline = pipelines::denoising(gpu, &layout, pass == 0)?;
+        let (is_first, is_last) = (pass == 0, pass == STRIDES.len());
+        let pipeline = pipelines::denoising(gpu, &layout, is_first)?;
         let stride = gpu.upload("stride", bytes_of(&stride))?;
         let [from, to] = &images;
         let resources = [
@@ -176,22 +202,27 @@ fn filter(
             (6, wgpu::BindingResource::TextureView(to)),
         ];
         let group = group_at(gpu, &layout, &resources);
-        let mut work = encoder.begin_compute_pass(&Default::default());
+        let timed = (timer.as_ref()).filter(|_| is_first || is_last);
+        let mut work = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("denoise"),
+            timestamp_writes: timed.map(|timer| timer.writes_of(is_first, is_last)),
+        });
         work.set_pipeline(&pipeline);
         work.set_bind_group(3, &group, &[]);
         work.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
         drop(work);
         images.swap(0, 1);
     }
-    read(gpu, encoder, &images[0])
+    read(gpu, encoder, &images[0], timer.as_ref())
 }
 
-/// Submits the work and reads a signal back.
+/// Submits the work and reads back a signal, and the time that was measured.
 fn read(
     gpu: &Gpu,
     mut encoder: wgpu::CommandEncoder,
     image: &wgpu::TextureView,
-) -> Result<Vec<[f32; 4]>, GpuError> {
+    timer: Option<&Timer>,
+) -> Result<(Vec<[f32; 4]>, Option<f64>), GpuError> {
     let texture = image.texture();
     let (width, height) = (texture.width(), texture.height());
     let row = (TEXEL_BYTES * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -201,9 +232,10 @@ fn read(
         bytes,
         BufferUsages::COPY_DST | BufferUsages::COPY_SRC,
     )?;
+    let timer_bytes = timer.map_or(0, |_| Timer::BYTES);
     let staging = gpu.allocate(
         "staging",
-        bytes,
+        bytes + timer_bytes as u64,
         BufferUsages::COPY_DST | BufferUsages::MAP_READ,
     )?;
     let target = wgpu::TexelCopyBufferInfo {
@@ -216,17 +248,22 @@ fn read(
     };
     let size = texture.size();
     encoder.copy_texture_to_buffer(texture.as_image_copy(), target, size);
-    let source = Source {
+    let mut sources = Vec::from_iter(timer.map(Timer::source));
+    if let Some(timer) = timer {
+        timer.resolve(&mut encoder);
+    }
+    sources.push(Source {
         buffer: &texels,
         offset: 0,
         bytes,
-    };
-    gpu.submit_and_read(encoder, &[source], &staging, |bytes| {
+    });
+    gpu.submit_and_read(encoder, &sources, &staging, |bytes| {
+        let (ticks, rows) = bytes.split_at(timer_bytes);
         let mut texels = Vec::with_capacity(width as usize * height as usize);
-        for row in bytes.chunks_exact(row as usize) {
+        for row in rows.chunks_exact(row as usize) {
             texels.extend_from_slice(cast_slice(&row[..(TEXEL_BYTES * width) as usize]));
         }
-        texels
+        (texels, timer.map(|timer| timer.seconds(ticks)))
     })
 }
 

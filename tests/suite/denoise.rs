@@ -6,6 +6,7 @@ use glimray::import;
 use glimray::render::{Features, Integrator, PixelFeatures, RenderSettings, Tone};
 use glimray::scene::{Antialias, Transfer};
 use std::path::Path;
+use std::time::Instant;
 
 const SIDE: u32 = 160;
 
@@ -43,6 +44,24 @@ fn a_constant_picture_stays_as_it_is() {
             for (value, wanted) in pixel.iter().zip([0.3, 0.5, 7.0, 1.0]) {
                 assert!((value - wanted).abs() <= 1e-5 * wanted, "{pixel:?}");
             }
+        }
+    }
+}
+
+#[test]
+fn passes_take_a_part_of_the_time() {
+    let gpu = open_gpu();
+    let mut given = picture(|_, _| [0.3, 0.5, 7.0], 1.0);
+    for transparency in [0.0, 0.5] {
+        for pixel in &mut given.1.pixels {
+            pixel.transparency = transparency;
+        }
+        let started = Instant::now();
+        let denoised = given.0.denoise(&gpu, &given.1).expect("a picture");
+        let whole = started.elapsed().as_secs_f64();
+        // Adapters without timestamps have none.
+        if let Some(passes) = denoised.pass_seconds {
+            assert!(passes > 0.0 && passes < whole, "{passes} of {whole} s");
         }
     }
 }

@@ -99,6 +99,21 @@ fn a_comparison_marks_counters_that_grew() {
     assert!(of("mrays_per_second").1 == false, "a speed is no counter");
 }
 
+#[test]
+fn the_passes_of_the_denoiser_are_measured_apart() {
+    let workspace = Workspace::new();
+    let run = workspace.run("bench --quick --only denoiser --json");
+    let run = run.expect(0).json();
+    let row = &run["denoiser"][0];
+    assert_eq!((&row["width"], &row["height"]), (&480.into(), &270.into()));
+    let of = |figure: &str| row[figure]["median"].as_f64();
+    let whole = of("denoise_seconds").expect("a figure");
+    // Adapters without timestamps have none.
+    if let Some(passes) = of("pass_seconds") {
+        assert!(passes > 0.0 && passes < whole, "{passes} of {whole} s");
+    }
+}
+
 /// The numbers of `ratio` and `grew` are in another test.
 #[test]
 fn a_comparison_names_what_only_one_side_has() {
