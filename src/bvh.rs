@@ -2,10 +2,12 @@
 //!
 //! The builder knows boxes and the group that each belongs to, but not the primitives in them: the caller
 //! reorders its primitives by the order in [`Bvh`]. A binary tree is built (`ploc`), improved (`reinsertion`)
-//! and collapsed (`wide`).
+//! and collapsed (`wide`). A tree for a first picture is built at once (`linear`).
 
 mod binary;
+pub mod linear;
 mod linked;
+mod morton;
 mod ploc;
 mod reinsertion;
 mod wide;

@@ -34,6 +34,7 @@ mod trees;
 pub use features::Features;
 pub use frame::PackedView;
 pub use instance::MAX_BAKED;
+pub use mesh::DRAFT_FROM;
 pub use nodes::with_float_planes;
 pub use segments::Segments;
 pub use trees::TreeWork;
@@ -183,7 +184,27 @@ pub enum PackError {
 /// # Errors
 /// The scene exceeds the limits of the packed formats.
 pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
-    pack(None, scene, MAX_BAKED)
+    pack(None, scene, MAX_BAKED, false)
+}
+
+/// Packs a scene for its first pictures: the BVHs of large meshes are drafts, which are built in a fraction of the time, and
+/// in which rays take longer. [`refined`] gives the scene its usual ones. Triangles lie in another order, so that other ones
+/// of a mesh are chosen as lights; otherwise pictures are those of [`scene`].
+///
+/// # Errors
+/// As [`scene`].
+pub fn draft(scene: &Scene) -> Result<PackedScene, PackError> {
+    pack(None, scene, MAX_BAKED, true)
+}
+
+/// Packs a scene with the same result as [`scene`], and about as slowly, from a draft of it or of an earlier state of it. Other
+/// threads can use the draft meanwhile.
+///
+/// # Errors
+/// As [`scene`].
+pub fn refined(draft: &PackedScene, scene: &Scene) -> Result<PackedScene, PackError> {
+    draft.meshes.iter().for_each(|mesh| mesh.refine());
+    scene_from(draft, scene)
 }
 
 /// Packs a scene with the same result as [`scene`], reusing parts of `previous`: the BLASes of unchanged meshes
@@ -193,7 +214,7 @@ pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
 /// # Errors
 /// As [`scene`].
 pub fn scene_from(previous: &PackedScene, scene: &Scene) -> Result<PackedScene, PackError> {
-    pack(Some(previous), scene, MAX_BAKED)
+    pack(Some(previous), scene, MAX_BAKED, false)
 }
 
 /// Like [`scene`], with a limit on baking: a static mesh with several instances is baked if its copies have at
@@ -202,13 +223,14 @@ pub fn scene_from(previous: &PackedScene, scene: &Scene) -> Result<PackedScene, 
 /// # Errors
 /// As [`scene`].
 pub fn scene_with(scene: &Scene, most_baked: usize) -> Result<PackedScene, PackError> {
-    pack(None, scene, most_baked)
+    pack(None, scene, most_baked, false)
 }
 
 fn pack(
     previous: Option<&PackedScene>,
     scene: &Scene,
     most_baked: usize,
+    drafts: bool,
 ) -> Result<PackedScene, PackError> {
     let rest = scene.frame(0.0);
     let origin = scene.render_origin_at(&rest);
@@ -217,7 +239,7 @@ fn pack(
 
     let start = Instant::now();
     let before = previous.map(|previous| &previous.trees);
-    let trees = Trees::build(before, scene, (&rest, origin), &plan, &meshes)?;
+    let trees = Trees::build(before, scene, (&rest, origin), &plan, &meshes, drafts)?;
     let build_seconds = start.elapsed().as_secs_f64();
 
     let joint = &trees.joint.blas;
@@ -390,6 +412,11 @@ impl PackedScene {
         parts.extend([cast_slice(&self.materials), cast_slice(&self.textures)]);
         parts.extend(self.texels.bytes());
         parts
+    }
+
+    /// Whether it has BVHs that [`refined`] replaces.
+    pub fn is_draft(&self) -> bool {
+        self.trees.has_drafts()
     }
 
     /// Number of shapes in all BVHs.

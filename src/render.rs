@@ -252,6 +252,29 @@ impl Renderer {
         true
     }
 
+    /// Goes on with another packing of the same scene and frame, as [`crate::pack::refined`] gives it for a draft. All
+    /// samples are kept, so that a film or checkpoint of this picture has samples of both packings, and the fingerprint of
+    /// this one. `policy` is the one that the picture was started with.
+    ///
+    /// # Errors
+    /// As [`Renderer::new`]; the renderer can be restarted afterwards.
+    pub fn replace_scene(
+        &mut self,
+        scene: Arc<PackedScene>,
+        view: &PackedView,
+        policy: ExecutionPolicy,
+    ) -> Result<(), RenderError> {
+        let view = view.with_aspect(self.settings.size.0, self.settings.size.1);
+        self.fetch_film()?;
+        let fetch = bindings::choose_fetch(&policy, &self.device.gpu, &scene, &view);
+        let shown = (&*scene, &view, fetch);
+        let bytes = planned_bytes(shown, self.settings.region(), &policy, &self.tiles)?;
+        self.stats.gpu_bytes = self.stats.gpu_bytes.max(bytes);
+        (self.scene, self.view, self.policy) = (scene, view, policy);
+        let spare = self.policy.memory_limit_bytes.saturating_sub(bytes);
+        self.prepare_device(true, spare)
+    }
+
     /// Updates the device for the current task. Up to `spare` bytes may be allocated beyond what is needed.
     fn prepare_device(&mut self, is_other_scene: bool, spare: u64) -> Result<(), RenderError> {
         let (gpu, scene, view) = (&self.device.gpu, &self.scene, &self.view);

@@ -10,6 +10,7 @@ mod search;
 use super::{
     Aabb,
     linked::{Box4, LEAF, Node},
+    morton::Cells,
     threads,
 };
 use bytemuck::allocation::zeroed_vec;
@@ -73,17 +74,10 @@ impl Clusters {
 
 /// All boxes, sorted by the Morton codes of their centres.
 fn along_curve(boxes: &[Aabb]) -> Clusters {
-    let all = boxes[1..].iter().fold(boxes[0], |a, b| a.union(*b));
-    let center = |aabb: &Aabb| (aabb.min.as_dvec3() + aabb.max.as_dvec3()) * 0.5;
-    let low = all.min.as_dvec3();
-    let extent = (all.max.as_dvec3() - low).max_element();
-    // The same for all axes: neighbours in cubic cells have smaller joint boxes than those in flat ones.
-    let scale = f64::from((1 << 21) - 1) / extent.max(f64::from(f32::MIN_POSITIVE));
+    let cells = Cells::round(boxes);
     let mut order = zeroed_vec(boxes.len());
     threads::fill(&mut order, |index| {
-        let cell = (center(&boxes[index]) - low) * scale;
-        let [x, y, z] = cell.to_array().map(|c| spread_bits(c as u64));
-        (x | y << 1 | z << 2, index as u32)
+        (cells.code(&boxes[index]), index as u32)
     });
     threads::sort(&mut order);
     let mut clusters = Clusters {
@@ -99,15 +93,6 @@ fn along_curve(boxes: &[Aabb]) -> Clusters {
     });
     threads::fill(&mut clusters.links, |place| LEAF | order[place].1);
     clusters
-}
-
-/// Spreads 21 bits out to every third bit.
-fn spread_bits(x: u64) -> u64 {
-    let x = (x | x << 32) & 0x001f_0000_0000_ffff;
-    let x = (x | x << 16) & 0x001f_0000_ff00_00ff;
-    let x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
-    let x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
-    (x | x << 2) & 0x1249_2492_4924_9249
 }
 
 /// The place that a box prefers.

@@ -34,6 +34,8 @@ pub struct Blas {
     pub tangents: Arc<[PackedTangent]>,
     /// Maximum number of stack entries during traversal.
     pub stack_need: usize,
+    /// Whether its topology is a draft.
+    pub is_draft: bool,
     /// How often each node is in `nodes`, in a row: more than once if the mesh moves between several positions.
     key_count: u32,
     /// The children of nodes near the root, with exact boxes, by node index in the BLAS.
@@ -88,6 +90,7 @@ impl Blas {
             vertices,
             tangents,
             stack_need: topology.stack_need,
+            is_draft: topology.is_draft,
             triangles: fits[0].triangles.clone(),
         };
         blas.top = top_of(|reference| blas.index_of(reference), swept);
@@ -124,6 +127,7 @@ impl Blas {
             vertices: flat.vertices.into(),
             tangents: flat.tangents.into(),
             stack_need: bvh.stack_need,
+            is_draft: false,
             key_count: 1,
             top: top_of(|reference| reference - offsets.node, children_of),
         }

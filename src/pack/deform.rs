@@ -349,7 +349,7 @@ impl DeformedTree {
                 .map(|placed| topology.triangles(placed))
                 .collect()
         };
-        let at_rest = mesh.mesh.topology(&mut 0);
+        let at_rest = &*mesh.mesh.topology(&mut 0);
         let mut keys = triangles(at_rest);
         let is_rebuilt = Fit::new(at_rest, &keys[0]).cost() > POOR * at_rest.cost;
         let built;

@@ -7,8 +7,11 @@ use super::{
 use crate::scene::{Mesh, Scene};
 use std::{
     collections::HashMap,
-    sync::{Arc, OnceLock},
+    sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError},
 };
+
+/// Meshes of fewer triangles have no drafts: the tree of so many takes about 0.2 s on two cores.
+pub const DRAFT_FROM: usize = 1 << 18;
 
 /// A mesh with lazily derived data.
 #[derive(Debug)]
@@ -16,7 +19,7 @@ pub struct CachedMesh {
     pub mesh: Arc<Mesh>,
     /// Whether the corners of some triangle differ in material.
     pub mixes_materials: bool,
-    topology: OnceLock<Topology>,
+    topology: Mutex<Option<Arc<Topology>>>,
     uvs: OnceLock<Arc<[[f32; 4]]>>,
     shell: OnceLock<Option<Arc<Shell>>>,
     part_count: OnceLock<usize>,
@@ -30,7 +33,7 @@ impl CachedMesh {
         Self {
             mesh: mesh.clone(),
             mixes_materials: mesh.triangles.iter().any(mixes),
-            topology: OnceLock::new(),
+            topology: Mutex::default(),
             uvs: OnceLock::new(),
             shell: OnceLock::new(),
             part_count: OnceLock::new(),
@@ -38,11 +41,41 @@ impl CachedMesh {
     }
 
     /// The topology of its BLAS; increments `built` if it has to be built.
-    pub fn topology(&self, built: &mut usize) -> &Topology {
-        self.topology.get_or_init(|| {
+    pub fn topology(&self, built: &mut usize) -> Arc<Topology> {
+        let build = || {
             *built += 1;
-            Topology::build(&self.mesh.positions, &self.mesh.triangles)
-        })
+            Arc::new(Topology::build(&self.mesh.positions, &self.mesh.triangles))
+        };
+        self.known_topology().get_or_insert_with(build).clone()
+    }
+
+    /// Gives a large mesh without a topology a draft of it; increments `built` then.
+    pub fn draft(&self, built: &mut usize) {
+        if self.mesh.triangles.len() < DRAFT_FROM {
+            return;
+        }
+        let mut known = self.known_topology();
+        if known.is_none() {
+            *known = Topology::draft(&self.mesh.positions, &self.mesh.triangles).map(Arc::new);
+            *built += usize::from(known.is_some());
+        }
+    }
+
+    /// Whether its topology is a draft.
+    pub fn is_draft(&self) -> bool {
+        self.known_topology().as_ref().is_some_and(|it| it.is_draft)
+    }
+
+    /// Replaces a draft. Meanwhile others can use it.
+    pub fn refine(&self) {
+        if self.is_draft() {
+            let better = Topology::build(&self.mesh.positions, &self.mesh.triangles);
+            *self.known_topology() = Some(Arc::new(better));
+        }
+    }
+
+    fn known_topology(&self) -> MutexGuard<'_, Option<Arc<Topology>>> {
+        self.topology.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// u and v of each vertex in both sets, zeros where it has no texture coordinates. Without a second set the first

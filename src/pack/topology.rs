@@ -6,7 +6,7 @@ use super::{
     pieces::{Divided, Piece},
 };
 use crate::{
-    bvh::{self, Aabb, Bvh, Child, threads},
+    bvh::{self, Aabb, Bvh, Child, linear, threads},
     layout::{
         LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, PackedTriangle, SHAPE,
         leaf_reference,
@@ -36,21 +36,17 @@ pub struct Topology {
     /// Their triangles are places in `order`.
     pub pieces: Vec<Piece>,
     pub stack_need: usize,
-    /// The cost of traversal in the position that it was built for; see [`cost_of`].
+    /// The cost of traversal in the position that it was built for; see [`cost_of`]. Infinite for drafts, whose meshes do
+    /// not deform.
     pub cost: f64,
+    /// Whether it was built by [`Topology::draft`].
+    pub is_draft: bool,
 }
 
 impl Topology {
     pub fn build(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
-        // Scaling by a power of two does not change the BVH, but keeps areas in range.
-        let largest = (positions.iter()).fold(0.0, |most: f32, p| most.max(p.abs().max_element()));
-        let scale = (-largest.log2().floor()).clamp(-126.0, 126.0).exp2();
-        let corners = |triangle: u32| {
-            triangles[triangle as usize].map(|corner| positions[corner as usize] * scale)
-        };
-        let mut boxes = zeroed_vec(triangles.len());
-        threads::fill(&mut boxes, |triangle| Aabb::of(corners(triangle as u32)));
-        let divided = Divided::new(boxes, corners);
+        let corners = scaled(positions, triangles);
+        let divided = Divided::new(boxes(triangles.len(), &corners), &corners);
         let bvh = build(&divided, &[], STACK_BELOW);
         let offsets = Offsets::default();
         let reference = |child: &Child| match *child {
@@ -77,7 +73,27 @@ impl Topology {
             order: divided.order(&bvh.order[usize::from(nodes::TRIANGLES)]),
             pieces: divided.pieces,
             stack_need: bvh.stack_need,
+            is_draft: false,
         }
+    }
+
+    /// One that takes a fraction of the time to build, in which rays take longer; `None` if it would be too deep.
+    pub fn draft(positions: &[Vec3], triangles: &[[u32; 3]]) -> Option<Self> {
+        let boxes = boxes(triangles.len(), &scaled(positions, triangles));
+        let bvh = linear::build(&boxes, STACK_BELOW)?;
+        let reference = |child: &Option<Child>| {
+            (child.as_ref()).map_or(0, |child| Offsets::default().reference(child))
+        };
+        Some(Self {
+            children: threads::collect(bvh.nodes.len(), |index| {
+                bvh.nodes[index].each_ref().map(reference)
+            }),
+            order: bvh.order,
+            pieces: Vec::new(),
+            stack_need: bvh.stack_need,
+            cost: f64::INFINITY,
+            is_draft: true,
+        })
     }
 
     /// The triangles of a mesh in leaf order.
@@ -86,6 +102,20 @@ impl Topology {
             placed.triangle(self.order[place] as usize)
         })
     }
+}
+
+/// The corners of each triangle. Scaling by a power of two does not change the BVH, but keeps areas in range.
+fn scaled(positions: &[Vec3], triangles: &[[u32; 3]]) -> impl Fn(u32) -> [Vec3; 3] + Sync {
+    let largest = (positions.iter()).fold(0.0, |most: f32, p| most.max(p.abs().max_element()));
+    let scale = (-largest.log2().floor()).clamp(-126.0, 126.0).exp2();
+    move |triangle| triangles[triangle as usize].map(|corner| positions[corner as usize] * scale)
+}
+
+/// The box of each triangle.
+fn boxes(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<Aabb> {
+    let mut boxes = zeroed_vec(count);
+    threads::fill(&mut boxes, |triangle| Aabb::of(corners(triangle as u32)));
+    boxes
 }
 
 /// The number of nodes that a ray visits that hits the root, by the surface area heuristic; `half_areas` are

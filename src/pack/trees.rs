@@ -119,13 +119,15 @@ pub struct Top {
 }
 
 impl Trees {
-    /// Builds the BVHs of a scene with these `meshes`; `previous` are those of another scene.
+    /// Builds the BVHs of a scene with these `meshes`, those of large ones as drafts if `drafts` is set; `previous` are those
+    /// of another scene.
     pub fn build(
         previous: Option<&Self>,
         scene: &Scene,
         (rest, origin): (&Frame, DVec3),
         plan: &Plan,
         meshes: &[Arc<CachedMesh>],
+        drafts: bool,
     ) -> Result<Self, PackError> {
         let previous = previous.filter(|previous| previous.origin == origin);
         let mut work = TreeWork::default();
@@ -148,10 +150,14 @@ impl Trees {
                             None => (DAffine3::IDENTITY, DVec3::ZERO),
                         };
                         work.refits += 1;
+                        // A tree that is refitted for each view has to be a good one.
+                        if drafts && !scene.deformations.iter().any(|it| it.mesh == index) {
+                            mesh.draft(&mut work.topologies);
+                        }
                         let topology = mesh.topology(&mut work.topologies);
                         let first_vertex = offsets.vertex as usize;
                         let placed = PlacedMesh::new(&mesh.mesh, transform, origin, first_vertex)?;
-                        Arc::new(Blas::refitted(topology, placed, offsets))
+                        Arc::new(Blas::refitted(&topology, placed, offsets))
                     }
                 },
             };
@@ -260,6 +266,11 @@ impl Trees {
         self.own().map(|tree| &*tree.mesh).chain(joint)
     }
 
+    /// Whether some BLAS is a draft.
+    pub fn has_drafts(&self) -> bool {
+        self.own().any(|tree| tree.blas.is_draft)
+    }
+
     /// The BLASes of single meshes.
     fn own(&self) -> impl Iterator<Item = &MeshTree> {
         self.instanced.iter().chain(&self.baked)
@@ -282,7 +293,8 @@ type Key = (usize, Option<[u64; 12]>);
 impl<'a> ExistingTrees<'a> {
     fn new(trees: Option<&'a Trees>) -> Self {
         let mut known: HashMap<_, Vec<_>> = HashMap::new();
-        for tree in trees.into_iter().flat_map(Trees::own) {
+        let is_outdated = |tree: &&MeshTree| tree.blas.is_draft && !tree.mesh.is_draft();
+        for tree in (trees.into_iter().flat_map(Trees::own)).filter(|tree| !is_outdated(tree)) {
             let key = key(&tree.mesh, tree.world_from_object);
             known.entry(key).or_default().push(&tree.blas);
         }

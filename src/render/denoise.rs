@@ -202,10 +202,9 @@ fn filter(
             (6, wgpu::BindingResource::TextureView(to)),
         ];
         let group = group_at(gpu, &layout, &resources);
-        let timed = (timer.as_ref()).filter(|_| is_first || is_last);
         let mut work = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("denoise"),
-            timestamp_writes: timed.map(|timer| timer.writes_of(is_first, is_last)),
+            timestamp_writes: timer.writes_of(is_first, is_last),
         });
         work.set_pipeline(&pipeline);
         work.set_bind_group(3, &group, &[]);
@@ -213,7 +212,7 @@ fn filter(
         drop(work);
         images.swap(0, 1);
     }
-    read(gpu, encoder, &images[0], timer.as_ref())
+    read(gpu, encoder, &images[0], &timer)
 }
 
 /// Submits the work and reads back a signal, and the time that was measured.
@@ -221,7 +220,7 @@ fn read(
     gpu: &Gpu,
     mut encoder: wgpu::CommandEncoder,
     image: &wgpu::TextureView,
-    timer: Option<&Timer>,
+    timer: &Timer,
 ) -> Result<(Vec<[f32; 4]>, Option<f64>), GpuError> {
     let texture = image.texture();
     let (width, height) = (texture.width(), texture.height());
@@ -232,10 +231,9 @@ fn read(
         bytes,
         BufferUsages::COPY_DST | BufferUsages::COPY_SRC,
     )?;
-    let timer_bytes = timer.map_or(0, |_| Timer::BYTES);
     let staging = gpu.allocate(
         "staging",
-        bytes + timer_bytes as u64,
+        bytes + Timer::BYTES as u64,
         BufferUsages::COPY_DST | BufferUsages::MAP_READ,
     )?;
     let target = wgpu::TexelCopyBufferInfo {
@@ -248,22 +246,19 @@ fn read(
     };
     let size = texture.size();
     encoder.copy_texture_to_buffer(texture.as_image_copy(), target, size);
-    let mut sources = Vec::from_iter(timer.map(Timer::source));
-    if let Some(timer) = timer {
-        timer.resolve(&mut encoder);
-    }
+    let mut sources = Vec::from_iter(timer.resolve(&mut encoder));
     sources.push(Source {
         buffer: &texels,
         offset: 0,
         bytes,
     });
     gpu.submit_and_read(encoder, &sources, &staging, |bytes| {
-        let (ticks, rows) = bytes.split_at(timer_bytes);
+        let (seconds, rows) = timer.split(bytes);
         let mut texels = Vec::with_capacity(width as usize * height as usize);
         for row in rows.chunks_exact(row as usize) {
             texels.extend_from_slice(cast_slice(&row[..(TEXEL_BYTES * width) as usize]));
         }
-        (texels, timer.map(|timer| timer.seconds(ticks)))
+        (texels, seconds)
     })
 }
 

@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     clock::Instant,
-    gpu::{Compiled, Gpu, GpuError, Kernel, Source, Timer, Variant},
+    gpu::{Compiled, Gpu, GpuError, Kernel, Source, Variant},
     layout::{NONE, PackedCounters, PackedDispatch},
     pack::{PackedScene, PackedView},
 };
@@ -333,7 +333,7 @@ impl RayQuery {
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                 label: None,
-                timestamp_writes: timer.as_ref().map(Timer::writes),
+                timestamp_writes: timer.writes(),
             });
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &chunk.group, &[]);
@@ -344,10 +344,7 @@ impl RayQuery {
             }
         }
         let mut sources = vec![device::counters(&buffers.dispatch)];
-        if let Some(timer) = &timer {
-            timer.resolve(&mut encoder);
-            sources.push(timer.source());
-        }
+        sources.extend(timer.resolve(&mut encoder));
         if all.is_some() {
             sources.push(Source {
                 buffer: &buffers.film,
@@ -360,12 +357,14 @@ impl RayQuery {
         let (counters, seconds) = gpu.read(reading, |bytes| {
             let (counters, bytes) = bytes.split_at(size_of::<PackedCounters>());
             let waited = started.elapsed().as_secs_f64();
-            let (ticks, rows) = bytes.split_at(timer.as_ref().map_or(0, |_| Timer::BYTES));
+            let (seconds, rows) = timer.split(bytes);
             if let Some(all) = all {
                 all.extend(pod_collect_to_vec::<u8, [u32; 4]>(rows));
             }
-            let seconds = timer.as_ref().map_or(waited, |timer| timer.seconds(ticks));
-            (pod_read_unaligned::<PackedCounters>(counters), seconds)
+            (
+                pod_read_unaligned::<PackedCounters>(counters),
+                seconds.unwrap_or(waited),
+            )
         })?;
         // A driver that stops a dispatch is treated as lost.
         if counters.groups_done != groups * passes {

@@ -17,6 +17,7 @@ pub mod outline;
 pub mod playback;
 pub mod preferences;
 pub mod recording;
+pub mod refinement;
 pub mod region;
 pub mod swatch;
 pub mod tool;

@@ -27,7 +27,8 @@ fn box_round(center: DVec3, half: DVec3) -> Aabb {
     }
 }
 
-fn inputs() -> Vec<(&'static str, Vec<Aabb>)> {
+/// Boxes that are easy and hard to build trees over, by name.
+pub fn inputs() -> Vec<(&'static str, Vec<Aabb>)> {
     let mut random = Random(1);
     let mut many = |count: usize, mut make: Box<dyn FnMut(&mut Random) -> Aabb>| -> Vec<Aabb> {
         (0..count).map(|_| make(&mut random)).collect()

@@ -15,6 +15,7 @@ mod deformation;
 mod denoise;
 mod difference;
 mod distribution;
+mod drafts;
 mod drivers;
 mod embed;
 mod endings;

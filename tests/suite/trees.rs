@@ -15,7 +15,7 @@ const LIMITS: Limits = Limits {
     stack_size: STACK_SIZE as usize - 1,
 };
 
-fn build(boxes: &[Aabb]) -> Bvh {
+pub fn build(boxes: &[Aabb]) -> Bvh {
     bvh::build(boxes, &vec![0; boxes.len()], 1, LIMITS)
 }
 
@@ -26,7 +26,8 @@ fn box_round(center: DVec3, half: f64) -> Aabb {
     }
 }
 
-fn shuffled(mut boxes: Vec<Aabb>) -> Vec<Aabb> {
+/// The boxes in another order.
+pub fn shuffled(mut boxes: Vec<Aabb>) -> Vec<Aabb> {
     let mut random = Random(7);
     for last in (1..boxes.len()).rev() {
         boxes.swap(last, random.below(last as u64 + 1) as usize);
@@ -105,7 +106,7 @@ fn ties_do_not_make_the_work_quadratic() {
 }
 
 /// The probability-weighted number of nodes and boxes that a random ray through the root visits.
-fn cost(bvh: &Bvh) -> f64 {
+pub fn cost(bvh: &Bvh) -> f64 {
     let area = |aabb: &Aabb| f64::from(aabb.half_area());
     let children = bvh.nodes.iter().flat_map(|node| &node.children);
     let below: f64 = children
@@ -143,7 +144,8 @@ fn cost_of_medians(boxes: &mut [Aabb], root_area: f64) -> f64 {
     share + quarters[0] + quarters[1]
 }
 
-fn height_field(parts: u32) -> Scene {
+/// A height field of so many by so many cells of two triangles.
+pub fn height_field(parts: u32) -> Scene {
     let mut scene = scenes::empty();
     let height = |x: f64, z: f64| {
         0.1 * (x * 7.0).sin() * (z * 5.0).cos() + 0.02 * (x * 41.0 + z * 29.0).sin()
@@ -155,7 +157,8 @@ fn height_field(parts: u32) -> Scene {
     scene
 }
 
-fn boxes_of(scene: &Scene) -> Vec<Aabb> {
+/// The boxes of the triangles of the first mesh.
+pub fn boxes_of(scene: &Scene) -> Vec<Aabb> {
     let mesh = &scene.meshes[0];
     let corners = |triangle: &[u32; 3]| triangle.map(|i| mesh.positions[i as usize]);
     (mesh.triangles.iter().map(corners)).map(Aabb::of).collect()

@@ -12,7 +12,7 @@ use crate::cli::job;
 use crate::gpu::Gpu;
 use crate::import::{self, Memory};
 use crate::layout::PackedNode;
-use crate::pack::{PackedScene, PackedView};
+use crate::pack::{self, PackedScene, PackedView};
 use crate::render::{Coherence, RayBatch, RayQuery, RaySteps, RayTest};
 use crate::scene::Scene;
 use serde::Serialize;
@@ -40,6 +40,8 @@ pub struct SceneRuns {
     /// The scene as a file, if it is a single mesh that is not too large.
     file: Option<Memory>,
     loads: Vec<f64>,
+    /// Seconds of building the trees for the first picture in the window.
+    drafts: Vec<f64>,
     times: Vec<Times>,
     tree_bytes: u64,
     all_bytes: u64,
@@ -83,6 +85,8 @@ pub struct Row {
     load_mtriangles_per_second: Option<Figure>,
     /// Millions of triangles and spheres per second of building the trees; each mesh counts once.
     build_mprimitives_per_second: Figure,
+    /// The same for the first picture in the window; null without a mesh that is large enough.
+    draft_mprimitives_per_second: Option<Figure>,
     /// GPU memory of nodes, instances, triangles and spheres.
     bytes_per_primitive: f64,
     /// The same with vertices, materials and lights.
@@ -141,6 +145,7 @@ impl SceneRuns {
             primitive_count: in_meshes + scene.shapes.len(),
             file: file_of(&scene),
             loads: Vec::new(),
+            drafts: Vec::new(),
             times: Vec::new(),
             tree_bytes: 0,
             all_bytes: 0,
@@ -157,6 +162,10 @@ impl SceneRuns {
             let started = Instant::now();
             import::load_from(file, FILE, &import::Options::default())?;
             self.loads.push(started.elapsed().as_secs_f64());
+        }
+        let scene = &self.workload.scene;
+        if (scene.meshes.iter()).any(|mesh| mesh.triangles.len() >= pack::DRAFT_FROM) {
+            self.drafts.push(pack::draft(scene)?.build_seconds);
         }
         if self.times.is_empty() {
             renders::render(&self.workload, arguments, Purpose::Warm)?;
@@ -186,6 +195,7 @@ impl SceneRuns {
             instances: scene.instances.len(),
             load_mtriangles_per_second: (!self.loads.is_empty()).then(|| rates(&self.loads)),
             build_mprimitives_per_second: rates(&builds),
+            draft_mprimitives_per_second: (!self.drafts.is_empty()).then(|| rates(&self.drafts)),
             bytes_per_primitive: self.tree_bytes as f64 / count,
             all_bytes_per_primitive: self.all_bytes as f64 / count,
             width: size.0,
@@ -318,8 +328,12 @@ impl Row {
             Some(rate) => format!("load {rate:.2}, "),
             None => String::new(),
         };
+        let draft = match self.draft_mprimitives_per_second {
+            Some(rate) => format!(", draft {rate:.2}"),
+            None => String::new(),
+        };
         let mut text = format!(
-            "\n{}: {objects}; {load}build {:.2} million primitives/s; {:.0} bytes per primitive, {:.0} with vertices and materials; \
+            "\n{}: {objects}; {load}build {:.2}{draft} million primitives/s; {:.0} bytes per primitive, {:.0} with vertices and materials; \
              render {}×{} {:.3} s, of which tracing {:.3} s\n{:<17} {:>9} {:>9} {:>9}  {:<15} {:<6} {:>9} {:>10} {:>12} {:>10}\n",
             self.name,
             self.build_mprimitives_per_second,

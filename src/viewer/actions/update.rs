@@ -29,6 +29,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     comparing::update(session);
     inspector::update(session, ctx, seconds);
     editing::update(session, ctx);
+    session.take_refined();
     session.drop_outdated();
     let time = session.playback.time;
     session.playback.advance(seconds);
@@ -51,6 +52,7 @@ pub fn update_hidden(session: &mut Session) {
     session.last_motion = f64::NEG_INFINITY;
     session.drag = None;
     take_scene(session);
+    session.take_refined();
 }
 
 fn take_scene(session: &mut Session) {

@@ -44,7 +44,7 @@ pub struct Loaded {
 pub struct Imported {
     /// The scene.
     pub scene: Scene,
-    /// Packed for rendering, so that the window stays usable while the BVH is built.
+    /// Packed for rendering, so that the window stays usable while the BVH is built; large meshes with drafts of theirs.
     pub packed: Arc<PackedScene>,
 }
 
@@ -115,7 +115,7 @@ pub fn load(
             if !report(Stage::BuildingBvh { triangles }) {
                 return None;
             }
-            match pack::scene(&scene).map(Arc::new) {
+            match pack::draft(&scene).map(Arc::new) {
                 Ok(packed) => Ok(Imported { scene, packed }),
                 Err(error) => Err(Trouble::from(error.to_string())),
             }

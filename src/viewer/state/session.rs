@@ -20,6 +20,7 @@ use crate::viewer::model::objects::Id;
 use crate::viewer::model::playback::Playback;
 use crate::viewer::model::preferences::{Preferences, Store};
 use crate::viewer::model::recording::InputRecording;
+use crate::viewer::model::refinement::Refinement;
 use crate::viewer::model::tool::{Tool, ToolState};
 use crate::viewer::model::view_settings::ViewSettings;
 use crate::viewer::model::viewport::{PixelZoom, Viewport};
@@ -46,6 +47,8 @@ const SETTLE: f64 = 0.12;
 /// Minimum interval between frames during motion, and between polls of other threads.
 const FRAME: Duration = Duration::from_millis(8);
 const LOOK: Duration = Duration::from_millis(50);
+/// The interval between polls for better BVHs, which may take a while and need all cores.
+const REFINED: Duration = Duration::from_millis(250);
 
 /// The state of the window, except for GPU resources.
 pub struct Session {
@@ -108,8 +111,10 @@ pub struct Session {
     /// Questions that wait for the render thread.
     pub questions: Vec<Question<Answer>>,
     pub(in crate::viewer) loader: Option<Loader>,
-    /// The packed scene as it was loaded, until it is edited.
+    /// The packed scene as it was loaded or refined, until it is edited.
     pub(in crate::viewer) prepared: Option<PreparedScene>,
+    /// While better BVHs are built for a scene with drafts.
+    pub(in crate::viewer) refinement: Option<Refinement>,
     /// The scene that may be replaced by the one being opened.
     pub(in crate::viewer) left: Option<Arc<Scene>>,
     /// Number of restarts of the picture.
@@ -167,6 +172,7 @@ impl Session {
             questions: Vec::new(),
             loader: None,
             prepared: None,
+            refinement: None,
             left: None,
             restarts: 0,
             room: Room::default(),
@@ -269,6 +275,7 @@ impl Session {
     /// Whether nothing is moving or loading.
     pub fn is_at_rest(&self) -> bool {
         self.loader.is_none()
+            && self.refinement.is_none()
             && self.questions.is_empty()
             && !self.files.is_busy()
             && !self.comparing.is_busy()
@@ -297,8 +304,10 @@ impl Session {
         }
         // Not while a button is held.
         let settles = self.last_motion + SETTLE - self.now;
-        let is_due = settles > 0.0 && self.drag.is_none();
-        is_due.then(|| Duration::from_secs_f64(settles.min(SETTLE)).max(FRAME))
+        if settles > 0.0 && self.drag.is_none() {
+            return Some(Duration::from_secs_f64(settles.min(SETTLE)).max(FRAME));
+        }
+        self.refinement.as_ref().map(|_| REFINED)
     }
 
     /// Requests that the window is opened again on a new device.

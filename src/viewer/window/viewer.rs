@@ -203,11 +203,16 @@ impl Wanted {
     /// unless recent waits timed out.
     fn order(&mut self, render: &RenderThread<Answer>, session: &Session) -> bool {
         let orders = session.orders();
-        if orders.is_same(&self.orders) {
+        let is_same = orders.is_same(&self.orders);
+        if is_same && orders.shares_prepared(&self.orders) {
             return false;
         }
         render.order(orders.clone());
         self.orders = orders;
+        if is_same {
+            // Better BVHs bring no picture that is worth waiting for.
+            return false;
+        }
         if self.until_wait > 0 {
             self.until_wait -= 1;
             return false;

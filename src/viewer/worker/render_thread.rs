@@ -21,7 +21,7 @@ use std::time::{Duration, Instant};
 pub struct RenderRequests {
     /// By [`PictureSlot`]; `None` for unused slots.
     pub pictures: [Option<RenderRequest>; 3],
-    /// The scene of the requests if it was packed while it was loaded. It does not change the pictures.
+    /// The scene of the requests if it was packed beforehand.
     pub prepared: Option<PreparedScene>,
     /// The still of a comparison, in place of [`PictureSlot::Beside`].
     pub still: Option<StillRequest>,
@@ -37,6 +37,12 @@ impl RenderRequests {
     /// Whether both contain the same requests.
     pub fn is_same(&self, other: &Self) -> bool {
         (self.coarse, self.paused) == (other.coarse, other.paused) && self.shows_same(other)
+    }
+
+    /// Whether both have the same packed scene, or none.
+    pub fn shares_prepared(&self, other: &Self) -> bool {
+        let address = |it: &Self| it.prepared.as_ref().map(|it| Arc::as_ptr(&it.packed));
+        address(self) == address(other)
     }
 
     /// Whether both request the same pictures.
@@ -311,7 +317,8 @@ impl Painter {
     }
 
     fn has_refused(&self, orders: &RenderRequests) -> bool {
-        (self.refused.as_ref()).is_some_and(|refused| refused.shows_same(orders))
+        (self.refused.as_ref())
+            .is_some_and(|refused| refused.shows_same(orders) && refused.shares_prepared(orders))
     }
 
     fn looks(&self) -> u64 {

@@ -50,7 +50,7 @@ impl RenderRequest {
     }
 }
 
-/// A scene that was packed while it was loaded.
+/// A scene that was packed while it was loaded, or in the background.
 #[derive(Clone, Debug)]
 pub struct PreparedScene {
     /// The scene, compared by address.

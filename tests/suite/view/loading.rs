@@ -1,12 +1,13 @@
 //! The stages of a scene that is opened: in order, shown, cancelled.
 
 use super::harness::Window;
+use crate::reference::compare::render;
 use crate::support::PATIENCE;
 use egui_kittest::kittest::{Queryable, by};
 use glimray::gpu::{AdapterChoice, Gpu};
 use glimray::import::Options;
 use glimray::pack;
-use glimray::render::{ExecutionPolicy, RenderSettings, Tone};
+use glimray::render::{ExecutionPolicy, Integrator, RenderSettings, Tone};
 use glimray::scene::Scene;
 use glimray::viewer::actions::files;
 use glimray::viewer::model::loader::{self, Loaded};
@@ -264,4 +265,100 @@ fn a_scene_that_is_not_loaded_after_all_leaves_the_one_that_is_open() {
     window.settle();
     assert_eq!(window.session().title(), "scene.toml");
     assert_eq!(window.order().scene.triangle_count(), 8);
+}
+
+#[test]
+fn a_picture_keeps_its_samples_when_the_drafts_of_its_trees_are_replaced() {
+    let (_, loaded) = load(&Folder::new(363), None);
+    let outcome = loaded.expect("a result").outcome;
+    let imported = outcome.unwrap_or_else(|trouble| panic!("{trouble:?}"));
+    assert!(imported.packed.is_draft());
+    let scene = Arc::new(imported.scene);
+    let draft = PreparedScene {
+        scene: scene.clone(),
+        packed: imported.packed,
+    };
+    let refined = pack::refined(&draft.packed, &scene).expect("a packed scene");
+    let refined = PreparedScene {
+        scene: scene.clone(),
+        packed: Arc::new(refined),
+    };
+    let mut order = order(scene);
+    order.settings.samples = 1 << 20;
+    let gpu = Gpu::new(&AdapterChoice::default()).expect("an adapter");
+    let mut picture = ProgressiveImage::new(gpu, PictureSlot::Main, Arc::new(|_| ()));
+    let ask = |picture: &mut ProgressiveImage, prepared: &PreparedScene| {
+        let outcome = picture.set_request(Some(&order), false, Some(prepared));
+        outcome.expect("a picture");
+    };
+    ask(&mut picture, &draft);
+    let samples = |picture: &ProgressiveImage| {
+        let shown = picture.shown().map(|shown| shown.progress);
+        shown.map_or(0, |progress| progress.samples)
+    };
+    let start = Instant::now();
+    while samples(&picture) < 2 || picture.is_awaited() {
+        assert!(start.elapsed() < PATIENCE, "no samples");
+        ask(&mut picture, &draft);
+        picture.step(false).expect("a step");
+    }
+    let before = samples(&picture);
+    let trees = |picture: &ProgressiveImage| picture.shown().map(|shown| shown.trees_built);
+    let built = trees(&picture);
+    // It is asked again and again; the trees are replaced once.
+    for _ in 0..3 {
+        ask(&mut picture, &refined);
+        picture.step(false).expect("a step");
+        assert!(samples(&picture) >= before, "the picture has restarted");
+        assert_eq!(trees(&picture), built.map(|built| built + 1));
+    }
+}
+
+#[test]
+fn a_picture_of_steps_is_that_of_the_usual_trees() {
+    let (_, loaded) = load(&Folder::new(363), None);
+    let outcome = loaded.expect("a result").outcome;
+    let imported = outcome.unwrap_or_else(|trouble| panic!("{trouble:?}"));
+    let scene = Arc::new(imported.scene);
+    let refined = pack::refined(&imported.packed, &scene).expect("a packed scene");
+    let prepared = [imported.packed, Arc::new(refined)].map(|packed| PreparedScene {
+        scene: scene.clone(),
+        packed,
+    });
+    let mut order = order(scene);
+    order.settings.integrator = Integrator::Heat;
+    let gpu = Gpu::new(&AdapterChoice::default()).expect("an adapter");
+    let mut picture = ProgressiveImage::new(gpu, PictureSlot::Main, Arc::new(|_| ()));
+    let mut pictures = Vec::new();
+    for prepared in &prepared {
+        let outcome = picture.set_request(Some(&order), false, Some(prepared));
+        outcome.expect("a picture");
+        let start = Instant::now();
+        while !picture.is_done() {
+            assert!(start.elapsed() < PATIENCE, "never done");
+            picture.step(false).expect("a step");
+        }
+        let image = picture.frame().expect("a frame").image(&Tone::LINEAR);
+        pictures.push(image.expect("a picture").0);
+    }
+    let (usual, _) = render(&order.scene, &order.settings);
+    assert!(pictures[0] != pictures[1], "the draft is the usual tree");
+    assert!(pictures[1] == usual, "the steps of the draft are left");
+}
+
+#[test]
+fn the_window_ends_with_the_usual_trees() {
+    let folder = Folder::new(363);
+    let path = folder.scene();
+    let path = path.to_str().expect("a path");
+    let mut window = Window::open(&[path, "--size", "32x24", "--samples", "2"]);
+    window.settle();
+    let session = window.session();
+    let scene = session.scene().expect("a scene").clone();
+    let prepared = session.prepared_scene().expect("a packed scene");
+    assert!(!prepared.is_draft());
+    let usual = pack::scene(&scene).expect("a packed scene");
+    assert!(prepared.parts() == usual.parts(), "the bytes differ");
+    drop(session);
+    assert!(window.shown().progress.is_done);
 }

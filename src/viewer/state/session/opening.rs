@@ -4,12 +4,14 @@ use crate::app::clock::Clock;
 use crate::app::error::AppError;
 use crate::app::overrides::{CameraOverrides, Moment, picture_size};
 use crate::app::showcase;
+use crate::pack::PackedScene;
 use crate::render::RenderSettings;
 use crate::scene::Scene;
 use crate::viewer::model::camera::CameraController;
 use crate::viewer::model::document::Document;
 use crate::viewer::model::loader::{Imported, Loader, Trouble};
 use crate::viewer::model::playback::Playback;
+use crate::viewer::model::refinement::{Refined, Refinement};
 use crate::viewer::model::tool::ToolState;
 use crate::viewer::model::view_settings::ViewSettings;
 use crate::viewer::state::files::Intent;
@@ -100,6 +102,7 @@ impl Session {
 
     /// Shows a loaded scene with its own camera and settings.
     pub(super) fn show(&mut self, original: Scene) -> Result<(), AppError> {
+        self.refinement = None;
         let mut scene = original.clone();
         self.request.overrides.camera.apply(&mut scene)?;
         let settings = self.settings_of(&scene);
@@ -189,6 +192,9 @@ impl Session {
             shown.map_err(|error| Trouble::from(error.to_string()))?;
             // The camera of the command line changes nothing that is packed.
             self.prepared = (self.scene().cloned()).map(|scene| PreparedScene { scene, packed });
+            if let Some(prepared) = self.prepared.clone().filter(|it| it.packed.is_draft()) {
+                self.refine(prepared.packed);
+            }
             Ok(())
         });
         Some(Opened {
@@ -204,6 +210,38 @@ impl Session {
     pub fn cancel_loading(&mut self) -> Option<PathBuf> {
         self.left = None;
         self.loader.take().map(|loader| loader.path)
+    }
+
+    /// Starts to replace the drafts of the current scene.
+    fn refine(&mut self, draft: Arc<PackedScene>) {
+        let scene = self.scene().cloned();
+        // Without a thread the scene stays with its drafts.
+        self.refinement = scene.and_then(|scene| Refinement::new(scene, draft).ok());
+    }
+
+    /// Takes the packed scene once its BVHs are no longer drafts, and nothing moves that would have to wait for the upload.
+    pub fn take_refined(&mut self) {
+        if self.is_moving() {
+            return;
+        }
+        let refined = match self.refinement.as_mut().map(Refinement::poll) {
+            None | Some(Refined::NotYet) => return,
+            Some(Refined::Never) => None,
+            Some(Refined::Scene(refined)) => Some(refined),
+        };
+        self.refinement = None;
+        if let (Some(refined), Some(scene)) = (refined, self.scene()) {
+            match refined.packed(scene) {
+                Some(_) => self.prepared = Some(refined),
+                // It has been edited meanwhile. Little is left to do for what it is now.
+                None => self.refine(refined.packed),
+            }
+        }
+    }
+
+    /// The packed scene as it was loaded or refined, until it is edited.
+    pub fn prepared_scene(&self) -> Option<&Arc<PackedScene>> {
+        self.prepared.as_ref().map(|prepared| &prepared.packed)
     }
 
     /// Frees the packed scene once an edit has replaced its scene.
