@@ -97,8 +97,8 @@ impl<'a> Keys<'a> {
         (key & ((1 << self.index_bits) - 1)) as u32
     }
 
-    /// Where the highest bit changes in which the codes of a range differ; the middle if they do not, or not by the bits
-    /// that sort few boxes.
+    /// Where the highest bit changes in which the codes of a range differ; the middle if none does. The lower bits count in
+    /// ranges of more than [`CROWD`] boxes only: smaller ones may not be sorted by them.
     fn split(&self, range: Range<usize>) -> usize {
         let upper = self.split_by(&range, |key| key >> self.index_bits);
         let whole = || {
