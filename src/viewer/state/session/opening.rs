@@ -190,11 +190,11 @@ impl Session {
                 false => self.show(scene),
             };
             shown.map_err(|error| Trouble::from(error.to_string()))?;
+            if packed.is_draft() {
+                self.refine(packed.clone());
+            }
             // The camera of the command line changes nothing that is packed.
             self.prepared = (self.scene().cloned()).map(|scene| PreparedScene { scene, packed });
-            if let Some(prepared) = self.prepared.clone().filter(|it| it.packed.is_draft()) {
-                self.refine(prepared.packed);
-            }
             Ok(())
         });
         Some(Opened {

@@ -45,8 +45,18 @@ impl ProgressiveImage {
         let scene = self.scenes.of(order);
         let is_other_scene = (self.scene.as_ref()).is_none_or(|it| !Arc::ptr_eq(it, &scene));
         let shows_same = before.is_some_and(|b| b.shows_same(order));
-        let has_settings =
-            before.is_some_and(|b| b.settings == order.settings && b.policy == order.policy);
+        // Whether the settings are those of before, once this has taken over some of them.
+        let shares_rest = |take: fn(&mut RenderSettings, &RenderSettings)| {
+            before.is_some_and(|b| {
+                let mut settings = b.settings.clone();
+                take(&mut settings, &order.settings);
+                settings == order.settings && b.policy == order.policy
+            })
+        };
+        let has_settings = shares_rest(|_, _| ());
+        let differs_in_samples = shares_rest(|before, now| before.samples = now.samples);
+        let differs_in_size =
+            order.settings.crop.is_none() && shares_rest(|before, now| before.size = now.size);
         self.stays_coarse = coarse;
         if before.is_some_and(|b| b.tone != order.tone || b.layer != order.layer) {
             self.is_shown = false;
@@ -54,23 +64,6 @@ impl ProgressiveImage {
         }
         let is_other_interval =
             before.is_none_or(|before| before.shutter_interval != order.shutter_interval);
-        let differs_in_samples = before.is_some_and(|b| {
-            let samples = order.settings.samples;
-            RenderSettings {
-                samples,
-                ..b.settings.clone()
-            } == order.settings
-                && b.policy == order.policy
-        });
-        let differs_in_size = order.settings.crop.is_none()
-            && before.is_some_and(|b| {
-                let size = order.settings.size;
-                RenderSettings {
-                    size,
-                    ..b.settings.clone()
-                } == order.settings
-                    && b.policy == order.policy
-            });
         if let Some(before) = self.order.replace(order.clone()) {
             self.keep_whole(&before.settings, &order.settings);
         }
