@@ -386,7 +386,7 @@ packed! {
         vertex_count: u32,
         /// Number of materials; the textures follow them.
         material_count: u32,
-        /// Gradient: linear radiance straight up.
+        /// Gradient: linear radiance straight up; sky: that of its sun.
         background_top: [f32; 3],
         /// Picture: rotation about +y in radians.
         background_rotation: f32,
@@ -441,6 +441,10 @@ packed! {
         lights_share: f32,
         /// Number of emitters in each group: all of them without a light tree.
         emitter_group: u32,
+        /// Sky: the unit direction to the sun.
+        sun: [f32; 3],
+        /// Sky: the part of the light samples of the background that are of the sun.
+        sun_chance: f32,
     }
     /// The parameters of one dispatch: which workgroups of which film tile, which samples. `counters` is its
     /// result.

@@ -2,6 +2,7 @@
 //! gives the same bytes.
 
 pub mod albedo;
+mod background;
 mod blas;
 mod deform;
 mod emitter_places;

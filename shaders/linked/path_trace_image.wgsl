@@ -176,7 +176,9 @@ struct dispatch__Batch {
 	environment_share: f32,
 	light_root: u32,
 	lights_share: f32,
-	emitter_group: u32
+	emitter_group: u32,
+	sun: vec3f,
+	sun_chance: f32
 }
 
 fn dispatch__load_batch() -> dispatch__Batch {
@@ -185,7 +187,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 		albedo__albedo_first = bindings__frame.albedo_first;
 	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group, bindings__frame.sun, bindings__frame.sun_chance);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> tracing__Ray {
@@ -486,6 +488,8 @@ const types__BACKGROUND_GRADIENT: u32 = 1u;
 
 const types__BACKGROUND_PICTURE: u32 = 2u;
 
+const types__BACKGROUND_SKY: u32 = 3u;
+
 const types__BACKDROP_BACKGROUND: u32 = 0u;
 
 const types__BACKDROP_TRANSPARENT: u32 = 2u;
@@ -694,7 +698,9 @@ struct types__PackedFrame {
 	cluster_row: u32,
 	light_root: u32,
 	lights_share: f32,
-	emitter_group: u32
+	emitter_group: u32,
+	sun: vec3f,
+	sun_chance: f32
 }
 
 struct types__PackedDispatch {
@@ -3522,7 +3528,13 @@ struct environment__EnvironmentSample {
 
 fn environment__sample_environment(batch: dispatch__Batch, u: vec2f) -> environment__EnvironmentSample {
 	let width = batch.environment_width;
-	var place = quad_warp__quad_root(picture__load_texel_word(batch.environment_first), u);
+	var v = u;
+	let is_sun = bindings__BACKGROUND == types__BACKGROUND_SKY && u.x < batch.sun_chance;
+	if (bindings__BACKGROUND == types__BACKGROUND_SKY) {
+		let part = select(1.0 - batch.sun_chance, batch.sun_chance, is_sun);
+		v.x = min_f32((u.x - select(batch.sun_chance, 0.0, is_sun)) / part, 0.99999994);
+	}
+	var place = quad_warp__quad_root(picture__load_texel_word(batch.environment_first), v);
 	var first = batch.environment_first + 1u;
 	var columns = 2u;
 	loop {
@@ -3537,6 +3549,10 @@ fn environment__sample_environment(batch: dispatch__Batch, u: vec2f) -> environm
 	loops__cut_off |= columns < width;
 	let uv = (vec2f(place.cell) + place.u) / vec2f(f32(width), f32(width / 2u));
 	let direction = picture__equirectangular_direction(uv, batch.background_rotation);
+	if (bindings__BACKGROUND == types__BACKGROUND_SKY) {
+		let chosen = select(direction, warp__turn_to(batch.sun, warp__cone_from_square(v, background__SUN_DEPTH)), is_sun);
+		return environment__EnvironmentSample(chosen, environment__environment_pdf(batch, chosen));
+	}
 	return environment__EnvironmentSample(direction, environment__density_at(batch, place.cell, direction));
 }
 
@@ -3544,7 +3560,12 @@ fn environment__environment_pdf(batch: dispatch__Batch, direction: vec3f) -> f32
 	let size = vec2u(batch.environment_width, batch.environment_width / 2u);
 	let uv = picture__equirectangular(direction, batch.background_rotation);
 	let place = vec2f(fract(uv.x), clamp_f32(uv.y, 0.0, 1.0)) * vec2f(size);
-	return environment__density_at(batch, min(vec2u(place), size - 1u), direction);
+	let density = environment__density_at(batch, min(vec2u(place), size - 1u), direction);
+	if (bindings__BACKGROUND == types__BACKGROUND_SKY) {
+		let of_sun = select(0.0, 1.0 / (2.0 * picture__PI * background__SUN_DEPTH), background__is_in_sun(batch, direction));
+		return mix(density, of_sun, batch.sun_chance);
+	}
+	return density;
 }
 
 fn environment__background_weight(batch: dispatch__Batch, direction: vec3f, pdf: f32) -> f32 {
@@ -3642,6 +3663,27 @@ fn picture__load_texel_word(index: u32) -> u32 {
 	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2).x;
 }
 
+const background__SUN_DEPTH: f32 = 1.069586e-5;
+
+fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
+	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
+		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
+	}
+	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE || bindings__BACKGROUND == types__BACKGROUND_SKY) {
+		let size = batch.background_size;
+		let uv = picture__equirectangular(direction, batch.background_rotation);
+		let color = picture__blend_texels(batch.background_picture, size.x, size.y, picture__neighbours(uv.x, size.x, false, types__WRAP_REPEAT), picture__neighbours(uv.y, size.y, false, types__WRAP_CLAMP));
+		let of_sun = select(vec3f(0.0), batch.background_top, background__is_in_sun(batch, direction));
+		return batch.background * color.xyz + of_sun;
+	}
+	return batch.background;
+}
+
+fn background__is_in_sun(batch: dispatch__Batch, direction: vec3f) -> bool {
+	let apart = direction - batch.sun;
+	return bindings__BACKGROUND == types__BACKGROUND_SKY && dot(apart, apart) < 2.0 * background__SUN_DEPTH;
+}
+
 fn mis__power_heuristic(own: f32, other: f32) -> f32 {
 	let ratio = other / max_f32(own, 1e-30);
 	return select(0.0, 1.0 / (1.0 + min_f32(ratio * ratio, 1e30)), own > 0.0);
@@ -3649,19 +3691,6 @@ fn mis__power_heuristic(own: f32, other: f32) -> f32 {
 
 fn mis__survival_chance(throughput: vec3f) -> f32 {
 	return min_f32(max_f32(throughput.x, max_f32(throughput.y, throughput.z)), 1.0);
-}
-
-fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
-	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
-		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
-	}
-	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE) {
-		let size = batch.background_size;
-		let uv = picture__equirectangular(direction, batch.background_rotation);
-		let color = picture__blend_texels(batch.background_picture, size.x, size.y, picture__neighbours(uv.x, size.x, false, types__WRAP_REPEAT), picture__neighbours(uv.y, size.y, false, types__WRAP_CLAMP));
-		return batch.background * color.xyz;
-	}
-	return batch.background;
 }
 
 const contact__NEAR: f32 = 1e-5;

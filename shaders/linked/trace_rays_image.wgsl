@@ -335,7 +335,9 @@ struct types__PackedFrame {
 	cluster_row: u32,
 	light_root: u32,
 	lights_share: f32,
-	emitter_group: u32
+	emitter_group: u32,
+	sun: vec3f,
+	sun_chance: f32
 }
 
 struct types__PackedDispatch {

@@ -200,7 +200,9 @@ struct dispatch__Batch {
 	environment_share: f32,
 	light_root: u32,
 	lights_share: f32,
-	emitter_group: u32
+	emitter_group: u32,
+	sun: vec3f,
+	sun_chance: f32
 }
 
 fn dispatch__load_batch() -> dispatch__Batch {
@@ -209,7 +211,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 		albedo__albedo_first = bindings__frame.albedo_first;
 	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group, bindings__frame.sun, bindings__frame.sun_chance);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> tracing__Ray {
@@ -498,6 +500,8 @@ const types__BACKGROUND_GRADIENT: u32 = 1u;
 
 const types__BACKGROUND_PICTURE: u32 = 2u;
 
+const types__BACKGROUND_SKY: u32 = 3u;
+
 const types__FILTER_BOX: u32 = 0u;
 
 const types__FILTER_TENT: u32 = 1u;
@@ -686,7 +690,9 @@ struct types__PackedFrame {
 	cluster_row: u32,
 	light_root: u32,
 	lights_share: f32,
-	emitter_group: u32
+	emitter_group: u32,
+	sun: vec3f,
+	sun_chance: f32
 }
 
 struct types__PackedDispatch {
@@ -3569,17 +3575,25 @@ fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool
 	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
 }
 
+const background__SUN_DEPTH: f32 = 1.069586e-5;
+
 fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
 	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
 		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
 	}
-	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE) {
+	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE || bindings__BACKGROUND == types__BACKGROUND_SKY) {
 		let size = batch.background_size;
 		let uv = picture__equirectangular(direction, batch.background_rotation);
 		let color = picture__blend_texels(batch.background_picture, size.x, size.y, picture__neighbours(uv.x, size.x, false, types__WRAP_REPEAT), picture__neighbours(uv.y, size.y, false, types__WRAP_CLAMP));
-		return batch.background * color.xyz;
+		let of_sun = select(vec3f(0.0), batch.background_top, background__is_in_sun(batch, direction));
+		return batch.background * color.xyz + of_sun;
 	}
 	return batch.background;
+}
+
+fn background__is_in_sun(batch: dispatch__Batch, direction: vec3f) -> bool {
+	let apart = direction - batch.sun;
+	return bindings__BACKGROUND == types__BACKGROUND_SKY && dot(apart, apart) < 2.0 * background__SUN_DEPTH;
 }
 
 const picture__PI: f32 = 3.14159265;

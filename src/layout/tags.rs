@@ -216,6 +216,8 @@ pub const BACKGROUND_COLOR: u32 = 0;
 pub const BACKGROUND_GRADIENT: u32 = 1;
 /// Override `BACKGROUND`: [`crate::scene::Background::Picture`].
 pub const BACKGROUND_PICTURE: u32 = 2;
+/// Override `BACKGROUND`: a picture of [`crate::scene::sky`], to which a sun is added.
+pub const BACKGROUND_SKY: u32 = 3;
 
 /// Override `BACKDROP`: [`crate::scene::Backdrop::Background`].
 pub const BACKDROP_BACKGROUND: u32 = 0;

@@ -1,11 +1,12 @@
 //! The table from which paths sample a picture in the background in proportion to its luminance above the mean.
 //!
 //! It is a tree of sums over a grid of directions, see `shaders/lib/quad_warp.wesl`: the word of the root, the words of
-//! each level row by row from the lowest elevation on, and then the density of each cell as a float.
+//! each level row by row from the lowest elevation on, and then the density of each cell as a float. The sun of a sky is not in
+//! it, but has a part of the samples.
 
 use super::picture::PackedPicture;
 use super::{PackedScene, light_cluster::LUMINANCE};
-use crate::scene::{Background, LARGEST_TEXEL, Picture, Scene};
+use crate::scene::{self, Background, LARGEST_TEXEL, Picture, Scene, sky};
 use glam::Vec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -38,8 +39,10 @@ pub struct Environment {
     pub words: Arc<[u32]>,
     /// Columns of the grid.
     pub width: u32,
-    /// The part of its light for which there are light samples.
+    /// The part of the light of the background for which there are light samples.
     pub part: f64,
+    /// The part of these that are of the sun of a sky.
+    pub sun_chance: f64,
 }
 
 /// The table of the scene's background; `None` if that is no picture, or one that is as bright everywhere. The table
@@ -63,15 +66,23 @@ pub fn of_scene(
         });
     }
     let levels = (picture.height.next_power_of_two().ilog2() + FINER_LEVELS).min(MAX_LEVELS);
+    let width = 2 << levels;
     let mut weights = weights(picture, largest, levels);
-    let part = compensate(&mut weights, levels);
-    (part > LEAST_PART).then(|| Environment {
+    // Weights add up to the mean luminance times the columns.
+    let sun = sky::sun_of(picture).map_or(0.0, |sun| {
+        f64::from(width) * sky::SUN_SOLID_ANGLE / (4.0 * PI) * sun.radiance.dot(scene::LUMINANCE)
+    });
+    let total = weights.iter().sum::<f64>() + sun;
+    compensate(&mut weights, levels);
+    let samples = weights.iter().sum::<f64>() + sun;
+    (samples > LEAST_PART * total).then(|| Environment {
         index,
         picture: picture.clone(),
         largest,
         words: words(weights, levels).into(),
-        width: 2 << levels,
-        part,
+        width,
+        part: samples / total,
+        sun_chance: sun / samples,
     })
 }
 
@@ -185,18 +196,14 @@ fn weights(picture: &Picture, largest: f32, levels: u32) -> Vec<f64> {
     sums
 }
 
-/// Takes the mean radiance off these weights and returns the part that is left. Paths find light of the mean radiance by
-/// themselves, so light samples are for what is brighter (Karlík et al. 2019, MIS Compensation).
-fn compensate(weights: &mut [f64], levels: u32) -> f64 {
+/// Takes the mean radiance off these weights. Paths find light of the mean radiance by themselves, so light samples are for
+/// what is brighter (Karlík et al. 2019, MIS Compensation).
+fn compensate(weights: &mut [f64], levels: u32) {
     let total: f64 = weights.iter().sum();
     for (line, band) in weights.chunks_mut(2 << levels).zip(bands(levels)) {
         let mean = total * band / line.len() as f64;
         line.iter_mut()
             .for_each(|weight| *weight = (*weight - mean).max(0.0));
-    }
-    match total > 0.0 {
-        true => weights.iter().sum::<f64>() / total,
-        false => 0.0,
     }
 }
 

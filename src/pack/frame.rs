@@ -11,11 +11,11 @@ use super::{
 };
 use crate::{
     layout::{
-        BACKGROUND_COLOR, BACKGROUND_GRADIENT, BACKGROUND_PICTURE, CAMERA_ROWS, INSTANCE_ROWS,
-        KEY_ROWS, LIGHT_RECTANGLE, LIGHT_ROWS, MOVING, NODE_ROWS, PackedCamera, PackedEmitter,
-        PackedFrame, PackedLight, PackedMaterial, PackedTexture, SHAPE,
+        CAMERA_ROWS, INSTANCE_ROWS, KEY_ROWS, LIGHT_RECTANGLE, LIGHT_ROWS, MOVING, NODE_ROWS,
+        PackedCamera, PackedEmitter, PackedFrame, PackedLight, PackedMaterial, PackedTexture,
+        SHAPE,
     },
-    scene::{Background, Camera, Frame},
+    scene::{Camera, Frame},
 };
 use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
@@ -196,17 +196,14 @@ impl PackedScene {
                 environment_first: environment.map_or(0, |_| self.environment_first()),
                 environment_width: environment.map_or(0, |table| table.width),
                 environment_share: environment_share as f32,
+                sun_chance: environment.map_or(0.0, |table| table.sun_chance as f32),
                 albedo_first: self.albedo_first(),
                 cluster_row: emitter_row + (emitters.rows.len() + emitters.glows.len()) as u32,
                 light_root: light_tree.root(),
                 lights_share: lights_share as f32,
                 ..self.background(&first.background)
             },
-            background: match first.background {
-                Background::Color(_) => BACKGROUND_COLOR,
-                Background::Gradient { .. } => BACKGROUND_GRADIENT,
-                Background::Picture { .. } => BACKGROUND_PICTURE,
-            },
+            background: self.background_kind(&first.background),
             orthographic: first.camera.orthographic_height.is_some(),
             has_lights,
             emitters: emitters.rows,
@@ -245,32 +242,6 @@ impl PackedScene {
             packed
         });
         own.chain(lamps).collect()
-    }
-
-    /// The background members of a frame.
-    fn background(&self, background: &Background) -> PackedFrame {
-        let mut frame = PackedFrame::default();
-        match *background {
-            Background::Color(color) => frame.background = color.into(),
-            Background::Gradient { bottom, top } => {
-                frame.background = bottom.into();
-                frame.background_top = top.into();
-            }
-            Background::Picture {
-                picture,
-                strength,
-                rotation,
-            } => {
-                frame.background = [strength * self.packed_pictures[picture].scale; 3];
-                frame.background_rotation = rotation as f32;
-                [
-                    frame.background_picture,
-                    frame.background_width,
-                    frame.background_height,
-                ] = self.pictures[picture];
-            }
-        }
-        frame
     }
 }
 

@@ -54,7 +54,11 @@ impl Picture {
             width: width as u32,
             height: height as u32,
             texels: light.stored(width * height, texel),
-            origin: Origin::Texels,
+            // The sun of a sky is not in its texels.
+            origin: match self.origin {
+                Origin::Sky { .. } => self.origin.clone(),
+                _ => Origin::Texels,
+            },
         }
     }
 }

@@ -42,7 +42,7 @@ pub enum Origin {
         /// Whether white is below black.
         are_depths: bool,
     },
-    /// [`super::sky::picture`], with these arguments.
+    /// [`super::sky::picture`], with these arguments. In the background it has a sun too, see [`super::sky::sun_of`].
     Sky {
         /// Angle of the sun above the horizon in radians.
         elevation: f64,

@@ -2,8 +2,8 @@
 //!
 //! The luminance and the chromaticity of the sky follow their fits of Perez's formula for a turbidity of 3. The light of
 //! the sun is attenuated by the formulas of their appendix for molecules and aerosols, each channel at its own
-//! wavelength; ozone, gases and water vapour, which take a few percent, are left out. Below the horizon is even grey
-//! ground.
+//! wavelength; ozone, gases and water vapour, which take a few percent, are left out. The disc of the sun, of which a texel
+//! would be a large part, is not in the picture: the background adds it. Below the horizon is even grey ground.
 
 use super::{Origin, Picture};
 use glam::{DMat3, DVec3, dvec3};
@@ -26,6 +26,8 @@ pub const SUN_AZIMUTH_DEG: f64 = -135.0;
 
 /// Angular radius of the sun's disc in radians: half of 0.53°.
 pub const SUN_RADIUS: f64 = 0.265 * PI / 180.0;
+/// The solid angle of the disc, in steradians; without the terms of its series beyond the first, which are 2e-6 of it.
+pub const SUN_SOLID_ANGLE: f64 = PI * SUN_RADIUS * SUN_RADIUS;
 
 /// Illuminance of the sun above the atmosphere, in lux.
 const SUN_ILLUMINANCE: f64 = 128_000.0;
@@ -36,8 +38,26 @@ const WAVELENGTHS: DVec3 = dvec3(0.61, 0.55, 0.465);
 /// Albedo of the ground.
 pub const GROUND_ALBEDO: f64 = 0.2;
 
-/// Steps in each direction within a texel at the edge of the sun.
-const SUBDIVISIONS: u32 = 16;
+/// The sun of a sky.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sun {
+    /// The unit vector to its centre.
+    pub direction: DVec3,
+    /// The linear Rec. 709 radiance of its disc, in units of [`UNIT`] cd/m² of white.
+    pub radiance: DVec3,
+}
+
+/// The sun that a picture has in the background; `None` if it is not one of [`picture`].
+pub fn sun_of(picture: &Picture) -> Option<Sun> {
+    match picture.origin {
+        Origin::Sky { elevation, azimuth } => Some(Sun {
+            direction: towards_sun(elevation, azimuth),
+            // The cosine of directions in the disc is 1 within 1e-5.
+            radiance: sun_irradiance(elevation) / SUN_SOLID_ANGLE,
+        }),
+        _ => None,
+    }
+}
 
 /// The direction to the sun: `azimuth` is counted from −Z towards +X. Both are in radians.
 pub fn towards_sun(elevation: f64, azimuth: f64) -> DVec3 {
@@ -60,8 +80,8 @@ pub fn sun_irradiance(elevation: f64) -> DVec3 {
     SUN_ILLUMINANCE / UNIT * DVec3::from(transmitted)
 }
 
-/// An equirectangular picture of the sky for a sun at `elevation`, 0 to π/2, and `azimuth`, counted from −Z towards +X,
-/// in radians. Its values are linear Rec. 709 radiance in units of [`UNIT`] cd/m² of white.
+/// An equirectangular picture of the sky for a sun at `elevation`, 0 to π/2, and `azimuth`, counted from −Z towards +X, in
+/// radians, without the sun itself. Its values are linear Rec. 709 radiance in units of [`UNIT`] cd/m² of white.
 pub fn picture(elevation: f64, azimuth: f64) -> Picture {
     let sky = Sky::new(elevation);
     let sun = towards_sun(elevation, azimuth);
@@ -78,45 +98,10 @@ pub fn picture(elevation: f64, azimuth: f64) -> Picture {
     }
     let ground = GROUND_ALBEDO / PI * irradiance;
     colors[(WIDTH * HEIGHT / 2) as usize..].fill(ground);
-    paint_sun(&mut colors, sun, elevation);
     Picture {
         origin: Origin::Sky { elevation, azimuth },
         ..Picture::opaque(WIDTH, HEIGHT, colors.into_iter().map(DVec3::as_vec3))
     }
-}
-
-/// Adds the disc of the sun to the texels that it covers, so that the picture has all of its light.
-fn paint_sun(colors: &mut [DVec3], sun: DVec3, elevation: f64) {
-    let reach = SUN_RADIUS + 2.0 * PI / f64::from(HEIGHT);
-    let mut covered = Vec::new();
-    for y in 0..HEIGHT {
-        for x in 0..WIDTH {
-            let middle = direction(f64::from(x) + 0.5, f64::from(y) + 0.5);
-            if middle.angle_between(sun) < reach {
-                covered.push((
-                    (y * WIDTH + x) as usize,
-                    coverage(x, y, sun) * solid_angle(y),
-                ));
-            }
-        }
-    }
-    // The steps within a texel miss the area of the disc by a little.
-    let total: f64 = covered.iter().map(|(_, area)| area).sum();
-    for (index, area) in covered {
-        let y = index as u32 / WIDTH;
-        colors[index] += area / total / solid_angle(y) * sun_irradiance(elevation);
-    }
-}
-
-/// The part of a texel that the sun covers.
-fn coverage(x: u32, y: u32, sun: DVec3) -> f64 {
-    let step = |index: u32| (f64::from(index) + 0.5) / f64::from(SUBDIVISIONS);
-    let steps = (0..SUBDIVISIONS).flat_map(|i| (0..SUBDIVISIONS).map(move |j| (i, j)));
-    let inside = steps.filter(|&(i, j)| {
-        let towards = direction(f64::from(x) + step(i), f64::from(y) + step(j));
-        towards.angle_between(sun) < SUN_RADIUS
-    });
-    inside.count() as f64 / f64::from(SUBDIVISIONS * SUBDIVISIONS)
 }
 
 /// The direction of a place in the picture, in texels from its upper left corner.
