@@ -80,7 +80,8 @@ fn traced(batch: dispatch__Batch, before: path__Path, hit: tracing__Hit) -> path
 		met = dispersion__dispersed(met, path.channel);
 	}
 	let layers = layers__layers_at(surface, optics);
-	let weight = light_weight__emission_weight(batch, surface, contact.hit, light_weight__Sender(path.origin, path.normal, path.pdf), ray.direction);
+	let sender = light_weight__Sender(path.origin, path.normal, shadow_catcher__density_for_lamps(path));
+	let weight = light_weight__emission_weight(batch, surface, contact.hit, sender, ray.direction);
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
 	let emission = coat * emitters__emitted(surface, optics, layers.glow);
 	record_path__record_found(emission, weight);
@@ -1367,12 +1368,11 @@ struct path__Path {
 	channel: u32,
 	lamp: shadow__Passage,
 	lamp_light: vec3f,
-	lamp_scatterings: u32
+	lamp_scatterings: u32,
+	is_caught: bool
 }
 
 const path__ALL_CHANNELS: u32 = 3u;
-
-const path__CAUGHT: u32 = 4294967295u;
 
 fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, pixel: vec2u, sample: u32) -> path__Path {
 	var key = rng__hash(batch.seed);
@@ -1385,7 +1385,7 @@ fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, pixel: vec2u, sam
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(rays__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(rays__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
 }
 
 fn path__is_going(path: path__Path) -> bool {
@@ -1412,17 +1412,17 @@ fn path__lit(before: path__Path, left: shadow__Passage) -> path__Path {
 		return path;
 	}
 	shadow__count_shadow(path.lamp.through);
-	let light = path.lamp_light * path.lamp.through;
-	if (bindings__HAS_CATCHERS && path.lamp_scatterings == path__CAUGHT) {
-		opacity__clearness.light += dot(light, tone__LUMINANCE_REC709);
-		return path;
-	}
 	record_path__record_passage(path.lamp.through);
-	return path__gained(path, light, path.lamp_scatterings);
+	return path__gained(path, path.lamp_light * path.lamp.through, path.lamp_scatterings);
 }
 
 fn path__gained(before: path__Path, light: vec3f, scatterings: u32) -> path__Path {
 	var path = before;
+	if (bindings__HAS_CATCHERS && path.is_caught) {
+		record_path__record_gain(vec3f(0.0));
+		opacity__clearness.light += dot(light, tone__LUMINANCE_REC709);
+		return path;
+	}
 	var gain = light;
 	if (bindings__CLAMP_INDIRECT > 0.0) {
 		let brightest = numeric__max_component(gain);
@@ -3141,17 +3141,6 @@ fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing_
 	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
-struct opacity__Clearness {
-	nothing: f32,
-	catchers: f32,
-	light: f32,
-	unshadowed: f32
-}
-
-var<private> opacity__clearness: opacity__Clearness;
-
-const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
-
 var<private> record_path__sampled: types__PackedRay;
 
 var<private> record_path__is_sampled: bool;
@@ -3266,6 +3255,17 @@ fn record_path__record_straight(is_straight: bool) {
 		record__traced.step = types__STEP_PASSED;
 	}
 }
+
+struct opacity__Clearness {
+	nothing: f32,
+	catchers: f32,
+	light: f32,
+	unshadowed: f32
+}
+
+var<private> opacity__clearness: opacity__Clearness;
+
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 const medium__VACUUM: shading__Medium = shading__Medium(vec3f(0.0), 1.0, 0);
 
@@ -4639,47 +4639,46 @@ fn dimensions__dimension_key(pixel_key: u32, segment: u32, purpose: u32) -> u32 
 	return rng__hash_combine(pixel_key, dimensions__DIMENSIONS * (segment + 1u) + purpose);
 }
 
+const shadow_catcher__LEAST_DENSITY: f32 = 1e-15;
+
 fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: shading__Surface) -> path__Path {
-	var path = path__ended(before);
-	let n = select(surface.n, -surface.n, dot(surface.n, before.ray.direction) > 0.0);
-	let arriving = shadow_catcher__light_on(batch, path, surface.p, n);
-	if (any(arriving.radiance > vec3f(0.0))) {
-		path.lamp = shadow__passage_of(direct__shadow_ray(surface, arriving), path.media);
-	}
+	var path = before;
 	let share = dot(path.throughput, tone__LUMINANCE_REC709);
-	path.lamp_light = share * arriving.radiance;
-	path.lamp_scatterings = path__CAUGHT;
+	let n = select(surface.n, -surface.n, dot(surface.n, path.ray.direction) > 0.0);
+	let wi = bsdf_diffuse__diffuse_sample(path__random_2d(path, dimensions__SCATTER_DIRECTION));
+	let direction = warp__turn_to(n, wi);
+	let pdf = bsdf_diffuse__diffuse_eval(wi);
+	var unshadowed = environment__background_weight(batch, direction, pdf) * background__background(batch, direction);
+	if (bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) {
+		let light = emitters__sample_light(batch, surface.p, n, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
+		let value = bsdf_diffuse__diffuse_eval(vec3f(0.0, 0.0, dot(n, light.incident.direction)));
+		let is_shared = bindings__HAS_ENVIRONMENT && light.pdf > 0.0 && light.incident.distance >= camera__T_FAR;
+		let weight = select(1.0, mis__power_heuristic(light.pdf, value), is_shared);
+		let arriving = weight * value * light.incident.radiance;
+		if (any(arriving > vec3f(0.0))) {
+			path.lamp = shadow__passage_of(direct__shadow_ray(surface, light.incident), path.media);
+			path.lamp_light = share * arriving;
+			path.lamp_scatterings = 1u;
+		}
+		unshadowed += arriving;
+	}
 	opacity__clearness.catchers += share;
-	opacity__clearness.unshadowed += share * dot(arriving.radiance, tone__LUMINANCE_REC709);
+	opacity__clearness.unshadowed += share * dot(unshadowed, tone__LUMINANCE_REC709);
+	record_path__record_step(bsdf__BsdfSample(direction, vec3f(1.0), pdf));
+	path.is_caught = true;
+	path.throughput = vec3f(share);
+	path.ray = leaving__leaving_ray(surface, direction, camera__T_FAR);
+	path.origin = surface.p;
+	path.normal = n;
+	path.pdf = pdf;
+	path.kind = ray_states__KIND_REFLECTED;
+	path.bounces += 1u;
 	return path;
 }
 
-fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, n: vec3f) -> shading__Incident {
-	let has_lamps = bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT;
-	var chance = 0.0;
-	if (bindings__BACKGROUND != types__BACKGROUND_COLOR || any(batch.background > vec3f(0.0))) {
-		chance = select(1.0, 0.5, has_lamps);
-	}
-	if (path__random_1d(path, dimensions__SCATTER_CHOICE) < chance) {
-		let direction = warp__turn_to(n, bsdf_diffuse__diffuse_sample(path__random_2d(path, dimensions__SCATTER_DIRECTION)));
-		var density = 0.0;
-		if (bindings__HAS_ENVIRONMENT) {
-			density = batch.environment_share * environment__environment_pdf(batch, direction);
-		}
-		let cosine = max_f32(dot(n, direction), 0.0) / warp__PI;
-		let part = cosine / max_f32(chance * cosine + (1.0 - chance) * density, 1e-30);
-		return shading__Incident(direction, camera__T_FAR, part * background__background(batch, direction));
-	}
-	if (!has_lamps) {
-		return shading__Incident(n, camera__T_FAR, vec3f(0.0));
-	}
-	let light = emitters__sample_light(batch, p, n, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
-	var arriving = light.incident;
-	let cosine = max_f32(dot(n, arriving.direction), 0.0) / warp__PI;
-	let is_background = bindings__HAS_ENVIRONMENT && light.pdf > 0.0 && arriving.distance >= camera__T_FAR;
-	let other = select(0.0, chance * cosine / max_f32(light.pdf, 1e-30), is_background);
-	arriving.radiance *= cosine / (1.0 - chance + other);
-	return arriving;
+fn shadow_catcher__density_for_lamps(path: path__Path) -> f32 {
+	let is_left_to_samples = bindings__HAS_CATCHERS && path.is_caught && path.bounces == 1u;
+	return select(path.pdf, min_f32(path.pdf, shadow_catcher__LEAST_DENSITY), is_left_to_samples);
 }
 
 fn bsdf_diffuse__diffuse_eval(wi: vec3f) -> f32 {
@@ -5558,6 +5557,127 @@ fn direct__shadow_ray(surface: shading__Surface, arriving: shading__Incident) ->
 	return ray;
 }
 
+struct bsdf__BsdfValue {
+	value: vec3f,
+	pdf: f32
+}
+
+struct bsdf__BsdfSample {
+	direction: vec3f,
+	weight: vec3f,
+	pdf: f32
+}
+
+fn bsdf__receiving_normal(bsdf: lobes__Bsdf) -> vec3f {
+	let passes = (bindings__HAS_ROUGH_GLASS && bindings__HAS_REFRACTION && boundary_lobe__has_rough_boundary(bsdf)) || (bindings__HAS_COATINGS && any(bsdf.through > vec3f(0.0)));
+	let normal = select(bsdf.normal, bsdf.ng, bindings__HAS_COAT_NORMALS && bsdf.coating.coat > 0.0);
+	return select(normal, vec3f(0.0), passes);
+}
+
+fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
+	let wi = lobes__to_frame(bsdf, direction);
+	var value = vec3f(0.0);
+	var pdf = 0.0;
+	if (wi.z > 0.0) {
+		let diffuse = bsdf_diffuse__diffuse_eval(wi);
+		let cos_h = dot(bsdf.wo, normalize(bsdf.wo + wi));
+		value = (diffuse * lobes__below_glossy(bsdf, cos_h)) * bsdf.diffuse;
+		pdf = bsdf.chances.x * (1.0 - bsdf__through_share(bsdf)) * diffuse;
+		if (bindings__HAS_GLOSS) {
+			let glossy = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.alpha, bindings__BSDF_SPEC);
+			value += glossy.x * (bsdf.gain * lobes__glossy_fresnel(bsdf, cos_h));
+			pdf += bsdf.chances.y * glossy.y;
+		}
+		if (bindings__HAS_COATINGS) {
+			let sheen = bsdf_sheen__sheen_eval(bsdf.wo, wi, bsdf.coating.sheen_alpha);
+			value += sheen.x * bsdf.coating.sheen;
+			pdf += bsdf.coating_chances.y * sheen.y;
+		}
+		if (bindings__HAS_ROUGH_GLASS && boundary_lobe__has_rough_boundary(bsdf)) {
+			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, bindings__BSDF_SPEC);
+			let split = lobes__split_at(bsdf, cos_h);
+			value += (boundary.x * bsdf.boundary_gain) * split.reflect;
+			pdf += bsdf.chances.z * boundary_lobe__reflection_chance(bsdf, split) * boundary_lobe__boundary_density(bsdf, boundary);
+		}
+	}
+	else if (bindings__HAS_ROUGH_GLASS && bindings__HAS_REFRACTION && boundary_lobe__has_rough_boundary(bsdf)) {
+		var boundary = bsdf_ggx__ggx_eval(bsdf.wo, vec3f(wi.xy, -wi.z), bsdf.boundary_alpha, bindings__BSDF_SPEC);
+		var h = normalize(bsdf.wo + vec3f(wi.xy, -wi.z));
+		if (bsdf.bends) {
+			boundary = bsdf_ggx_transmission__ggx_transmission(bsdf.wo, wi, bsdf.boundary_alpha, bsdf.eta);
+			h = bsdf_ggx_transmission__transmission_half(bsdf.wo, wi, bsdf.eta);
+		}
+		let split = lobes__split_at(bsdf, dot(bsdf.wo, h));
+		value = (boundary.x * bsdf.boundary_gain) * split.transmit;
+		pdf = bsdf.chances.z * (1.0 - boundary_lobe__reflection_chance(bsdf, split)) * boundary_lobe__boundary_density(bsdf, boundary);
+	}
+	if (bindings__HAS_COATINGS && wi.z < 0.0) {
+		let through = bsdf_diffuse__diffuse_eval(-wi);
+		value += through * bsdf.through;
+		pdf += bsdf.chances.x * bsdf__through_share(bsdf) * through;
+	}
+	let is_outside = dot(direction, bsdf.ng) > 0.0;
+	value = select(vec3f(0.0), value, is_outside == (wi.z > 0.0));
+	if (bindings__HAS_COATINGS) {
+		let coat = coating__coat_eval(bsdf.coating, bsdf.wo, wi);
+		value += select(0.0, coat.x, is_outside);
+		pdf += bsdf.coating_chances.x * coat.y;
+	}
+	return bsdf__BsdfValue(value, pdf);
+}
+
+fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
+	let chances = bsdf.chances;
+	let first = chances.x + chances.y + bsdf.coating_chances.x + bsdf.coating_chances.y;
+	var draw: boundary_lobe__Draw;
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && choice >= first && chances.z > 0.0) {
+		record_path__record_lobe(types__LOBE_BOUNDARY);
+		draw = boundary_lobe__boundary_draw(bsdf, clamp_f32((choice - first) / chances.z, 0.0, 1.0), u);
+	}
+	else {
+		draw = bsdf__lobe_draw(bsdf, choice, u);
+	}
+	let direction = lobes__from_frame(bsdf, draw.wi);
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && draw.is_smooth) {
+		let stays = (dot(direction, bsdf.ng) > 0.0) == draw.is_on_side;
+		return bsdf__BsdfSample(direction, select(vec3f(0.0), draw.fraction / chances.z, stays), 0.0);
+	}
+	let found = bsdf__bsdf_eval(bsdf, direction);
+	let weight = select(vec3f(0.0), found.value / max_f32(found.pdf, 1e-30), draw.is_on_side);
+	return bsdf__BsdfSample(direction, weight, found.pdf);
+}
+
+fn bsdf__lobe_draw(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> boundary_lobe__Draw {
+	let chances = bsdf.chances;
+	let is_diffuse = choice < chances.x;
+	let is_glossy = !is_diffuse && choice < chances.x + chances.y;
+	record_path__record_lobe(select(types__LOBE_GLOSSY, types__LOBE_DIFFUSE, is_diffuse));
+	var wi = bsdf_diffuse__diffuse_sample(u);
+	if (bindings__HAS_GLOSS && !is_diffuse) {
+		wi = boundary_lobe__reflected_at(bsdf.wo, bsdf_ggx__ggx_normal(bsdf.wo, bsdf.alpha, u));
+	}
+	var is_on_side = wi.z > 0.0;
+	if (bindings__HAS_COATINGS) {
+		if (!is_diffuse && !is_glossy) {
+			let is_coat = choice < chances.x + chances.y + bsdf.coating_chances.x;
+			record_path__record_lobe(select(types__LOBE_SHEEN, types__LOBE_COAT, is_coat));
+			wi = coating__coating_sample(bsdf.coating, bsdf.wo, u, is_coat);
+			is_on_side = select(wi.z, coating__to_coat(bsdf.coating, wi).z, is_coat) > 0.0;
+		}
+		let passes = is_diffuse && choice < chances.x * bsdf__through_share(bsdf);
+		wi.z = select(wi.z, -wi.z, passes);
+	}
+	return boundary_lobe__Draw(wi, is_on_side, false, vec3f(0.0));
+}
+
+fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
+	if (!bindings__HAS_COATINGS) {
+		return 0.0;
+	}
+	let through = dot(bsdf.through, tone__LUMINANCE_REC709);
+	return through / max_f32(through + dot(bsdf.diffuse, tone__LUMINANCE_REC709), 1e-30);
+}
+
 fn dispersion__load_dispersion(material: u32) -> f32 {
 	let own = select(material, 0u, material == types__NONE);
 	let row = fetch__material_row(types__MATERIAL_ROWS * own + types__LAYERS_ROW + 5u);
@@ -5874,127 +5994,6 @@ fn toward_lamp__toward_lamp(batch: dispatch__Batch, before: path__Path, surface:
 	}
 	record_path__record_light_sample(surface, path.lamp.ray, light, found, weight, unshadowed);
 	return path;
-}
-
-struct bsdf__BsdfValue {
-	value: vec3f,
-	pdf: f32
-}
-
-struct bsdf__BsdfSample {
-	direction: vec3f,
-	weight: vec3f,
-	pdf: f32
-}
-
-fn bsdf__receiving_normal(bsdf: lobes__Bsdf) -> vec3f {
-	let passes = (bindings__HAS_ROUGH_GLASS && bindings__HAS_REFRACTION && boundary_lobe__has_rough_boundary(bsdf)) || (bindings__HAS_COATINGS && any(bsdf.through > vec3f(0.0)));
-	let normal = select(bsdf.normal, bsdf.ng, bindings__HAS_COAT_NORMALS && bsdf.coating.coat > 0.0);
-	return select(normal, vec3f(0.0), passes);
-}
-
-fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
-	let wi = lobes__to_frame(bsdf, direction);
-	var value = vec3f(0.0);
-	var pdf = 0.0;
-	if (wi.z > 0.0) {
-		let diffuse = bsdf_diffuse__diffuse_eval(wi);
-		let cos_h = dot(bsdf.wo, normalize(bsdf.wo + wi));
-		value = (diffuse * lobes__below_glossy(bsdf, cos_h)) * bsdf.diffuse;
-		pdf = bsdf.chances.x * (1.0 - bsdf__through_share(bsdf)) * diffuse;
-		if (bindings__HAS_GLOSS) {
-			let glossy = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.alpha, bindings__BSDF_SPEC);
-			value += glossy.x * (bsdf.gain * lobes__glossy_fresnel(bsdf, cos_h));
-			pdf += bsdf.chances.y * glossy.y;
-		}
-		if (bindings__HAS_COATINGS) {
-			let sheen = bsdf_sheen__sheen_eval(bsdf.wo, wi, bsdf.coating.sheen_alpha);
-			value += sheen.x * bsdf.coating.sheen;
-			pdf += bsdf.coating_chances.y * sheen.y;
-		}
-		if (bindings__HAS_ROUGH_GLASS && boundary_lobe__has_rough_boundary(bsdf)) {
-			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, bindings__BSDF_SPEC);
-			let split = lobes__split_at(bsdf, cos_h);
-			value += (boundary.x * bsdf.boundary_gain) * split.reflect;
-			pdf += bsdf.chances.z * boundary_lobe__reflection_chance(bsdf, split) * boundary_lobe__boundary_density(bsdf, boundary);
-		}
-	}
-	else if (bindings__HAS_ROUGH_GLASS && bindings__HAS_REFRACTION && boundary_lobe__has_rough_boundary(bsdf)) {
-		var boundary = bsdf_ggx__ggx_eval(bsdf.wo, vec3f(wi.xy, -wi.z), bsdf.boundary_alpha, bindings__BSDF_SPEC);
-		var h = normalize(bsdf.wo + vec3f(wi.xy, -wi.z));
-		if (bsdf.bends) {
-			boundary = bsdf_ggx_transmission__ggx_transmission(bsdf.wo, wi, bsdf.boundary_alpha, bsdf.eta);
-			h = bsdf_ggx_transmission__transmission_half(bsdf.wo, wi, bsdf.eta);
-		}
-		let split = lobes__split_at(bsdf, dot(bsdf.wo, h));
-		value = (boundary.x * bsdf.boundary_gain) * split.transmit;
-		pdf = bsdf.chances.z * (1.0 - boundary_lobe__reflection_chance(bsdf, split)) * boundary_lobe__boundary_density(bsdf, boundary);
-	}
-	if (bindings__HAS_COATINGS && wi.z < 0.0) {
-		let through = bsdf_diffuse__diffuse_eval(-wi);
-		value += through * bsdf.through;
-		pdf += bsdf.chances.x * bsdf__through_share(bsdf) * through;
-	}
-	let is_outside = dot(direction, bsdf.ng) > 0.0;
-	value = select(vec3f(0.0), value, is_outside == (wi.z > 0.0));
-	if (bindings__HAS_COATINGS) {
-		let coat = coating__coat_eval(bsdf.coating, bsdf.wo, wi);
-		value += select(0.0, coat.x, is_outside);
-		pdf += bsdf.coating_chances.x * coat.y;
-	}
-	return bsdf__BsdfValue(value, pdf);
-}
-
-fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
-	let chances = bsdf.chances;
-	let first = chances.x + chances.y + bsdf.coating_chances.x + bsdf.coating_chances.y;
-	var draw: boundary_lobe__Draw;
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && choice >= first && chances.z > 0.0) {
-		record_path__record_lobe(types__LOBE_BOUNDARY);
-		draw = boundary_lobe__boundary_draw(bsdf, clamp_f32((choice - first) / chances.z, 0.0, 1.0), u);
-	}
-	else {
-		draw = bsdf__lobe_draw(bsdf, choice, u);
-	}
-	let direction = lobes__from_frame(bsdf, draw.wi);
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && draw.is_smooth) {
-		let stays = (dot(direction, bsdf.ng) > 0.0) == draw.is_on_side;
-		return bsdf__BsdfSample(direction, select(vec3f(0.0), draw.fraction / chances.z, stays), 0.0);
-	}
-	let found = bsdf__bsdf_eval(bsdf, direction);
-	let weight = select(vec3f(0.0), found.value / max_f32(found.pdf, 1e-30), draw.is_on_side);
-	return bsdf__BsdfSample(direction, weight, found.pdf);
-}
-
-fn bsdf__lobe_draw(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> boundary_lobe__Draw {
-	let chances = bsdf.chances;
-	let is_diffuse = choice < chances.x;
-	let is_glossy = !is_diffuse && choice < chances.x + chances.y;
-	record_path__record_lobe(select(types__LOBE_GLOSSY, types__LOBE_DIFFUSE, is_diffuse));
-	var wi = bsdf_diffuse__diffuse_sample(u);
-	if (bindings__HAS_GLOSS && !is_diffuse) {
-		wi = boundary_lobe__reflected_at(bsdf.wo, bsdf_ggx__ggx_normal(bsdf.wo, bsdf.alpha, u));
-	}
-	var is_on_side = wi.z > 0.0;
-	if (bindings__HAS_COATINGS) {
-		if (!is_diffuse && !is_glossy) {
-			let is_coat = choice < chances.x + chances.y + bsdf.coating_chances.x;
-			record_path__record_lobe(select(types__LOBE_SHEEN, types__LOBE_COAT, is_coat));
-			wi = coating__coating_sample(bsdf.coating, bsdf.wo, u, is_coat);
-			is_on_side = select(wi.z, coating__to_coat(bsdf.coating, wi).z, is_coat) > 0.0;
-		}
-		let passes = is_diffuse && choice < chances.x * bsdf__through_share(bsdf);
-		wi.z = select(wi.z, -wi.z, passes);
-	}
-	return boundary_lobe__Draw(wi, is_on_side, false, vec3f(0.0));
-}
-
-fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
-	if (!bindings__HAS_COATINGS) {
-		return 0.0;
-	}
-	let through = dot(bsdf.through, tone__LUMINANCE_REC709);
-	return through / max_f32(through + dot(bsdf.diffuse, tone__LUMINANCE_REC709), 1e-30);
 }
 
 const boundary_lobe__MOST_REDRAWS: u32 = 64u;

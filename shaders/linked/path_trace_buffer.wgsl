@@ -88,7 +88,8 @@ fn traced(batch: dispatch__Batch, before: path__Path, hit: tracing__Hit) -> path
 		met = dispersion__dispersed(met, path.channel);
 	}
 	let layers = layers__layers_at(surface, optics);
-	let weight = light_weight__emission_weight(batch, surface, contact.hit, light_weight__Sender(path.origin, path.normal, path.pdf), ray.direction);
+	let sender = light_weight__Sender(path.origin, path.normal, shadow_catcher__density_for_lamps(path));
+	let weight = light_weight__emission_weight(batch, surface, contact.hit, sender, ray.direction);
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
 	let emission = coat * emitters__emitted(surface, optics, layers.glow);
 	path = path__gained(path, path.throughput * (weight * emission), path.bounces);
@@ -1258,7 +1259,7 @@ fn pixels__add_samples(pixels: pixels__Pixels, sample: u32, radiance: wide__Vect
 				features__add_features(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), sample, weight);
 			}
 			if (bindings__HAS_OPACITY && is_kept) {
-				opacity__add_opacity(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), weight);
+				opacity__add_opacity(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), weight, wide__vector_at(radiance, k));
 			}
 		}
 		continuing {
@@ -1477,12 +1478,11 @@ struct path__Path {
 	channel: u32,
 	lamp: shadow__Passage,
 	lamp_light: vec3f,
-	lamp_scatterings: u32
+	lamp_scatterings: u32,
+	is_caught: bool
 }
 
 const path__ALL_CHANNELS: u32 = 3u;
-
-const path__CAUGHT: u32 = 4294967295u;
 
 fn path__camera_path(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32) -> path__Path {
 	features__start_features();
@@ -1501,7 +1501,7 @@ fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, pixel: vec2u, sam
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(rays__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(rays__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
 }
 
 fn path__is_going(path: path__Path) -> bool {
@@ -1529,16 +1529,15 @@ fn path__lit(before: path__Path, left: shadow__Passage) -> path__Path {
 		return path;
 	}
 	shadow__count_shadow(path.lamp.through);
-	let light = path.lamp_light * path.lamp.through;
-	if (bindings__HAS_CATCHERS && path.lamp_scatterings == path__CAUGHT) {
-		opacity__clearness.light += dot(light, tone__LUMINANCE_REC709);
-		return path;
-	}
-	return path__gained(path, light, path.lamp_scatterings);
+	return path__gained(path, path.lamp_light * path.lamp.through, path.lamp_scatterings);
 }
 
 fn path__gained(before: path__Path, light: vec3f, scatterings: u32) -> path__Path {
 	var path = before;
+	if (bindings__HAS_CATCHERS && path.is_caught) {
+		opacity__clearness.light += dot(light, tone__LUMINANCE_REC709);
+		return path;
+	}
 	var gain = light;
 	if (bindings__CLAMP_INDIRECT > 0.0) {
 		let brightest = numeric__max_component(gain);
@@ -1802,10 +1801,14 @@ fn opacity__start_opacity() {
 	}
 }
 
-fn opacity__add_opacity(first_row: u32, weight: f32) {
+fn opacity__add_opacity(first_row: u32, weight: f32, radiance: vec3f) {
 	let row = first_row + bindings__OPACITY_ROW;
-	features__add_mean(row, vec3f(opacity__clearness.nothing, opacity__clearness.catchers, 0.0), weight);
-	features__add_mean(row + 1u, vec3f(opacity__clearness.light, opacity__clearness.unshadowed, 0.0), weight);
+	let ratio = opacity__clearness.light / max_f32(opacity__clearness.unshadowed, 1e-30);
+	let lit = select(1.0, min_f32(ratio, 1.0), opacity__clearness.unshadowed > 0.0);
+	let white = opacity__clearness.nothing + lit * opacity__clearness.catchers;
+	let squared = white * (white + 2.0 * dot(radiance, tone__LUMINANCE_REC709));
+	features__add_mean(row, vec3f(opacity__clearness.nothing, opacity__clearness.catchers, white), weight);
+	features__add_mean(row + 1u, vec3f(opacity__clearness.light, opacity__clearness.unshadowed, squared), weight);
 }
 
 fn sampling__sobol(index: u32) -> vec2u {
@@ -4610,47 +4613,45 @@ fn dimensions__dimension_key(pixel_key: u32, segment: u32, purpose: u32) -> u32 
 	return rng__hash_combine(pixel_key, dimensions__DIMENSIONS * (segment + 1u) + purpose);
 }
 
+const shadow_catcher__LEAST_DENSITY: f32 = 1e-15;
+
 fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: shading__Surface) -> path__Path {
-	var path = path__ended(before);
-	let n = select(surface.n, -surface.n, dot(surface.n, before.ray.direction) > 0.0);
-	let arriving = shadow_catcher__light_on(batch, path, surface.p, n);
-	if (any(arriving.radiance > vec3f(0.0))) {
-		path.lamp = shadow__passage_of(direct__shadow_ray(surface, arriving), path.media);
-	}
+	var path = before;
 	let share = dot(path.throughput, tone__LUMINANCE_REC709);
-	path.lamp_light = share * arriving.radiance;
-	path.lamp_scatterings = path__CAUGHT;
+	let n = select(surface.n, -surface.n, dot(surface.n, path.ray.direction) > 0.0);
+	let wi = bsdf_diffuse__diffuse_sample(path__random_2d(path, dimensions__SCATTER_DIRECTION));
+	let direction = warp__turn_to(n, wi);
+	let pdf = bsdf_diffuse__diffuse_eval(wi);
+	var unshadowed = environment__background_weight(batch, direction, pdf) * background__background(batch, direction);
+	if (bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) {
+		let light = emitters__sample_light(batch, surface.p, n, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
+		let value = bsdf_diffuse__diffuse_eval(vec3f(0.0, 0.0, dot(n, light.incident.direction)));
+		let is_shared = bindings__HAS_ENVIRONMENT && light.pdf > 0.0 && light.incident.distance >= camera__T_FAR;
+		let weight = select(1.0, mis__power_heuristic(light.pdf, value), is_shared);
+		let arriving = weight * value * light.incident.radiance;
+		if (any(arriving > vec3f(0.0))) {
+			path.lamp = shadow__passage_of(direct__shadow_ray(surface, light.incident), path.media);
+			path.lamp_light = share * arriving;
+			path.lamp_scatterings = 1u;
+		}
+		unshadowed += arriving;
+	}
 	opacity__clearness.catchers += share;
-	opacity__clearness.unshadowed += share * dot(arriving.radiance, tone__LUMINANCE_REC709);
+	opacity__clearness.unshadowed += share * dot(unshadowed, tone__LUMINANCE_REC709);
+	path.is_caught = true;
+	path.throughput = vec3f(share);
+	path.ray = leaving__leaving_ray(surface, direction, camera__T_FAR);
+	path.origin = surface.p;
+	path.normal = n;
+	path.pdf = pdf;
+	path.kind = ray_states__KIND_REFLECTED;
+	path.bounces += 1u;
 	return path;
 }
 
-fn shadow_catcher__light_on(batch: dispatch__Batch, path: path__Path, p: vec3f, n: vec3f) -> shading__Incident {
-	let has_lamps = bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT;
-	var chance = 0.0;
-	if (bindings__BACKGROUND != types__BACKGROUND_COLOR || any(batch.background > vec3f(0.0))) {
-		chance = select(1.0, 0.5, has_lamps);
-	}
-	if (path__random_1d(path, dimensions__SCATTER_CHOICE) < chance) {
-		let direction = warp__turn_to(n, bsdf_diffuse__diffuse_sample(path__random_2d(path, dimensions__SCATTER_DIRECTION)));
-		var density = 0.0;
-		if (bindings__HAS_ENVIRONMENT) {
-			density = batch.environment_share * environment__environment_pdf(batch, direction);
-		}
-		let cosine = max_f32(dot(n, direction), 0.0) / warp__PI;
-		let part = cosine / max_f32(chance * cosine + (1.0 - chance) * density, 1e-30);
-		return shading__Incident(direction, camera__T_FAR, part * background__background(batch, direction));
-	}
-	if (!has_lamps) {
-		return shading__Incident(n, camera__T_FAR, vec3f(0.0));
-	}
-	let light = emitters__sample_light(batch, p, n, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
-	var arriving = light.incident;
-	let cosine = max_f32(dot(n, arriving.direction), 0.0) / warp__PI;
-	let is_background = bindings__HAS_ENVIRONMENT && light.pdf > 0.0 && arriving.distance >= camera__T_FAR;
-	let other = select(0.0, chance * cosine / max_f32(light.pdf, 1e-30), is_background);
-	arriving.radiance *= cosine / (1.0 - chance + other);
-	return arriving;
+fn shadow_catcher__density_for_lamps(path: path__Path) -> f32 {
+	let is_left_to_samples = bindings__HAS_CATCHERS && path.is_caught && path.bounces == 1u;
+	return select(path.pdf, min_f32(path.pdf, shadow_catcher__LEAST_DENSITY), is_left_to_samples);
 }
 
 fn bsdf_diffuse__diffuse_eval(wi: vec3f) -> f32 {

@@ -1341,7 +1341,7 @@ fn pixels__add_samples(pixels: pixels__Pixels, sample: u32, radiance: wide__Vect
 				features__add_features(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), sample, weight);
 			}
 			if (bindings__HAS_OPACITY && is_kept) {
-				opacity__add_opacity(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), weight);
+				opacity__add_opacity(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), weight, wide__vector_at(radiance, k));
 			}
 		}
 		continuing {
@@ -5021,10 +5021,14 @@ struct opacity__Clearness {
 
 var<private> opacity__clearness: opacity__Clearness;
 
-fn opacity__add_opacity(first_row: u32, weight: f32) {
+fn opacity__add_opacity(first_row: u32, weight: f32, radiance: vec3f) {
 	let row = first_row + bindings__OPACITY_ROW;
-	features__add_mean(row, vec3f(opacity__clearness.nothing, opacity__clearness.catchers, 0.0), weight);
-	features__add_mean(row + 1u, vec3f(opacity__clearness.light, opacity__clearness.unshadowed, 0.0), weight);
+	let ratio = opacity__clearness.light / max_f32(opacity__clearness.unshadowed, 1e-30);
+	let lit = select(1.0, min_f32(ratio, 1.0), opacity__clearness.unshadowed > 0.0);
+	let white = opacity__clearness.nothing + lit * opacity__clearness.catchers;
+	let squared = white * (white + 2.0 * dot(radiance, tone__LUMINANCE_REC709));
+	features__add_mean(row, vec3f(opacity__clearness.nothing, opacity__clearness.catchers, white), weight);
+	features__add_mean(row + 1u, vec3f(opacity__clearness.light, opacity__clearness.unshadowed, squared), weight);
 }
 
 override bindings__EXTREMES_BY_SELECT: bool = false;

@@ -5,6 +5,7 @@
 //! film tiles, exact totals, files and merging follow from the table.
 
 use super::{settings::RenderSettings, sums::PixelRows};
+use std::ops::Range;
 
 /// One layer of a film.
 #[derive(Debug, PartialEq, Eq)]
@@ -85,8 +86,9 @@ const fn mean(name: &'static str) -> Layer {
     }
 }
 
-/// How much of what lies behind the picture can be seen: see [`super::opacity`]. The rows are: what is seen of nothing, and
-/// of shadow catchers; the light on these, and the same without shadows.
+/// How much of what lies behind the picture can be seen: see [`super::opacity`]. The rows are: what is seen of nothing, of
+/// shadow catchers, and what a white picture behind adds to the luminance; the light on catchers, the same without shadows,
+/// and what the white picture adds to the squares.
 pub const OPACITY: Layer = Layer {
     name: "opacity",
     rows: 2,
@@ -153,6 +155,14 @@ pub fn pixel_rows(layers: &[&Layer]) -> PixelRows {
     PixelRows {
         count: rows(layers),
         nearest: row_of(layers, &FIRST),
+    }
+}
+
+/// The rows of a layer within a pixel; none if the pixel lacks it.
+pub fn rows_of(layers: &[&Layer], wanted: &Layer) -> Range<usize> {
+    match row_of(layers, wanted) {
+        Some(first) => first..first + wanted.rows,
+        None => 0..0,
     }
 }
 

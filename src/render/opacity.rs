@@ -6,8 +6,9 @@
 //!
 //! opacity = 1 − (N + C L / U) / W
 //!
-//! The ratio is that of sums, so it has no bias from the noise of single samples, and U = 0 is no shadow. Light that the
-//! scene scatters onto a catcher does not count. Colours of glass count by their luminance, as a picture has one opacity.
+//! The ratio is that of sums, so it has no bias from the noise of single samples, and U = 0 is no shadow. L includes light
+//! that the scene scatters onto the catcher; it is at most U. Colours of glass count by their luminance, as a picture has one
+//! opacity.
 //! Source: Debevec 1998, Rendering Synthetic Objects into Real Scenes, section 5, with the ratio of the two pictures in
 //! place of their difference, as Cycles has it (`film/read.h`).
 

@@ -3,12 +3,12 @@
 use super::{Adaptive, Estimate, FilmTile, GROUP_SIDE, Measure, PixelStatistics};
 use crate::{
     render::{
-        layers::{self, SQUARES},
+        layers::{self, OPACITY, SQUARES},
         sums::{PixelRows, Totals},
     },
     threads,
 };
-use std::iter;
+use std::{iter, ops::Range};
 
 /// A part of the region, of the same width.
 struct Band<'a> {
@@ -30,6 +30,8 @@ struct Round<'a> {
     rows: PixelRows,
     /// The row with the squares.
     squares: usize,
+    /// The rows with the opacity.
+    opacity: Range<usize>,
     measure: Measure,
 }
 
@@ -44,6 +46,7 @@ impl Adaptive {
             is_first: self.is_in_first_round(),
             rows: layers::pixel_rows(self.layers),
             squares: layers::row_of(self.layers, &SQUARES).unwrap_or_default(),
+            opacity: layers::rows_of(self.layers, &OPACITY),
             measure: self.measure,
         };
         threads::for_each(self.bands(round.rows), |mut band| {
@@ -106,7 +109,8 @@ impl Band<'_> {
                 if !features.is_empty() {
                     rows.add_rounded(features, total);
                 }
-                self.estimates[index] = round.measure.estimate(statistics);
+                let opacity = &features[round.opacity.clone()];
+                self.estimates[index] = round.measure.estimate(statistics, opacity);
                 self.sampled[y / GROUP_SIDE * columns + x / GROUP_SIDE] = true;
             }
         }

@@ -3,7 +3,10 @@
 
 use super::{Adaptive, FilmTile, PixelStatistics};
 use crate::{
-    render::binary::{ReadError, Reader, Writer},
+    render::{
+        binary::{ReadError, Reader, Writer},
+        layers::{self, OPACITY},
+    },
     threads,
 };
 use std::io::{self, Read, Write};
@@ -49,7 +52,14 @@ impl Adaptive {
         }
         self.features = features.as_chunks().0.to_vec();
         // As before the round. The last one may have sampled any group.
-        let estimate = |index: usize| self.measure.estimate(&self.pixels[index]);
+        let (count, opacity) = (
+            layers::rows(self.layers),
+            layers::rows_of(self.layers, &OPACITY),
+        );
+        let estimate = |index: usize| {
+            let features = self.features.get(index * count..).unwrap_or_default();
+            (self.measure).estimate(&self.pixels[index], &features[opacity.clone()])
+        };
         self.estimates = threads::collect(self.pixels.len(), estimate);
         self.sampled.fill(true);
         self.rounds = rounds - 1;

@@ -1,5 +1,7 @@
 //! The statistics of a pixel, and what they say about its noise.
 
+#[cfg(doc)]
+use crate::render::layers;
 use crate::render::luminance::luminance;
 use bytemuck::Zeroable;
 
@@ -34,16 +36,18 @@ impl PixelStatistics {
         }
     }
 
-    fn luminance(&self) -> f64 {
-        (luminance(self.sum) * self.scale()).max(0.0)
-    }
-
-    /// The standard error of the luminance.
-    fn error(&self) -> f64 {
+    /// The mean luminance in front of a white picture, and its standard error. `opacity` are the rows of
+    /// [`layers::OPACITY`], or none if nothing is behind.
+    fn luminance(&self, opacity: &[[f64; 4]]) -> (f64, f64) {
         let count = f64::from(self.count);
-        let mean = self.luminance();
-        let variance = (self.squares / count - mean * mean).max(0.0) / (count - 1.0).max(1.0);
-        variance.sqrt()
+        let [white, white_squares] = match opacity {
+            [first, second] => [first[2], second[2]].map(|sum| sum * self.scale()),
+            _ => [0.0; 2],
+        };
+        let mean = (luminance(self.sum) * self.scale() + white).max(0.0);
+        let squares = self.squares / count + white_squares;
+        let variance = (squares - mean * mean).max(0.0) / (count - 1.0).max(1.0);
+        (mean, variance.sqrt())
     }
 }
 
@@ -66,10 +70,11 @@ pub(super) struct Estimate {
 }
 
 impl Measure {
-    pub fn estimate(self, statistics: &PixelStatistics) -> Estimate {
-        let mean = statistics.luminance();
+    /// What the statistics of a pixel say, with its rows of [`layers::OPACITY`] if it has them.
+    pub fn estimate(self, statistics: &PixelStatistics, opacity: &[[f64; 4]]) -> Estimate {
+        let (mean, error) = statistics.luminance(opacity);
         let brightness = (self.brightness)(mean);
-        let change = (self.brightness)(mean + statistics.error()) - brightness;
+        let change = (self.brightness)(mean + error) - brightness;
         Estimate {
             brightness,
             count: statistics.count,

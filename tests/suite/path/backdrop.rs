@@ -8,8 +8,8 @@ use glam::{DAffine3, DVec3, Vec3, dvec3};
 use glimray::image::Image;
 use glimray::render::RenderSettings;
 use glimray::scene::{
-    Attenuation, Backdrop, Background, CanonicalShape, Coverage, Geometry, Light, LightKind,
-    Material, Scene, Shape,
+    Antialias, Attenuation, Backdrop, Background, CanonicalShape, Coverage, Fresnel, Geometry,
+    Light, LightKind, Material, Scene, Shape,
 };
 
 const GREEN: Vec3 = Vec3::new(0.0, 0.5, 0.0);
@@ -122,11 +122,11 @@ fn colors_of_partly_covered_pixels_are_those_of_the_surface() {
     );
 }
 
-/// A floor that catches shadows, under a ball or a disc of this radius, seen at the origin from the side.
+/// A black floor that catches shadows, under something black, seen at the origin from the side.
 fn floor(occluder: Option<Geometry>, lights: &[DVec3]) -> Scene {
     let catcher = Material {
         shadow_catcher: true,
-        ..matte(0.3)
+        ..matte(0.0)
     };
     let plane = Geometry::Plane {
         point: DVec3::ZERO,
@@ -143,7 +143,7 @@ fn floor(occluder: Option<Geometry>, lights: &[DVec3]) -> Scene {
     };
     Scene {
         cameras: vec![looking(dvec3(0.0, 1.0, 20.0), DVec3::ZERO, 1e-4)],
-        materials: vec![catcher, matte(0.5)],
+        materials: vec![catcher, matte(0.0)],
         lights: lights.iter().map(lamp).collect(),
         shapes: shapes
             .into_iter()
@@ -159,16 +159,18 @@ fn floor(occluder: Option<Geometry>, lights: &[DVec3]) -> Scene {
     }
 }
 
+/// A level disc.
+fn disc(center: DVec3, radius: f64) -> Option<Geometry> {
+    let scale = DAffine3::from_scale(DVec3::splat(radius));
+    Some(Geometry::Placed {
+        canonical: CanonicalShape::Disc { hole: 0.0 },
+        world_from_canonical: DAffine3::from_translation(center) * scale,
+    })
+}
+
 #[test]
 fn shadow_catchers_are_as_opaque_as_the_light_that_is_missing() {
     let mut verdict = Verdict::on("shadow catchers");
-    let disc = |center: DVec3, radius: f64| {
-        let scale = DAffine3::from_scale(DVec3::splat(radius));
-        Some(Geometry::Placed {
-            canonical: CanonicalShape::Disc { hole: 0.0 },
-            world_from_canonical: DAffine3::from_translation(center) * scale,
-        })
-    };
     let above = dvec3(0.0, 4.0, 0.0);
     let beside = [dvec3(-3.0, 4.0, 0.0), dvec3(3.0, 4.0, 0.0)];
     let cover = disc(dvec3(0.0, 2.0, 0.0), 0.5);
@@ -213,6 +215,121 @@ fn shadow_catchers_are_as_opaque_as_the_light_that_is_missing() {
         near(&mut verdict, name, opacity(&both, 512), expected, 0.01);
     }
     verdict.close();
+}
+
+/// A wall that reflects ρ beside a shadow: of the light E of a distant lamp, which reaches the floor at the angle θ, the wall
+/// scatters ρ E sin θ, and half of what the floor sees is wall. The lamp alone would give it E cos θ.
+#[test]
+fn light_of_a_wall_fills_the_shadow_on_a_catcher() {
+    let mut verdict = Verdict::on("a wall beside a shadow");
+    for (albedo, tangent) in [(0.8, 1.0), (0.5, 2.0), (0.8, 0.25), (0.9, 3.0)] {
+        let mut scene = floor(disc(dvec3(2.0 * tangent, 2.0, 0.0), 0.5), &[]);
+        let direction = dvec3(-tangent, -1.0, 0.0).normalize();
+        scene.lights = vec![Light {
+            kind: LightKind::Directional { direction },
+            color: Vec3::ONE,
+            attenuation: Attenuation::None,
+            ..Light::default()
+        }];
+        scene.materials.push(matte(albedo));
+        scene.shapes.push(Shape {
+            geometry: Geometry::Plane {
+                point: DVec3::NEG_X,
+                normal: DVec3::X,
+            },
+            material: 2,
+            node: None,
+        });
+        let filled = (f64::from(albedo) * tangent / 2.0).min(1.0);
+        let name = format!("a wall of {albedo} and a slope of {tangent}");
+        near(&mut verdict, name, opacity(&scene, 128), 1.0 - filled, 0.01);
+    }
+    verdict.close();
+}
+
+/// Light of an even sky reaches a floor through a large pane of thick glass, less what its faces reflect between them:
+/// of each direction (1 − F)/(1 + F).
+#[test]
+fn light_that_glass_refracts_onto_a_catcher_is_no_shadow() {
+    const INDEX: f64 = 1.5;
+    let pane = Geometry::Placed {
+        canonical: CanonicalShape::Box,
+        world_from_canonical: DAffine3::from_translation(dvec3(0.0, 3.0, 0.0))
+            * DAffine3::from_scale(dvec3(1e4, 0.5, 1e4)),
+    };
+    let mut scene = floor(Some(pane), &[]);
+    scene.background = Background::Color(Vec3::splat(0.7));
+    scene.materials[1] = Material {
+        reflect: Vec3::ONE,
+        transmit: Vec3::ONE,
+        opacity: 0.0,
+        ior: INDEX as f32,
+        fresnel: Fresnel::Exact,
+        ..matte(0.0)
+    };
+    let passing = |cosine: f64| {
+        let refracted = (1.0 - (1.0 - cosine * cosine) / (INDEX * INDEX)).sqrt();
+        let s = (cosine - INDEX * refracted) / (cosine + INDEX * refracted);
+        let p = (INDEX * cosine - refracted) / (INDEX * cosine + refracted);
+        let fresnel = 0.5 * (s * s + p * p);
+        (1.0 - fresnel) / (1.0 + fresnel)
+    };
+    const STEPS: u32 = 10_000;
+    let cosines = (0..STEPS).map(|step| (f64::from(step) + 0.5) / f64::from(STEPS));
+    let arriving: f64 = cosines.map(|cosine| 2.0 * cosine * passing(cosine)).sum();
+    let expected = 1.0 - arriving / f64::from(STEPS);
+    let mut verdict = Verdict::on("a pane of glass above a catcher");
+    near(
+        &mut verdict,
+        "opacity",
+        opacity(&scene, 256),
+        expected,
+        0.003,
+    );
+    verdict.close();
+}
+
+/// The colours of such a picture are black everywhere, and have no noise.
+#[test]
+fn adaptive_sampling_takes_more_samples_of_soft_shadows_on_catchers() {
+    let mut scene = floor(disc(dvec3(0.0, 1.0, 0.0), 0.6), &[]);
+    scene.cameras = vec![looking(dvec3(0.0, 6.0, 8.0), DVec3::ZERO, 0.5)];
+    scene.lights = vec![Light {
+        kind: LightKind::Sphere {
+            center: dvec3(1.0, 5.0, 0.0),
+            radius: 0.8,
+        },
+        color: Vec3::ONE,
+        attenuation: Attenuation::InverseSquare,
+        ..Light::default()
+    }];
+    let of = |antialias, samples| {
+        let settings = RenderSettings {
+            antialias,
+            samples,
+            noise: 0.015,
+            backdrop: Backdrop::Transparent,
+            ..paths(samples, (48, 48), 4)
+        };
+        render(&scene, &settings)
+    };
+    let (truth, _) = of(Antialias::Stratified, 4096);
+    let (even, even_stats) = of(Antialias::Stratified, 64);
+    let (adaptive, stats) = of(Antialias::Adaptive, 1024);
+    let error = |image: &Image| {
+        let pixels = image.pixels.iter().zip(&truth.pixels);
+        let squares = pixels.map(|(own, truth)| f64::from(own[3] - truth[3]).powi(2));
+        (squares.sum::<f64>() / truth.pixels.len() as f64).sqrt()
+    };
+    assert!(stats.samples > 17 * 48 * 48, "{} samples", stats.samples);
+    assert!(
+        stats.samples <= even_stats.samples && error(&adaptive) < error(&even),
+        "error {:.5} with {} samples, {:.5} with {}",
+        error(&adaptive),
+        stats.samples,
+        error(&even),
+        even_stats.samples
+    );
 }
 
 #[test]
