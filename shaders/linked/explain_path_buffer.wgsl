@@ -85,7 +85,9 @@ fn traced(batch: dispatch__Batch, before: path__Path, hit: tracing__Hit) -> path
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
 	let emission = coat * emitters__emitted(surface, optics, layers.glow);
 	record_path__record_found(emission, weight);
-	path = path__gained(path, path.throughput * (weight * emission), path.bounces);
+	let found = path.throughput * (weight * emission);
+	shadow_catcher__count_unsampled(path, found);
+	path = path__gained(path, found, path.bounces);
 	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
 	seen__see_surface(path, bsdf, emission);
 	record_path__record_interface(met, bsdf);
@@ -101,7 +103,7 @@ fn scattered(batch: dispatch__Batch, before: path__Path, surface: shading__Surfa
 	path.throughput *= next.weight;
 	record_path__record_step(next);
 	if (path.bounces > batch.max_depth || path.passes > path__MAX_PASSES) {
-		dispatch__cut_throughput += dot(path.throughput, tone__LUMINANCE_REC709);
+		dispatch__cut_throughput += select(dot(path.throughput, tone__LUMINANCE_REC709), 0.0, bindings__HAS_CATCHERS && path.is_caught);
 		record_path__record_limit();
 		return path__ended(path);
 	}
@@ -1418,11 +1420,6 @@ fn path__lit(before: path__Path, left: shadow__Passage) -> path__Path {
 
 fn path__gained(before: path__Path, light: vec3f, scatterings: u32) -> path__Path {
 	var path = before;
-	if (bindings__HAS_CATCHERS && path.is_caught) {
-		record_path__record_gain(vec3f(0.0));
-		opacity__clearness.light += dot(light, tone__LUMINANCE_REC709);
-		return path;
-	}
 	var gain = light;
 	if (bindings__CLAMP_INDIRECT > 0.0) {
 		let brightest = numeric__max_component(gain);
@@ -1431,6 +1428,14 @@ fn path__gained(before: path__Path, light: vec3f, scatterings: u32) -> path__Pat
 		dispatch__clamped_light += (1.0 - scale) * dot(gain, tone__LUMINANCE_REC709);
 		gain *= scale;
 		dispatch__kept_light += dot(gain, tone__LUMINANCE_REC709);
+	}
+	if (bindings__HAS_CATCHERS && path.is_caught) {
+		record_path__record_gain(vec3f(0.0));
+		let is_direct = scatterings == 1u && path.pdf > 0.0;
+		let luminance = dot(gain, tone__LUMINANCE_REC709);
+		opacity__clearness.light += select(0.0, luminance, is_direct);
+		opacity__clearness.scattered += select(luminance, 0.0, is_direct);
+		return path;
 	}
 	record_path__record_gain(gain);
 	features__see_light(gain, scatterings);
@@ -3256,16 +3261,17 @@ fn record_path__record_straight(is_straight: bool) {
 	}
 }
 
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+
 struct opacity__Clearness {
 	nothing: f32,
 	catchers: f32,
 	light: f32,
+	scattered: f32,
 	unshadowed: f32
 }
 
 var<private> opacity__clearness: opacity__Clearness;
-
-const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 const medium__VACUUM: shading__Medium = shading__Medium(vec3f(0.0), 1.0, 0);
 
@@ -3508,23 +3514,27 @@ fn environment__sample_environment(batch: dispatch__Batch, u: vec2f) -> environm
 	loops__cut_off |= columns < width;
 	let uv = (vec2f(place.cell) + place.u) / vec2f(f32(width), f32(width / 2u));
 	let direction = picture__equirectangular_direction(uv, batch.background_rotation);
+	let pdf = environment__with_sun(batch, environment__density_at(batch, place.cell, direction), direction);
 	if (bindings__BACKGROUND == types__BACKGROUND_SKY) {
-		let chosen = select(direction, warp__turn_to(batch.sun, warp__cone_from_square(v, background__SUN_DEPTH)), is_sun);
-		return environment__EnvironmentSample(chosen, environment__environment_pdf(batch, chosen));
+		let to_sun = warp__turn_to(batch.sun, warp__cone_from_square(v, background__SUN_DEPTH));
+		return environment__EnvironmentSample(select(direction, to_sun, is_sun), select(pdf, environment__environment_pdf(batch, to_sun), is_sun));
 	}
-	return environment__EnvironmentSample(direction, environment__density_at(batch, place.cell, direction));
+	return environment__EnvironmentSample(direction, pdf);
 }
 
 fn environment__environment_pdf(batch: dispatch__Batch, direction: vec3f) -> f32 {
 	let size = vec2u(batch.environment_width, batch.environment_width / 2u);
 	let uv = picture__equirectangular(direction, batch.background_rotation);
 	let place = vec2f(fract(uv.x), clamp_f32(uv.y, 0.0, 1.0)) * vec2f(size);
-	let density = environment__density_at(batch, min(vec2u(place), size - 1u), direction);
+	return environment__with_sun(batch, environment__density_at(batch, min(vec2u(place), size - 1u), direction), direction);
+}
+
+fn environment__with_sun(batch: dispatch__Batch, of_table: f32, direction: vec3f) -> f32 {
 	if (bindings__BACKGROUND == types__BACKGROUND_SKY) {
 		let of_sun = select(0.0, 1.0 / (2.0 * picture__PI * background__SUN_DEPTH), background__is_in_sun(batch, direction));
-		return mix(density, of_sun, batch.sun_chance);
+		return mix(of_table, of_sun, batch.sun_chance);
 	}
-	return density;
+	return of_table;
 }
 
 fn environment__background_weight(batch: dispatch__Batch, direction: vec3f, pdf: f32) -> f32 {
@@ -3600,6 +3610,27 @@ fn picture__equirectangular_direction(uv: vec2f, rotation: f32) -> vec3f {
 	return vec3f(cos(up) * sin(around), sin(up), -cos(up) * cos(around));
 }
 
+const background__SUN_DEPTH: f32 = 1.069586e-5;
+
+fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
+	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
+		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
+	}
+	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE || bindings__BACKGROUND == types__BACKGROUND_SKY) {
+		let size = batch.background_size;
+		let uv = picture__equirectangular(direction, batch.background_rotation);
+		let color = picture__blend_texels(batch.background_picture, size.x, size.y, picture__neighbours(uv.x, size.x, false, types__WRAP_REPEAT), picture__neighbours(uv.y, size.y, false, types__WRAP_CLAMP));
+		let of_sun = select(vec3f(0.0), batch.background_top, background__is_in_sun(batch, direction));
+		return batch.background * color.xyz + of_sun;
+	}
+	return batch.background;
+}
+
+fn background__is_in_sun(batch: dispatch__Batch, direction: vec3f) -> bool {
+	let apart = direction - batch.sun;
+	return bindings__BACKGROUND == types__BACKGROUND_SKY && dot(apart, apart) < 2.0 * background__SUN_DEPTH;
+}
+
 fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec4f {
 	let lower = (height - 1u - rows.first) * width;
 	let upper = (height - 1u - rows.second) * width;
@@ -3621,27 +3652,6 @@ fn picture__load_texel_word(index: u32) -> u32 {
 	let row = index >> types__IMAGE_WIDTH_LOG2;
 	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
 	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
-}
-
-const background__SUN_DEPTH: f32 = 1.069586e-5;
-
-fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
-	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
-		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
-	}
-	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE || bindings__BACKGROUND == types__BACKGROUND_SKY) {
-		let size = batch.background_size;
-		let uv = picture__equirectangular(direction, batch.background_rotation);
-		let color = picture__blend_texels(batch.background_picture, size.x, size.y, picture__neighbours(uv.x, size.x, false, types__WRAP_REPEAT), picture__neighbours(uv.y, size.y, false, types__WRAP_CLAMP));
-		let of_sun = select(vec3f(0.0), batch.background_top, background__is_in_sun(batch, direction));
-		return batch.background * color.xyz + of_sun;
-	}
-	return batch.background;
-}
-
-fn background__is_in_sun(batch: dispatch__Batch, direction: vec3f) -> bool {
-	let apart = direction - batch.sun;
-	return bindings__BACKGROUND == types__BACKGROUND_SKY && dot(apart, apart) < 2.0 * background__SUN_DEPTH;
 }
 
 fn mis__power_heuristic(own: f32, other: f32) -> f32 {
@@ -4660,11 +4670,12 @@ fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: s
 			path.lamp_light = share * arriving;
 			path.lamp_scatterings = 1u;
 		}
+		record_path__record_light_sample(surface, path.lamp.ray, light, bsdf__BsdfValue(vec3f(value), pdf), weight, arriving);
 		unshadowed += arriving;
 	}
 	opacity__clearness.catchers += share;
 	opacity__clearness.unshadowed += share * dot(unshadowed, tone__LUMINANCE_REC709);
-	record_path__record_step(bsdf__BsdfSample(direction, vec3f(1.0), pdf));
+	record_path__record_step(bsdf__BsdfSample(direction, vec3f(share) / max_vec3f(path.throughput, vec3f(1e-30)), pdf));
 	path.is_caught = true;
 	path.throughput = vec3f(share);
 	path.ray = leaving__leaving_ray(surface, direction, camera__T_FAR);
@@ -4676,9 +4687,18 @@ fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: s
 	return path;
 }
 
+fn shadow_catcher__leaves_catcher(path: path__Path) -> bool {
+	return bindings__HAS_CATCHERS && path.is_caught && path.bounces == 1u && path.pdf > 0.0;
+}
+
 fn shadow_catcher__density_for_lamps(path: path__Path) -> f32 {
-	let is_left_to_samples = bindings__HAS_CATCHERS && path.is_caught && path.bounces == 1u;
-	return select(path.pdf, min_f32(path.pdf, shadow_catcher__LEAST_DENSITY), is_left_to_samples);
+	return select(path.pdf, shadow_catcher__LEAST_DENSITY, shadow_catcher__leaves_catcher(path));
+}
+
+fn shadow_catcher__count_unsampled(path: path__Path, light: vec3f) {
+	if (bindings__HAS_CATCHERS) {
+		opacity__clearness.unshadowed += select(0.0, dot(light, tone__LUMINANCE_REC709), shadow_catcher__leaves_catcher(path));
+	}
 }
 
 fn bsdf_diffuse__diffuse_eval(wi: vec3f) -> f32 {

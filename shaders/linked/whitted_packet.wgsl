@@ -5012,10 +5012,13 @@ fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
+const opacity__MOST_SCATTERED: f32 = 8.0;
+
 struct opacity__Clearness {
 	nothing: f32,
 	catchers: f32,
 	light: f32,
+	scattered: f32,
 	unshadowed: f32
 }
 
@@ -5023,12 +5026,17 @@ var<private> opacity__clearness: opacity__Clearness;
 
 fn opacity__add_opacity(first_row: u32, weight: f32, radiance: vec3f) {
 	let row = first_row + bindings__OPACITY_ROW;
-	let ratio = opacity__clearness.light / max_f32(opacity__clearness.unshadowed, 1e-30);
-	let lit = select(1.0, min_f32(ratio, 1.0), opacity__clearness.unshadowed > 0.0);
-	let white = opacity__clearness.nothing + lit * opacity__clearness.catchers;
-	let squared = white * (white + 2.0 * dot(radiance, tone__LUMINANCE_REC709));
-	features__add_mean(row, vec3f(opacity__clearness.nothing, opacity__clearness.catchers, white), weight);
-	features__add_mean(row + 1u, vec3f(opacity__clearness.light, opacity__clearness.unshadowed, squared), weight);
+	let nothing = opacity__clearness.nothing;
+	let unshadowed = opacity__clearness.unshadowed;
+	features__add_mean(row, vec3f(nothing, opacity__clearness.catchers, 0.0), weight);
+	let usual = (bindings__film[row + 1u].y + weight * unshadowed) / max_f32(bindings__film[row].y, 1e-30);
+	let light = opacity__clearness.light + min_f32(opacity__clearness.scattered, opacity__MOST_SCATTERED * usual * opacity__clearness.catchers);
+	features__add_mean(row + 1u, vec3f(light, unshadowed, 0.0), weight);
+	if (bindings__ADAPTIVE) {
+		let luminance = dot(radiance, tone__LUMINANCE_REC709);
+		features__add_mean(row + 2u, vec3f(light * light, light * unshadowed, unshadowed * unshadowed), weight);
+		features__add_mean(row + 3u, vec3f(nothing * (nothing + 2.0 * luminance), 0.0, 0.0), weight);
+	}
 }
 
 override bindings__EXTREMES_BY_SELECT: bool = false;

@@ -188,7 +188,7 @@ impl Writer<'_> {
     }
 }
 
-/// The place of the sun in a sky; `None` if the picture is another one, or degrees cannot say it exactly.
+/// The place of the sun in a sky, in the nearest degrees; `None` if the picture is another one.
 fn sky(origin: &Origin) -> Option<Table> {
     let Origin::Sky { elevation, azimuth } = *origin else {
         return None;
@@ -198,7 +198,7 @@ fn sky(origin: &Origin) -> Option<Table> {
         ("elevation_deg", elevation, sky::SUN_ELEVATION_DEG),
         ("azimuth_deg", azimuth, sky::SUN_AZIMUTH_DEG),
     ] {
-        let degrees = exact::degrees(radians)?;
+        let degrees = exact::degrees(radians).unwrap_or_else(|| radians.to_degrees());
         table.put_if(degrees != default, key, number(degrees));
     }
     Some(table)

@@ -18,6 +18,9 @@ const MAX_LEVELS: u32 = 10;
 /// differs within a cell is noise.
 const FINER_LEVELS: u32 = 2;
 
+/// The grid of a sky has 2 to this power rows: it is smooth, as its sun is not in the picture.
+const SKY_LEVELS: u32 = 7;
+
 /// A picture with less than this part of its light above the mean has no table.
 const LEAST_PART: f64 = 1e-3;
 
@@ -65,11 +68,15 @@ pub fn of_scene(
             ..known.clone()
         });
     }
-    let levels = (picture.height.next_power_of_two().ilog2() + FINER_LEVELS).min(MAX_LEVELS);
+    let sun = sky::sun_of(picture);
+    let levels = match sun {
+        Some(_) => SKY_LEVELS,
+        None => (picture.height.next_power_of_two().ilog2() + FINER_LEVELS).min(MAX_LEVELS),
+    };
     let width = 2 << levels;
     let mut weights = weights(picture, largest, levels);
     // Weights add up to the mean luminance times the columns.
-    let sun = sky::sun_of(picture).map_or(0.0, |sun| {
+    let sun = sun.map_or(0.0, |sun| {
         f64::from(width) * sky::SUN_SOLID_ANGLE / (4.0 * PI) * sun.radiance.dot(scene::LUMINANCE)
     });
     let total = weights.iter().sum::<f64>() + sun;

@@ -126,8 +126,8 @@ fn signal([r, g, b, opacity]: [f32; 4], features: &PixelFeatures) -> [f32; 4] {
     [r, g, b, variance]
 }
 
-/// The transparency of a pixel as a signal. Its variance is that of samples which are either opaque or not, the greatest
-/// that the mean allows.
+/// The transparency of a pixel as a signal. Its variance is that of samples which are either opaque or not: the greatest
+/// that the mean allows, where samples of the light on a catcher are alike.
 fn clear(features: &PixelFeatures) -> [f32; 4] {
     let clear = features.transparency;
     let variance = clear * (1.0 - clear) / features.samples.max(1.0);

@@ -86,11 +86,18 @@ const fn mean(name: &'static str) -> Layer {
     }
 }
 
-/// How much of what lies behind the picture can be seen: see [`super::opacity`]. The rows are: what is seen of nothing, of
-/// shadow catchers, and what a white picture behind adds to the luminance; the light on catchers, the same without shadows,
-/// and what the white picture adds to the squares.
+/// How much of what lies behind the picture can be seen: see [`super::opacity`]. The rows are: what is seen of nothing, and
+/// of shadow catchers; the light on these, and the same without shadows.
 pub const OPACITY: Layer = Layer {
     name: "opacity",
+    rows: 2,
+    kind: LayerKind::Mean,
+};
+
+/// The noise of opacity, which counts in adaptive sampling. The rows are: the squares and the product of the light on shadow
+/// catchers and of the same without shadows; what a white picture seen instead of nothing adds to the squares of luminance.
+pub const OPACITY_SQUARES: Layer = Layer {
+    name: "opacity squares",
     rows: 2,
     kind: LayerKind::Mean,
 };
@@ -98,7 +105,10 @@ pub const OPACITY: Layer = Layer {
 /// Lists of layers without and with opacity.
 type Lists = [&'static [&'static Layer]; 2];
 const EVEN: Lists = [&[&RADIANCE], &[&RADIANCE, &OPACITY]];
-const LISTED: Lists = [&[&RADIANCE, &SQUARES], &[&RADIANCE, &OPACITY, &SQUARES]];
+const LISTED: Lists = [
+    &[&RADIANCE, &SQUARES],
+    &[&RADIANCE, &OPACITY, &OPACITY_SQUARES, &SQUARES],
+];
 const COUNTED: Lists = [&[&RADIANCE, &COUNT], &[&RADIANCE, &OPACITY, &COUNT]];
 const FEATURED: Lists = [
     &[
@@ -106,6 +116,20 @@ const FEATURED: Lists = [
     ],
     &[
         &RADIANCE, &OPACITY, &SQUARES, &ALBEDO, &NORMAL, &DIRECT, &EMISSION, &FIRST,
+    ],
+];
+const FEATURED_LISTED: Lists = [
+    FEATURED[0],
+    &[
+        &RADIANCE,
+        &OPACITY,
+        &OPACITY_SQUARES,
+        &SQUARES,
+        &ALBEDO,
+        &NORMAL,
+        &DIRECT,
+        &EMISSION,
+        &FIRST,
     ],
 ];
 const FEATURED_COUNT: Lists = [
@@ -119,10 +143,11 @@ const FEATURED_COUNT: Lists = [
 
 /// The layers on the GPU during sampling, in row order.
 pub fn of_sampling(settings: &RenderSettings) -> &'static [&'static Layer] {
-    let lists = match settings.is_adaptive() {
-        _ if settings.has_features() => FEATURED,
-        true => LISTED,
-        false => EVEN,
+    let lists = match (settings.is_adaptive(), settings.has_features()) {
+        (true, true) => FEATURED_LISTED,
+        (true, false) => LISTED,
+        (false, true) => FEATURED,
+        (false, false) => EVEN,
     };
     lists[usize::from(settings.has_opacity())]
 }
@@ -158,12 +183,11 @@ pub fn pixel_rows(layers: &[&Layer]) -> PixelRows {
     }
 }
 
-/// The rows of a layer within a pixel; none if the pixel lacks it.
-pub fn rows_of(layers: &[&Layer], wanted: &Layer) -> Range<usize> {
-    match row_of(layers, wanted) {
-        Some(first) => first..first + wanted.rows,
-        None => 0..0,
-    }
+/// The rows of [`OPACITY`] and [`OPACITY_SQUARES`] within a pixel; none if it lacks them.
+pub fn rows_of_noisy_opacity(layers: &[&Layer]) -> Range<usize> {
+    let squares = row_of(layers, &OPACITY_SQUARES);
+    let rows = |first| first - OPACITY.rows..first + OPACITY_SQUARES.rows;
+    squares.map_or(0..0, rows)
 }
 
 /// The first row of a layer within a pixel.

@@ -6,6 +6,7 @@
 //! would be a large part, is not in the picture: the background adds it. Below the horizon is even grey ground.
 
 use super::{Origin, Picture};
+use crate::threads;
 use glam::{DMat3, DVec3, dvec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -85,19 +86,19 @@ pub fn sun_irradiance(elevation: f64) -> DVec3 {
 pub fn picture(elevation: f64, azimuth: f64) -> Picture {
     let sky = Sky::new(elevation);
     let sun = towards_sun(elevation, azimuth);
-    let mut colors = vec![DVec3::ZERO; (WIDTH * HEIGHT) as usize];
+    let towards = |index: usize| {
+        let (x, y) = (index as u32 % WIDTH, index as u32 / WIDTH);
+        direction(f64::from(x) + 0.5, f64::from(y) + 0.5)
+    };
+    let above = (WIDTH * HEIGHT / 2) as usize;
+    let mut colors = threads::collect(above, |index| sky.radiance(towards(index), sun));
     let mut irradiance = sun.y.max(0.0) * sun_irradiance(elevation);
-    for y in 0..HEIGHT / 2 {
-        let solid_angle = solid_angle(y);
-        for x in 0..WIDTH {
-            let towards = direction(f64::from(x) + 0.5, f64::from(y) + 0.5);
-            let color = sky.radiance(towards, sun);
-            irradiance += towards.y * solid_angle * color;
-            colors[(y * WIDTH + x) as usize] = color;
-        }
+    for (y, row) in (0..).zip(colors.chunks(WIDTH as usize)) {
+        let flux: DVec3 = row.iter().sum();
+        irradiance += towards((y * WIDTH) as usize).y * solid_angle(y) * flux;
     }
     let ground = GROUND_ALBEDO / PI * irradiance;
-    colors[(WIDTH * HEIGHT / 2) as usize..].fill(ground);
+    colors.resize(2 * above, ground);
     Picture {
         origin: Origin::Sky { elevation, azimuth },
         ..Picture::opaque(WIDTH, HEIGHT, colors.into_iter().map(DVec3::as_vec3))

@@ -3,7 +3,7 @@
 use super::{Adaptive, Estimate, FilmTile, GROUP_SIDE, Measure, PixelStatistics};
 use crate::{
     render::{
-        layers::{self, OPACITY, SQUARES},
+        layers::{self, SQUARES},
         sums::{PixelRows, Totals},
     },
     threads,
@@ -30,7 +30,7 @@ struct Round<'a> {
     rows: PixelRows,
     /// The row with the squares.
     squares: usize,
-    /// The rows with the opacity.
+    /// The rows with the opacity and its squares.
     opacity: Range<usize>,
     measure: Measure,
 }
@@ -46,7 +46,7 @@ impl Adaptive {
             is_first: self.is_in_first_round(),
             rows: layers::pixel_rows(self.layers),
             squares: layers::row_of(self.layers, &SQUARES).unwrap_or_default(),
-            opacity: layers::rows_of(self.layers, &OPACITY),
+            opacity: layers::rows_of_noisy_opacity(self.layers),
             measure: self.measure,
         };
         threads::for_each(self.bands(round.rows), |mut band| {

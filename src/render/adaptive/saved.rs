@@ -5,7 +5,7 @@ use super::{Adaptive, FilmTile, PixelStatistics};
 use crate::{
     render::{
         binary::{ReadError, Reader, Writer},
-        layers::{self, OPACITY},
+        layers,
     },
     threads,
 };
@@ -54,7 +54,7 @@ impl Adaptive {
         // As before the round. The last one may have sampled any group.
         let (count, opacity) = (
             layers::rows(self.layers),
-            layers::rows_of(self.layers, &OPACITY),
+            layers::rows_of_noisy_opacity(self.layers),
         );
         let estimate = |index: usize| {
             let features = self.features.get(index * count..).unwrap_or_default();

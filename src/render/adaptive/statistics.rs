@@ -37,17 +37,56 @@ impl PixelStatistics {
     }
 
     /// The mean luminance in front of a white picture, and its standard error. `opacity` are the rows of
-    /// [`layers::OPACITY`], or none if nothing is behind.
-    fn luminance(&self, opacity: &[[f64; 4]]) -> (f64, f64) {
-        let count = f64::from(self.count);
-        let [white, white_squares] = match opacity {
-            [first, second] => [first[2], second[2]].map(|sum| sum * self.scale()),
-            _ => [0.0; 2],
+    /// [`layers::OPACITY`] and [`layers::OPACITY_SQUARES`], or none if the film has no opacity.
+    fn mean_and_error(&self, opacity: &[[f64; 4]]) -> (f64, f64) {
+        let behind = match opacity {
+            [seen, light, squares, white] => Behind::new(
+                [seen, light, squares, white].map(|row| row.map(|sum| sum * self.scale())),
+            ),
+            _ => Behind::default(),
         };
-        let mean = (luminance(self.sum) * self.scale() + white).max(0.0);
-        let squares = self.squares / count + white_squares;
-        let variance = (squares - mean * mean).max(0.0) / (count - 1.0).max(1.0);
-        (mean, variance.sqrt())
+        let count = f64::from(self.count);
+        let direct = luminance(self.sum) * self.scale() + behind.nothing;
+        let squares = self.squares / count + behind.nothing_squares;
+        let variance = (squares - direct.max(0.0).powi(2)).max(0.0) + behind.catcher_variance;
+        let mean = (direct + behind.catcher).max(0.0);
+        (mean, (variance / (count - 1.0).max(1.0)).sqrt())
+    }
+}
+
+/// What a white picture behind adds to the luminance of a pixel.
+#[derive(Default)]
+struct Behind {
+    /// Where nothing is in front, and what that adds to the mean of the squares.
+    nothing: f64,
+    nothing_squares: f64,
+    /// Through shadow catchers, and the variance of a sample of that: a ratio of means, of which the variance is that of its
+    /// linearisation.
+    catcher: f64,
+    catcher_variance: f64,
+}
+
+impl Behind {
+    /// From the means of the four rows.
+    fn new([seen, light, squares, white]: [[f64; 4]; 4]) -> Self {
+        let ([nothing, seen, ..], [light, unshadowed, ..]) = (seen, light);
+        let [light_squares, products, unshadowed_squares, _] = squares;
+        let (ratio, variance) = match unshadowed > 0.0 && light < unshadowed {
+            true => {
+                let ratio = light / unshadowed;
+                let rest =
+                    light_squares - 2.0 * ratio * products + ratio * ratio * unshadowed_squares;
+                (ratio, rest.max(0.0) / (unshadowed * unshadowed))
+            }
+            // Opacity ends at 0.
+            false => (1.0, 0.0),
+        };
+        Self {
+            nothing,
+            nothing_squares: white[0],
+            catcher: seen * ratio,
+            catcher_variance: seen * seen * variance,
+        }
     }
 }
 
@@ -70,9 +109,9 @@ pub(super) struct Estimate {
 }
 
 impl Measure {
-    /// What the statistics of a pixel say, with its rows of [`layers::OPACITY`] if it has them.
+    /// What the statistics of a pixel say. `opacity` is that of [`PixelStatistics::mean_and_error`].
     pub fn estimate(self, statistics: &PixelStatistics, opacity: &[[f64; 4]]) -> Estimate {
-        let (mean, error) = statistics.luminance(opacity);
+        let (mean, error) = statistics.mean_and_error(opacity);
         let brightness = (self.brightness)(mean);
         let change = (self.brightness)(mean + error) - brightness;
         Estimate {

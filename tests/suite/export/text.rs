@@ -237,3 +237,39 @@ fn a_sky_is_written_as_its_sun() {
         super::loss(&scene).unwrap_or_else(|lost| panic!("{lost}"));
     }
 }
+
+/// Its texels lack the sun, so a picture is no way out.
+#[test]
+fn a_sky_at_radians_that_no_degrees_give_is_written_with_the_nearest() {
+    // Near 46° neighbouring degrees are farther apart than neighbouring radians.
+    let is_given = |radians: f64| {
+        let near = radians.to_degrees();
+        [near, near.next_up(), near.next_down()]
+            .iter()
+            .any(|degrees| degrees.to_radians() == radians)
+    };
+    let mut others = (0..1000_u64)
+        .map(|step| f64::from_bits(0.8_f64.to_bits() + step))
+        .filter(|radians| !is_given(*radians));
+    let radians = others.next().expect("radians without degrees");
+    let mut scene = scene();
+    let picture = glimray::scene::sky::picture(radians, 0.0);
+    scene.pictures.push(Arc::new(picture));
+    scene.background = glimray::scene::Background::Picture {
+        picture: 0,
+        strength: 1.0,
+        rotation: 0.0,
+    };
+    let export = export::native(&scene, "s", &|_, _| false).expect("an export");
+    let line = export
+        .text
+        .lines()
+        .find(|line| line.starts_with("background"));
+    let line = line.expect("a background");
+    let written = line
+        .split("elevation_deg = ")
+        .nth(1)
+        .and_then(|rest| rest.split(',').next());
+    let written: f64 = written.expect(line).trim().parse().expect("a number");
+    assert!((written.to_radians() - radians).abs() < 1e-15, "{line}");
+}

@@ -289,6 +289,57 @@ fn light_that_glass_refracts_onto_a_catcher_is_no_shadow() {
     verdict.close();
 }
 
+/// An emissive wall, which light samples do not choose, fills half of what the floor sees, and a disc hides half of that and of
+/// the sky beside it. So L = 1/4 · 0.5 + 1/4 · 1. U is the whole sky, as nothing but what is hit is known of the wall, and the
+/// part of the wall that the floor sees: 0.5 + 1/4 · 1.
+#[test]
+fn emitters_that_light_samples_do_not_find_are_light_without_shadow_too() {
+    let mut scene = floor(disc(dvec3(0.0, 1.0, 0.0), 1.0), &[]);
+    scene.background = Background::Color(Vec3::splat(0.5));
+    scene.materials.push(Material {
+        emission: Vec3::ONE,
+        ..matte(0.0)
+    });
+    scene.shapes.push(Shape {
+        geometry: Geometry::Placed {
+            canonical: CanonicalShape::Box,
+            world_from_canonical: DAffine3::from_translation(dvec3(-51.001, 0.0, 0.0))
+                * DAffine3::from_scale(dvec3(50.0, 1e4, 1e4)),
+        },
+        material: 2,
+        node: None,
+    });
+    let mut verdict = Verdict::on("a disc beside an emissive wall");
+    near(&mut verdict, "opacity", opacity(&scene, 256), 0.5, 0.005);
+    verdict.close();
+}
+
+/// Where a lamp does not shine, half of the samples have no light at all, and the shadow of another one has no noise.
+#[test]
+fn adaptive_sampling_takes_few_samples_of_an_umbra_beside_a_lamp_that_does_not_reach_it() {
+    let mut scene = floor(disc(dvec3(0.0, 2.0, 0.0), 0.5), &[dvec3(0.0, 4.0, 0.0)]);
+    scene.lights.push(Light {
+        kind: LightKind::Spot {
+            position: dvec3(50.0, 4.0, 0.0),
+            direction: DVec3::X,
+            inner: 0.1,
+            outer: 0.2,
+        },
+        color: Vec3::splat(3.0),
+        attenuation: Attenuation::InverseSquare,
+        ..Light::default()
+    });
+    let settings = RenderSettings {
+        antialias: Antialias::Adaptive,
+        samples: 256,
+        noise: 0.01,
+        ..behind(Backdrop::Transparent, 256)
+    };
+    let (image, stats) = render(&scene, &settings);
+    assert!(image.pixels.iter().all(|pixel| pixel[3] == 1.0));
+    assert_eq!(stats.samples, 16 * 16 * 16);
+}
+
 /// The colours of such a picture are black everywhere, and have no noise.
 #[test]
 fn adaptive_sampling_takes_more_samples_of_soft_shadows_on_catchers() {
