@@ -54,7 +54,7 @@ pub struct PackedView {
     pub has_lights: bool,
     /// Whether there is an area light.
     pub has_area_lights: bool,
-    /// One of the `BACKGROUND_` tags, such as [`BACKGROUND_COLOR`].
+    /// One of the `BACKGROUND_` tags, such as [`crate::layout::BACKGROUND_COLOR`].
     pub background: u32,
 }
 
