@@ -4941,7 +4941,8 @@ fn opacity__add_opacity(first_row: u32, weight: f32, radiance: vec3f) {
 	let nothing = opacity__clearness.nothing;
 	let unshadowed = opacity__clearness.unshadowed;
 	features__add_mean(row, vec3f(nothing, opacity__clearness.catchers, 0.0), weight);
-	let usual = (bindings__film[row + 1u].y + weight * unshadowed) / max_f32(bindings__film[row].y, 1e-30);
+	let catchers = bindings__film[row].y;
+	let usual = max_f32((bindings__film[row + 1u].y + weight * unshadowed) / select(catchers, 1e-30, catchers == 0.0), 0.0);
 	let light = opacity__clearness.light + min_f32(opacity__clearness.scattered, opacity__MOST_SCATTERED * usual * opacity__clearness.catchers);
 	features__add_mean(row + 1u, vec3f(light, unshadowed, 0.0), weight);
 	if (bindings__ADAPTIVE) {
