@@ -88,8 +88,8 @@ fn traced(batch: dispatch__Batch, before: path__Path, hit: tracing__Hit) -> path
 		met = dispersion__dispersed(met, path.channel);
 	}
 	let layers = layers__layers_at(surface, optics);
-	let sender = light_weight__Sender(path.origin, path.normal, shadow_catcher__density_for_lamps(path));
-	let weight = light_weight__emission_weight(batch, surface, contact.hit, sender, ray.direction);
+	let start = light_weight__Sender(path.origin, path.normal, shadow_catcher__density_for_lamps(path));
+	let weight = light_weight__emission_weight(batch, surface, contact.hit, start, ray.direction);
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
 	let emission = coat * emitters__emitted(surface, optics, layers.glow);
 	let found = path.throughput * (weight * emission);
@@ -1816,12 +1816,15 @@ fn opacity__add_opacity(first_row: u32, weight: f32, radiance: vec3f) {
 	features__add_mean(row, vec3f(nothing, opacity__clearness.catchers, 0.0), weight);
 	let catchers = bindings__film[row].y;
 	let usual = max_f32((bindings__film[row + 1u].y + weight * unshadowed) / select(catchers, 1e-30, catchers == 0.0), 0.0);
-	let light = opacity__clearness.light + min_f32(opacity__clearness.scattered, opacity__MOST_SCATTERED * usual * opacity__clearness.catchers);
+	let most = opacity__MOST_SCATTERED * usual * opacity__clearness.catchers;
+	let light = opacity__clearness.light + select(min_f32(opacity__clearness.scattered, most), opacity__clearness.scattered, usual == 0.0);
 	features__add_mean(row + 1u, vec3f(light, unshadowed, 0.0), weight);
 	if (bindings__ADAPTIVE) {
 		let luminance = dot(radiance, tone__LUMINANCE_REC709);
+		let seen = opacity__clearness.catchers;
+		let squares = vec3f(nothing * (nothing + 2.0 * luminance), seen * (luminance + nothing), seen * seen);
 		features__add_mean(row + 2u, vec3f(light * light, light * unshadowed, unshadowed * unshadowed), weight);
-		features__add_mean(row + 3u, vec3f(nothing * (nothing + 2.0 * luminance), 0.0, 0.0), weight);
+		features__add_mean(row + 3u, squares, weight);
 	}
 }
 
@@ -3483,6 +3486,8 @@ fn backdrop__missed(batch: dispatch__Batch, path: path__Path) -> path__Path {
 	return path__ended(path__gained(path, path.throughput * (weight * seen), path.bounces));
 }
 
+const environment__SUN_DENSITY: f32 = 1.0 / (2.0 * picture__PI * background__SUN_DEPTH);
+
 struct environment__EnvironmentSample {
 	direction: vec3f,
 	pdf: f32
@@ -3514,7 +3519,8 @@ fn environment__sample_environment(batch: dispatch__Batch, u: vec2f) -> environm
 	let pdf = environment__with_sun(batch, environment__density_at(batch, place.cell, direction), direction);
 	if (bindings__BACKGROUND == types__BACKGROUND_SKY) {
 		let to_sun = warp__turn_to(batch.sun, warp__cone_from_square(v, background__SUN_DEPTH));
-		return environment__EnvironmentSample(select(direction, to_sun, is_sun), select(pdf, environment__environment_pdf(batch, to_sun), is_sun));
+		let of_sun = max_f32(environment__environment_pdf(batch, to_sun), batch.sun_chance * environment__SUN_DENSITY);
+		return environment__EnvironmentSample(select(direction, to_sun, is_sun), select(pdf, of_sun, is_sun));
 	}
 	return environment__EnvironmentSample(direction, pdf);
 }
@@ -3528,7 +3534,7 @@ fn environment__environment_pdf(batch: dispatch__Batch, direction: vec3f) -> f32
 
 fn environment__with_sun(batch: dispatch__Batch, of_table: f32, direction: vec3f) -> f32 {
 	if (bindings__BACKGROUND == types__BACKGROUND_SKY) {
-		let of_sun = select(0.0, 1.0 / (2.0 * picture__PI * background__SUN_DEPTH), background__is_in_sun(batch, direction));
+		let of_sun = select(0.0, environment__SUN_DENSITY, background__is_in_sun(batch, direction));
 		return mix(of_table, of_sun, batch.sun_chance);
 	}
 	return of_table;
@@ -4642,9 +4648,10 @@ fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: s
 	let pdf = bsdf_diffuse__diffuse_eval(wi);
 	var unshadowed = environment__background_weight(batch, direction, pdf) * background__background(batch, direction);
 	if (bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) {
-		let light = emitters__sample_light(batch, surface.p, n, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
+		var light = emitters__sample_light(batch, surface.p, n, path__random_1d(path, dimensions__LIGHT_CHOICE), path__random_2d(path, dimensions__LIGHT_POINT_ON));
 		let value = bsdf_diffuse__diffuse_eval(vec3f(0.0, 0.0, dot(n, light.incident.direction)));
 		let is_shared = bindings__HAS_ENVIRONMENT && light.pdf > 0.0 && light.incident.distance >= camera__T_FAR;
+		light.pdf = select(0.0, light.pdf, is_shared);
 		let weight = select(1.0, mis__power_heuristic(light.pdf, value), is_shared);
 		let arriving = weight * value * light.incident.radiance;
 		if (any(arriving > vec3f(0.0))) {

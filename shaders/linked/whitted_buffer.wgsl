@@ -4943,12 +4943,15 @@ fn opacity__add_opacity(first_row: u32, weight: f32, radiance: vec3f) {
 	features__add_mean(row, vec3f(nothing, opacity__clearness.catchers, 0.0), weight);
 	let catchers = bindings__film[row].y;
 	let usual = max_f32((bindings__film[row + 1u].y + weight * unshadowed) / select(catchers, 1e-30, catchers == 0.0), 0.0);
-	let light = opacity__clearness.light + min_f32(opacity__clearness.scattered, opacity__MOST_SCATTERED * usual * opacity__clearness.catchers);
+	let most = opacity__MOST_SCATTERED * usual * opacity__clearness.catchers;
+	let light = opacity__clearness.light + select(min_f32(opacity__clearness.scattered, most), opacity__clearness.scattered, usual == 0.0);
 	features__add_mean(row + 1u, vec3f(light, unshadowed, 0.0), weight);
 	if (bindings__ADAPTIVE) {
 		let luminance = dot(radiance, tone__LUMINANCE_REC709);
+		let seen = opacity__clearness.catchers;
+		let squares = vec3f(nothing * (nothing + 2.0 * luminance), seen * (luminance + nothing), seen * seen);
 		features__add_mean(row + 2u, vec3f(light * light, light * unshadowed, unshadowed * unshadowed), weight);
-		features__add_mean(row + 3u, vec3f(nothing * (nothing + 2.0 * luminance), 0.0, 0.0), weight);
+		features__add_mean(row + 3u, squares, weight);
 	}
 }
 

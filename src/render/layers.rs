@@ -94,8 +94,9 @@ pub const OPACITY: Layer = Layer {
     kind: LayerKind::Mean,
 };
 
-/// The noise of opacity, which counts in adaptive sampling. The rows are: the squares and the product of the light on shadow
-/// catchers and of the same without shadows; what a white picture seen instead of nothing adds to the squares of luminance.
+/// The noise of opacity, which counts in adaptive sampling. The rows are: the square of the light on shadow catchers, its
+/// product with the same without shadows, and the square of that; what a white picture seen instead of nothing adds to the
+/// squares of luminance, then the product of both with the part of catchers, and the square of this.
 pub const OPACITY_SQUARES: Layer = Layer {
     name: "opacity squares",
     rows: 2,

@@ -31,7 +31,7 @@ pub fn opacity(weight: f64, rows: &[[f64; 4]]) -> f32 {
     if weight.abs() <= 0.5 {
         return 0.0;
     }
-    let lit = match unshadowed > 0.0 {
+    let lit = match unshadowed != 0.0 {
         true => (light / unshadowed).clamp(0.0, 1.0),
         false => 1.0,
     };

@@ -40,52 +40,55 @@ impl PixelStatistics {
     /// [`layers::OPACITY`] and [`layers::OPACITY_SQUARES`], or none if the film has no opacity.
     fn mean_and_error(&self, opacity: &[[f64; 4]]) -> (f64, f64) {
         let behind = match opacity {
-            [seen, light, squares, white] => Behind::new(
-                [seen, light, squares, white].map(|row| row.map(|sum| sum * self.scale())),
-            ),
+            [seen, light, of_light, of_white] => {
+                let rows = [seen, light, of_light, of_white];
+                Behind::new(rows.map(|row| row.map(|sum| sum * self.scale())))
+            }
             _ => Behind::default(),
         };
         let count = f64::from(self.count);
-        let direct = luminance(self.sum) * self.scale() + behind.nothing;
-        let squares = self.squares / count + behind.nothing_squares;
-        let variance = (squares - direct.max(0.0).powi(2)).max(0.0) + behind.catcher_variance;
-        let mean = (direct + behind.catcher).max(0.0);
-        (mean, (variance / (count - 1.0).max(1.0)).sqrt())
+        let rest = (count - 1.0).max(1.0);
+        let mean = (luminance(self.sum) * self.scale() + behind.white).max(0.0);
+        let squares = self.squares / count + behind.squares;
+        let of_samples = (squares - mean * mean).max(0.0) / rest;
+        let of_light = ((behind.variance / rest).sqrt() - behind.excess).max(0.0);
+        (mean, (of_samples + of_light * of_light).sqrt())
     }
 }
 
-/// What a white picture behind adds to the luminance of a pixel.
+/// What a white picture behind adds to a pixel.
 #[derive(Default)]
 struct Behind {
-    /// Where nothing is in front, and what that adds to the mean of the squares.
-    nothing: f64,
-    nothing_squares: f64,
-    /// Through shadow catchers, and the variance of a sample of that: a ratio of means, of which the variance is that of its
-    /// linearisation.
-    catcher: f64,
-    catcher_variance: f64,
+    /// To the luminance, and to the mean of its squares, with the final ratio of the light on catchers.
+    white: f64,
+    squares: f64,
+    /// The variance of what a sample adds by its own light on a catcher: a ratio of means has that of its linearisation.
+    variance: f64,
+    /// How far it is beyond the end of opacity at 0.
+    excess: f64,
 }
 
 impl Behind {
     /// From the means of the four rows.
-    fn new([seen, light, squares, white]: [[f64; 4]; 4]) -> Self {
-        let ([nothing, seen, ..], [light, unshadowed, ..]) = (seen, light);
-        let [light_squares, products, unshadowed_squares, _] = squares;
-        let (ratio, variance) = match unshadowed > 0.0 && light < unshadowed {
+    fn new([seen, light, of_light, of_white]: [[f64; 4]; 4]) -> Self {
+        let ([nothing, catchers, ..], [light, unshadowed, ..]) = (seen, light);
+        let [light_squares, products, unshadowed_squares, _] = of_light;
+        let [alone, mixed, catcher_squares, _] = of_white;
+        let (whole, variance) = match unshadowed > 0.0 {
             true => {
-                let ratio = light / unshadowed;
-                let rest =
-                    light_squares - 2.0 * ratio * products + ratio * ratio * unshadowed_squares;
-                (ratio, rest.max(0.0) / (unshadowed * unshadowed))
+                let whole = light / unshadowed;
+                let r = whole.min(1.0);
+                let rest = light_squares - 2.0 * r * products + r * r * unshadowed_squares;
+                (whole, rest.max(0.0) * (catchers / unshadowed).powi(2))
             }
-            // Opacity ends at 0.
             false => (1.0, 0.0),
         };
+        let ratio = whole.min(1.0);
         Self {
-            nothing,
-            nothing_squares: white[0],
-            catcher: seen * ratio,
-            catcher_variance: seen * seen * variance,
+            white: nothing + ratio * catchers,
+            squares: alone + ratio * (2.0 * mixed + ratio * catcher_squares),
+            variance,
+            excess: (whole - ratio) * catchers,
         }
     }
 }

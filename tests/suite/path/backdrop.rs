@@ -351,6 +351,51 @@ fn adaptive_sampling_takes_few_samples_of_an_umbra_beside_a_lamp_that_does_not_r
     assert_eq!(stats.samples, 16 * 16 * 16);
 }
 
+/// A lit floor and what lies beyond its horizon are equally clear. At the edges of a black ball what is seen of a white
+/// picture differs from sample to sample, though no colour does.
+#[test]
+fn adaptive_sampling_takes_more_samples_of_edges_before_a_catcher_and_few_of_its_horizon() {
+    let mut scene = floor(None, &[]);
+    scene.background = Background::Color(Vec3::splat(0.5));
+    scene.cameras = vec![looking(dvec3(0.0, 2.0, 8.0), DVec3::Y, 0.8)];
+    let of = |scene: &Scene, antialias, samples, features| {
+        let settings = RenderSettings {
+            antialias,
+            samples,
+            noise: 0.01,
+            features,
+            backdrop: Backdrop::Transparent,
+            ..paths(samples, (32, 32), 4)
+        };
+        render(scene, &settings)
+    };
+    let (image, stats) = of(&scene, Antialias::Adaptive, 256, false);
+    assert!(image.pixels.iter().all(|pixel| pixel[3] == 0.0));
+    assert_eq!(stats.samples, 16 * 32 * 32);
+
+    scene.shapes.push(Shape {
+        geometry: Geometry::Sphere {
+            center: dvec3(0.0, 2.0, 0.0),
+            radius: 1.5,
+        },
+        material: 1,
+        node: None,
+    });
+    let (truth, _) = of(&scene, Antialias::Stratified, 4096, false);
+    let (found, stats) = of(&scene, Antialias::Adaptive, 1024, false);
+    let pixels = found.pixels.iter().zip(&truth.pixels);
+    let edges = pixels.filter(|(_, truth)| truth[3] > 0.2 && truth[3] < 0.8);
+    let squares: Vec<_> = edges
+        .map(|(own, truth)| f64::from(own[3] - truth[3]).powi(2))
+        .collect();
+    assert!(squares.len() > 20, "{} edges", squares.len());
+    let error = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+    // Half a white picture is as bright as the threshold more or less if 0.026 more or less of it is seen.
+    assert!(error < 0.02, "{error}, {} samples", stats.samples);
+    let (with_features, others) = of(&scene, Antialias::Adaptive, 1024, true);
+    assert_eq!((with_features, others.samples), (found, stats.samples));
+}
+
 /// The colours of such a picture are black everywhere, and have no noise.
 #[test]
 fn adaptive_sampling_takes_more_samples_of_soft_shadows_on_catchers() {
@@ -403,6 +448,8 @@ fn films_keep_opacity_however_they_are_cut() {
     };
     let mut scene = floor(Some(ball), &[above]);
     scene.cameras = vec![looking(dvec3(0.0, 4.0, 8.0), DVec3::ZERO, 0.6)];
+    // The ball scatters light onto the floor.
+    scene.materials[1] = matte(0.8);
     for features in [false, true] {
         let whole = RenderSettings {
             features,
