@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 use glimray::import::{self, Ground, Memory, Options, Staging};
-use glimray::scene::{Background, Camera, Geometry, LightTransport, Scene};
+use glimray::scene::{Background, Camera, Geometry, LightTransport, Scene, sky};
 
 /// A box with this minimum and maximum.
 fn cuboid(min: DVec3, max: DVec3) -> String {
@@ -124,16 +124,13 @@ fn a_model_for_path_tracing_stands_under_a_sky_with_a_sun() {
         };
         load(&model, &options)
     };
-    let sky = with(Staging::default(), Some(LightTransport::Path));
-    assert!(sky.lights.is_empty() && sky.staged && sky.shapes.len() == 1);
-    let Background::Picture { picture, .. } = sky.background else {
-        panic!("{:?}", sky.background);
+    let under_sky = with(Staging::default(), Some(LightTransport::Path));
+    assert!(under_sky.lights.is_empty() && under_sky.staged && under_sky.shapes.len() == 1);
+    let Background::Picture { picture, .. } = under_sky.background else {
+        panic!("{:?}", under_sky.background);
     };
-    let picture = &sky.pictures[picture];
-    let brightest = picture
-        .linear()
-        .fold(0.0, |most: f32, texel| most.max(texel.y));
-    assert!(brightest > 1000.0, "the sun is at most {brightest}");
+    let sun = sky::sun_of(&under_sky.pictures[picture]).expect("a sun");
+    assert!(sun.radiance.y > 1000.0, "{}", sun.radiance);
     // Without the sky, the lights of the classical integrator.
     let no_background = Staging {
         background: false,
