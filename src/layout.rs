@@ -251,8 +251,7 @@ packed! {
         slots: u32,
         /// Factor on the tilt of the clear coat's normal map.
         coat_normal_scale: f32,
-        /// 16-bit indices of the [`PackedTexture`]s of the first eight slots, the first of each pair in the lower
-        /// half.
+        /// 16-bit indices of the [`PackedTexture`]s of the first eight slots, the first of each pair in the lower half.
         textures: [u32; 4],
         /// The same for the other slots.
         more_textures: [u32; 4],
@@ -290,8 +289,7 @@ packed! {
         position: [f32; 3],
         /// [`LIGHT_POINT`], [`LIGHT_DIRECTIONAL`] and so on.
         kind: u32,
-        /// Directional and spot: the unit direction in which the light travels. Rectangle and disc: the
-        /// unit normal.
+        /// Directional and spot: the unit direction in which the light travels. Rectangle and disc: the unit normal.
         direction: [f32; 3],
         /// [`ATTENUATION_NONE`], always for directional lights, or [`ATTENUATION_INVERSE_SQUARE`].
         attenuation: u32,
@@ -446,8 +444,7 @@ packed! {
         /// Sky: the part of the light samples of the background that are of the sun.
         sun_chance: f32,
     }
-    /// The parameters of one dispatch: which workgroups of which film tile, which samples. `counters` is its
-    /// result.
+    /// The parameters of one dispatch: which workgroups of which film tile, which samples. `counters` is its result.
     PackedDispatch {
         /// Width of the picture in pixels.
         picture_width: u32,
@@ -502,8 +499,7 @@ packed! {
         nonfinite_samples: u32,
         /// Why paths were cut off: [`CUT_OFF_LOOP`] and [`CUT_OFF_STACK`], or 0 if none was.
         cut_off: u32,
-        /// Samples whose ray tree overflowed its stack, had too many rays, or a ray inside too many
-        /// dielectric volumes.
+        /// Samples whose ray tree overflowed its stack, had too many rays, or a ray inside too many dielectric volumes.
         cut_off_trees: u32,
         /// 256 times the sum of the throughputs of paths that the limit of bounces cut off.
         cut_throughput: u32,
@@ -541,8 +537,7 @@ packed! {
         curve: u32,
         /// [`TRANSFER_SRGB`] or [`TRANSFER_LINEAR`].
         transfer: u32,
-        /// Contents of the film: quantities for [`VIEW_DEPTH`] and [`VIEW_HEAT`], colours for everything
-        /// else.
+        /// Contents of the film: quantities for [`VIEW_DEPTH`] and [`VIEW_HEAT`], colours for everything else.
         view: u32,
         /// Smallest and largest value of the range in which a quantity is shown.
         range: [f32; 2],

@@ -359,7 +359,13 @@ fn black_pictures_and_other_integrators_have_no_table_and_no_trouble() {
 #[test]
 fn the_sun_of_the_sky_lights_surfaces_by_its_irradiance() {
     let mut verdict = Verdict::on("irradiance under the sky");
-    for (degrees, rotation) in [(5.0_f64, 0.0), (45.0, 2.5), (89.0, -1.0)] {
+    for (degrees, rotation) in [
+        (5.0_f64, 0.0),
+        (20.0, 1.0),
+        (45.0, 2.5),
+        (70.0, 4.0),
+        (89.0, -1.0),
+    ] {
         let (elevation, azimuth) = (degrees.to_radians(), -2.0);
         let picture = sky::picture(elevation, azimuth);
         let normal = sky::towards_sun(elevation, azimuth - rotation);
@@ -414,6 +420,11 @@ fn the_sun_of_the_sky_is_a_disc() {
             assert!((value / radiance - 1.0).abs() < 0.01, "{value}, {radiance}");
         }
     }
+    let (image, _) = render(&scene, &settings);
+    let [r, g, b, _] = image.pixel(SIDE / 2, SIDE / 2).expect("a pixel");
+    let of_sun = f64::from(STRENGTH) * sky::sun_irradiance(elevation) / sky::SUN_SOLID_ANGLE;
+    let ratio = dvec3(r.into(), g.into(), b.into()) / of_sun;
+    assert!((ratio - 1.0).abs().max_element() < 0.005, "{ratio}");
     let share = f64::from(inside) / f64::from(SIDE * SIDE);
     assert!((share / (PI / 16.0) - 1.0).abs() < 0.01, "{share}");
 }

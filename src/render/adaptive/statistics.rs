@@ -39,12 +39,9 @@ impl PixelStatistics {
     /// The mean luminance in front of a white picture, and its standard error. `opacity` are the rows of
     /// [`layers::OPACITY`] and [`layers::OPACITY_SQUARES`], or none if the film has no opacity.
     fn mean_and_error(&self, opacity: &[[f64; 4]]) -> (f64, f64) {
-        let behind = match opacity {
-            [seen, light, of_light, of_white] => {
-                let rows = [seen, light, of_light, of_white];
-                Behind::new(rows.map(|row| row.map(|sum| sum * self.scale())))
-            }
-            _ => Behind::default(),
+        let behind = match <[[f64; 4]; 4]>::try_from(opacity) {
+            Ok(rows) => Behind::new(rows.map(|row| row.map(|sum| sum * self.scale()))),
+            Err(_) => Behind::default(),
         };
         let count = f64::from(self.count);
         let rest = (count - 1.0).max(1.0);
@@ -74,20 +71,16 @@ impl Behind {
         let ([nothing, catchers, ..], [light, unshadowed, ..]) = (seen, light);
         let [light_squares, products, unshadowed_squares, _] = of_light;
         let [alone, mixed, catcher_squares, _] = of_white;
-        let (whole, variance) = match unshadowed > 0.0 {
-            true => {
-                let whole = light / unshadowed;
-                let r = whole.min(1.0);
-                let rest = light_squares - 2.0 * r * products + r * r * unshadowed_squares;
-                (whole, rest.max(0.0) * (catchers / unshadowed).powi(2))
-            }
+        let (whole, part) = match unshadowed > 0.0 {
+            true => (light / unshadowed, catchers / unshadowed),
             false => (1.0, 0.0),
         };
         let ratio = whole.min(1.0);
+        let rest = light_squares - 2.0 * ratio * products + ratio * ratio * unshadowed_squares;
         Self {
             white: nothing + ratio * catchers,
             squares: alone + ratio * (2.0 * mixed + ratio * catcher_squares),
-            variance,
+            variance: rest.max(0.0) * part.powi(2),
             excess: (whole - ratio) * catchers,
         }
     }

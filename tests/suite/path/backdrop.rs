@@ -31,6 +31,13 @@ fn mean_opacity(image: &Image) -> f64 {
     sum / image.pixels.len() as f64
 }
 
+/// The root mean square difference of the opacity of pairs of pixels.
+fn opacity_error<'a>(pairs: impl IntoIterator<Item = (&'a [f32; 4], &'a [f32; 4])>) -> f64 {
+    let squares = (pairs.into_iter()).map(|(a, b)| f64::from(a[3] - b[3]).powi(2));
+    let squares: Vec<_> = squares.collect();
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}
+
 fn middle(image: &Image) -> [f32; 4] {
     image.pixel(8, 8).expect("a pixel")
 }
@@ -385,11 +392,9 @@ fn adaptive_sampling_takes_more_samples_of_edges_before_a_catcher_and_few_of_its
     let (found, stats) = of(&scene, Antialias::Adaptive, 1024, false);
     let pixels = found.pixels.iter().zip(&truth.pixels);
     let edges = pixels.filter(|(_, truth)| truth[3] > 0.2 && truth[3] < 0.8);
-    let squares: Vec<_> = edges
-        .map(|(own, truth)| f64::from(own[3] - truth[3]).powi(2))
-        .collect();
-    assert!(squares.len() > 20, "{} edges", squares.len());
-    let error = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+    let edges: Vec<_> = edges.collect();
+    assert!(edges.len() > 20, "{} edges", edges.len());
+    let error = opacity_error(edges);
     // Half a white picture is as bright as the threshold more or less if 0.026 more or less of it is seen.
     assert!(error < 0.02, "{error}, {} samples", stats.samples);
     let (with_features, others) = of(&scene, Antialias::Adaptive, 1024, true);
@@ -423,11 +428,7 @@ fn adaptive_sampling_takes_more_samples_of_soft_shadows_on_catchers() {
     let (truth, _) = of(Antialias::Stratified, 4096);
     let (even, even_stats) = of(Antialias::Stratified, 64);
     let (adaptive, stats) = of(Antialias::Adaptive, 1024);
-    let error = |image: &Image| {
-        let pixels = image.pixels.iter().zip(&truth.pixels);
-        let squares = pixels.map(|(own, truth)| f64::from(own[3] - truth[3]).powi(2));
-        (squares.sum::<f64>() / truth.pixels.len() as f64).sqrt()
-    };
+    let error = |image: &Image| opacity_error(image.pixels.iter().zip(&truth.pixels));
     assert!(stats.samples > 17 * 48 * 48, "{} samples", stats.samples);
     assert!(
         stats.samples <= even_stats.samples && error(&adaptive) < error(&even),
