@@ -458,9 +458,7 @@ packed! {
         tile_width: u32,
         /// Height of the film tile in pixels.
         tile_height: u32,
-        /// Workgroups in a row of the film tile; each has 8x8 pixels.
-        group_columns: u32,
-        /// Workgroups in the film tile, at most 65,536.
+        /// Workgroups of 8x8 pixels in the film tile, at most 65,536.
         group_count: u32,
         /// Step from one workgroup's pixels to the next one's, modulo `group_count` and coprime to it.
         group_stride: u32,
@@ -476,6 +474,8 @@ packed! {
         end_sample: u32,
         /// Seed of the random numbers.
         seed: u32,
+        /// Samples of each pixel in the sequences that all pixels share, a power of two; 0 if each has its own.
+        shared_samples: u32,
         /// Bounces after the first hit.
         max_depth: u32,
         /// Linear radiance that paths from the camera see where there is nothing; see [`BACKDROP_COLOR`].

@@ -80,6 +80,7 @@ struct dispatch__Batch {
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
+	shared_samples: u32,
 	camera_media: vec4u,
 	emitter_count: u32,
 	emitter_power: f32,
@@ -99,7 +100,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 		albedo__albedo_first = bindings__frame.albedo_first;
 	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group, bindings__frame.sun, bindings__frame.sun_chance);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__dispatch.shared_samples, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group, bindings__frame.sun, bindings__frame.sun_chance);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> tracing__Ray {
@@ -483,7 +484,6 @@ struct types__PackedDispatch {
 	tile_y: u32,
 	tile_width: u32,
 	tile_height: u32,
-	group_columns: u32,
 	group_count: u32,
 	group_stride: u32,
 	first_group: u32,
@@ -492,6 +492,7 @@ struct types__PackedDispatch {
 	first_sample: u32,
 	end_sample: u32,
 	seed: u32,
+	shared_samples: u32,
 	max_depth: u32,
 	backdrop: vec3f,
 	min_throughput: f32,
@@ -851,7 +852,7 @@ fn block__load_block(group: vec3u) -> block__Block {
 	let index = bindings__dispatch.first_group + bindings__dispatch.blocks * workgroup;
 	let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
 	let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
-	let columns = bindings__dispatch.group_columns;
+	let columns = (bindings__dispatch.tile_width + tile__GROUP_SIDE - 1u) / tile__GROUP_SIDE;
 	return block__Block(index, min(index + bindings__dispatch.blocks, bindings__dispatch.end_group), tile + tile__group_corner(visited, columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group, tile, vec2u(columns, bindings__dispatch.group_count / columns), vec2u(bindings__dispatch.group_stride % columns, bindings__dispatch.group_stride / columns));
 }
 

@@ -36,7 +36,7 @@ fn block__load_block(group: vec3u) -> block__Block {
 	let index = bindings__dispatch.first_group + bindings__dispatch.blocks * workgroup;
 	let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
 	let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
-	let columns = bindings__dispatch.group_columns;
+	let columns = (bindings__dispatch.tile_width + tile__GROUP_SIDE - 1u) / tile__GROUP_SIDE;
 	return block__Block(index, min(index + bindings__dispatch.blocks, bindings__dispatch.end_group), tile + tile__group_corner(visited, columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group, tile, vec2u(columns, bindings__dispatch.group_count / columns), vec2u(bindings__dispatch.group_stride % columns, bindings__dispatch.group_stride / columns));
 }
 
@@ -113,7 +113,6 @@ struct types__PackedDispatch {
 	tile_y: u32,
 	tile_width: u32,
 	tile_height: u32,
-	group_columns: u32,
 	group_count: u32,
 	group_stride: u32,
 	first_group: u32,
@@ -122,6 +121,7 @@ struct types__PackedDispatch {
 	first_sample: u32,
 	end_sample: u32,
 	seed: u32,
+	shared_samples: u32,
 	max_depth: u32,
 	backdrop: vec3f,
 	min_throughput: f32,

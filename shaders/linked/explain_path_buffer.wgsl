@@ -177,8 +177,6 @@ override bindings__FIXED_OFFSET: f32 = 0.0;
 
 override bindings__STRATIFIED: bool = false;
 
-override bindings__Z_ORDER: u32 = 0u;
-
 override bindings__COUNT_RAYS: bool = false;
 
 override bindings__COUNT_STEPS: bool = false;
@@ -749,7 +747,6 @@ struct types__PackedDispatch {
 	tile_y: u32,
 	tile_width: u32,
 	tile_height: u32,
-	group_columns: u32,
 	group_count: u32,
 	group_stride: u32,
 	first_group: u32,
@@ -758,6 +755,7 @@ struct types__PackedDispatch {
 	first_sample: u32,
 	end_sample: u32,
 	seed: u32,
+	shared_samples: u32,
 	max_depth: u32,
 	backdrop: vec3f,
 	min_throughput: f32,
@@ -1014,6 +1012,7 @@ struct dispatch__Batch {
 	min_throughput: f32,
 	light_samples: f32,
 	footprint: f32,
+	shared_samples: u32,
 	camera_media: vec4u,
 	emitter_count: u32,
 	emitter_power: f32,
@@ -1033,7 +1032,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 		albedo__albedo_first = bindings__frame.albedo_first;
 	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group, bindings__frame.sun, bindings__frame.sun_chance);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__dispatch.shared_samples, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group, bindings__frame.sun, bindings__frame.sun_chance);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> tracing__Ray {
@@ -1379,8 +1378,8 @@ const path__ALL_CHANNELS: u32 = 3u;
 
 fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, pixel: vec2u, sample: u32) -> path__Path {
 	var key = rng__hash(batch.seed);
-	var index = bindings__Z_ORDER * sampling__z_order(pixel) + sample;
-	if (bindings__Z_ORDER == 0u) {
+	var index = batch.shared_samples * sampling__z_order(pixel) + sample;
+	if (batch.shared_samples == 0u) {
 		key = rng__pixel_key(batch.seed, pixel);
 		index = sample;
 	}

@@ -223,8 +223,8 @@ fn compile(
     if is_new {
         let idle = PackedDispatch {
             group_count: 1,
-            group_columns: 1,
             grid_width: 1,
+            tile_width: 1,
             blocks: 1,
             ..Default::default()
         };

@@ -278,6 +278,7 @@ impl Renderer {
             end_group: groups,
             grid_width: groups,
             seed: settings.seed,
+            shared_samples: settings.shared_samples(),
             max_depth: settings.max_depth,
             backdrop: settings.backdrop_color(),
             min_throughput: settings.min_throughput,

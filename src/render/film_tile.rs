@@ -91,7 +91,7 @@ impl FilmTile {
         self.rows.count
     }
 
-    pub fn group_columns(&self) -> u32 {
+    fn group_columns(&self) -> u32 {
         self.width.div_ceil(GROUP_SIDE)
     }
 

@@ -4,7 +4,7 @@
 use super::{
     Integrator, effort, layers,
     policy::Stack,
-    settings::{BsdfModel, RayOffset, RenderSettings, TriangleTest},
+    settings::{BsdfModel, RayOffset, TriangleTest},
     task::Task,
 };
 use crate::{
@@ -18,10 +18,6 @@ use crate::{
     pack::{PackedScene, PackedView},
     scene::{Antialias, Backdrop, Filter},
 };
-
-/// The most samples of a pixel for which neighbouring pixels share their random numbers. With more of them noise is
-/// seldom seen, and with 64 a sequence lasts for 8192 × 8192 pixels.
-const MAX_Z_ORDER: u32 = 64;
 
 /// Whether there are more shapes than triangles.
 pub fn has_mostly_shapes(scene: &PackedScene) -> bool {
@@ -71,7 +67,6 @@ pub fn of(task: Task) -> Overrides {
         ("BRUTE_FORCE", flag(settings.brute_force)),
         ("FIXED_OFFSET", f64::from(fixed_offset)),
         ("STRATIFIED", flag(settings.antialias != Antialias::None)),
-        ("Z_ORDER", f64::from(z_order(settings))),
         ("COUNT_RAYS", flag(policy.count_rays)),
         ("COUNT_STEPS", flag(integrator.counts_steps)),
         (
@@ -286,13 +281,4 @@ fn common(view: &PackedView, of: fn(&PackedLight) -> u32) -> u32 {
 
 fn flag(on: bool) -> f64 {
     f64::from(u8::from(on))
-}
-
-/// The samples of a pixel, as the next power of two, if its neighbours and it share sequences of random numbers;
-/// otherwise 0.
-fn z_order(settings: &RenderSettings) -> u32 {
-    match settings.samples.next_power_of_two() {
-        samples if samples <= MAX_Z_ORDER && !settings.is_adaptive() => samples,
-        _ => 0,
-    }
 }

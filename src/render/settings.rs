@@ -7,6 +7,10 @@ use std::{fmt, ops::Range, str::FromStr};
 /// The default minimum throughput of rays: half of the smallest 8-bit step.
 pub const MIN_THROUGHPUT: f32 = 1.0 / 512.0;
 
+/// The most samples of a pixel for which pixels share their random numbers. With more of them noise is seldom seen, and
+/// with 64 a sequence lasts for 8192 × 8192 pixels.
+const MAX_SHARED_SAMPLES: u32 = 64;
+
 /// Settings of one picture. Together with scene and frame they determine every pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderSettings {
@@ -142,6 +146,15 @@ impl RenderSettings {
         match self.antialias {
             Antialias::None => 1.0,
             Antialias::Stratified | Antialias::Adaptive => (self.samples as f32).sqrt().recip(),
+        }
+    }
+
+    /// The samples of each pixel in the sequences that all pixels share, as the next power of two; 0 if each pixel has its
+    /// own sequences.
+    pub(super) fn shared_samples(&self) -> u32 {
+        match self.samples.next_power_of_two() {
+            samples if samples <= MAX_SHARED_SAMPLES && !self.is_adaptive() => samples,
+            _ => 0,
         }
     }
 
