@@ -6,9 +6,25 @@ use std::{borrow::Cow, collections::VecDeque};
 /// Maximum number of cached pipelines of a device: each may be a megabyte of machine code.
 const MAX_PIPELINES: usize = 64;
 
-/// Pipelines by their key, the newest first.
+/// Pipelines by their key, the last used first.
 #[derive(Default)]
 pub(super) struct Pipelines(VecDeque<(PipelineKey, wgpu::ComputePipeline)>);
+
+impl Pipelines {
+    /// The pipeline with this key, which becomes the last used.
+    fn get(&mut self, key: &PipelineKey) -> Option<wgpu::ComputePipeline> {
+        let place = self.0.iter().position(|(known, _)| known == key)?;
+        let (key, pipeline) = self.0.remove(place)?;
+        self.0.push_front((key, pipeline.clone()));
+        Some(pipeline)
+    }
+
+    /// Adds a pipeline, and drops the one that was not used for longest if there are too many.
+    fn add(&mut self, key: PipelineKey, pipeline: wgpu::ComputePipeline) {
+        self.0.truncate(MAX_PIPELINES - 1);
+        self.0.push_front((key, pipeline));
+    }
+}
 
 /// The key of a pipeline. It does not include the bind group layouts, which follow from the kernel and its
 /// variant.
@@ -132,11 +148,13 @@ impl Gpu {
             variant,
             overrides,
         };
-        let known = |Pipelines(kept): &Pipelines| {
-            let found = kept.iter().find(|(of, _)| *of == wanted);
-            found.map(|(_, pipeline)| pipeline.clone())
-        };
-        if let Some(pipeline) = self.pipelines.lock().ok().and_then(|kept| known(&kept)) {
+        let kept = |pipelines: &mut Pipelines| pipelines.get(&wanted);
+        if let Some(pipeline) = self
+            .pipelines
+            .lock()
+            .ok()
+            .and_then(|mut all| kept(&mut all))
+        {
             let is_new = false;
             return Ok(Compiled { pipeline, is_new });
         }
@@ -145,8 +163,7 @@ impl Gpu {
         }
         let pipeline = self.compile(kernel, variant, groups, &wanted.overrides)?;
         if let Ok(mut kept) = self.pipelines.lock() {
-            kept.0.truncate(MAX_PIPELINES - 1);
-            kept.0.push_front((wanted, pipeline.clone()));
+            kept.add(wanted, pipeline.clone());
         }
         let is_new = true;
         Ok(Compiled { pipeline, is_new })
