@@ -1,6 +1,7 @@
 //! A window without a screen: egui_kittest with our device.
 
 use crate::support::PATIENCE;
+use crate::support::devices::Devices;
 use eframe::egui;
 use egui_kittest::Harness;
 use glimray::cli::view;
@@ -20,6 +21,12 @@ use std::rc::Rc;
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
+
+/// The device of all windows of a thread.
+fn open_gpu() -> Gpu {
+    static DEVICES: Devices = Devices::new(|| Gpu::with_all_limits(&AdapterChoice::default()));
+    DEVICES.lease()
+}
 
 /// An open window.
 pub struct Window {
@@ -50,7 +57,7 @@ impl Window {
         let request = view::request(arguments.iter().copied()).expect("a command line");
         let session = Session::new(request, store).expect("a session");
         let session = Rc::new(RefCell::new(session));
-        let gpu = Gpu::with_all_limits(&AdapterChoice::default()).expect("an adapter");
+        let gpu = open_gpu();
         let (kept, theirs) = (session.clone(), gpu.clone());
         let harness = Harness::builder()
             .with_size(egui::vec2(1000.0, 700.0))
