@@ -257,6 +257,46 @@ fn light_of_a_wall_fills_the_shadow_on_a_catcher() {
     verdict.close();
 }
 
+/// A distant ball as a lamp, which a disc hides, shines back from a mirror beside the shadow. Paths meet it there with the
+/// chance p of a direction within the ball, and find 1/p times the light without shadow. Of that they count eight times, so
+/// that 8 p of the shadow is filled, and not all of it.
+#[test]
+fn a_lamp_that_paths_seldom_meet_in_a_mirror_makes_no_hole_in_a_shadow() {
+    let mut verdict = Verdict::on("a mirror beside a shadow");
+    for (tangent, half_angle) in [(1.0_f64, 0.05_f64), (0.5, 0.1)] {
+        let mut scene = floor(disc(dvec3(2.0 * tangent, 2.0, 0.0), 1.0), &[]);
+        let toward = dvec3(tangent, 1.0, 0.0).normalize();
+        let distance = 1e3;
+        scene.lights = vec![Light {
+            kind: LightKind::Sphere {
+                center: distance * toward,
+                radius: distance * half_angle.sin(),
+            },
+            color: Vec3::splat(1e6),
+            attenuation: Attenuation::InverseSquare,
+            visible: true,
+            ..Light::default()
+        }];
+        scene.materials.push(Material {
+            reflect: Vec3::ONE,
+            ..matte(0.0)
+        });
+        scene.shapes.push(Shape {
+            geometry: Geometry::Plane {
+                point: DVec3::NEG_X,
+                normal: DVec3::X,
+            },
+            material: 2,
+            node: None,
+        });
+        let chance = half_angle.sin().powi(2) * toward.y;
+        let name = format!("a slope of {tangent} and a lamp of {half_angle}");
+        let expected = 1.0 - 8.0 * chance;
+        near(&mut verdict, name, opacity(&scene, 512), expected, 0.006);
+    }
+    verdict.close();
+}
+
 /// Light of an even sky reaches a floor through a large pane of thick glass, less what its faces reflect between them:
 /// of each direction (1 − F)/(1 + F).
 #[test]

@@ -14,7 +14,7 @@ use glimray::render::{
     StepOutcome, Tone, TracedRay,
 };
 use glimray::scene::{
-    Attenuation, Background, Coverage, Filter, Light, LightKind, Material, Scene, sky,
+    Attenuation, Backdrop, Background, Coverage, Filter, Light, LightKind, Material, Scene, sky,
 };
 use std::f64::consts::PI;
 use std::path::PathBuf;
@@ -68,6 +68,25 @@ fn behind_holes() -> Scene {
     scene
 }
 
+/// A ball of glass and a mirror on a floor that only shows shadows, under a lamp and an even sky.
+fn on_a_catcher() -> Scene {
+    let mut scene = lit_floor(matte(0.7), lamp(true));
+    scene.background = Background::Color(Vec3::splat(0.2));
+    scene.materials[0].shadow_catcher = true;
+    scene.cameras = vec![looking(dvec3(0.1, 2.0, 2.0), DVec3::ZERO, 0.8)];
+    for (x, reflect, transmit) in [(-0.4, 0.9, 0.0), (0.4, 0.0, 1.0)] {
+        let material = scene.add_material(Material {
+            reflect: Vec3::splat(reflect),
+            transmit: Vec3::splat(transmit),
+            opacity: 1.0 - transmit,
+            ior: 1.5,
+            ..matte(0.3)
+        });
+        scene.add_sphere(dvec3(x, 0.3, 0.0), 0.3, material);
+    }
+    scene
+}
+
 /// A rectangle of 0.8 by 0.6 above the floor.
 fn lamp(visible: bool) -> Light {
     Light {
@@ -93,8 +112,8 @@ fn explained(scene: &Scene, settings: &RenderSettings, count: usize) -> (Vec<Ray
         .map(|&place| (place, 0..renderer.samples_at(place)))
         .collect();
     let values = places.iter().map(|&[x, y]| {
-        let [r, g, b, _] = image.pixel(x, y).expect("a pixel");
-        vec3(r, g, b)
+        let [r, g, b, opacity] = image.pixel(x, y).expect("a pixel");
+        opacity * vec3(r, g, b)
     });
     let values = values.collect();
     (renderer.explain_pixels(&wanted).expect("paths"), values)
@@ -173,13 +192,24 @@ fn check_step(ray: &TracedRay, step: &PathStep, bounces: u32) -> Result<(), Stri
     Ok(())
 }
 
-/// Checks the numbers of a path against each other.
-fn check_path(sample: &SampleTree) -> Result<(), String> {
+/// Checks the numbers of a path against each other. A shadow catcher that the camera sees, in no mirror, adds nothing to the
+/// colour, and neither does what the path finds from there on.
+fn check_path(sample: &SampleTree, scene: &Scene) -> Result<(), String> {
+    let is_catcher = |ray: &TracedRay| {
+        let material = ray.hit.as_ref().and_then(|hit| hit.material);
+        material.is_some_and(|material| scene.materials[material].shadow_catcher)
+    };
     let mut last: Option<&PathStep> = None;
     let mut bounces = 0;
+    let mut is_caught = false;
     for ray in &sample.rays {
-        if !alike(ray.contribution, stated(ray), 1e-4) {
-            return Err(format!("adds {:?}, not {}", ray.contribution, stated(ray)));
+        let expected = match is_caught {
+            true => DVec3::ZERO,
+            false => stated(ray),
+        };
+        is_caught |= bounces == 0 && is_catcher(ray);
+        if !alike(ray.contribution, expected, 1e-4) {
+            return Err(format!("adds {:?}, not {expected}", ray.contribution));
         }
         if let Some(sharing) = ray.sharing.as_ref().filter(|sharing| !is_fair(sharing)) {
             return Err(format!("unfair {sharing:?}"));
@@ -283,6 +313,15 @@ fn contributions_of_paths_add_up_to_the_pixels() {
         ),
         ("adaptive", asset("cornell_box.toml"), adaptive, "Diffuse"),
         (
+            "catcher",
+            on_a_catcher(),
+            RenderSettings {
+                backdrop: Backdrop::Transparent,
+                ..paths(8, (48, 36), 8)
+            },
+            "Light sample Refraction Reflection",
+        ),
+        (
             "flower",
             asset("flower.glb"),
             paths(2, (30, 40), 8),
@@ -295,7 +334,7 @@ fn contributions_of_paths_add_up_to_the_pixels() {
         for (tree, value) in trees.iter().zip(&values) {
             let shapes = tree.samples.iter().map(check_shape);
             let of_path = |sample| match settings.clamp_indirect {
-                None => check_path(sample),
+                None => check_path(sample, &scene),
                 Some(_) => Ok(()),
             };
             let numbers = tree.samples.iter().map(of_path);
