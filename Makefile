@@ -33,7 +33,7 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
-	@echo 'make test      format, lints, documentation, all tests (about 20 minutes the first time)'
+	@echo 'make test      format, lints, documentation, all tests (about 45 minutes the first time)'
 	@echo 'make farm-test render on a Slurm of its own, which it installs (Debian, as root), and compare the bytes'
 	@echo 'make bench     measure speed on built-in scenes'
 	@echo 'make peers     measure speed beside POV-Ray, Embree, Mitsuba and obvhs, which it installs'

@@ -8,6 +8,8 @@ use naga::{
 use std::{
     collections::{BTreeMap, BTreeSet},
     error::Error,
+    panic::resume_unwind,
+    thread,
 };
 
 /// Variants of kernels, and the features of `shaders` that they have.
@@ -65,24 +67,37 @@ fn indented_by_tabs(text: &str) -> String {
 
 /// Names of files for `shaders/linked`, and their text. A broken import is an error.
 pub fn kernels() -> Result<Vec<(String, String)>, Box<dyn Error>> {
-    let mut files = Vec::new();
-    for (kernel, module, own, variants) in KERNELS {
-        for (variant, features) in VARIANTS {
-            if !variants.contains(&variant) {
-                continue;
+    // wesl takes seconds for each, on one thread.
+    thread::scope(|scope| {
+        let mut threads = Vec::new();
+        for (kernel, module, own, variants) in KERNELS {
+            for (variant, features) in VARIANTS {
+                if variants.contains(&variant) {
+                    let name = format!("{kernel}_{variant}.wgsl");
+                    let text = scope.spawn(move || {
+                        linked(module, &[own, features].concat()).map_err(|error| error.to_string())
+                    });
+                    threads.push((name, text));
+                }
             }
-            let mut compiler = wesl::Wesl::new("shaders");
-            compiler.set_custom_mangler(ShortNames);
-            for feature in FEATURES {
-                let is_on = own.contains(&feature) || features.contains(&feature);
-                compiler.set_feature(feature, is_on);
-            }
-            let linked = compiler.compile(&format!("package::kernels::{module}").parse()?)?;
-            let text = with_extremes(indented_by_tabs(&linked.to_string()))?;
-            files.push((format!("{kernel}_{variant}.wgsl"), text));
         }
+        let texts = threads.into_iter().map(|(name, text)| {
+            let text = text.join().unwrap_or_else(|panic| resume_unwind(panic))?;
+            Ok((name, text))
+        });
+        texts.collect()
+    })
+}
+
+/// A module of `shaders/kernels` with these features and all that it imports.
+fn linked(module: &str, features: &[&str]) -> Result<String, Box<dyn Error>> {
+    let mut compiler = wesl::Wesl::new("shaders");
+    compiler.set_custom_mangler(ShortNames);
+    for feature in FEATURES {
+        compiler.set_feature(feature, features.contains(&feature));
     }
-    Ok(files)
+    let linked = compiler.compile(&format!("package::kernels::{module}").parse()?)?;
+    with_extremes(indented_by_tabs(&linked.to_string()))
 }
 
 /// Replaces the built-in functions of their names for one type. `EXTREMES_BY_SELECT` is an override of
