@@ -112,6 +112,8 @@ impl Window {
             glimray::viewer::state::answer::Answer::Nothing
         });
         self.settle();
+        // Without one there is no answer either.
+        self.shown();
         receiver.recv_timeout(PATIENCE).expect("the picture")
     }
 
