@@ -148,12 +148,8 @@ impl Gpu {
             variant,
             overrides,
         };
-        let kept = |pipelines: &mut Pipelines| pipelines.get(&wanted);
-        if let Some(pipeline) = self
-            .pipelines
-            .lock()
-            .ok()
-            .and_then(|mut all| kept(&mut all))
+        if let Ok(mut kept) = self.pipelines.lock()
+            && let Some(pipeline) = kept.get(&wanted)
         {
             let is_new = false;
             return Ok(Compiled { pipeline, is_new });

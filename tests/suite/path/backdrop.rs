@@ -3,6 +3,7 @@
 use super::{ball_in, looking, matte, near, paths};
 use crate::film::{bytes, film};
 use crate::reference::compare::{open_gpu, render};
+use crate::reference::scenes::Build;
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, Vec3, dvec3};
 use glimray::image::Image;
@@ -45,14 +46,8 @@ fn middle(image: &Image) -> [f32; 4] {
 /// A surface across the view, before a background of 1.
 fn pane(material: Material) -> Scene {
     let mut scene = ball_in(1.0, material);
-    scene.shapes = vec![Shape {
-        geometry: Geometry::Plane {
-            point: DVec3::ZERO,
-            normal: DVec3::Z,
-        },
-        material: 0,
-        node: None,
-    }];
+    scene.shapes.clear();
+    scene.add_plane(DVec3::ZERO, DVec3::Z, 0);
     scene
 }
 
@@ -241,15 +236,8 @@ fn light_of_a_wall_fills_the_shadow_on_a_catcher() {
             attenuation: Attenuation::None,
             ..Light::default()
         }];
-        scene.materials.push(matte(albedo));
-        scene.shapes.push(Shape {
-            geometry: Geometry::Plane {
-                point: DVec3::NEG_X,
-                normal: DVec3::X,
-            },
-            material: 2,
-            node: None,
-        });
+        let wall = scene.add_material(matte(albedo));
+        scene.add_plane(DVec3::NEG_X, DVec3::X, wall);
         let filled = (f64::from(albedo) * tangent / 2.0).min(1.0);
         let name = format!("a wall of {albedo} and a slope of {tangent}");
         near(&mut verdict, name, opacity(&scene, 128), 1.0 - filled, 0.01);
@@ -277,18 +265,11 @@ fn a_lamp_that_paths_seldom_meet_in_a_mirror_makes_no_hole_in_a_shadow() {
             visible: true,
             ..Light::default()
         }];
-        scene.materials.push(Material {
+        let wall = scene.add_material(Material {
             reflect: Vec3::ONE,
             ..matte(0.0)
         });
-        scene.shapes.push(Shape {
-            geometry: Geometry::Plane {
-                point: DVec3::NEG_X,
-                normal: DVec3::X,
-            },
-            material: 2,
-            node: None,
-        });
+        scene.add_plane(DVec3::NEG_X, DVec3::X, wall);
         let chance = half_angle.sin().powi(2) * toward.y;
         let name = format!("a slope of {tangent} and a lamp of {half_angle}");
         let expected = 1.0 - 8.0 * chance;
@@ -420,14 +401,7 @@ fn adaptive_sampling_takes_more_samples_of_edges_before_a_catcher_and_few_of_its
     assert!(image.pixels.iter().all(|pixel| pixel[3] == 0.0));
     assert_eq!(stats.samples, 16 * 32 * 32);
 
-    scene.shapes.push(Shape {
-        geometry: Geometry::Sphere {
-            center: dvec3(0.0, 2.0, 0.0),
-            radius: 1.5,
-        },
-        material: 1,
-        node: None,
-    });
+    scene.add_sphere(dvec3(0.0, 2.0, 0.0), 1.5, 1);
     let (truth, _) = of(&scene, Antialias::Stratified, 4096, false);
     let (found, stats) = of(&scene, Antialias::Adaptive, 1024, false);
     let pixels = found.pixels.iter().zip(&truth.pixels);
