@@ -13,7 +13,9 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 use x11rb::connection::Connection;
-use x11rb::protocol::xproto::{ConnectionExt as _, ImageFormat};
+use x11rb::protocol::xproto::{
+    AutoRepeatMode, ChangeKeyboardControlAux, ConnectionExt as _, ImageFormat,
+};
 
 const SCREEN: (u16, u16) = (1300, 820);
 
@@ -59,6 +61,15 @@ impl Desktop {
                 .ends_with('\n')
                 .then(|| format!(":{}", number.trim()))
         });
+        // A key that a busy machine releases late must not be typed twice.
+        let (connection, _) =
+            x11rb::rust_connection::RustConnection::connect(Some(&display)).expect("the X server");
+        let once = ChangeKeyboardControlAux::new().auto_repeat_mode(AutoRepeatMode::OFF);
+        (connection
+            .change_keyboard_control(&once)
+            .expect("a request"))
+        .check()
+        .expect("keys that do not repeat");
         let program = Cell::new(server.id());
         Some(Self {
             server,
@@ -349,7 +360,12 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
     );
 
     let saved = settings.path().join("picture.png");
+    let without = desktop.screenshot(INSIDE);
     opened.key("F12");
+    // What is typed before it is drawn would be shortcuts.
+    wait_for("the dialog", || {
+        differ(&without, &desktop.screenshot(INSIDE)).then_some(())
+    });
     desktop.xdotool(&["key", "--delay", "50", "ctrl+a"]);
     desktop.xdotool(&["type", "--delay", "50", saved.to_str().expect("a name")]);
     opened.key("Return");
