@@ -21,12 +21,14 @@ const VARIANTS: [(&str, &[&str]); 3] = [
 
 /// Names of kernels, the modules in `shaders/kernels` they are made of, the features that all their variants
 /// have, and their variants.
-const KERNELS: [(&str, &str, &[&str], &[&str]); 9] = [
+const KERNELS: [(&str, &str, &[&str], &[&str]); 11] = [
     ("whitted", "whitted", &[], &["image", "buffer", "packet"]),
     ("path_trace", "path_trace", &[], &["image", "buffer"]),
     ("debug_view", "debug_view", &[], &["image", "buffer"]),
     ("develop", "develop", &[], &["buffer"]),
     ("show", "show", &[], &["buffer"]),
+    ("film_features", "film_features", &[], &["buffer"]),
+    ("demodulate", "demodulate", &[], &["buffer"]),
     ("denoise", "denoise", &[], &["buffer"]),
     ("explain", "whitted", &["record"], &["image", "buffer"]),
     (

@@ -12,8 +12,6 @@ const LEAST_WEIGHT: f32 = 0.3;
 
 const LUMINANCE_SHARE: f32 = 0.001;
 
-const MOST_VARIANCE: f32 = 1e30;
-
 struct Guide {
 	normal: vec3f,
 	albedo: vec3f,
@@ -48,6 +46,9 @@ fn denoise(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 	else {
 		result = averaged(p, last, step);
 	}
+	if (bindings__MODULATES) {
+		result = vec4f(result.xyz * demodulation__divisor_at(p), 1.0);
+	}
 	if (all(own < size)) {
 		textureStore(bindings__denoised, p, result);
 	}
@@ -78,7 +79,7 @@ fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
 		}
 	}
 	let luminance = dot(own.xyz, tone__LUMINANCE_REC709);
-	let is_known = own.w <= MOST_VARIANCE;
+	let is_known = own.w <= demodulation__MOST_VARIANCE;
 	if (own.w < 0.0 || total < LEAST_WEIGHT) {
 		return vec4f(own.xyz, select(luminance * luminance, own.w, is_known));
 	}
@@ -150,9 +151,22 @@ var bindings__guides: texture_2d<u32>;
 @group(3) @binding(6)
 var bindings__denoised: texture_storage_2d<rgba32float, write>;
 
+@group(3) @binding(8)
+var bindings__albedos: texture_2d<f32>;
+
 override bindings__FIRST_PASS: bool = false;
 
+override bindings__MODULATES: bool = false;
+
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+
+const demodulation__LEAST_ALBEDO: f32 = 0.02;
+
+const demodulation__MOST_VARIANCE: f32 = 1e30;
+
+fn demodulation__divisor_at(p: vec2i) -> vec3f {
+	return clamp_vec3f(textureLoad(bindings__albedos, p, 0).xyz, vec3f(demodulation__LEAST_ALBEDO), vec3f(1.0));
+}
 
 override bindings__EXTREMES_BY_SELECT: bool = false;
 
@@ -176,4 +190,26 @@ fn clamp_f32(value: f32, low: f32, high: f32) -> f32 {
 
 fn saturate_f32(value: f32) -> f32 {
 	return clamp_f32(value, f32(0), f32(1));
+}
+
+fn min_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec3f(value: vec3f, low: vec3f, high: vec3f) -> vec3f {
+	return min_vec3f(max_vec3f(value, low), high);
+}
+
+fn saturate_vec3f(value: vec3f) -> vec3f {
+	return clamp_vec3f(value, vec3f(0), vec3f(1));
 }

@@ -5,9 +5,16 @@ fn show(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) la
 	let corner = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
 	if (work.inside) {
 		let sum = film__load_weighted_sum(work, tone);
-		let color = clamp_vec3f(quantity__shown(filter__weighted_mean(sum), tone), vec3f(0.0), vec3f(1.0));
-		let shown = vec4f(floor(color * 255.0 + 0.5) / 255.0, 1.0);
 		let position = work.pixel - corner;
+		var mean = vec3f(0.0);
+		if (bindings__SHOWS_DENOISED) {
+			mean = textureLoad(bindings__signal, position, 0).xyz;
+		}
+		else {
+			mean = filter__weighted_mean(sum);
+		}
+		let color = clamp_vec3f(quantity__shown(mean, tone), vec3f(0.0), vec3f(1.0));
+		let shown = vec4f(floor(color * 255.0 + 0.5) / 255.0, 1.0);
 		textureStore(bindings__screen, position, select(vec4f(0.0), shown, sum.w != 0.0));
 	}
 }
@@ -59,6 +66,11 @@ var<storage, read> bindings__tone: types__PackedTone;
 
 @group(3) @binding(2)
 var bindings__screen: texture_storage_2d<rgba8unorm, write>;
+
+@group(3) @binding(4)
+var bindings__signal: texture_2d<f32>;
+
+override bindings__SHOWS_DENOISED: bool = false;
 
 override bindings__VIEW: u32 = types__VIEW_NORMALS;
 
@@ -171,6 +183,11 @@ fn film__load_weighted_sum(work: block__Work, tone: types__PackedTone) -> vec4f 
 	return bindings__film[tone.film_rows * work.film_index];
 }
 
+fn filter__weighted_mean(sum: vec4f) -> vec3f {
+	let usable = abs(sum.w) > 0.5;
+	return select(vec3f(0.0), max_vec3f(sum.xyz / select(1.0, sum.w, usable), vec3f(0.0)), usable);
+}
+
 const quantity__FAR_LEVEL: f32 = 0.1;
 
 const quantity__LEAST_COVERAGE: f32 = 0.01;
@@ -254,11 +271,6 @@ fn colormap__heat(x: f32) -> vec3f {
 	let green = clamp_f32(s - 1.0, 0.0, 1.0) - clamp_f32(s - 3.0, 0.0, 1.0) + clamp_f32(s - 4.0, 0.0, 1.0);
 	let blue = clamp_f32(s, 0.0, 1.0) - clamp_f32(s - 1.0, 0.0, 1.0) + clamp_f32(s - 4.0, 0.0, 1.0);
 	return vec3f(red, green, blue);
-}
-
-fn filter__weighted_mean(sum: vec4f) -> vec3f {
-	let usable = abs(sum.w) > 0.5;
-	return select(vec3f(0.0), max_vec3f(sum.xyz / select(1.0, sum.w, usable), vec3f(0.0)), usable);
 }
 
 override bindings__EXTREMES_BY_SELECT: bool = false;

@@ -95,7 +95,11 @@ impl Kernel {
         DEVELOP "develop" Buffer "buffer";
         /// Develops the film to a texture for display.
         SHOW "show" Buffer "buffer";
-        /// Denoises a picture.
+        /// Writes what the denoiser needs from the film to textures.
+        FILM_FEATURES "film_features" Buffer "buffer";
+        /// Divides a picture by its albedo, for the denoiser.
+        DEMODULATE "demodulate" Buffer "buffer";
+        /// A pass of the denoiser's filter.
         DENOISE "denoise" Buffer "buffer";
         /// Traces the rays of a [`crate::render::RayQuery`].
         TRACE_RAYS "trace_rays" Image "image", Buffer "buffer", Packet "packet";

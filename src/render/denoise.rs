@@ -1,28 +1,26 @@
-//! Denoises pictures by their features: `kernels/denoise.wesl`.
+//! Denoises pictures by their features, on the device: `kernels/demodulate.wesl` and `kernels/denoise.wesl`.
 
 use super::{
-    Features, PixelFeatures, RenderError, develop::check_memory, layouts::group_at,
-    luminance::luminance, opacity::straight, pipelines,
+    Features, PixelFeatures, RenderError,
+    bindings::Buffers,
+    develop::check_memory,
+    layouts::{COLOR_FORMAT, GUIDE_FORMAT, Layouts, target},
+    opacity::straight,
+    overrides, pipelines,
+    settings::RenderSettings,
 };
 use crate::{
-    gpu::{Gpu, GpuError, Source, Timer},
+    gpu::{Gpu, GpuError, Kernel, Overrides, Source, Timer},
     image::Image,
     threads,
 };
 use bytemuck::{bytes_of, cast_slice};
-use wgpu::{BufferUsages, TextureFormat};
+use wgpu::{BindingResource::TextureView as View, BufferUsages, TextureView};
 
 /// The distances of pixels that the passes after the first average.
 const STRIDES: [u32; 5] = [1, 2, 4, 8, 16];
-/// The least albedo that a picture is divided by.
-const LEAST_ALBEDO: f32 = 0.02;
-/// The largest signal; its square is finite.
-const MOST: f32 = 1e15;
-/// Stands for the variance of a single sample; `MOST_VARIANCE` of the kernel is between it and the square of the largest
-/// signal.
+/// Stands for the variance of a single sample. `scene/demodulation.wesl` has the same.
 const UNKNOWN_VARIANCE: f32 = 1e31;
-const SIGNAL: TextureFormat = TextureFormat::Rgba32Float;
-const GUIDES: TextureFormat = TextureFormat::Rgba32Uint;
 const TEXEL_BYTES: u32 = 16;
 
 /// A denoised picture.
@@ -68,25 +66,25 @@ impl Image {
             .into());
         }
         let pixels = &features.pixels;
-        let signals = threads::collect(pixels.len(), |at| signal(self.pixels[at], &pixels[at]));
-        let guides = guides(features);
-        let (filtered, mut pass_seconds) = filter(gpu, (width, height), &signals, &guides)?;
+        let denoiser = Denoiser::new(gpu, width, height)?;
+        denoiser.write(gpu, self, pixels)?;
+        let (colors, mut pass_seconds) = denoiser.filter(gpu, Start::Picture)?;
         let clear = match pixels.iter().any(|pixel| pixel.transparency > 0.0) {
             true => {
                 let signals = threads::collect(pixels.len(), |at| clear(&pixels[at]));
-                let (clear, seconds) = filter(gpu, (width, height), &signals, &guides)?;
+                gpu.write_image(&denoiser.signal, 0, cast_slice(&signals))?;
+                let (clear, seconds) = denoiser.filter(gpu, Start::Signal)?;
                 pass_seconds = pass_seconds.zip(seconds).map(|(a, b)| a + b);
                 Some(clear)
             }
             false => None,
         };
         let color = |at: usize| {
-            let albedo = albedo(&pixels[at]);
-            let color = [0, 1, 2].map(|channel| filtered[at][channel] * albedo[channel]);
+            let [r, g, b, _] = colors[at];
             let opacity = (clear.as_ref()).map_or(self.pixels[at][3], |clear| {
                 1.0 - clear[at][0].clamp(0.0, 1.0)
             });
-            straight(color, opacity)
+            straight([r, g, b], opacity)
         };
         Ok(Denoised {
             image: Self {
@@ -99,33 +97,6 @@ impl Image {
     }
 }
 
-/// The albedo by which a pixel is divided.
-fn albedo(features: &PixelFeatures) -> [f32; 3] {
-    (features.albedo).map(|channel| match channel.is_nan() {
-        true => 1.0,
-        false => channel.clamp(LEAST_ALBEDO, 1.0),
-    })
-}
-
-/// A pixel divided by its albedo, and the variance of its luminance: negative if the pixel is not finite, and unknown
-/// if it has a single sample.
-fn signal([r, g, b, opacity]: [f32; 4], features: &PixelFeatures) -> [f32; 4] {
-    let albedo = albedo(features);
-    let [ar, ag, ab] = albedo;
-    let luminance = luminance(albedo.map(f64::from)) as f32;
-    let variance = features.variance / (luminance * luminance);
-    if ![r, g, b, variance].iter().all(|number| number.is_finite()) {
-        return [0.0, 0.0, 0.0, -1.0];
-    }
-    let [r, g, b] = [r * opacity / ar, g * opacity / ag, b * opacity / ab]
-        .map(|channel| channel.clamp(0.0, MOST));
-    let variance = match features.samples {
-        1.0 => UNKNOWN_VARIANCE,
-        _ => variance.clamp(0.0, MOST * MOST),
-    };
-    [r, g, b, variance]
-}
-
 /// The transparency of a pixel as a signal. Its variance is that of samples which are either opaque or not: the greatest
 /// that the mean allows, where samples of the light on a catcher are alike.
 fn clear(features: &PixelFeatures) -> [f32; 4] {
@@ -134,85 +105,174 @@ fn clear(features: &PixelFeatures) -> [f32; 4] {
     [clear, clear, clear, variance]
 }
 
-/// The guides of all pixels: normal, slope of the depth, albedo, and depth.
-fn guides(features: &Features) -> Vec<[u32; 4]> {
-    let (width, height) = (features.width as usize, features.height as usize);
-    let depth = |x: usize, y: usize| features.pixels[y * width + x].depth;
-    // The smaller difference to the neighbours on both sides, so that an edge on one of them does not count.
-    let slope = |own: f32, before: Option<f32>, after: Option<f32>| {
-        let apart = |other: Option<f32>| other.map_or(f32::INFINITY, |other| (other - own).abs());
-        let least = apart(before).min(apart(after));
-        if least.is_finite() { least } else { 0.0 }
-    };
-    let guide = |index: usize| {
-        let pixel = &features.pixels[index];
-        let (x, y) = (index % width, index / width);
-        let left = (x > 0).then(|| depth(x - 1, y));
-        let right = (x + 1 < width).then(|| depth(x + 1, y));
-        let above = (y > 0).then(|| depth(x, y - 1));
-        let below = (y + 1 < height).then(|| depth(x, y + 1));
-        let own = pixel.depth;
-        let slope = slope(own, left, right).max(slope(own, above, below));
-        let [x, y, z] = pixel.normal.map(snorm);
-        let [r, g, b] = pixel.albedo.map(unorm);
-        [
-            x | y << 16,
-            // The upper half of an f32.
-            z | slope.to_bits() & 0xffff_0000,
-            r | g << 8 | b << 16,
-            if own.is_finite() { own.to_bits() } else { 0 },
-        ]
-    };
-    threads::collect(features.pixels.len(), guide)
+/// What a filter starts with.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Start {
+    /// The picture with its features, which is also multiplied by the albedo in the end.
+    Picture,
+    /// A signal, with the guides of the picture that was filtered before.
+    Signal,
 }
 
-fn snorm(number: f32) -> u32 {
-    let level = (number.clamp(-1.0, 1.0) * 32767.0).round() as i16;
-    u32::from(level as u16)
+/// The textures of a picture that is denoised. Bindings are those of group 3 in `bindings.wesl`.
+pub struct Denoiser {
+    width: u32,
+    height: u32,
+    /// Radiance times opacity, and the variance of its mean luminance; every other signal while filtering.
+    noisy: TextureView,
+    albedos: TextureView,
+    /// Normal and depth.
+    surfaces: TextureView,
+    guides: TextureView,
+    /// The signal at first, and the result.
+    signal: TextureView,
 }
 
-fn unorm(number: f32) -> u32 {
-    (number.clamp(0.0, 1.0) * 255.0).round() as u32
-}
-
-/// Runs all passes. Returns the filtered signal, and the seconds of the passes if the adapter has timestamps.
-fn filter(
-    gpu: &Gpu,
-    (width, height): (u32, u32),
-    signal: &[[f32; 4]],
-    guides: &[[u32; 4]],
-) -> Result<(Vec<[f32; 4]>, Option<f64>), GpuError> {
-    let image = |format| gpu.allocate_screen(width, height, format);
-    let mut images = [image(SIGNAL)?, image(SIGNAL)?];
-    let guide_image = image(GUIDES)?;
-    gpu.write_image(&images[0], 0, cast_slice(signal))?;
-    gpu.write_image(&guide_image, 0, cast_slice(guides))?;
-    let layout = layout(gpu);
-    let timer = gpu.timer()?;
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    for (pass, stride) in [1].into_iter().chain(STRIDES).enumerate() {
-        let (is_first, is_last) = (pass == 0, pass == STRIDES.len());
-        let pipeline = pipelines::denoising(gpu, &layout, is_first)?;
-        let stride = gpu.upload("stride", bytes_of(&stride))?;
-        let [from, to] = &images;
-        let resources = [
-            (3, stride.as_entire_binding()),
-            (4, wgpu::BindingResource::TextureView(from)),
-            (5, wgpu::BindingResource::TextureView(&guide_image)),
-            (6, wgpu::BindingResource::TextureView(to)),
-        ];
-        let group = group_at(gpu, &layout, &resources);
-        let mut work = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some("denoise"),
-            timestamp_writes: timer.writes_of(is_first, is_last),
-        });
-        work.set_pipeline(&pipeline);
-        work.set_bind_group(3, &group, &[]);
-        work.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
-        drop(work);
-        images.swap(0, 1);
+impl Denoiser {
+    /// Sides are within the limit of the adapter.
+    pub fn new(gpu: &Gpu, width: u32, height: u32) -> Result<Self, GpuError> {
+        let texture = |format| gpu.allocate_screen(width, height, format);
+        Ok(Self {
+            width,
+            height,
+            noisy: texture(COLOR_FORMAT)?,
+            albedos: texture(COLOR_FORMAT)?,
+            surfaces: texture(COLOR_FORMAT)?,
+            guides: texture(GUIDE_FORMAT)?,
+            signal: texture(COLOR_FORMAT)?,
+        })
     }
-    read(gpu, encoder, &images[0], &timer)
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
+    /// The denoised picture.
+    pub fn result(&self) -> &TextureView {
+        &self.signal
+    }
+
+    /// Writes a picture and its features.
+    fn write(&self, gpu: &Gpu, image: &Image, pixels: &[PixelFeatures]) -> Result<(), GpuError> {
+        let write = |target, texel: &(dyn Fn(usize) -> [f32; 4] + Sync)| {
+            let texels = threads::collect(pixels.len(), texel);
+            gpu.write_image(target, 0, cast_slice(&texels))
+        };
+        write(&self.noisy, &|at| {
+            let ([r, g, b, opacity], features) = (image.pixels[at], &pixels[at]);
+            let variance = match features.samples {
+                1.0 => UNKNOWN_VARIANCE,
+                _ => features.variance,
+            };
+            [r * opacity, g * opacity, b * opacity, variance]
+        })?;
+        write(&self.albedos, &|at| {
+            let [r, g, b] = pixels[at]
+                .albedo
+                .map(|it| if it.is_nan() { 1.0 } else { it });
+            [r, g, b, 1.0]
+        })?;
+        let finite = |number: f32| if number.is_finite() { number } else { 0.0 };
+        write(&self.surfaces, &|at| {
+            let [x, y, z] = pixels[at].normal.map(finite);
+            [x, y, z, finite(pixels[at].depth)]
+        })
+    }
+
+    /// Adds the step that reads the film in the film buffer instead of a picture, for a grid of workgroups. The dispatch
+    /// parameters are those of its film tile.
+    pub fn read_film(
+        &self,
+        gpu: &Gpu,
+        (layouts, buffers): (&Layouts, &Buffers),
+        settings: &RenderSettings,
+        (columns, rows): (u32, u32),
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<(), GpuError> {
+        let resources = [
+            (11, View(&self.noisy)),
+            (12, View(&self.albedos)),
+            (13, View(&self.surfaces)),
+        ];
+        let (layout, group) = target(gpu, &resources);
+        let overrides = overrides::of_features(settings);
+        let pipeline =
+            pipelines::developing(gpu, layouts, Kernel::FILM_FEATURES, &layout, overrides)?;
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(1, &buffers.frame_group, &[]);
+        pass.set_bind_group(2, &buffers.film_group, &[]);
+        pass.set_bind_group(3, &group, &[]);
+        pass.dispatch_workgroups(columns, rows, 1);
+        Ok(())
+    }
+
+    /// Adds the steps from a picture to the result.
+    pub fn denoise(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) -> Result<(), GpuError> {
+        self.add_steps(gpu, Start::Picture, None, encoder)
+    }
+
+    fn add_steps(
+        &self,
+        gpu: &Gpu,
+        start: Start,
+        timer: Option<&Timer>,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<(), GpuError> {
+        let is_picture = start == Start::Picture;
+        let mut steps = Vec::new();
+        if is_picture {
+            let resources = [
+                (6, View(&self.signal)),
+                (7, View(&self.noisy)),
+                (8, View(&self.albedos)),
+                (9, View(&self.surfaces)),
+                (10, View(&self.guides)),
+            ];
+            let (layout, group) = target(gpu, &resources);
+            let pipeline =
+                pipelines::denoising(gpu, Kernel::DEMODULATE, &layout, Overrides::new())?;
+            steps.push((pipeline, group));
+        }
+        let (mut from, mut to) = (&self.signal, &self.noisy);
+        for (pass, stride) in [1].into_iter().chain(STRIDES).enumerate() {
+            let modulates = is_picture && pass == STRIDES.len();
+            let stride = gpu.upload("stride", bytes_of(&stride))?;
+            let resources = [
+                (3, stride.as_entire_binding()),
+                (4, View(from)),
+                (5, View(&self.guides)),
+                (6, View(to)),
+                (8, View(&self.albedos)),
+            ];
+            let (layout, group) = target(gpu, &resources[..4 + usize::from(modulates)]);
+            let overrides = overrides::of_filter(pass == 0, modulates);
+            let pipeline = pipelines::denoising(gpu, Kernel::DENOISE, &layout, overrides)?;
+            steps.push((pipeline, group));
+            (from, to) = (to, from);
+        }
+        let last = steps.len() - 1;
+        for (index, (pipeline, group)) in steps.iter().enumerate() {
+            let mut work = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("denoise"),
+                timestamp_writes: timer
+                    .and_then(|timer| timer.writes_of(index == 0, index == last)),
+            });
+            work.set_pipeline(pipeline);
+            work.set_bind_group(3, group, &[]);
+            work.dispatch_workgroups(self.width.div_ceil(8), self.height.div_ceil(8), 1);
+        }
+        Ok(())
+    }
+
+    /// Runs all steps. Returns the result, and the seconds of the passes if the adapter has timestamps.
+    fn filter(&self, gpu: &Gpu, start: Start) -> Result<(Vec<[f32; 4]>, Option<f64>), GpuError> {
+        let timer = gpu.timer()?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.add_steps(gpu, start, Some(&timer), &mut encoder)?;
+        read(gpu, encoder, &self.signal, &timer)
+    }
 }
 
 /// Submits the work and reads back a signal, and the time that was measured.
@@ -260,41 +320,4 @@ fn read(
         }
         (texels, seconds)
     })
-}
-
-/// The layout of bind group 3: stride, signal, guides, result.
-fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let texture = |sample_type| wgpu::BindingType::Texture {
-        sample_type,
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    };
-    let types = [
-        wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: true },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        texture(wgpu::TextureSampleType::Float { filterable: false }),
-        texture(wgpu::TextureSampleType::Uint),
-        wgpu::BindingType::StorageTexture {
-            access: wgpu::StorageTextureAccess::WriteOnly,
-            format: SIGNAL,
-            view_dimension: wgpu::TextureViewDimension::D2,
-        },
-    ];
-    let entries: Vec<_> = (3..)
-        .zip(types)
-        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
-            ty,
-            count: None,
-        })
-        .collect();
-    gpu.device
-        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("denoise"),
-            entries: &entries,
-        })
 }

@@ -5,7 +5,7 @@ use super::{
     bindings::Buffers,
     film_tile::{FilmTile, rectangles},
     layouts::{Layouts, group},
-    levels, pipelines,
+    levels, overrides, pipelines,
     slice::Slice,
     sums::PixelRows,
 };
@@ -121,7 +121,7 @@ impl Renderer {
         if let Some(image) = self.transparent_picture()? {
             return tone.develop(self.gpu(), &image);
         }
-        let is_direct = self.shows_directly();
+        let is_direct = self.develops_directly();
         match is_direct {
             true => self.wait()?,
             false => self.fetch_film()?,
@@ -202,7 +202,8 @@ impl Developer {
     ) -> Result<(), GpuError> {
         let Context { gpu, layouts, .. } = context;
         let target = &layouts.develop;
-        let pipeline = pipelines::developing(gpu, layouts, Kernel::DEVELOP, target, tone)?;
+        let overrides = overrides::of_tone(tone);
+        let pipeline = pipelines::developing(gpu, layouts, Kernel::DEVELOP, target, overrides)?;
         let slice = Slice {
             first_group: 0,
             end_group: tile.group_count(),

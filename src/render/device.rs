@@ -3,6 +3,7 @@
 use super::{
     Stats,
     bindings::{self, Buffers},
+    denoise::Denoiser,
     develop::Developer,
     film_tile::{FilmTile, GROUP_PIXELS},
     layouts::Layouts,
@@ -34,6 +35,8 @@ pub struct Device {
     pub developer: Option<Developer>,
     /// The tone of the picture on a screen.
     pub shown_tone: Option<wgpu::Buffer>,
+    /// For pictures on a screen of one size.
+    pub denoiser: Option<Denoiser>,
     /// Samples that a lane of the pipeline should take one after the other.
     pub lane_samples: u32,
     /// Index of the film tile whose sums are in the film buffer.
@@ -58,6 +61,7 @@ impl Device {
             pipeline,
             developer: None,
             shown_tone: None,
+            denoiser: None,
             lane_samples,
             loaded_tile: None,
         })

@@ -4,7 +4,7 @@
 use super::{
     Integrator, effort, layers,
     policy::Stack,
-    settings::{BsdfModel, RayOffset, TriangleTest},
+    settings::{BsdfModel, RayOffset, RenderSettings, TriangleTest},
     task::Task,
 };
 use crate::{
@@ -57,9 +57,7 @@ pub fn of(task: Task) -> Overrides {
         false => features.filtered_shadows,
     };
     let layers = layers::of_sampling(settings);
-    let squares_row = layers::row_of(layers, &layers::SQUARES).unwrap_or_default();
     let opacity_row = layers::row_of(layers, &layers::OPACITY).unwrap_or_default();
-    let features_row = layers::row_of(layers, &layers::ALBEDO).unwrap_or_default();
     let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
     let mut overrides = vec![
         ("TRIANGLE_TEST", f64::from(triangle_test)),
@@ -152,10 +150,7 @@ pub fn of(task: Task) -> Overrides {
         ("HAS_TANGENTS", flag(!scene.tangents.is_empty())),
         ("HAS_ANISOTROPY", flag(is_path && features.anisotropy)),
         ("HAS_UVS", flag(!scene.uvs.is_empty())),
-        ("FILM_ROWS", layers::rows(layers) as f64),
-        ("SQUARES_ROW", squares_row as f64),
         ("HAS_FEATURES", flag(settings.has_features())),
-        ("FEATURES_ROW", features_row as f64),
         ("HAS_OPACITY", flag(settings.has_opacity())),
         ("OPACITY_ROW", opacity_row as f64),
         (
@@ -171,6 +166,7 @@ pub fn of(task: Task) -> Overrides {
             }),
         ),
     ];
+    overrides.extend(rows_of_film(settings));
     overrides.extend(geometry(scene, view, policy.stack));
     match integrator.is_lit {
         true => overrides.extend([
@@ -215,9 +211,35 @@ pub fn of_tone(tone: &PackedTone) -> Overrides {
     ]
 }
 
-/// The overrides of a pass of the denoiser.
-pub fn of_denoiser(is_first: bool) -> Overrides {
-    vec![("FIRST_PASS", flag(is_first))]
+/// The overrides of the kernel that develops a film, or its denoised picture, for display.
+pub fn of_screen(tone: &PackedTone, is_denoised: bool) -> Overrides {
+    let mut overrides = of_tone(tone);
+    overrides.push(("SHOWS_DENOISED", flag(is_denoised)));
+    overrides
+}
+
+/// The overrides of the kernel that reads features from a film.
+pub fn of_features(settings: &RenderSettings) -> Overrides {
+    rows_of_film(settings).into()
+}
+
+/// The overrides of a pass of the denoiser's filter.
+pub fn of_filter(is_first: bool, modulates: bool) -> Overrides {
+    vec![
+        ("FIRST_PASS", flag(is_first)),
+        ("MODULATES", flag(modulates)),
+    ]
+}
+
+/// The overrides for the rows of a pixel.
+fn rows_of_film(settings: &RenderSettings) -> [(&'static str, f64); 3] {
+    let layers = layers::of_sampling(settings);
+    let row_of = |layer| layers::row_of(layers, layer).unwrap_or_default() as f64;
+    [
+        ("FILM_ROWS", layers::rows(layers) as f64),
+        ("SQUARES_ROW", row_of(&layers::SQUARES)),
+        ("FEATURES_ROW", row_of(&layers::ALBEDO)),
+    ]
 }
 
 /// The overrides for the contents of the trees.

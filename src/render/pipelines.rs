@@ -9,9 +9,9 @@ use super::{
 };
 use crate::{
     gpu::{Compiled, Gpu, GpuError, Kernel, Overrides, Variant},
-    layout::PackedTone,
     pack::PackedView,
 };
+use wgpu::{BindGroupLayout, ComputePipeline};
 
 /// The number of materials from which on packet kernels cannot store their indices in 16 bits.
 const MAX_PACKET_MATERIALS: usize = 0xffff;
@@ -77,34 +77,33 @@ pub fn tracing(
     gpu.pipeline(&kernel, variant, &groups, overrides)
 }
 
-/// A pipeline of a kernel that develops the film, with the layout of its target as bind group 3.
+/// A pipeline of a kernel that reads the film, with the layout of its target as bind group 3.
 pub fn developing(
     gpu: &Gpu,
     layouts: &Layouts,
     kernel: Kernel,
-    target: &wgpu::BindGroupLayout,
-    tone: &PackedTone,
-) -> Result<wgpu::ComputePipeline, GpuError> {
+    target: &BindGroupLayout,
+    overrides: Overrides,
+) -> Result<ComputePipeline, GpuError> {
     let groups = [
         None,
         Some(&layouts.frame),
         Some(&layouts.film),
         Some(target),
     ];
-    let overrides = overrides::of_tone(tone);
     let compiled = gpu.pipeline(&kernel, Variant::Buffer, &groups, overrides)?;
     Ok(compiled.pipeline)
 }
 
-/// A pipeline of the denoiser, with this layout of bind group 3.
+/// A pipeline of a kernel of the denoiser, with this layout of bind group 3.
 pub fn denoising(
     gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    is_first: bool,
-) -> Result<wgpu::ComputePipeline, GpuError> {
+    kernel: Kernel,
+    layout: &BindGroupLayout,
+    overrides: Overrides,
+) -> Result<ComputePipeline, GpuError> {
     let groups = [None, None, None, Some(layout)];
-    let overrides = overrides::of_denoiser(is_first);
-    let compiled = gpu.pipeline(&Kernel::DENOISE, Variant::Buffer, &groups, overrides)?;
+    let compiled = gpu.pipeline(&kernel, Variant::Buffer, &groups, overrides)?;
     Ok(compiled.pipeline)
 }
 

@@ -2,8 +2,9 @@
 
 use super::{
     Levels, Quantity, RenderError, Renderer, Tone,
-    layouts::{SCREEN_FORMAT, group_at},
-    pipelines,
+    denoise::Denoiser,
+    layouts::{SCREEN_FORMAT, target},
+    overrides, pipelines,
     slice::Slice,
 };
 use crate::{
@@ -12,6 +13,7 @@ use crate::{
     layout::PackedTone,
 };
 use bytemuck::{bytes_of, cast_slice};
+use wgpu::BindingResource;
 
 /// A texture for display, as large as the picture: 8 bits per channel, encoded with the transfer function of
 /// the tone, premultiplied alpha.
@@ -155,25 +157,31 @@ impl Renderer {
     }
 
     /// Whether [`Self::show`] works on the GPU alone. The host is needed for several film tiles, for more
-    /// samples than one block, for adaptive sampling, and for opacity.
-    pub fn shows_directly(&self) -> bool {
+    /// samples than one block, for adaptive sampling, for opacity, and for the exposure of a denoised picture.
+    pub fn shows_directly(&self, tone: &Tone) -> bool {
+        self.develops_directly() && !(tone.auto_exposure && self.denoises(tone))
+    }
+
+    /// Whether the device has all that a picture is developed from.
+    pub(super) fn develops_directly(&self) -> bool {
         self.settings.integrator.quantity() != Some(Quantity::Samples)
             && !self.settings.has_opacity()
             && self.tiles.is_one_block()
     }
 
     /// Develops the samples so far to a screen of the size of the picture: pixels with samples get the result
-    /// of [`Self::develop`], rounded to 8 bits. Returns the range over which a quantity is shown. If it
+    /// of [`Self::develop`], rounded to 8 bits; denoised ones within one of these levels. Returns the range over which a quantity is shown. If it
     /// [`Self::shows_directly`] and needs neither a range nor an exposure, it does not wait for the GPU.
     pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
         let range = self.range_of(tone)?;
-        if self.shows_directly() && !self.denoises(tone) {
-            let tone = self.exposed(tone)?.packed(
+        if self.shows_directly(tone) {
+            let packed = self.exposed(tone)?.packed(
                 self.settings.integrator,
                 range,
                 self.tiles.list[0].rows_per_pixel(),
             );
-            self.surviving_losses(|renderer| renderer.present(&tone, screen))?;
+            let is_denoised = self.denoises(tone);
+            self.surviving_losses(|renderer| renderer.present(&packed, screen, is_denoised))?;
             return Ok(range);
         }
         let tone = &Tone {
@@ -185,38 +193,61 @@ impl Renderer {
         Ok(range)
     }
 
-    fn present(&mut self, tone: &PackedTone, screen: &Screen) -> Result<(), GpuError> {
+    fn present(
+        &mut self,
+        tone: &PackedTone,
+        screen: &Screen,
+        is_denoised: bool,
+    ) -> Result<(), GpuError> {
         self.load_first_tile()?;
-        let device = &mut self.device;
-        let (gpu, layouts, buffers) = (&device.gpu, &device.layouts, &device.buffers);
-        let pipeline = pipelines::developing(gpu, layouts, Kernel::SHOW, &layouts.show, tone)?;
-        let shown_tone = match &mut device.shown_tone {
-            Some(buffer) => buffer,
-            empty => empty.insert(gpu.upload("tone", bytes_of(tone))?),
-        };
         let tile = &self.tiles.list[0];
         let slice = Slice {
             first_group: 0,
             end_group: tile.group_count(),
             first_sample: 0,
-            end_sample: 0,
+            // For the denoiser: as many as every pixel has.
+            end_sample: if self.is_done() {
+                tile.samples.len() as u32
+            } else {
+                0
+            },
         };
         let packed = slice.packed(tile, &self.settings, 1);
+        let (columns, rows) = slice.grid(1);
+        let device = &mut self.device;
+        let (gpu, layouts, buffers) = (&device.gpu, &device.layouts, &device.buffers);
+        let shown_tone = match &mut device.shown_tone {
+            Some(buffer) => buffer,
+            empty => empty.insert(gpu.upload("tone", bytes_of(tone))?),
+        };
         gpu.write(&buffers.dispatch, 0, bytes_of(&packed))?;
         gpu.write(shown_tone, 0, bytes_of(tone))?;
-        let resources = [
-            (0, shown_tone.as_entire_binding()),
-            (2, wgpu::BindingResource::TextureView(&screen.view)),
-        ];
-        let target = group_at(gpu, &layouts.show, &resources);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut resources = vec![
+            (0, shown_tone.as_entire_binding()),
+            (2, BindingResource::TextureView(&screen.view)),
+        ];
+        if is_denoised {
+            let (width, height) = screen.size();
+            let kept = (device.denoiser.take()).filter(|kept| kept.size() == (width, height));
+            let denoiser = device.denoiser.insert(match kept {
+                Some(kept) => kept,
+                None => Denoiser::new(gpu, width, height)?,
+            });
+            let grid = (columns, rows);
+            denoiser.read_film(gpu, (layouts, buffers), &self.settings, grid, &mut encoder)?;
+            denoiser.denoise(gpu, &mut encoder)?;
+            resources.push((4, BindingResource::TextureView(denoiser.result())));
+        }
+        let (layout, group) = target(gpu, &resources);
+        let overrides = overrides::of_screen(tone, is_denoised);
+        let pipeline = pipelines::developing(gpu, layouts, Kernel::SHOW, &layout, overrides)?;
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(&pipeline);
             pass.set_bind_group(1, &buffers.frame_group, &[]);
             pass.set_bind_group(2, &buffers.film_group, &[]);
-            pass.set_bind_group(3, &target, &[]);
-            let (columns, rows) = slice.grid(1);
+            pass.set_bind_group(3, &group, &[]);
             pass.dispatch_workgroups(columns, rows, 1);
         }
         gpu.enqueue(encoder.finish()).map(drop)

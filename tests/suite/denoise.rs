@@ -1,9 +1,11 @@
 //! The denoiser: closed forms of its filter, what it keeps, and what it gains on a rendered picture.
 
 use crate::reference::compare::{open_gpu, start};
-use glimray::image::Image;
+use glimray::image::{Image, ScreenImage};
 use glimray::import;
-use glimray::render::{Features, Integrator, PixelFeatures, RenderSettings, Tone};
+use glimray::render::{
+    Features, Filter, Integrator, PixelFeatures, RenderSettings, Renderer, Tone,
+};
 use glimray::scene::{Antialias, Transfer};
 use std::path::Path;
 use std::time::Instant;
@@ -234,5 +236,61 @@ fn renderers_and_films_denoise_to_the_same_bits() {
         assert_eq!(shown, saved);
         let raw = film.develop(renderer.gpu(), &tone).expect("a picture");
         assert_ne!(shown, raw, "films develop their noise");
+    }
+}
+
+/// The screen is denoised from the film on the device, files from means in f64 on the host.
+#[test]
+fn a_screen_shows_what_files_get() {
+    let scene = import::load(Path::new("assets/scenes/still_life.toml")).expect("a scene");
+    let tone = Tone {
+        denoise: true,
+        transfer: Transfer::Srgb,
+        ..Tone::LINEAR
+    };
+    // The filter of the second has negative lobes.
+    for (samples, filter) in [(1, Filter::Box), (7, Filter::Mitchell), (64, Filter::Tent)] {
+        let settings = RenderSettings {
+            size: (50, 30),
+            crop: Some([3, 2, 48, 29]),
+            samples,
+            antialias: Antialias::Stratified,
+            filter,
+            integrator: Integrator::Path,
+            features: true,
+            ..RenderSettings::default()
+        };
+        let mut renderer = start(&scene, &settings).expect("a renderer");
+        let screen = renderer.new_screen().expect("a screen");
+        let look = |renderer: &mut Renderer| {
+            assert!(renderer.shows_directly(&tone));
+            renderer.show(&tone, &screen).expect("a picture");
+            let shown = screen.read(renderer.gpu()).expect("its pixels");
+            let image = renderer.develop(&tone).expect("a picture");
+            let mut others = 0;
+            for (shown, file) in shown.pixels.iter().zip(&ScreenImage::from(&image).pixels) {
+                // Pixels without a sample are transparent on a screen.
+                if shown[3] > 0 || renderer.is_done() {
+                    let apart = shown.iter().zip(file).map(|(a, b)| a.abs_diff(*b)).max();
+                    assert!(
+                        apart <= Some(1),
+                        "{samples} samples: {shown:?}, not {file:?}"
+                    );
+                    others += usize::from(apart > Some(0));
+                }
+            }
+            assert!(50 * others <= shown.pixels.len(), "{others} pixels differ");
+            let raw = Tone {
+                denoise: false,
+                ..tone
+            };
+            assert_ne!(image, renderer.develop(&raw).expect("a picture"));
+        };
+        renderer.step().expect("a step");
+        look(&mut renderer);
+        while !renderer.is_done() {
+            renderer.step().expect("a step");
+        }
+        look(&mut renderer);
     }
 }

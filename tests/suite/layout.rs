@@ -213,6 +213,13 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (3, 4, "signal", "something else"),
     (3, 5, "guides", "something else"),
     (3, 6, "denoised", "something else"),
+    (3, 7, "noisy", "something else"),
+    (3, 8, "albedos", "something else"),
+    (3, 9, "surfaces", "something else"),
+    (3, 10, "guides_out", "something else"),
+    (3, 11, "noisy_out", "something else"),
+    (3, 12, "albedos_out", "something else"),
+    (3, 13, "surfaces_out", "something else"),
 ];
 
 /// The bindings of a module: group, slot, name and kind.

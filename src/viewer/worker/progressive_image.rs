@@ -29,7 +29,8 @@ use std::time::{Duration, Instant};
 /// Minimum interval between presentations of a picture that passes through the host.
 const DETOUR: Duration = Duration::from_millis(500);
 
-/// The same for one that is denoised each time.
+/// The same for one that is denoised each time: by a GPU alone, and with the host or on software.
+const DENOISED_BY_GPU: Duration = Duration::from_millis(200);
 const DENOISED: Duration = Duration::from_secs(2);
 
 /// A picture, its renderer and its screens.
@@ -184,13 +185,12 @@ impl ProgressiveImage {
             let share = renderer.progress();
             (self.report)(Stage::FirstSamples { share });
         }
-        let interval = match renderer.shows_directly() && order.layer == PictureLayer::Beauty {
-            true => pace::between_looks(&self.gpu),
-            false => DETOUR,
-        };
-        let interval = match renderer.denoises(&order.tone) {
-            true => interval.max(DENOISED),
-            false => interval,
+        let is_direct = renderer.shows_directly(&order.tone) && order.layer == PictureLayer::Beauty;
+        let interval = match (is_direct, renderer.denoises(&order.tone)) {
+            (true, false) => pace::between_looks(&self.gpu),
+            (false, false) => DETOUR,
+            (true, true) if !self.gpu.is_cpu() => DENOISED_BY_GPU,
+            (_, true) => DENOISED,
         };
         let is_due = renderer.is_done()
             || is_held
