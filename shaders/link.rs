@@ -29,7 +29,7 @@ const KERNELS: [(&str, &str, &[&str], &[&str]); 11] = [
     ("show", "show", &[], &["buffer"]),
     ("film_features", "film_features", &[], &["buffer"]),
     ("demodulate", "demodulate", &[], &["buffer"]),
-    ("denoise", "denoise", &[], &["buffer"]),
+    ("denoise", "denoise", &[], &["image", "buffer"]),
     ("explain", "whitted", &["record"], &["image", "buffer"]),
     (
         "explain_path",

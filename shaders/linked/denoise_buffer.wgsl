@@ -12,6 +12,14 @@ const LEAST_WEIGHT: f32 = 0.3;
 
 const LUMINANCE_SHARE: f32 = 0.001;
 
+fn load_signal(p: vec2i) -> vec4f {
+	return textureLoad(bindings__signal, p, 0);
+}
+
+fn load_guide(p: vec2i) -> vec4u {
+	return textureLoad(bindings__guides, p, 0);
+}
+
 struct Guide {
 	normal: vec3f,
 	albedo: vec3f,
@@ -20,7 +28,7 @@ struct Guide {
 }
 
 fn guide_at(p: vec2i) -> Guide {
-	let packed = textureLoad(bindings__guides, p, 0);
+	let packed = load_guide(p);
 	let normal = vec3f(unpack2x16snorm(packed.x), unpack2x16snorm(packed.y).x);
 	return Guide(normal, unpack4x8unorm(packed.z).xyz, bitcast<f32>(packed.w), bitcast<f32>(packed.y & 4294901760u));
 }
@@ -55,7 +63,7 @@ fn denoise(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 }
 
 fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
-	let own = textureLoad(bindings__signal, p, 0);
+	let own = load_signal(p);
 	let guide = guide_at(p);
 	var total = 0.0;
 	var sum = 0.0;
@@ -65,7 +73,7 @@ fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
 	loop {
 		let offset = vec2i(k % 3, k / 3) - 1;
 		let q = p + offset;
-		let other = textureLoad(bindings__signal, clamp(q, vec2i(0), last), 0);
+		let other = load_signal(clamp(q, vec2i(0), last));
 		let is_usable = k != 4 && all(q == clamp(q, vec2i(0), last)) && other.w >= 0.0;
 		let weight = select(0.0, likeness(guide, guide_at(clamp(q, vec2i(0), last)), 1.0), is_usable);
 		let luminance = dot(other.xyz, tone__LUMINANCE_REC709);
@@ -91,7 +99,7 @@ fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
 }
 
 fn averaged(p: vec2i, last: vec2i, step: i32) -> vec4f {
-	let own = textureLoad(bindings__signal, p, 0);
+	let own = load_signal(p);
 	let guide = guide_at(p);
 	let luminance = dot(own.xyz, tone__LUMINANCE_REC709);
 	let width = DEVIATIONS * sqrt(smooth_variance(p, last)) + LUMINANCE_SHARE * luminance + 1e-12;
@@ -104,7 +112,7 @@ fn averaged(p: vec2i, last: vec2i, step: i32) -> vec4f {
 		let offset = vec2i(k % 3, k / 3) - 1;
 		let q = p + step * offset;
 		let inside = clamp(q, vec2i(0), last);
-		let other = textureLoad(bindings__signal, inside, 0);
+		let other = load_signal(inside);
 		let is_usable = all(q == inside) && other.w >= 0.0;
 		let apart = fall * (dot(other.xyz, tone__LUMINANCE_REC709) - luminance);
 		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
@@ -130,7 +138,7 @@ fn smooth_variance(p: vec2i, last: vec2i) -> f32 {
 	loop {
 		let offset = vec2i(k % 3, k / 3) - 1;
 		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
-		sum += near * max_f32(textureLoad(bindings__signal, clamp(p + offset, vec2i(0), last), 0).w, 0.0);
+		sum += near * max_f32(load_signal(clamp(p + offset, vec2i(0), last)).w, 0.0);
 		continuing {
 			k += 1;
 			break if k >= 9;

@@ -100,7 +100,7 @@ impl Kernel {
         /// Divides a picture by its albedo, for the denoiser.
         DEMODULATE "demodulate" Buffer "buffer";
         /// A pass of the denoiser's filter.
-        DENOISE "denoise" Buffer "buffer";
+        DENOISE "denoise" Image "image", Buffer "buffer";
         /// Traces the rays of a [`crate::render::RayQuery`].
         TRACE_RAYS "trace_rays" Image "image", Buffer "buffer", Packet "packet";
     }

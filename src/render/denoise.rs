@@ -10,7 +10,7 @@ use super::{
     settings::RenderSettings,
 };
 use crate::{
-    gpu::{Gpu, GpuError, Kernel, Overrides, Source, Timer},
+    gpu::{Gpu, GpuError, Kernel, Overrides, Source, Timer, Variant},
     image::Image,
     threads,
 };
@@ -195,7 +195,7 @@ impl Denoiser {
             (12, View(&self.albedos)),
             (13, View(&self.surfaces)),
         ];
-        let (layout, group) = target(gpu, &resources);
+        let (layout, group) = target(gpu, Variant::Buffer, &resources);
         let overrides = overrides::of_features(settings);
         let pipeline =
             pipelines::developing(gpu, layouts, Kernel::FILM_FEATURES, &layout, overrides)?;
@@ -230,11 +230,15 @@ impl Denoiser {
                 (9, View(&self.surfaces)),
                 (10, View(&self.guides)),
             ];
-            let (layout, group) = target(gpu, &resources);
-            let pipeline =
-                pipelines::denoising(gpu, Kernel::DEMODULATE, &layout, Overrides::new())?;
+            let (layout, group) = target(gpu, Variant::Buffer, &resources);
+            let kernel = (Kernel::DEMODULATE, Variant::Buffer);
+            let pipeline = pipelines::denoising(gpu, kernel, &layout, Overrides::new())?;
             steps.push((pipeline, group));
         }
+        let variant = match gpu.is_cpu() && gpu.reads_images() {
+            true => Variant::Image,
+            false => Variant::Buffer,
+        };
         let (mut from, mut to) = (&self.signal, &self.noisy);
         for (pass, stride) in [1].into_iter().chain(STRIDES).enumerate() {
             let modulates = is_picture && pass == STRIDES.len();
@@ -246,9 +250,10 @@ impl Denoiser {
                 (6, View(to)),
                 (8, View(&self.albedos)),
             ];
-            let (layout, group) = target(gpu, &resources[..4 + usize::from(modulates)]);
+            let (layout, group) = target(gpu, variant, &resources[..4 + usize::from(modulates)]);
             let overrides = overrides::of_filter(pass == 0, modulates);
-            let pipeline = pipelines::denoising(gpu, Kernel::DENOISE, &layout, overrides)?;
+            let kernel = (Kernel::DENOISE, variant);
+            let pipeline = pipelines::denoising(gpu, kernel, &layout, overrides)?;
             steps.push((pipeline, group));
             (from, to) = (to, from);
         }

@@ -1,7 +1,7 @@
 //! Bind group layouts of `bindings.wesl`, and bind groups.
 
 use super::policy::Fetch;
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, Variant};
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
     BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, ShaderStages,
@@ -64,20 +64,28 @@ pub fn group(gpu: &Gpu, layout: &BindGroupLayout, resources: &[BindingResource])
     group_at(gpu, layout, &numbered)
 }
 
-/// Bind group 3 of a kernel that works on textures: these resources at their bindings, and its layout.
-pub fn target(gpu: &Gpu, resources: &[(u32, BindingResource)]) -> (BindGroupLayout, BindGroup) {
+/// Bind group 3 of a variant of a kernel that works on textures: these resources at their bindings, and its layout.
+pub fn target(
+    gpu: &Gpu,
+    variant: Variant,
+    resources: &[(u32, BindingResource)],
+) -> (BindGroupLayout, BindGroup) {
     let sampled = |sample_type| BindingType::Texture {
         sample_type,
         view_dimension: TextureViewDimension::D2,
         multisampled: false,
     };
-    let written = |format| BindingType::StorageTexture {
-        access: StorageTextureAccess::WriteOnly,
+    let image = |access, format| BindingType::StorageTexture {
+        access,
         format,
         view_dimension: TextureViewDimension::D2,
     };
+    let written = |format| image(StorageTextureAccess::WriteOnly, format);
+    let read = |format| image(StorageTextureAccess::ReadOnly, format);
     let type_of = |binding| match binding {
         2 => written(SCREEN_FORMAT),
+        4 if variant == Variant::Image => read(COLOR_FORMAT),
+        5 if variant == Variant::Image => read(GUIDE_FORMAT),
         4 | 7..=9 => sampled(TextureSampleType::Float { filterable: false }),
         5 => sampled(TextureSampleType::Uint),
         6 | 11..=13 => written(COLOR_FORMAT),

@@ -98,12 +98,12 @@ pub fn developing(
 /// A pipeline of a kernel of the denoiser, with this layout of bind group 3.
 pub fn denoising(
     gpu: &Gpu,
-    kernel: Kernel,
+    (kernel, variant): (Kernel, Variant),
     layout: &BindGroupLayout,
     overrides: Overrides,
 ) -> Result<ComputePipeline, GpuError> {
     let groups = [None, None, None, Some(layout)];
-    let compiled = gpu.pipeline(&kernel, Variant::Buffer, &groups, overrides)?;
+    let compiled = gpu.pipeline(&kernel, variant, &groups, overrides)?;
     Ok(compiled.pipeline)
 }
 

@@ -8,7 +8,7 @@ use super::{
     slice::Slice,
 };
 use crate::{
-    gpu::{Gpu, GpuError, Kernel, Source},
+    gpu::{Gpu, GpuError, Kernel, Source, Variant},
     image::ScreenImage,
     layout::PackedTone,
 };
@@ -239,7 +239,7 @@ impl Renderer {
             denoiser.denoise(gpu, &mut encoder)?;
             resources.push((4, BindingResource::TextureView(denoiser.result())));
         }
-        let (layout, group) = target(gpu, &resources);
+        let (layout, group) = target(gpu, Variant::Buffer, &resources);
         let overrides = overrides::of_screen(tone, is_denoised);
         let pipeline = pipelines::developing(gpu, layouts, Kernel::SHOW, &layout, overrides)?;
         {

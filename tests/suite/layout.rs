@@ -210,80 +210,70 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (3, 1, "developed", "read and write"),
     (3, 2, "screen", "screen"),
     (3, 3, "stride", "read"),
-    (3, 4, "signal", "something else"),
-    (3, 5, "guides", "something else"),
-    (3, 6, "denoised", "something else"),
-    (3, 7, "noisy", "something else"),
-    (3, 8, "albedos", "something else"),
-    (3, 9, "surfaces", "something else"),
-    (3, 10, "guides_out", "something else"),
-    (3, 11, "noisy_out", "something else"),
-    (3, 12, "albedos_out", "something else"),
-    (3, 13, "surfaces_out", "something else"),
+    (3, 4, "signal", "signal"),
+    (3, 5, "guides", "guides"),
+    (3, 6, "denoised", "colors out"),
+    (3, 7, "noisy", "color texture"),
+    (3, 8, "albedos", "color texture"),
+    (3, 9, "surfaces", "color texture"),
+    (3, 10, "guides_out", "guides out"),
+    (3, 11, "noisy_out", "colors out"),
+    (3, 12, "albedos_out", "colors out"),
+    (3, 13, "surfaces_out", "colors out"),
 ];
 
-/// The bindings of a module: group, slot, name and kind.
-fn bindings(module: &Module) -> BTreeSet<(u32, u32, String, &'static str)> {
-    let kind = |variable: &naga::GlobalVariable| match (
-        variable.space,
-        &module.types[variable.ty].inner,
-    ) {
-        (AddressSpace::Storage { access }, _) if access == StorageAccess::LOAD => "read",
-        (AddressSpace::Storage { access }, _)
-            if access == StorageAccess::LOAD | StorageAccess::STORE =>
-        {
-            "read and write"
+/// What a binding is, as `BINDINGS` calls it.
+fn kind_of(module: &Module, variable: &naga::GlobalVariable) -> &'static str {
+    use ImageClass::{Sampled, Storage};
+    const READ: StorageAccess = StorageAccess::LOAD;
+    const WRITTEN: StorageAccess = StorageAccess::STORE;
+    let multi = false;
+    let (arrayed, class) = match (variable.space, &module.types[variable.ty].inner) {
+        (AddressSpace::Storage { access }, _) if access == READ => return "read",
+        (AddressSpace::Storage { access }, _) if access == READ | WRITTEN => {
+            return "read and write";
         }
         (
             AddressSpace::Handle,
-            TypeInner::Image {
+            &TypeInner::Image {
                 dim: naga::ImageDimension::D2,
-                arrayed: false,
-                class:
-                    ImageClass::Storage {
-                        format: StorageFormat::Rgba32Uint,
-                        access: StorageAccess::LOAD,
-                    },
+                arrayed,
+                class,
             },
-        ) => "image",
-        (
-            AddressSpace::Handle,
-            TypeInner::Image {
-                dim: naga::ImageDimension::D2,
-                arrayed: true,
-                class:
-                    ImageClass::Storage {
-                        format: StorageFormat::R32Uint,
-                        access: StorageAccess::LOAD,
-                    },
-            },
-        ) => "layered image",
-        (
-            AddressSpace::Handle,
-            TypeInner::Image {
-                dim: naga::ImageDimension::D2,
-                arrayed: true,
-                class:
-                    ImageClass::Sampled {
-                        kind: naga::ScalarKind::Uint,
-                        multi: false,
-                    },
-            },
-        ) => "texture",
-        (
-            AddressSpace::Handle,
-            TypeInner::Image {
-                dim: naga::ImageDimension::D2,
-                arrayed: false,
-                class:
-                    ImageClass::Storage {
-                        format: StorageFormat::Rgba8Unorm,
-                        access: StorageAccess::STORE,
-                    },
-            },
-        ) => "screen",
-        _ => "something else",
+        ) => (arrayed, class),
+        _ => return "something else",
     };
+    let image = |format, access| Storage { format, access };
+    let texture = |kind| Sampled { kind, multi };
+    let images = [
+        ("image", false, image(StorageFormat::Rgba32Uint, READ)),
+        ("layered image", true, image(StorageFormat::R32Uint, READ)),
+        ("texture", true, texture(naga::ScalarKind::Uint)),
+        ("screen", false, image(StorageFormat::Rgba8Unorm, WRITTEN)),
+        (
+            "color image",
+            false,
+            image(StorageFormat::Rgba32Float, READ),
+        ),
+        ("color texture", false, texture(naga::ScalarKind::Float)),
+        ("guide texture", false, texture(naga::ScalarKind::Uint)),
+        (
+            "colors out",
+            false,
+            image(StorageFormat::Rgba32Float, WRITTEN),
+        ),
+        (
+            "guides out",
+            false,
+            image(StorageFormat::Rgba32Uint, WRITTEN),
+        ),
+    ];
+    let found = images.iter().find(|(_, a, c)| (*a, *c) == (arrayed, class));
+    found.map_or("something else", |(name, ..)| *name)
+}
+
+/// The bindings of a module: group, slot, name and kind.
+fn bindings(module: &Module) -> BTreeSet<(u32, u32, String, &'static str)> {
     let bound = module
         .global_variables
         .iter()
@@ -294,7 +284,7 @@ fn bindings(module: &Module) -> BTreeSet<(u32, u32, String, &'static str)> {
                 place.group,
                 place.binding,
                 plain(&variable.name),
-                kind(variable),
+                kind_of(module, variable),
             )
         })
         .collect()
@@ -305,15 +295,15 @@ fn bindings_are_where_the_host_puts_them() {
     let mut verdict = Verdict::on("bindings");
     let mut used = BTreeSet::new();
     for (kernel, module) in linked() {
-        let (geometry, texels) = if kernel.ends_with("(Buffer)") {
-            ("read", "texture")
-        } else {
-            ("image", "layered image")
-        };
-        let kind_here = |kind| match kind {
-            "geometry" => geometry,
-            "texels" => texels,
-            kind => kind,
+        let kind_here = |kind| match (kind, kernel.ends_with("(Buffer)")) {
+            ("geometry", true) => "read",
+            ("texels", true) => "texture",
+            ("signal", true) => "color texture",
+            ("guides", true) => "guide texture",
+            ("geometry" | "guides", false) => "image",
+            ("texels", false) => "layered image",
+            ("signal", false) => "color image",
+            (kind, _) => kind,
         };
         for (group, slot, name, kind) in bindings(&module) {
             // Two bindings may share a slot in different kernels.

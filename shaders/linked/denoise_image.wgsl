@@ -1,0 +1,223 @@
+const NORMAL_FALL: f32 = 32.0;
+
+const ALBEDO_WIDTH: f32 = 0.09;
+
+const DEPTH_SHARE: f32 = 0.01;
+
+const DEVIATIONS: f32 = 3.0;
+
+const OUTLIER: f32 = 3.0;
+
+const LEAST_WEIGHT: f32 = 0.3;
+
+const LUMINANCE_SHARE: f32 = 0.001;
+
+fn load_signal(p: vec2i) -> vec4f {
+	return textureLoad(bindings__signal, p);
+}
+
+fn load_guide(p: vec2i) -> vec4u {
+	return textureLoad(bindings__guides, p);
+}
+
+struct Guide {
+	normal: vec3f,
+	albedo: vec3f,
+	depth: f32,
+	slope: f32
+}
+
+fn guide_at(p: vec2i) -> Guide {
+	let packed = load_guide(p);
+	let normal = vec3f(unpack2x16snorm(packed.x), unpack2x16snorm(packed.y).x);
+	return Guide(normal, unpack4x8unorm(packed.z).xyz, bitcast<f32>(packed.w), bitcast<f32>(packed.y & 4294901760u));
+}
+
+fn likeness(own: Guide, other: Guide, steps: f32) -> f32 {
+	let n = own.normal - other.normal;
+	let a = own.albedo - other.albedo;
+	let depth = abs(own.depth - other.depth) / (own.slope * steps + DEPTH_SHARE * own.depth + 1e-9);
+	return exp(-(NORMAL_FALL * dot(n, n) + dot(a, a) / ALBEDO_WIDTH + depth));
+}
+
+@compute @workgroup_size(64, 1, 1)
+fn denoise(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+	let size = vec2i(textureDimensions(bindings__signal));
+	let last = size - 1;
+	let step = i32(bindings__stride);
+	let own = 8 * vec2i(group.xy) + vec2i(i32(lane % 8u), i32(lane / 8u));
+	let p = min(own, last);
+	var result = vec4f(0.0);
+	if (bindings__FIRST_PASS) {
+		result = without_outlier(p, last);
+	}
+	else {
+		result = averaged(p, last, step);
+	}
+	if (bindings__MODULATES) {
+		result = vec4f(result.xyz * demodulation__divisor_at(p), 1.0);
+	}
+	if (all(own < size)) {
+		textureStore(bindings__denoised, p, result);
+	}
+}
+
+fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
+	let own = load_signal(p);
+	let guide = guide_at(p);
+	var total = 0.0;
+	var sum = 0.0;
+	var squares = 0.0;
+	var variance = 0.0;
+	var k = 0;
+	loop {
+		let offset = vec2i(k % 3, k / 3) - 1;
+		let q = p + offset;
+		let other = load_signal(clamp(q, vec2i(0), last));
+		let is_usable = k != 4 && all(q == clamp(q, vec2i(0), last)) && other.w >= 0.0;
+		let weight = select(0.0, likeness(guide, guide_at(clamp(q, vec2i(0), last)), 1.0), is_usable);
+		let luminance = dot(other.xyz, tone__LUMINANCE_REC709);
+		total += weight;
+		sum += weight * luminance;
+		squares += weight * luminance * luminance;
+		variance += weight * other.w;
+		continuing {
+			k += 1;
+			break if k >= 9;
+		}
+	}
+	let luminance = dot(own.xyz, tone__LUMINANCE_REC709);
+	let is_known = own.w <= demodulation__MOST_VARIANCE;
+	if (own.w < 0.0 || total < LEAST_WEIGHT) {
+		return vec4f(own.xyz, select(luminance * luminance, own.w, is_known));
+	}
+	let mean = sum / total;
+	let spread = max_f32(squares / total - mean * mean, 0.0);
+	let most = mean + OUTLIER * sqrt(spread) + LUMINANCE_SHARE * mean;
+	let scale = select(1.0, most / luminance, luminance > most);
+	return vec4f(scale * own.xyz, select(spread, (variance + scale * scale * own.w) / (total + 1.0), is_known));
+}
+
+fn averaged(p: vec2i, last: vec2i, step: i32) -> vec4f {
+	let own = load_signal(p);
+	let guide = guide_at(p);
+	let luminance = dot(own.xyz, tone__LUMINANCE_REC709);
+	let width = DEVIATIONS * sqrt(smooth_variance(p, last)) + LUMINANCE_SHARE * luminance + 1e-12;
+	let fall = select(0.0, 1.0 / width, own.w >= 0.0);
+	var total = 0.0;
+	var sum = vec3f(0.0);
+	var variance = 0.0;
+	var k = 0;
+	loop {
+		let offset = vec2i(k % 3, k / 3) - 1;
+		let q = p + step * offset;
+		let inside = clamp(q, vec2i(0), last);
+		let other = load_signal(inside);
+		let is_usable = all(q == inside) && other.w >= 0.0;
+		let apart = fall * (dot(other.xyz, tone__LUMINANCE_REC709) - luminance);
+		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
+		let alike = likeness(guide, guide_at(inside), f32(step)) * exp(-min_f32(apart * apart, 80.0));
+		let weight = select(0.0, near * alike, is_usable);
+		total += weight;
+		sum += weight * other.xyz;
+		variance += weight * weight * other.w;
+		continuing {
+			k += 1;
+			break if k >= 9;
+		}
+	}
+	if (total <= 0.0) {
+		return own;
+	}
+	return vec4f(sum / total, variance / (total * total));
+}
+
+fn smooth_variance(p: vec2i, last: vec2i) -> f32 {
+	var sum = 0.0;
+	var k = 0;
+	loop {
+		let offset = vec2i(k % 3, k / 3) - 1;
+		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
+		sum += near * max_f32(load_signal(clamp(p + offset, vec2i(0), last)).w, 0.0);
+		continuing {
+			k += 1;
+			break if k >= 9;
+		}
+	}
+	return sum / 16.0;
+}
+
+@group(3) @binding(3)
+var<storage, read> bindings__stride: u32;
+
+@group(3) @binding(4)
+var bindings__signal: texture_storage_2d<rgba32float, read>;
+
+@group(3) @binding(5)
+var bindings__guides: texture_storage_2d<rgba32uint, read>;
+
+@group(3) @binding(6)
+var bindings__denoised: texture_storage_2d<rgba32float, write>;
+
+@group(3) @binding(8)
+var bindings__albedos: texture_2d<f32>;
+
+override bindings__FIRST_PASS: bool = false;
+
+override bindings__MODULATES: bool = false;
+
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+
+const demodulation__LEAST_ALBEDO: f32 = 0.02;
+
+const demodulation__MOST_VARIANCE: f32 = 1e30;
+
+fn demodulation__divisor_at(p: vec2i) -> vec3f {
+	return clamp_vec3f(textureLoad(bindings__albedos, p, 0).xyz, vec3f(demodulation__LEAST_ALBEDO), vec3f(1.0));
+}
+
+override bindings__EXTREMES_BY_SELECT: bool = false;
+
+fn min_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_f32(a: f32, b: f32) -> f32 {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_f32(value: f32, low: f32, high: f32) -> f32 {
+	return min_f32(max_f32(value, low), high);
+}
+
+fn saturate_f32(value: f32) -> f32 {
+	return clamp_f32(value, f32(0), f32(1));
+}
+
+fn min_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec3f(a: vec3f, b: vec3f) -> vec3f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec3f(value: vec3f, low: vec3f, high: vec3f) -> vec3f {
+	return min_vec3f(max_vec3f(value, low), high);
+}
+
+fn saturate_vec3f(value: vec3f) -> vec3f {
+	return clamp_vec3f(value, vec3f(0), vec3f(1));
+}
