@@ -63,6 +63,16 @@ fn note(text: impl Display) {
     }
 }
 
+/// A name from a scene within a line.
+pub fn quoted(name: &str) -> String {
+    if name.is_empty() {
+        "(unnamed)".into()
+    } else {
+        // Line breaks are replaced, so that a name cannot imitate lines of its own.
+        format!("`{}`", name.replace(char::is_control, " "))
+    }
+}
+
 /// Prints a warning.
 pub fn warning(text: impl Display) {
     let text = text.to_string();

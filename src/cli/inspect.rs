@@ -4,7 +4,7 @@ mod deforming;
 mod motion;
 mod textures;
 
-use crate::app::console;
+use crate::app::console::{self, quoted};
 use crate::app::error::AppError;
 use crate::app::value_names::{TONES, TRANSFERS};
 use crate::cli::args::InspectArgs;
@@ -374,15 +374,6 @@ fn attenuation(light: &Light) -> &'static str {
     match light.attenuation {
         Attenuation::None => "none",
         Attenuation::InverseSquare => "inverse-square",
-    }
-}
-
-fn quoted(name: &str) -> String {
-    if name.is_empty() {
-        "(unnamed)".into()
-    } else {
-        // Line breaks are replaced, so that a name cannot imitate lines of this list.
-        format!("`{}`", name.replace(char::is_control, " "))
     }
 }
 

@@ -57,7 +57,7 @@ impl Job<'_> {
         Console::new(self.log.quiet, self.log.verbose)
     }
 
-    /// Warns about skipped parts of the scene, missing lights and flags without effect.
+    /// Warns about skipped parts of the scene, missing lights, materials that paths change and flags without effect.
     pub fn warn_of_skipped(&self) {
         for skipped in &self.scene.skipped {
             console::warning(skipped);
@@ -67,6 +67,18 @@ impl Job<'_> {
         let is_path = self.settings().integrator == Integrator::Path;
         if self.scene.is_unlit() && !(is_path && self.scene.background_shines()) {
             console::warning(UNLIT);
+        }
+        let mut gaining = self.scene.materials_that_gain_light();
+        if let (true, Some(first)) = (is_path, gaining.next()) {
+            let others = match gaining.count() {
+                0 => String::new(),
+                count => format!(" and {count} more"),
+            };
+            console::warning(format_args!(
+                "a material reflects more light than arrives ({}{others}): paths scale it down. Use coefficients of at \
+                 most 1.",
+                console::quoted(&first.name)
+            ));
         }
     }
 

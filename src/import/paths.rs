@@ -132,9 +132,7 @@ pub(super) fn unreadable(path: &Path, error: &FileError, limit: u64) -> ImportEr
     match error {
         FileError::Missing => unreadable("no such file or folder", CHECK),
         FileError::Failed(error) => unreadable(&reason(error), CHECK),
-        FileError::IsFolder | FileError::NotPlain => {
-            unreadable(&error.to_string(), "Name a scene file")
-        }
+        FileError::IsFolder | FileError::NotPlain => unreadable(&error.to_string(), "Name a file"),
         FileError::Outside => unreadable(&error.to_string(), "Name a file in the scene folder"),
         FileError::TooLong { length } => too_big(
             &format!("{length} bytes, but at most {limit} are read"),

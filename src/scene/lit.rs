@@ -1,4 +1,4 @@
-//! Default samples per pixel, and whether a scene has any light.
+//! Default samples per pixel, whether a scene has any light, and whether its materials make some.
 
 use super::{
     Background, LightProperty, LightTransport, Material, MaterialProperty, OutputDefaults, Pattern,
@@ -72,6 +72,18 @@ impl Scene {
                 strength, picture, ..
             } => *strength > 0.0 && !self.pictures[*picture].texels.is_black(),
         }
+    }
+
+    /// The Phong materials that send on more light than arrives, which the path tracer scales down: a colour of theirs is
+    /// above 1, or the highlight of an exponent s has k_s above (s + 1)/2.
+    pub fn materials_that_gain_light(&self) -> impl Iterator<Item = &Material> {
+        let gains = |material: &&Material| {
+            let highlight = 2.0 * material.specular / (material.shininess + 1.0);
+            let colors = [material.diffuse, material.reflect, material.transmit];
+            let most = colors.into_iter().fold(highlight, Vec3::max);
+            material.metallic_roughness.is_none() && most.max_element() > 1.0
+        };
+        self.materials.iter().filter(gains)
     }
 
     /// Whether a material has an emission that its texture does not make black.

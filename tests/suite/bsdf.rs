@@ -2,6 +2,7 @@
 //! formulas, light goes both ways alike, and no energy is gained.
 
 mod check;
+mod mixture;
 pub mod reference;
 mod walk;
 

@@ -6,7 +6,7 @@ use crate::reference::scenes::Build;
 use glam::{DVec3, Vec3, dvec3};
 use glimray::image::Image;
 use glimray::pack;
-use glimray::render::{Antialias, RenderSettings, Tone};
+use glimray::render::{Antialias, Integrator, RenderSettings, Tone};
 use glimray::scene::{Background, Camera, Lens, Light, LightKind, Material, Scene};
 use std::sync::Arc;
 
@@ -33,21 +33,22 @@ fn ball(depth: f64, fraction: f64, lens: Option<Lens>) -> Scene {
             ..Camera::default()
         }],
         materials: vec![Material {
-            ambient: Vec3::ONE,
+            diffuse: Vec3::ZERO,
+            emission: Vec3::ONE,
             ..Material::default()
         }],
         background: Background::Color(Vec3::ZERO),
-        ambient: Vec3::ONE,
         ..Scene::default()
     };
     scene.add_sphere(dvec3(0.0, 0.0, -depth), fraction * HALF_HEIGHT * depth, 0);
     scene
 }
 
-fn picture(scene: &Scene) -> Image {
+fn picture(scene: &Scene, integrator: Integrator) -> Image {
     let settings = RenderSettings {
         samples: 256,
         antialias: Antialias::Stratified,
+        integrator,
         ..sized(SIDE, SIDE)
     };
     render(scene, &settings).0
@@ -68,8 +69,12 @@ fn moment(image: &Image, i: i32, j: i32) -> f64 {
 #[test]
 fn the_circle_of_confusion_has_the_size_of_the_thin_lens_formula() {
     let fraction = 0.2;
-    assert_none([4.0, 5.0, 40.0, 1000.0].map(|depth| {
-        let image = picture(&ball(depth, fraction, Some(ROUND)));
+    let depths = [4.0, 5.0, 40.0, 1000.0].map(|depth| (Integrator::Whitted, depth));
+    let rows = depths
+        .into_iter()
+        .chain([(Integrator::Path, 5.0), (Integrator::Path, 40.0)]);
+    assert_none(rows.map(|(integrator, depth)| {
+        let image = picture(&ball(depth, fraction, Some(ROUND)), integrator);
         // The variance of a disc along each axis is a quarter of its squared radius; that of the ball itself is
         // added, and a twelfth of the squared side of a pixel.
         let pixel = 2.0 / f64::from(SIDE);
@@ -80,7 +85,7 @@ fn the_circle_of_confusion_has_the_size_of_the_thin_lens_formula() {
             return Ok(());
         }
         Err(format!(
-            "depth {depth}: {measured} wide, expected {expected}"
+            "{integrator:?}, depth {depth}: {measured} wide, expected {expected}"
         ))
     }));
 }
@@ -88,7 +93,7 @@ fn the_circle_of_confusion_has_the_size_of_the_thin_lens_formula() {
 #[test]
 fn points_in_focus_are_as_sharp_as_through_a_pinhole() {
     let spread = |lens| {
-        let image = picture(&ball(FOCUS, 0.5, lens));
+        let image = picture(&ball(FOCUS, 0.5, lens), Integrator::Whitted);
         moment(&image, 2, 0) + moment(&image, 0, 2)
     };
     let (sharp, pinhole) = (spread(Some(ROUND)), spread(None));
@@ -107,7 +112,7 @@ fn the_blur_is_the_opening_upright_behind_the_focus_and_turned_before_it() {
         ..ROUND
     };
     let shape = |lens, depth| {
-        let image = picture(&ball(depth, 0.3, Some(lens)));
+        let image = picture(&ball(depth, 0.3, Some(lens)), Integrator::Whitted);
         [
             moment(&image, 3, 0),
             moment(&image, 0, 3),
@@ -130,7 +135,13 @@ fn the_blur_is_the_opening_upright_behind_the_focus_and_turned_before_it() {
 
 #[test]
 fn many_blades_are_a_round_opening() {
-    let spread = |lens| moment(&picture(&ball(40.0, 0.3, Some(lens))), 2, 0);
+    let spread = |lens| {
+        moment(
+            &picture(&ball(40.0, 0.3, Some(lens)), Integrator::Whitted),
+            2,
+            0,
+        )
+    };
     let (many, round) = (
         spread(Lens {
             blade_count: 64,
@@ -147,7 +158,8 @@ fn a_lens_without_radius_is_a_pinhole_bit_for_bit() {
         radius: 0.0,
         ..ROUND
     };
-    let [a, b] = [Some(closed), None].map(|lens| picture(&ball(5.0, 0.3, lens)));
+    let [a, b] =
+        [Some(closed), None].map(|lens| picture(&ball(5.0, 0.3, lens), Integrator::Whitted));
     assert_none([check_same_bits("closed", &a, &b)]);
 }
 

@@ -11,7 +11,7 @@ use glam::{DAffine3, DQuat, DVec3, Vec3, dvec3};
 use glimray::{
     image::Image,
     pack,
-    render::{Antialias, RenderSettings},
+    render::{Antialias, Integrator, RenderSettings},
     scene::{
         Background, Beyond, Camera, CameraProperty, CanonicalShape, Curve, Easing, Geometry,
         Interpolation, Light, LightKind, LightProperty, Material, Node, NodeProperty, Scene, Shape,
@@ -113,7 +113,20 @@ fn a_sphere_that_crosses_the_picture_covers_it_as_its_profile_says() {
     let way = vec![dvec3(from, 0.0, 0.0), dvec3(to, 0.0, 0.0)];
     let target = Target::Node(0, NodeProperty::Translation);
     scene.tracks.push(track(target, Values::Vector(way)));
-    let image = exposed(&scene, &blurred(1024));
+    for integrator in [Integrator::Whitted, Integrator::Path] {
+        let image = exposed(
+            &scene,
+            &RenderSettings {
+                integrator,
+                ..blurred(1024)
+            },
+        );
+        check_profile(&image, radius, (from, to));
+    }
+}
+
+/// A picture of a glowing sphere of this radius that crosses it along x.
+fn check_profile(image: &Image, radius: f64, (from, to): (f64, f64)) {
     // A point at (x, y) is covered while the centre is within half of the chord.
     let covered = |x: f64, y: f64| {
         let half = (radius * radius - y * y).max(0.0).sqrt();
@@ -130,13 +143,13 @@ fn a_sphere_that_crosses_the_picture_covers_it_as_its_profile_says() {
                 covered(place(x) + dx, place(y) + dy)
             });
             let expected = points.sum::<f64>() / 256.0;
-            let actual = mean(&image, [(x, y)].into_iter());
+            let actual = mean(image, [(x, y)].into_iter());
             worst = worst.max((actual - expected).abs());
         }
     }
     assert!(worst < 0.01, "{worst} off");
     // All of its light is there: the fraction of the picture that its silhouette covers.
-    let energy = mean(&image, (0..SIDE * SIDE).map(|i| (i % SIDE, i / SIDE)));
+    let energy = mean(image, (0..SIDE * SIDE).map(|i| (i % SIDE, i / SIDE)));
     let expected = PI * radius * radius / (4.0 * HALF * HALF);
     assert!(
         (energy / expected - 1.0).abs() < 0.005,

@@ -764,11 +764,17 @@ fn is_finite(image: &Image) -> bool {
 
 #[test]
 fn samples_that_are_not_finite_are_dropped_and_counted() {
-    let settings = RenderSettings {
-        samples: 3,
-        ..sized(32, 16)
-    };
-    let (image, stats) = render(&wall_under(f32::MAX), &settings);
+    for integrator in [Integrator::Whitted, Integrator::Path] {
+        check_dropped_samples(&RenderSettings {
+            samples: 3,
+            integrator,
+            ..sized(32, 16)
+        });
+    }
+}
+
+fn check_dropped_samples(settings: &RenderSettings) {
+    let (image, stats) = render(&wall_under(f32::MAX), settings);
     assert_eq!(
         stats.nonfinite_samples,
         3 * 16 * 16,
@@ -785,7 +791,7 @@ fn samples_that_are_not_finite_are_dropped_and_counted() {
         Some([0.2, 0.4, 0.6, 1.0]),
         "the background is as it was"
     );
-    let (_, stats) = render(&wall_under(0.4), &settings);
+    let (_, stats) = render(&wall_under(0.4), settings);
     assert_eq!(
         stats,
         Stats {

@@ -4,7 +4,10 @@ use crate::support::{
     harness::gpu,
     verdict::{Tolerance, Verdict},
 };
-use std::collections::BTreeSet;
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs,
+};
 
 #[test]
 fn weights_of_two_techniques_add_up_to_one() {
@@ -64,21 +67,56 @@ fn no_random_number_of_a_path_is_used_twice() {
     verdict.close();
 }
 
+/// The sources of the path tracer, by their names.
+fn sources() -> Vec<(String, String)> {
+    let files = ["shaders/scene", "shaders/kernels"]
+        .into_iter()
+        .flat_map(|folder| {
+            let entries = fs::read_dir(folder).expect("a folder");
+            entries.map(|entry| entry.expect("a file").path())
+        });
+    let wesl = files.filter(|path| path.extension().is_some_and(|it| it == "wesl"));
+    wesl.map(|path| {
+        let text = fs::read_to_string(&path).expect("a shader");
+        (path.display().to_string(), text)
+    })
+    .collect()
+}
+
+/// Each purpose has a number of its own, below those of the next segment, and one place that draws it. A shadow catcher
+/// scatters in place of what other surfaces do.
 #[test]
-fn purposes_of_a_segment_do_not_reach_into_the_next() {
-    let source = "
-        import package::lib::dimensions::{COVERAGE_CHOICE, DIMENSIONS, LIGHT_CHOICE, LIGHT_POINT_ON, ROULETTE,
-            SCATTER_CHOICE, SCATTER_DIRECTION};
-        fn probe(_unused: u32) -> vec4u {
-            var used = 0u;
-            let purposes = array<u32, 6>(COVERAGE_CHOICE, LIGHT_CHOICE, LIGHT_POINT_ON, ROULETTE, SCATTER_CHOICE,
-                SCATTER_DIRECTION);
-            for (var i = 0u; i < 6u; i += 1u) { used |= 1u << purposes[i]; }
-            return vec4u(used, countOneBits(used), DIMENSIONS, 0u);
-        }";
-    let [[used, count, dimensions, _]] = gpu().map_source::<u32, [u32; 4]>(source, &[0])[..] else {
-        panic!("one row");
+fn every_purpose_of_a_segment_is_drawn_at_one_place() {
+    let table = fs::read_to_string("shaders/lib/dimensions.wesl").expect("a shader");
+    let constant = |line: &str| {
+        let (name, value) = line.strip_prefix("const ")?.split_once(": u32 = ")?;
+        let value = value.strip_suffix("u;")?.parse::<u32>().ok()?;
+        Some((name.to_owned(), value))
     };
-    assert_eq!(count, 6, "purposes {used:#b} are distinct");
-    assert!(used < 1 << dimensions && dimensions == 8, "{used:#b}");
+    let mut purposes: BTreeMap<_, _> = table.lines().filter_map(constant).collect();
+    let limit = purposes.remove("DIMENSIONS").expect("their number");
+    let distinct: BTreeSet<_> = purposes.values().filter(|value| **value < limit).collect();
+    assert!(purposes.len() >= 7, "{purposes:?}");
+    assert_eq!(
+        distinct.len(),
+        purposes.len(),
+        "{purposes:?}, below {limit}"
+    );
+
+    let sources = sources();
+    let mut verdict = Verdict::on("purposes");
+    for purpose in purposes.keys() {
+        let drawn = |(name, text): &(String, String)| {
+            let count = ["random_1d", "random_2d"]
+                .map(|of| text.matches(&format!("{of}(path, {purpose})")).count());
+            (name.clone(), count[0] + count[1])
+        };
+        let (of_catchers, others): (Vec<_>, Vec<_>) = (sources.iter().map(drawn))
+            .filter(|(_, count)| *count > 0)
+            .partition(|(name, _)| name.ends_with("shadow_catcher.wesl"));
+        let is_once = |places: &[(String, usize)]| places.iter().all(|(_, count)| *count == 1);
+        let is_fine = others.len() == 1 && is_once(&others) && is_once(&of_catchers);
+        verdict.that(purpose, is_fine, || format!("{others:?}, {of_catchers:?}"));
+    }
+    verdict.close();
 }

@@ -1,6 +1,7 @@
 //! The clips of a model, and its deforming meshes.
 
-use crate::cli::inspect::{list, number, quoted};
+use crate::app::console::quoted;
+use crate::cli::inspect::{list, number};
 use crate::scene::{Clip, Deformation, Scene};
 use serde_json::{Value, json};
 use std::fmt::{self, Write};

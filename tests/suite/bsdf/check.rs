@@ -315,7 +315,7 @@ fn refined(f: &impl Fn(f64, f64) -> f64, x: [f64; 2], y: [f64; 2], depth: u32) -
 }
 
 /// Bins in which fewer than 10 samples are expected are joined.
-fn pooled(counts: &[u32], expected: &[f64]) -> (Vec<u32>, Vec<f64>) {
+pub fn pooled(counts: &[u32], expected: &[f64]) -> (Vec<u32>, Vec<f64>) {
     let (mut rare, mut rare_expected) = (0, 0.0);
     let (mut many, mut many_expected) = (Vec::new(), Vec::new());
     for (&count, &expected) in counts.iter().zip(expected) {

@@ -50,6 +50,35 @@ fn inspect_lists_lenses_and_area_lights() {
     }
 }
 
+/// A highlight of an exponent of 9 returns 2/(9 + 1) of k_s.
+#[test]
+fn materials_that_make_light_cause_a_warning_of_paths() {
+    let workspace = Workspace::new();
+    for (name, phong, warns) in [
+        ("bright", "diffuse = [3, 0, 0]", true),
+        ("shiny", "specular = [0, 5.1, 0], shininess = 9", true),
+        (
+            "dull",
+            "diffuse = [1, 1, 1], specular = [4.9, 0, 0], shininess = 9",
+            false,
+        ),
+    ] {
+        let scene = format!(
+            "[materials]\npaint = {{ phong = {{ {phong} }} }}\n[[lights]]\npoint = {{ position = [3, 3, 3] }}\n\
+             [[objects]]\nsphere = {{ center = [0, 0, 0], radius = 1 }}\nmaterial = \"paint\"\n"
+        );
+        fs::write(workspace.path("scene.toml"), scene).expect("a scene");
+        for (integrator, is_expected) in [("path", warns), ("whitted", false)] {
+            let render = workspace.run(&format!(
+                "render scene.toml --size 8x8 --samples 1 --integrator {integrator} -o a.png"
+            ));
+            let said = render.expect(0).stderr;
+            let is_warned = said.contains("reflects more light than arrives (`paint`)");
+            assert_eq!(is_warned, is_expected, "{name}, {integrator}: {said}");
+        }
+    }
+}
+
 #[test]
 fn a_scene_without_light_causes_one_warning() {
     let workspace = Workspace::new();

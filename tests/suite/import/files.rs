@@ -136,7 +136,7 @@ fn links_out_and_pipes_are_refused() {
     assert_snapshot!(message("a.toml"), @"mesh file refused (a.toml:2:17): `link.obj` points outside the scene folder. Name a file in it, or permit the other folder.");
     assert_snapshot!(message("b.toml"), @"mesh file refused (b.toml:2:17): `pipe.obj` is not a plain file. Name a plain file in the scene folder.");
     assert_snapshot!(message("c.toml"), @"no error");
-    assert_snapshot!(message("pipe.obj"), @"cannot read the file (pipe.obj): it is not a plain file. Name a scene file.");
+    assert_snapshot!(message("pipe.obj"), @"cannot read the file (pipe.obj): it is not a plain file. Name a file.");
 }
 
 #[test]
@@ -164,7 +164,7 @@ fn files_that_are_no_scenes_have_their_messages() {
 unknown scene format (a.fbx): the extension `.fbx` is not supported. Use a .toml, .scene, .nff, .obj, .gltf, .glb, .ply, .stl or .zip file; convert other models to one of these.
 unknown scene format (plain): the name has no extension. Use a .toml, .scene, .nff, .obj, .gltf, .glb, .ply, .stl or .zip file; convert other models to one of these.
 unknown scene format (odd.��): the extension `.\u{7}\n` is not supported. Use a .toml, .scene, .nff, .obj, .gltf, .glb, .ply, .stl or .zip file; convert other models to one of these.
-cannot read the file (d.toml): it is a folder. Name a scene file.
+cannot read the file (d.toml): it is a folder. Name a file.
 cannot read the file (gone.toml): no such file or folder. Check the path and its permissions.
 cannot read the file (gone.scene): no such file or folder. Check the path and its permissions.
 cannot read the file (gone/a.obj): no such file or folder. Check the path and its permissions.

@@ -1,4 +1,4 @@
-//! Evaluates shader functions: any function of `shaders/lib` over rows of inputs.
+//! Evaluates shader functions: any function of `shaders/lib` over rows of inputs, or of `shaders/scene` that reads no scene.
 //!
 //! A small entry point is generated around the function, linked like the kernels, and run with one invocation
 //! for each row. The output is filled with a sentinel and each row ends with its index, so a row that was never
@@ -63,12 +63,22 @@ impl Harness {
 
     /// Evaluates a function such as `lib::phong::phong` for each row of arguments.
     pub fn map<I: Input, O: Output>(&self, function: &str, inputs: &[I]) -> Vec<O> {
-        self.run("", &format!("package::{function}"), &[0.0], inputs)
+        self.run("", &format!("package::{function}"), &[], &[0.0], inputs)
     }
 
     /// Evaluates the function `probe` of a piece of WESL for each row of arguments.
     pub fn map_source<I: Input, O: Output>(&self, source: &str, inputs: &[I]) -> Vec<O> {
-        self.run(source, "probe", &[0.0], inputs)
+        self.run(source, "probe", &[], &[0.0], inputs)
+    }
+
+    /// As `map_source`, with these overrides of `bindings.wesl` switched on.
+    pub fn map_flagged<I: Input, O: Output>(
+        &self,
+        flags: &[&str],
+        source: &str,
+        inputs: &[I],
+    ) -> Vec<O> {
+        self.run(source, "probe", flags, &[0.0], inputs)
     }
 
     /// As `map_source`, with numbers shared by all rows: `table` in the source.
@@ -78,7 +88,7 @@ impl Harness {
         table: &[f32],
         inputs: &[I],
     ) -> Vec<O> {
-        self.run(source, "probe", table, inputs)
+        self.run(source, "probe", &[], table, inputs)
     }
 
     /// Evaluates a function for a table of (name, arguments, result) and fails with all wrong rows.
@@ -102,6 +112,7 @@ impl Harness {
         &self,
         source: &str,
         function: &str,
+        flags: &[&str],
         table: &[f32],
         inputs: &[I],
     ) -> Vec<O> {
@@ -135,7 +146,8 @@ impl Harness {
         );
         let mut words = Vec::new();
         inputs.iter().for_each(|input| input.write(&mut words));
-        let results = self.dispatch(function, &link(&probe), table, &words, inputs.len(), stride);
+        let linked = with_flags(link(&probe), flags);
+        let results = self.dispatch(function, &linked, table, &words, inputs.len(), stride);
         results
             .chunks_exact(stride)
             .enumerate()
@@ -274,6 +286,20 @@ impl Harness {
 }
 
 /// Links a module of a test and its imports from `shaders/` to plain WGSL.
+/// Linked WGSL with these overrides switched on.
+fn with_flags(mut wgsl: String, flags: &[&str]) -> String {
+    for flag in flags {
+        let off = format!("{flag}: bool = false");
+        // Names have a prefix, in which an underscore is two.
+        let off = [off.clone(), off.replace('_', "__")]
+            .into_iter()
+            .find(|off| wgsl.contains(off));
+        let off = off.unwrap_or_else(|| panic!("{flag} is no override that is off"));
+        wgsl = wgsl.replace(&off, &off.replace("false", "true"));
+    }
+    wgsl
+}
+
 fn link(probe: &str) -> String {
     let path: wesl::ModulePath = "package::probe".parse().expect("a path");
     let mut own = VirtualResolver::new();
@@ -281,7 +307,10 @@ fn link(probe: &str) -> String {
     let mut router = Router::new();
     router.mount_resolver(path.clone(), own);
     router.mount_fallback_resolver(FileResolver::new("shaders"));
-    let compiler = Wesl::new("shaders").set_custom_resolver(router);
+    let mut compiler = Wesl::new("shaders").set_custom_resolver(router);
+    for feature in ["image_fetch", "packet", "record"] {
+        compiler.set_feature(feature, false);
+    }
     match compiler.compile(&path) {
         Ok(linked) => linked.to_string(),
         Err(error) => panic!("{error}\n{probe}"),
