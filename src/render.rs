@@ -68,6 +68,7 @@ use crate::{
     gpu::{AdapterReport, Gpu, GpuError},
     pack::{PackedScene, PackedView},
 };
+use denoise::Denoiser;
 use device::Device;
 use film_tiles::FilmTiles;
 use losses::or_replacement;
@@ -128,7 +129,7 @@ impl Renderer {
         let fetch = bindings::choose_fetch(&policy, &gpu, &scene, &view);
         let shown = (&*scene, &view, fetch);
         let mut stats = Stats {
-            gpu_bytes: planned_bytes(shown, settings.region(), &policy, &tiles)?,
+            gpu_bytes: planned_bytes(shown, &settings, &policy, &tiles)?,
             rays: policy.count_rays.then(Rays::default),
             ..Default::default()
         };
@@ -193,7 +194,7 @@ impl Renderer {
         let tiles = FilmTiles::new(&settings, policy.slicing.tile_side);
         let fetch = bindings::choose_fetch(&policy, &self.device.gpu, &scene, &view);
         let shown = (&*scene, &view, fetch);
-        let bytes = planned_bytes(shown, settings.region(), &policy, &tiles)?;
+        let bytes = planned_bytes(shown, &settings, &policy, &tiles)?;
         self.stats.gpu_bytes = self.stats.gpu_bytes.max(bytes);
         self.earlier_losses = self.stats.device_losses;
         if policy.count_rays {
@@ -268,7 +269,7 @@ impl Renderer {
         self.fetch_film()?;
         let fetch = bindings::choose_fetch(&policy, &self.device.gpu, &scene, &view);
         let shown = (&*scene, &view, fetch);
-        let bytes = planned_bytes(shown, self.settings.region(), &policy, &self.tiles)?;
+        let bytes = planned_bytes(shown, &self.settings, &policy, &self.tiles)?;
         self.stats.gpu_bytes = self.stats.gpu_bytes.max(bytes);
         (self.scene, self.view, self.policy) = (scene, view, policy);
         let spare = self.policy.memory_limit_bytes.saturating_sub(bytes);
@@ -353,10 +354,11 @@ impl Renderer {
 /// It exceeds the memory limit of the policy.
 fn planned_bytes(
     (scene, view, fetch): (&PackedScene, &PackedView, Fetch),
-    [.., width, height]: [u32; 4],
+    settings: &RenderSettings,
     policy: &ExecutionPolicy,
     tiles: &FilmTiles,
 ) -> Result<u64, GpuError> {
+    let [.., width, height] = settings.region();
     let pixels = u64::from(width) * u64::from(height);
     let mut ledger = bindings::ledger(scene, view, fetch, tiles.largest(), pixels);
     if tiles.has_totals() {
@@ -364,6 +366,9 @@ fn planned_bytes(
             "totals of the film",
             pixels * size_of::<[i128; 4]>() as u64 * tiles.rows_per_pixel() as u64,
         );
+    }
+    if settings.has_features() {
+        ledger.plan("denoised picture", pixels * Denoiser::PIXEL_BYTES);
     }
     ledger.check(policy.memory_limit_bytes)?;
     Ok(ledger.total())

@@ -75,8 +75,8 @@ impl Job<'_> {
                 count => format!(" and {count} more"),
             };
             console::warning(format_args!(
-                "a material reflects more light than arrives ({}{others}): paths scale it down. Use coefficients of at \
-                 most 1.",
+                "a material may reflect more light than arrives ({}{others}): paths scale it down. Use colours of at \
+                 most 1, and a specular coefficient of at most (shininess + 1)/2.",
                 console::quoted(&first.name)
             ));
         }

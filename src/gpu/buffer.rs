@@ -136,13 +136,22 @@ impl Gpu {
         }))
     }
 
-    /// A texture that shaders write and sample, zero-initialised.
+    /// A texture that shaders write and sample, zero-initialised. A side beyond the limit of the adapter is an error.
     pub(crate) fn allocate_screen(
         &self,
         width: u32,
         height: u32,
         format: wgpu::TextureFormat,
     ) -> Result<wgpu::TextureView, GpuError> {
+        let limit = self.device.limits().max_texture_dimension_2d;
+        let side = width.max(height);
+        if side > limit {
+            return Err(GpuError::Limit {
+                name: "width or height of a picture in pixels",
+                need: side.into(),
+                limit: limit.into(),
+            });
+        }
         if fault::should_fail(fault::Site::Allocation) {
             return Err(GpuError::OutOfMemory {
                 what: "screen".into(),

@@ -26,8 +26,8 @@ impl Pipelines {
     }
 }
 
-/// The key of a pipeline. It does not include the bind group layouts, which follow from the kernel and its
-/// variant.
+/// The key of a pipeline. It does not include the bind group layouts, which follow from the kernel, its
+/// variant and its overrides.
 #[derive(PartialEq)]
 struct PipelineKey {
     kernel: &'static str,
@@ -57,9 +57,9 @@ pub struct Kernel {
 /// A variant of a kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variant {
-    /// Geometry is fetched from images.
+    /// Geometry, or what the denoiser filters, is fetched from storage images.
     Image,
-    /// Geometry is fetched from buffers.
+    /// Geometry is fetched from buffers, what the denoiser filters from textures.
     Buffer,
     /// As `Image`, and the lanes of a subgroup trace their rays together: see [`Gpu::traces_packets`].
     Packet,

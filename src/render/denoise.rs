@@ -7,6 +7,7 @@ use super::{
     layouts::{COLOR_FORMAT, GUIDE_FORMAT, Layouts, target},
     opacity::straight,
     overrides, pipelines,
+    policy::Storage,
     settings::RenderSettings,
 };
 use crate::{
@@ -36,7 +37,8 @@ impl Image {
     /// replaced by what is around them.
     ///
     /// # Errors
-    /// The device failed, a side exceeds the adapter's textures, or the features are those of another picture.
+    /// The device failed, or a side exceeds the adapter's textures. With the features of a picture of another size it is
+    /// returned as it is.
     pub fn denoised(&self, gpu: &Gpu, features: &Features) -> Result<Self, RenderError> {
         Ok(self.denoise(gpu, features)?.image)
     }
@@ -54,19 +56,17 @@ impl Image {
                 pass_seconds: None,
             });
         }
-        check_memory(width, height)?;
-        let limit = gpu.device.limits().max_texture_dimension_2d;
-        let side = width.max(height);
-        if side > limit {
-            return Err(GpuError::Limit {
-                name: "width or height of a picture in pixels",
-                need: side.into(),
-                limit: limit.into(),
-            }
-            .into());
-        }
+        check_memory(
+            width,
+            height,
+            Denoiser::PIXEL_BYTES + 2 * u64::from(TEXEL_BYTES),
+        )?;
         let pixels = &features.pixels;
-        let denoiser = Denoiser::new(gpu, width, height)?;
+        let variant = match Storage::usual(gpu) {
+            Storage::Image if gpu.reads_images() => Variant::Image,
+            _ => Variant::Buffer,
+        };
+        let denoiser = Denoiser::new(gpu, variant, width, height)?;
         denoiser.write(gpu, self, pixels)?;
         let (colors, mut pass_seconds) = denoiser.filter(gpu, Start::Picture)?;
         let clear = match pixels.iter().any(|pixel| pixel.transparency > 0.0) {
@@ -116,6 +116,7 @@ enum Start {
 
 /// The textures of a picture that is denoised. Bindings are those of group 3 in `bindings.wesl`.
 pub struct Denoiser {
+    variant: Variant,
     width: u32,
     height: u32,
     /// Radiance times opacity, and the variance of its mean luminance; every other signal while filtering.
@@ -129,10 +130,14 @@ pub struct Denoiser {
 }
 
 impl Denoiser {
-    /// Sides are within the limit of the adapter.
-    pub fn new(gpu: &Gpu, width: u32, height: u32) -> Result<Self, GpuError> {
+    /// Bytes of its textures for a pixel.
+    pub const PIXEL_BYTES: u64 = 5 * TEXEL_BYTES as u64;
+
+    /// For a picture of this size, with this variant of the filter.
+    pub fn new(gpu: &Gpu, variant: Variant, width: u32, height: u32) -> Result<Self, GpuError> {
         let texture = |format| gpu.allocate_screen(width, height, format);
         Ok(Self {
+            variant,
             width,
             height,
             noisy: texture(COLOR_FORMAT)?,
@@ -235,10 +240,7 @@ impl Denoiser {
             let pipeline = pipelines::denoising(gpu, kernel, &layout, Overrides::new())?;
             steps.push((pipeline, group));
         }
-        let variant = match gpu.is_cpu() && gpu.reads_images() {
-            true => Variant::Image,
-            false => Variant::Buffer,
-        };
+        let variant = self.variant;
         let (mut from, mut to) = (&self.signal, &self.noisy);
         for (pass, stride) in [1].into_iter().chain(STRIDES).enumerate() {
             let modulates = is_picture && pass == STRIDES.len();

@@ -29,7 +29,7 @@ impl Tone {
     /// The device failed, or the picture exceeds [`MEMORY_LIMIT_BYTES`].
     pub fn develop(&self, gpu: &Gpu, image: &Image) -> Result<Image, RenderError> {
         let (width, height) = (image.width, image.height);
-        check_memory(width, height)?;
+        check_memory(width, height, PIXEL_BYTES)?;
         let region = [0, 0, width, height];
         let pixels = image.pixels.iter();
         let sums: Vec<_> = pixels.clone().map(|&[r, g, b, _]| [r, g, b, 1.0]).collect();
@@ -237,13 +237,13 @@ impl Developer {
 }
 
 /// Bytes per pixel of a picture, its sums, and their copies for upload and readback.
-const PIXEL_BYTES: u64 = 64;
+pub const PIXEL_BYTES: u64 = 64;
 
-/// Checks that a picture can be developed without a renderer.
-pub fn check_memory(width: u32, height: u32) -> Result<(), GpuError> {
+/// Checks that a picture can be developed or denoised without a renderer, in so many bytes per pixel.
+pub fn check_memory(width: u32, height: u32, pixel_bytes: u64) -> Result<(), GpuError> {
     let pixels = u64::from(width).saturating_mul(height.into());
     let mut ledger = Ledger::default();
-    ledger.plan("picture and film", pixels.saturating_mul(PIXEL_BYTES));
+    ledger.plan("picture and film", pixels.saturating_mul(pixel_bytes));
     ledger.check(MEMORY_LIMIT_BYTES)
 }
 

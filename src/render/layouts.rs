@@ -90,7 +90,8 @@ pub fn target(
         5 => sampled(TextureSampleType::Uint),
         6 | 11..=13 => written(COLOR_FORMAT),
         10 => written(GUIDE_FORMAT),
-        _ => buffer(true),
+        0 | 3 => buffer(true),
+        _ => buffer(false),
     };
     let bindings = resources.iter().map(|(binding, _)| *binding);
     let layout = layout(gpu, "target", bindings.map(|it| (it, type_of(it))));

@@ -39,16 +39,6 @@ impl Screen {
     /// # Errors
     /// The image is larger than the adapter's textures, or the device failed.
     pub fn of(gpu: &Gpu, image: &ScreenImage) -> Result<Self, RenderError> {
-        let limit = gpu.device.limits().max_texture_dimension_2d;
-        let side = image.width.max(image.height);
-        if side > limit {
-            return Err(GpuError::Limit {
-                name: "width or height of a picture in pixels",
-                need: side.into(),
-                limit: limit.into(),
-            }
-            .into());
-        }
         let view = gpu.allocate_screen(image.width, image.height, SCREEN_FORMAT)?;
         let screen = Self { view };
         screen.write(gpu, image)?;
@@ -170,8 +160,9 @@ impl Renderer {
     }
 
     /// Develops the samples so far to a screen of the size of the picture: pixels with samples get the result
-    /// of [`Self::develop`], rounded to 8 bits; denoised ones within one of these levels. Returns the range over which a quantity is shown. If it
-    /// [`Self::shows_directly`] and needs neither a range nor an exposure, it does not wait for the GPU.
+    /// of [`Self::develop`], rounded to 8 bits; denoised ones within one of these levels. Returns the range over
+    /// which a quantity is shown. If it [`Self::shows_directly`] and needs neither a range nor an exposure, and
+    /// does not denoise, it does not wait for the GPU.
     pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
         let range = self.range_of(tone)?;
         if self.shows_directly(tone) {
@@ -227,12 +218,15 @@ impl Renderer {
             (0, shown_tone.as_entire_binding()),
             (2, BindingResource::TextureView(&screen.view)),
         ];
+        if !is_denoised {
+            device.denoiser = None;
+        }
         if is_denoised {
             let (width, height) = screen.size();
             let kept = (device.denoiser.take()).filter(|kept| kept.size() == (width, height));
             let denoiser = device.denoiser.insert(match kept {
                 Some(kept) => kept,
-                None => Denoiser::new(gpu, width, height)?,
+                None => Denoiser::new(gpu, pipelines::portable(device.fetch), width, height)?,
             });
             let grid = (columns, rows);
             denoiser.read_film(gpu, (layouts, buffers), &self.settings, grid, &mut encoder)?;
@@ -250,7 +244,11 @@ impl Renderer {
             pass.set_bind_group(3, &group, &[]);
             pass.dispatch_workgroups(columns, rows, 1);
         }
-        gpu.enqueue(encoder.finish()).map(drop)
+        match is_denoised {
+            // The next slice is timed from its submission, without these passes.
+            true => gpu.submit(encoder.finish()),
+            false => gpu.enqueue(encoder.finish()).map(drop),
+        }
     }
 
     /// Writes the sums of the only film tile to the film buffer unless they are there.

@@ -2,12 +2,14 @@
 
 use crate::reference::compare::{open_gpu, start};
 use glimray::image::{Image, ScreenImage};
-use glimray::import;
 use glimray::render::{
-    Features, Filter, Integrator, PixelFeatures, RenderSettings, Renderer, Tone,
+    ExecutionPolicy, Features, Fetch, Filter, Integrator, PixelFeatures, RenderSettings, Renderer,
+    Tone,
 };
 use glimray::scene::{Antialias, Transfer};
+use glimray::{import, pack};
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 const SIDE: u32 = 160;
@@ -239,58 +241,89 @@ fn renderers_and_films_denoise_to_the_same_bits() {
     }
 }
 
-/// The screen is denoised from the film on the device, files from means in f64 on the host.
-#[test]
-fn a_screen_shows_what_files_get() {
-    let scene = import::load(Path::new("assets/scenes/still_life.toml")).expect("a scene");
+/// The screen of a renderer is denoised from the film on the device, files from means in f64 on the host. Pixels without a
+/// sample are transparent on a screen.
+fn check_screen(renderer: &mut Renderer, what: &str) {
     let tone = Tone {
         denoise: true,
         transfer: Transfer::Srgb,
         ..Tone::LINEAR
     };
-    // The filter of the second has negative lobes.
-    for (samples, filter) in [(1, Filter::Box), (7, Filter::Mitchell), (64, Filter::Tent)] {
-        let settings = RenderSettings {
-            size: (50, 30),
-            crop: Some([3, 2, 48, 29]),
-            samples,
-            antialias: Antialias::Stratified,
-            filter,
-            integrator: Integrator::Path,
-            features: true,
-            ..RenderSettings::default()
+    let raw = Tone {
+        denoise: false,
+        ..tone
+    };
+    let screen = renderer.new_screen().expect("a screen");
+    let mut apart = |tone: &Tone| {
+        renderer.show(tone, &screen).expect("a picture");
+        let shown = screen.read(renderer.gpu()).expect("its pixels");
+        let file = ScreenImage::from(&renderer.develop(tone).expect("a picture"));
+        let pairs = shown.pixels.into_iter().zip(file.pixels);
+        let seen = pairs.filter(|(shown, _)| shown[3] > 0 || renderer.is_done());
+        let levels = |(shown, file): ([u8; 4], [u8; 4])| {
+            let levels = shown.into_iter().zip(file).map(|(a, b)| a.abs_diff(b));
+            levels.max().unwrap_or_default()
         };
-        let mut renderer = start(&scene, &settings).expect("a renderer");
-        let screen = renderer.new_screen().expect("a screen");
-        let look = |renderer: &mut Renderer| {
-            assert!(renderer.shows_directly(&tone));
-            renderer.show(&tone, &screen).expect("a picture");
-            let shown = screen.read(renderer.gpu()).expect("its pixels");
-            let image = renderer.develop(&tone).expect("a picture");
-            let mut others = 0;
-            for (shown, file) in shown.pixels.iter().zip(&ScreenImage::from(&image).pixels) {
-                // Pixels without a sample are transparent on a screen.
-                if shown[3] > 0 || renderer.is_done() {
-                    let apart = shown.iter().zip(file).map(|(a, b)| a.abs_diff(*b)).max();
-                    assert!(
-                        apart <= Some(1),
-                        "{samples} samples: {shown:?}, not {file:?}"
-                    );
-                    others += usize::from(apart > Some(0));
-                }
-            }
-            assert!(50 * others <= shown.pixels.len(), "{others} pixels differ");
-            let raw = Tone {
-                denoise: false,
-                ..tone
-            };
-            assert_ne!(image, renderer.develop(&raw).expect("a picture"));
+        seen.map(levels).collect::<Vec<_>>()
+    };
+    let denoised = apart(&tone);
+    let others = denoised.iter().filter(|levels| **levels > 0).count();
+    assert!(
+        denoised.iter().all(|levels| *levels <= 1),
+        "{what}: {denoised:?}"
+    );
+    assert!(
+        50 * others <= denoised.len(),
+        "{what}: {others} pixels differ"
+    );
+    assert!(apart(&raw).iter().all(|levels| *levels == 0), "{what}, raw");
+    let image = renderer.develop(&tone).expect("a picture");
+    assert_ne!(image, renderer.develop(&raw).expect("a picture"), "{what}");
+}
+
+#[test]
+fn a_screen_shows_what_files_get() {
+    let scene = import::load(Path::new("assets/scenes/still_life.toml")).expect("a scene");
+    let packed = Arc::new(pack::scene(&scene).expect("a packed scene"));
+    let view = packed.frame(&scene.frame(0.0)).expect("a frame");
+    let settings = |size, crop, samples, filter| RenderSettings {
+        size,
+        crop,
+        samples,
+        antialias: Antialias::Stratified,
+        filter,
+        integrator: Integrator::Path,
+        features: true,
+        ..RenderSettings::default()
+    };
+    // One renderer for all. The second filter has negative lobes; more than 64 samples pass through the host.
+    let all = [
+        settings((50, 30), None, 1, Filter::Box),
+        settings((50, 30), Some([3, 2, 48, 29]), 7, Filter::Mitchell),
+        settings((30, 20), None, 64, Filter::Tent),
+        settings((30, 20), None, 70, Filter::Box),
+    ];
+    for (fetch, rows) in [(Fetch::Image, &all[..]), (Fetch::Buffer, &all[1..2])] {
+        let policy = ExecutionPolicy {
+            fetch,
+            ..ExecutionPolicy::default()
         };
-        renderer.step().expect("a step");
-        look(&mut renderer);
-        while !renderer.is_done() {
+        let first = rows[0].clone();
+        let renderer = Renderer::new(open_gpu(), packed.clone(), &view, first, policy);
+        let mut renderer = renderer.expect("a renderer");
+        for row in rows {
+            renderer
+                .restart(packed.clone(), &view, row.clone(), policy)
+                .expect("a restart");
             renderer.step().expect("a step");
+            check_screen(&mut renderer, &format!("{fetch:?}, {} begun", row.samples));
+            while !renderer.is_done() {
+                renderer.step().expect("a step");
+            }
+            check_screen(
+                &mut renderer,
+                &format!("{fetch:?}, {} samples", row.samples),
+            );
         }
-        look(&mut renderer);
     }
 }

@@ -6,7 +6,7 @@ use crate::{
     image::Image,
     render::{
         Levels, Quantity, RenderError, Tone,
-        develop::{check_memory, develop_sums, sample_count_image},
+        develop::{PIXEL_BYTES, check_memory, develop_sums, sample_count_image},
         layers::{self, LayerKind},
         levels, opacity,
     },
@@ -22,7 +22,7 @@ impl Film {
     /// The device failed, or the picture exceeds [`crate::gpu::MEMORY_LIMIT_BYTES`].
     pub fn develop(&self, gpu: &Gpu, tone: &Tone) -> Result<Image, RenderError> {
         let region = self.region();
-        check_memory(region[2], region[3])?;
+        check_memory(region[2], region[3], PIXEL_BYTES)?;
         let range = self.range_of(tone);
         if self.header.integrator.quantity() == Some(Quantity::Samples) {
             let counts: Vec<_> = (self.layer(LayerKind::Count).iter())

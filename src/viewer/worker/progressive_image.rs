@@ -17,7 +17,7 @@ use crate::app::layer_picture;
 use crate::app::layers::PictureLayer;
 use crate::gpu::Gpu;
 use crate::pack::{PackedScene, PackedView};
-use crate::render::{Antialias, Renderer, Screen};
+use crate::render::{Antialias, Renderer, Screen, Tone};
 use crate::scene::{Frame, Scene};
 use crate::viewer::worker::classical::ShownScenes;
 use crate::viewer::worker::request::RenderRequest;
@@ -29,9 +29,10 @@ use std::time::{Duration, Instant};
 /// Minimum interval between presentations of a picture that passes through the host.
 const DETOUR: Duration = Duration::from_millis(500);
 
-/// The same for one that is denoised each time: by a GPU alone, and with the host or on software.
-const DENOISED_BY_GPU: Duration = Duration::from_millis(200);
-const DENOISED: Duration = Duration::from_secs(2);
+/// The same for one that is denoised each time, and how many times longer it is at least than denoising and presenting
+/// took last.
+const DENOISED: Duration = Duration::from_millis(200);
+const DENOISED_PAUSE: u32 = 4;
 
 /// A picture, its renderer and its screens.
 pub struct ProgressiveImage {
@@ -63,6 +64,8 @@ pub struct ProgressiveImage {
     range: Option<[f32; 2]>,
     is_shown: bool,
     last_look: Option<Instant>,
+    /// How long the last presentation took.
+    look_time: Duration,
     looks: u64,
     /// Seconds of work on this picture.
     busy: f64,
@@ -107,6 +110,7 @@ impl ProgressiveImage {
             range: None,
             is_shown: true,
             last_look: None,
+            look_time: Duration::ZERO,
             looks: 0,
             busy: 0.0,
             pace: Pace::default(),
@@ -186,11 +190,11 @@ impl ProgressiveImage {
             (self.report)(Stage::FirstSamples { share });
         }
         let is_direct = renderer.shows_directly(&order.tone) && order.layer == PictureLayer::Beauty;
-        let interval = match (is_direct, renderer.denoises(&order.tone)) {
-            (true, false) => pace::between_looks(&self.gpu),
+        let is_denoised = renderer.denoises(&order.tone) && order.layer == PictureLayer::Beauty;
+        let interval = match (is_denoised, is_direct) {
+            (true, _) => DENOISED.max(DENOISED_PAUSE * self.look_time),
+            (false, true) => pace::between_looks(&self.gpu),
             (false, false) => DETOUR,
-            (true, true) if !self.gpu.is_cpu() => DENOISED_BY_GPU,
-            (_, true) => DENOISED,
         };
         let is_due = renderer.is_done()
             || is_held
@@ -202,6 +206,7 @@ impl ProgressiveImage {
             self.busy += started.elapsed().as_secs_f64();
             return Ok(());
         }
+        let look = Instant::now();
         let screen = match self.is_coarse {
             true => &mut self.coarse,
             false => &mut self.screen,
@@ -220,6 +225,7 @@ impl ProgressiveImage {
             }
             _ => renderer.show(&order.tone, screen)?,
         };
+        self.look_time = look.elapsed();
         self.busy += started.elapsed().as_secs_f64();
         if self.is_coarse && self.last_look.is_none() {
             (self.pace).measured(self.busy, u64::from(width) * u64::from(height));
@@ -241,7 +247,12 @@ impl ProgressiveImage {
             && self.place == PictureSlot::Main
             && order.settings.antialias != Antialias::None;
         if is_estimable && self.noise.is_due(samples) {
-            self.noise.look(&renderer.develop(&order.tone)?, samples);
+            // Neighbours share the noise of a denoised picture.
+            let tone = Tone {
+                denoise: false,
+                ..order.tone
+            };
+            self.noise.look(&renderer.develop(&tone)?, samples);
         }
         Ok(())
     }

@@ -285,7 +285,6 @@ impl Harness {
     }
 }
 
-/// Links a module of a test and its imports from `shaders/` to plain WGSL.
 /// Linked WGSL with these overrides switched on.
 fn with_flags(mut wgsl: String, flags: &[&str]) -> String {
     for flag in flags {
@@ -300,6 +299,7 @@ fn with_flags(mut wgsl: String, flags: &[&str]) -> String {
     wgsl
 }
 
+/// Links a module of a test and its imports from `shaders/` to plain WGSL.
 fn link(probe: &str) -> String {
     let path: wesl::ModulePath = "package::probe".parse().expect("a path");
     let mut own = VirtualResolver::new();
