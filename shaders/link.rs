@@ -46,7 +46,7 @@ const KERNELS: [(&str, &str, &[&str], &[&str]); 11] = [
 ];
 
 /// Every feature of `shaders`.
-const FEATURES: [&str; 3] = ["image_fetch", "packet", "record"];
+pub const FEATURES: [&str; 3] = ["image_fetch", "packet", "record"];
 
 /// Names items of modules as `module__item`, where wesl would repeat the whole path: the program embeds the text.
 /// Modules that share a name have no item of the same name; naga would reject the second.

@@ -69,7 +69,7 @@ impl Job<'_> {
             console::warning(UNLIT);
         }
         let mut gaining = self.scene.materials_that_gain_light();
-        if let (true, Some(first)) = (is_path, gaining.next()) {
+        if is_path && let Some(first) = gaining.next() {
             let others = match gaining.count() {
                 0 => String::new(),
                 count => format!(" and {count} more"),

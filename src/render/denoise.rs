@@ -3,7 +3,7 @@
 use super::{
     Features, PixelFeatures, RenderError,
     bindings::Buffers,
-    develop::check_memory,
+    develop::{add_film_pass, check_memory},
     layouts::{COLOR_FORMAT, GUIDE_FORMAT, Layouts, target},
     opacity::straight,
     overrides, pipelines,
@@ -63,8 +63,8 @@ impl Image {
         )?;
         let pixels = &features.pixels;
         let variant = match Storage::usual(gpu) {
-            Storage::Image if gpu.reads_images() => Variant::Image,
-            _ => Variant::Buffer,
+            Storage::Image => Variant::Image,
+            Storage::Buffer => Variant::Buffer,
         };
         let denoiser = Denoiser::new(gpu, variant, width, height)?;
         denoiser.write(gpu, self, pixels)?;
@@ -117,8 +117,6 @@ enum Start {
 /// The textures of a picture that is denoised. Bindings are those of group 3 in `bindings.wesl`.
 pub struct Denoiser {
     variant: Variant,
-    width: u32,
-    height: u32,
     /// Radiance times opacity, and the variance of its mean luminance; every other signal while filtering.
     noisy: TextureView,
     albedos: TextureView,
@@ -138,8 +136,6 @@ impl Denoiser {
         let texture = |format| gpu.allocate_screen(width, height, format);
         Ok(Self {
             variant,
-            width,
-            height,
             noisy: texture(COLOR_FORMAT)?,
             albedos: texture(COLOR_FORMAT)?,
             surfaces: texture(COLOR_FORMAT)?,
@@ -150,7 +146,8 @@ impl Denoiser {
 
     /// Width and height in pixels.
     pub fn size(&self) -> (u32, u32) {
-        (self.width, self.height)
+        let texture = self.signal.texture();
+        (texture.width(), texture.height())
     }
 
     /// The denoised picture.
@@ -192,7 +189,7 @@ impl Denoiser {
         gpu: &Gpu,
         (layouts, buffers): (&Layouts, &Buffers),
         settings: &RenderSettings,
-        (columns, rows): (u32, u32),
+        grid: (u32, u32),
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<(), GpuError> {
         let resources = [
@@ -204,12 +201,8 @@ impl Denoiser {
         let overrides = overrides::of_features(settings);
         let pipeline =
             pipelines::developing(gpu, layouts, Kernel::FILM_FEATURES, &layout, overrides)?;
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(1, &buffers.frame_group, &[]);
-        pass.set_bind_group(2, &buffers.film_group, &[]);
-        pass.set_bind_group(3, &group, &[]);
-        pass.dispatch_workgroups(columns, rows, 1);
+        let groups = [&buffers.frame_group, &buffers.film_group, &group];
+        add_film_pass(encoder, &pipeline, groups, grid);
         Ok(())
     }
 
@@ -260,6 +253,7 @@ impl Denoiser {
             (from, to) = (to, from);
         }
         let last = steps.len() - 1;
+        let (width, height) = self.size();
         for (index, (pipeline, group)) in steps.iter().enumerate() {
             let mut work = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                 label: Some("denoise"),
@@ -268,7 +262,7 @@ impl Denoiser {
             });
             work.set_pipeline(pipeline);
             work.set_bind_group(3, group, &[]);
-            work.dispatch_workgroups(self.width.div_ceil(8), self.height.div_ceil(8), 1);
+            work.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
         }
         Ok(())
     }

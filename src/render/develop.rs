@@ -215,15 +215,8 @@ impl Developer {
         gpu.write(&self.tone, 0, bytes_of(tone))?;
 
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(1, context.frame_group, &[]);
-            pass.set_bind_group(2, context.film_group, &[]);
-            pass.set_bind_group(3, &self.group, &[]);
-            let (columns, rows) = slice.grid(1);
-            pass.dispatch_workgroups(columns, rows, 1);
-        }
+        let groups = [context.frame_group, context.film_group, &self.group];
+        add_film_pass(&mut encoder, &pipeline, groups, slice.grid(1));
         let source = Source {
             buffer: &self.developed,
             offset: 0,
@@ -234,6 +227,21 @@ impl Developer {
             image.put(cast_slice(bytes), tile.width, [tile.x - x, tile.y - y]);
         })
     }
+}
+
+/// Adds a pass of a kernel that reads the film, with its bind groups 1 to 3, for a grid of workgroups.
+pub fn add_film_pass(
+    encoder: &mut wgpu::CommandEncoder,
+    pipeline: &wgpu::ComputePipeline,
+    [frame, film, target]: [&wgpu::BindGroup; 3],
+    (columns, rows): (u32, u32),
+) {
+    let mut pass = encoder.begin_compute_pass(&Default::default());
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(1, frame, &[]);
+    pass.set_bind_group(2, film, &[]);
+    pass.set_bind_group(3, target, &[]);
+    pass.dispatch_workgroups(columns, rows, 1);
 }
 
 /// Bytes per pixel of a picture, its sums, and their copies for upload and readback.

@@ -86,9 +86,9 @@ pub enum Storage {
 }
 
 impl Storage {
-    /// What is usually faster on an adapter of this kind. Software adapters read images faster.
+    /// What is usually faster on an adapter of this kind. Software adapters read images faster, if kernels may read them.
     pub fn usual(gpu: &Gpu) -> Self {
-        match gpu.is_cpu() {
+        match gpu.is_cpu() && gpu.reads_images() {
             true => Self::Image,
             false => Self::Buffer,
         }

@@ -3,6 +3,7 @@
 use super::{
     Levels, Quantity, RenderError, Renderer, Tone,
     denoise::Denoiser,
+    develop::add_film_pass,
     layouts::{SCREEN_FORMAT, target},
     overrides, pipelines,
     slice::Slice,
@@ -197,14 +198,13 @@ impl Renderer {
             end_group: tile.group_count(),
             first_sample: 0,
             // For the denoiser: as many as every pixel has.
-            end_sample: if self.is_done() {
-                tile.samples.len() as u32
-            } else {
-                0
+            end_sample: match self.is_done() {
+                true => tile.samples.len() as u32,
+                false => 0,
             },
         };
         let packed = slice.packed(tile, &self.settings, 1);
-        let (columns, rows) = slice.grid(1);
+        let grid = slice.grid(1);
         let device = &mut self.device;
         let (gpu, layouts, buffers) = (&device.gpu, &device.layouts, &device.buffers);
         let shown_tone = match &mut device.shown_tone {
@@ -218,17 +218,13 @@ impl Renderer {
             (0, shown_tone.as_entire_binding()),
             (2, BindingResource::TextureView(&screen.view)),
         ];
-        if !is_denoised {
-            device.denoiser = None;
-        }
+        let kept = (device.denoiser.take()).filter(|kept| kept.size() == screen.size());
         if is_denoised {
             let (width, height) = screen.size();
-            let kept = (device.denoiser.take()).filter(|kept| kept.size() == (width, height));
             let denoiser = device.denoiser.insert(match kept {
                 Some(kept) => kept,
                 None => Denoiser::new(gpu, pipelines::portable(device.fetch), width, height)?,
             });
-            let grid = (columns, rows);
             denoiser.read_film(gpu, (layouts, buffers), &self.settings, grid, &mut encoder)?;
             denoiser.denoise(gpu, &mut encoder)?;
             resources.push((4, BindingResource::TextureView(denoiser.result())));
@@ -236,14 +232,8 @@ impl Renderer {
         let (layout, group) = target(gpu, Variant::Buffer, &resources);
         let overrides = overrides::of_screen(tone, is_denoised);
         let pipeline = pipelines::developing(gpu, layouts, Kernel::SHOW, &layout, overrides)?;
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(1, &buffers.frame_group, &[]);
-            pass.set_bind_group(2, &buffers.film_group, &[]);
-            pass.set_bind_group(3, &group, &[]);
-            pass.dispatch_workgroups(columns, rows, 1);
-        }
+        let groups = [&buffers.frame_group, &buffers.film_group, &group];
+        add_film_pass(&mut encoder, &pipeline, groups, grid);
         match is_denoised {
             // The next slice is timed from its submission, without these passes.
             true => gpu.submit(encoder.finish()),

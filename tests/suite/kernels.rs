@@ -9,7 +9,7 @@ use naga::{
 use std::{collections::HashMap, fs};
 
 #[path = "../../shaders/link.rs"]
-mod link;
+pub mod link;
 
 /// A build from stale sources stops by itself; this finds files that were edited by hand.
 #[test]

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-fn shaders(folder: &str) -> Vec<(PathBuf, String)> {
+/// The shaders in a folder and those below it, with their sources.
+pub fn shaders(folder: &str) -> Vec<(PathBuf, String)> {
     let mut open = vec![PathBuf::from(folder)];
     let mut found = Vec::new();
     while let Some(path) = open.pop() {

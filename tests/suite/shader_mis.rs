@@ -1,5 +1,6 @@
 //! `lib/mis.wesl` and `lib/dimensions.wesl`: weights and random numbers of paths.
 
+use crate::shader_library::shaders;
 use crate::support::{
     harness::gpu,
     verdict::{Tolerance, Verdict},
@@ -7,6 +8,7 @@ use crate::support::{
 use std::{
     collections::{BTreeMap, BTreeSet},
     fs,
+    path::PathBuf,
 };
 
 #[test]
@@ -67,22 +69,6 @@ fn no_random_number_of_a_path_is_used_twice() {
     verdict.close();
 }
 
-/// The sources of the path tracer, by their names.
-fn sources() -> Vec<(String, String)> {
-    let files = ["shaders/scene", "shaders/kernels"]
-        .into_iter()
-        .flat_map(|folder| {
-            let entries = fs::read_dir(folder).expect("a folder");
-            entries.map(|entry| entry.expect("a file").path())
-        });
-    let wesl = files.filter(|path| path.extension().is_some_and(|it| it == "wesl"));
-    wesl.map(|path| {
-        let text = fs::read_to_string(&path).expect("a shader");
-        (path.display().to_string(), text)
-    })
-    .collect()
-}
-
 /// Each purpose has a number of its own, below those of the next segment, and one place that draws it. A shadow catcher
 /// scatters in place of what other surfaces do.
 #[test]
@@ -103,18 +89,18 @@ fn every_purpose_of_a_segment_is_drawn_at_one_place() {
         "{purposes:?}, below {limit}"
     );
 
-    let sources = sources();
+    let sources = ["shaders/scene", "shaders/kernels"].map(shaders).concat();
     let mut verdict = Verdict::on("purposes");
     for purpose in purposes.keys() {
-        let drawn = |(name, text): &(String, String)| {
+        let drawn = |(path, text): &(PathBuf, String)| {
             let count = ["random_1d", "random_2d"]
                 .map(|of| text.matches(&format!("{of}(path, {purpose})")).count());
-            (name.clone(), count[0] + count[1])
+            (path.clone(), count[0] + count[1])
         };
         let (of_catchers, others): (Vec<_>, Vec<_>) = (sources.iter().map(drawn))
             .filter(|(_, count)| *count > 0)
-            .partition(|(name, _)| name.ends_with("shadow_catcher.wesl"));
-        let is_once = |places: &[(String, usize)]| places.iter().all(|(_, count)| *count == 1);
+            .partition(|(path, _)| path.ends_with("shadow_catcher.wesl"));
+        let is_once = |places: &[(PathBuf, usize)]| places.iter().all(|(_, count)| *count == 1);
         let is_fine = others.len() == 1 && is_once(&others) && is_once(&of_catchers);
         verdict.that(purpose, is_fine, || format!("{others:?}, {of_catchers:?}"));
     }

@@ -189,8 +189,9 @@ impl ProgressiveImage {
             let share = renderer.progress();
             (self.report)(Stage::FirstSamples { share });
         }
-        let is_direct = renderer.shows_directly(&order.tone) && order.layer == PictureLayer::Beauty;
-        let is_denoised = renderer.denoises(&order.tone) && order.layer == PictureLayer::Beauty;
+        let is_beauty = order.layer == PictureLayer::Beauty;
+        let is_direct = is_beauty && renderer.shows_directly(&order.tone);
+        let is_denoised = is_beauty && renderer.denoises(&order.tone);
         let interval = match (is_denoised, is_direct) {
             (true, _) => DENOISED.max(DENOISED_PAUSE * self.look_time),
             (false, true) => pace::between_looks(&self.gpu),

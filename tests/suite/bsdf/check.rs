@@ -142,12 +142,8 @@ impl Lobe {
         let mut counts = vec![0_u32; BINS[0] * BINS[1] + 1];
         let outside = counts.len() - 1;
         for w in found {
-            let row = (1.0 - w.z.abs()).max(0.0).sqrt() * BINS[0] as f64;
-            let column = w.y.atan2(w.x).rem_euclid(TAU) / TAU * BINS[1] as f64;
-            let bin =
-                (row as usize).min(BINS[0] - 1) * BINS[1] + (column as usize).min(BINS[1] - 1);
             let is_lost = (w.z < 0.0) != self.transmits;
-            counts[if is_lost { outside } else { bin }] += 1;
+            counts[if is_lost { outside } else { bin_of(*w, BINS) }] += 1;
         }
         let mut expected: Vec<f64> = (0..outside)
             .map(|bin| {
@@ -312,6 +308,13 @@ fn refined(f: &impl Fn(f64, f64) -> f64, x: [f64; 2], y: [f64; 2], depth: u32) -
         }
     }
     sum
+}
+
+/// The bin of a direction among `rows` of √(1 − |cos θ|) and `columns` of angles, whichever side it is on.
+pub fn bin_of(w: DVec3, [rows, columns]: [usize; 2]) -> usize {
+    let row = (1.0 - w.z.abs()).max(0.0).sqrt() * rows as f64;
+    let column = w.y.atan2(w.x).rem_euclid(TAU) / TAU * columns as f64;
+    (row as usize).min(rows - 1) * columns + (column as usize).min(columns - 1)
 }
 
 /// Bins in which fewer than 10 samples are expected are joined.

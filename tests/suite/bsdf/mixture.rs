@@ -1,6 +1,6 @@
 //! `scene/bsdf.wesl`, which chooses among the lobes of a surface: its directions follow the density that it states.
 
-use super::check::{direction, pooled};
+use super::check::{bin_of, direction, pooled};
 use crate::support::{harness::gpu, random::Random, statistics::check_counts, verdict::Verdict};
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -172,12 +172,8 @@ fn directions_of_several_lobes_follow_the_density_of_all() {
             let mut counts = vec![0_u32; expected.len()];
             for found in surface.draw(wo) {
                 let bin = found.map_or(counts.len() - 1, |wi| {
-                    let row = (1.0 - wi.z.abs()).max(0.0).sqrt() * BINS[0] as f64;
-                    let column = wi.y.atan2(wi.x).rem_euclid(TAU) / TAU * BINS[1] as f64;
-                    let row = (row as usize).min(BINS[0] - 1);
-                    let column = (column as usize).min(BINS[1] - 1);
                     let side = if wi.z < 0.0 { BINS[0] * BINS[1] } else { 0 };
-                    side + row * BINS[1] + column
+                    side + bin_of(wi, BINS)
                 });
                 counts[bin] += 1;
             }

@@ -8,6 +8,7 @@ use super::{
     verdict::{Expected, Tolerance, Verdict},
     words::{Input, Output},
 };
+use crate::kernels::link::FEATURES;
 use std::sync::OnceLock;
 use wesl::{FileResolver, Router, VirtualResolver, Wesl};
 use wgpu::{BufferUsages, util::DeviceExt};
@@ -289,11 +290,7 @@ impl Harness {
 fn with_flags(mut wgsl: String, flags: &[&str]) -> String {
     for flag in flags {
         let off = format!("{flag}: bool = false");
-        // Names have a prefix, in which an underscore is two.
-        let off = [off.clone(), off.replace('_', "__")]
-            .into_iter()
-            .find(|off| wgsl.contains(off));
-        let off = off.unwrap_or_else(|| panic!("{flag} is no override that is off"));
+        assert!(wgsl.contains(&off), "{flag} is no override that is off");
         wgsl = wgsl.replace(&off, &off.replace("false", "true"));
     }
     wgsl
@@ -308,7 +305,7 @@ fn link(probe: &str) -> String {
     router.mount_resolver(path.clone(), own);
     router.mount_fallback_resolver(FileResolver::new("shaders"));
     let mut compiler = Wesl::new("shaders").set_custom_resolver(router);
-    for feature in ["image_fetch", "packet", "record"] {
+    for feature in FEATURES {
         compiler.set_feature(feature, false);
     }
     match compiler.compile(&path) {

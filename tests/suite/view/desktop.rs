@@ -16,8 +16,14 @@ use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{
     AutoRepeatMode, ChangeKeyboardControlAux, ConnectionExt as _, ImageFormat,
 };
+use x11rb::rust_connection::RustConnection;
 
 const SCREEN: (u16, u16) = (1300, 820);
+
+/// A connection to an X server, and the number of its screen.
+fn connect(display: &str) -> (RustConnection, usize) {
+    RustConnection::connect(Some(display)).expect("the X server")
+}
 
 /// An X server of our own.
 struct Desktop {
@@ -62,8 +68,7 @@ impl Desktop {
                 .then(|| format!(":{}", number.trim()))
         });
         // A key that a busy machine releases late must not be typed twice.
-        let (connection, _) =
-            x11rb::rust_connection::RustConnection::connect(Some(&display)).expect("the X server");
+        let (connection, _) = connect(&display);
         let once = ChangeKeyboardControlAux::new().auto_repeat_mode(AutoRepeatMode::OFF);
         (connection
             .change_keyboard_control(&once)
@@ -112,9 +117,7 @@ impl Desktop {
 
     /// The pixels of a rectangle of the screen: x, y, width, height.
     fn screenshot(&self, [x, y, width, height]: [u16; 4]) -> Vec<u8> {
-        let (connection, screen) =
-            x11rb::rust_connection::RustConnection::connect(Some(&self.display))
-                .expect("the X server");
+        let (connection, screen) = connect(&self.display);
         let root = connection.setup().roots[screen].root;
         let (x, y) = (x as i16, y as i16);
         (connection.get_image(ImageFormat::Z_PIXMAP, root, x, y, width, height, !0))
