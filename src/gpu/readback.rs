@@ -1,7 +1,7 @@
 //! Readback from the GPU; all of it happens here.
 
-use super::{Gpu, GpuError, guard};
-use std::sync::{Arc, Mutex};
+use super::{Gpu, GpuError, WAIT, WAITS, guard};
+use std::sync::{Arc, Condvar, Mutex};
 
 /// A range of a buffer to read back.
 pub(crate) struct Source<'a> {
@@ -16,14 +16,36 @@ pub(crate) struct Reading {
     staging: wgpu::Buffer,
     bytes: u64,
     submission: wgpu::SubmissionIndex,
-    /// Set by wgpu once the staging buffer is mapped.
-    mapped: Arc<Mutex<Option<Result<(), wgpu::BufferAsyncError>>>>,
+    mapped: Arc<Mapped>,
+}
+
+/// The mapping of a staging buffer, which the thread reports that polls the device.
+#[derive(Default)]
+struct Mapped {
+    outcome: Mutex<Option<Result<(), wgpu::BufferAsyncError>>>,
+    reported: Condvar,
+}
+
+impl Mapped {
+    fn report(&self, outcome: Result<(), wgpu::BufferAsyncError>) {
+        if let Ok(mut slot) = self.outcome.lock() {
+            *slot = Some(outcome);
+        }
+        self.reported.notify_all();
+    }
+
+    /// Returns once it is reported, or after [`WAIT`].
+    fn wait(&self) {
+        if let Ok(slot) = self.outcome.lock() {
+            let _ = (self.reported).wait_timeout_while(slot, WAIT, |slot| slot.is_none());
+        }
+    }
 }
 
 impl Reading {
     /// The result of the mapping, once it has completed.
     fn outcome(&self) -> Option<Result<(), GpuError>> {
-        let mapped = self.mapped.lock().ok()?;
+        let mapped = self.mapped.outcome.lock().ok()?;
         let outcome = mapped.as_ref()?;
         Some(outcome.as_ref().map_err(|_| GpuError::Lost).copied())
     }
@@ -64,13 +86,11 @@ impl Gpu {
         }
         let commands = guard::catch(|| encoder.finish()).map_err(|()| GpuError::Lost)?;
         let submission = self.enqueue(commands)?;
-        let mapped = Arc::new(Mutex::new(None));
+        let mapped = Arc::new(Mapped::default());
         let on_mapped = mapped.clone();
         guard::catch(|| {
-            staging.map_async(wgpu::MapMode::Read, 0..bytes, move |result| {
-                if let Ok(mut outcome) = on_mapped.lock() {
-                    *outcome = Some(result);
-                }
+            staging.map_async(wgpu::MapMode::Read, 0..bytes, move |outcome| {
+                on_mapped.report(outcome);
             });
         })
         .map_err(|()| GpuError::Lost)?;
@@ -101,9 +121,12 @@ impl Gpu {
         read: impl FnOnce(&[u8]) -> T,
     ) -> Result<T, GpuError> {
         self.wait(reading.submission.clone())?;
-        // The driver may have finished before wgpu reports it.
-        if reading.outcome().is_none() && !self.is_readable(&reading)? {
-            return Err(GpuError::Lost);
+        // The driver may have finished before wgpu reports it, and another thread may be about to report what it polled.
+        for _ in 0..WAITS {
+            if self.is_readable(&reading)? {
+                break;
+            }
+            reading.mapped.wait();
         }
         reading.outcome().unwrap_or(Err(GpuError::Lost))?;
         let slice = reading.staging.slice(0..reading.bytes);

@@ -318,3 +318,28 @@ fn the_coherence_of_rays_does_not_affect_what_they_hit() {
         assert!(coherent == of(Coherence::Incoherent), "{fetch:?}");
     }
 }
+
+/// Whichever thread polls a device reports finished work for all of them, and may be interrupted first. The others wait for
+/// it: the device is not lost.
+#[test]
+fn threads_that_share_a_device_read_their_results() {
+    let scene = mixed();
+    let rays = rays(64);
+    let (query, packed, view) = query(&scene, usize::MAX, Fetch::Auto);
+    let expected = query.closest_hits(&rays).expect("hits");
+    let gpu = open_gpu();
+    std::thread::scope(|scope| {
+        for _ in 0..8 {
+            scope.spawn(|| {
+                let policy = ExecutionPolicy::default();
+                let query = RayQuery::new(gpu.clone(), packed.clone(), &view, policy);
+                let query = query.expect("a query");
+                for round in 0..500 {
+                    let hits = query.closest_hits(&rays);
+                    let hits = hits.unwrap_or_else(|error| panic!("round {round}: {error}"));
+                    assert!(hits == expected);
+                }
+            });
+        }
+    });
+}
