@@ -233,6 +233,30 @@ impl Default for Camera {
 }
 
 impl Scene {
+    /// Makes `picture` the background, with strength 1 and without rotation.
+    pub fn set_environment(&mut self, picture: Arc<Picture>) {
+        self.background = Background::Picture {
+            picture: self.pictures.len(),
+            strength: 1.0,
+            rotation: 0.0,
+        };
+        self.pictures.push(picture);
+    }
+
+    /// Makes the background a sky, whose arguments are those of [`sky::picture`]. If it is a sky already, only its sun
+    /// moves: strength and rotation stay.
+    pub fn set_sky(&mut self, elevation: f64, azimuth: f64) {
+        let new = Arc::new(sky::picture(elevation, azimuth));
+        match self.background {
+            Background::Picture { picture, .. }
+                if sky::sun_of(&self.pictures[picture]).is_some() =>
+            {
+                self.pictures[picture] = new;
+            }
+            _ => self.set_environment(new),
+        }
+    }
+
     /// Fixes the render origin at its present position, so that it no longer follows the camera.
     pub fn pin_render_origin(&mut self) {
         let origin = self.render_origin_at(&self.frame(0.0));

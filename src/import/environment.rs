@@ -45,12 +45,7 @@ pub(super) fn apply(
         }
     };
     if let Some(picture) = picture {
-        scene.background = Background::Picture {
-            picture: scene.pictures.len(),
-            strength: 1.0,
-            rotation: 0.0,
-        };
-        scene.pictures.push(Arc::new(picture));
+        scene.set_environment(Arc::new(picture));
     }
     if let Some(factor) = wanted.strength {
         match &mut scene.background {

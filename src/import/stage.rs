@@ -7,7 +7,6 @@ use crate::scene::{
     Material, Scene, Shape, sky,
 };
 use glam::{DVec3, Vec3};
-use std::sync::Arc;
 
 /// The field of view of the camera, in radians.
 const FOV_Y: f64 = 32.0 * std::f64::consts::PI / 180.0;
@@ -90,7 +89,11 @@ fn light(scene: &mut Scene, options: &Options, integrator: LightTransport) {
     if has_sky {
         // Another environment replaces it.
         if options.environment.source.is_none() {
-            scene.background = sky(scene);
+            // With the sun at the left behind the default camera.
+            scene.set_sky(
+                sky::SUN_ELEVATION_DEG.to_radians(),
+                sky::SUN_AZIMUTH_DEG.to_radians(),
+            );
         }
         scene.output.exposure_ev = SKY_EXPOSURE;
     } else if staging.lights {
@@ -161,19 +164,6 @@ fn add_ground(scene: &mut Scene, ground: Ground, has_sky: bool) {
 fn radius_of(min: DVec3, max: DVec3) -> f64 {
     let least = 1e-6 * min.midpoint(max).abs().max_element().max(1e-6);
     ((max - min).length() / 2.0).max(least)
-}
-
-/// A clear sky with the sun at the left behind the default camera.
-fn sky(scene: &mut Scene) -> Background {
-    scene.pictures.push(Arc::new(sky::picture(
-        sky::SUN_ELEVATION_DEG.to_radians(),
-        sky::SUN_AZIMUTH_DEG.to_radians(),
-    )));
-    Background::Picture {
-        picture: scene.pictures.len() - 1,
-        strength: 1.0,
-        rotation: 0.0,
-    }
 }
 
 /// The colour of a ground that these lights make as bright as the background at the horizon, where the two

@@ -9,7 +9,6 @@ mod screenshot;
 use crate::app::advice;
 use crate::app::overrides::CameraOverrides;
 use crate::import;
-use crate::scene::Background;
 use crate::viewer::model::file_dialog::{self, Reply, Request, ends_in};
 use crate::viewer::model::watch::Change;
 use crate::viewer::state::files::Broken;
@@ -202,12 +201,7 @@ fn take_environment(session: &mut Session) {
         Ok(Ok((picture, notes))) => {
             session.view.background = None;
             session.edit("change the background", |scene| {
-                scene.pictures.push(picture);
-                scene.background = Background::Picture {
-                    picture: scene.pictures.len() - 1,
-                    strength: 1.0,
-                    rotation: 0.0,
-                };
+                scene.set_environment(picture);
             });
             session.moved();
             let name = short(&path);

@@ -6,6 +6,7 @@ use eframe::egui::{Key, Pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{DVec3, dvec3, vec3};
 use glimray::app::scene_file;
+use glimray::import;
 use glimray::render::Tone;
 use glimray::scene::{Background, Geometry, ObjectRef, Scene};
 use glimray::viewer::actions::saving;
@@ -194,6 +195,31 @@ fn a_background_and_a_light_that_are_changed_give_the_picture_of_the_changed_sce
     };
     assert_eq!(scene(&window), wanted);
     assert_shows(&mut window, &wanted, "position");
+}
+
+#[test]
+fn a_background_that_becomes_a_sky_with_a_lower_sun_is_that_of_a_file_with_this_sky() {
+    let (folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.harness.get_by_label("Kind").click();
+    window.settle();
+    window.harness.get_by_label("Sky").click();
+    window.settle();
+    set(&mut window, "Sun elevation", 20.0);
+    set(&mut window, "Sun azimuth", 30.0);
+    let sky = "background = { sky = { elevation_deg = 20, azimuth_deg = 30 } }";
+    let other = folder.path().join("sky.toml");
+    let text = BALLS.replace("background = [0.1, 0.2, 0.3]", sky);
+    std::fs::write(&other, text).expect("a file");
+    let wanted = import::load(&other).expect("a scene");
+    assert_eq!(scene(&window).background, wanted.background);
+    assert_eq!(scene(&window).pictures, wanted.pictures);
+    assert_shows(&mut window, &wanted, "sky");
+    for _ in 0..3 {
+        perform(&mut window, Action::Undo);
+    }
+    let before = Background::Color(vec3(0.1, 0.2, 0.3));
+    assert_eq!(scene(&window).background, before);
 }
 
 #[test]

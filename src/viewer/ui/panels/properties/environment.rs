@@ -1,6 +1,6 @@
 //! The properties of the scene as a whole.
 
-use crate::scene::{Background, Shadows};
+use crate::scene::{Background, Origin, Scene, Shadows, sky};
 use crate::viewer::state::session::Session;
 use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
 use glam::Vec3;
@@ -13,31 +13,17 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
     if session.view.background.is_some() {
         fields.note("The Render panel overrides the background.");
     }
-    let kind = |background: &Background| match background {
-        Background::Color(_) => 0,
-        Background::Gradient { .. } => 1,
-        Background::Picture { .. } => 2,
-    };
-    let now = kind(&background);
-    let mut options = vec![(0, "Colour"), (1, "Gradient")];
-    if now == 2 {
-        options.push((2, "Picture"));
-    }
     let tip = "What rays see when they hit no object.";
-    fields.choice(("Kind", tip), now, &options, |scene, to| {
-        let mean = match &scene.background {
-            Background::Color(color) => (*color, *color),
-            Background::Gradient { bottom, top } => (*bottom, *top),
-            Background::Picture { .. } => (Vec3::splat(0.5), Vec3::splat(0.5)),
-        };
-        scene.background = match to {
-            0 => Background::Color((mean.0 + mean.1) * 0.5),
-            _ => Background::Gradient {
-                bottom: mean.0,
-                top: mean.1,
-            },
-        };
-    });
+    let now = Kind::of(fields.scene);
+    let mut options = vec![
+        (Kind::Color, "Colour"),
+        (Kind::Gradient, "Gradient"),
+        (Kind::Sky, "Sky"),
+    ];
+    if now == Kind::Picture {
+        options.push((now, "Picture"));
+    }
+    fields.choice(("Kind", tip), now, &options, |scene, to| to.apply(scene));
     match background {
         Background::Color(color) => {
             fields.color(("Background", tip), color, |scene, to| {
@@ -57,8 +43,11 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
             });
         }
         Background::Picture {
-            strength, rotation, ..
+            picture,
+            strength,
+            rotation,
         } => {
+            sun(fields, picture);
             let label = ("Strength", "Factor on the image, 0 or more.");
             fields.number(label, f64::from(strength), Limits::AMOUNT, |scene, to| {
                 if let Background::Picture { strength, .. } = &mut scene.background {
@@ -99,5 +88,72 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
     let button = button.on_disabled_hover_text("The view matches the scene's camera.");
     if button.clicked() {
         session.set_scene_camera();
+    }
+}
+
+/// Where the sun stands, if the picture is a sky.
+fn sun(fields: &mut Fields, picture: usize) {
+    let Origin::Sky { elevation, azimuth } = fields.scene.pictures[picture].origin else {
+        return;
+    };
+    let tip = "Height of the sun above the horizon in degrees, 0 to 90.";
+    let limits = Limits {
+        unit: Limits::ANGLE.unit,
+        ..Limits::between(0.0, 90.0).with_speed(Limits::ANGLE.speed)
+    };
+    let degrees = elevation.to_degrees();
+    fields.number(("Sun elevation", tip), degrees, limits, move |scene, to| {
+        scene.set_sky(to.to_radians(), azimuth);
+    });
+    let tip = "Direction of the sun in degrees from −Z towards +X.";
+    let degrees = azimuth.to_degrees();
+    fields.number(
+        ("Sun azimuth", tip),
+        degrees,
+        Limits::ANGLE,
+        move |scene, to| {
+            scene.set_sky(elevation, to.to_radians());
+        },
+    );
+}
+
+/// A kind of background.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Color,
+    Gradient,
+    Sky,
+    Picture,
+}
+
+impl Kind {
+    fn of(scene: &Scene) -> Self {
+        match scene.background {
+            Background::Color(_) => Self::Color,
+            Background::Gradient { .. } => Self::Gradient,
+            Background::Picture { picture, .. } => match scene.pictures[picture].origin {
+                Origin::Sky { .. } => Self::Sky,
+                _ => Self::Picture,
+            },
+        }
+    }
+
+    /// Replaces the background by one of this kind, of about the same colour where it has one.
+    fn apply(self, scene: &mut Scene) {
+        let (bottom, top) = match &scene.background {
+            Background::Color(color) => (*color, *color),
+            Background::Gradient { bottom, top } => (*bottom, *top),
+            Background::Picture { .. } => (Vec3::splat(0.5), Vec3::splat(0.5)),
+        };
+        match self {
+            Self::Color => scene.background = Background::Color((bottom + top) * 0.5),
+            Self::Gradient => scene.background = Background::Gradient { bottom, top },
+            Self::Sky => scene.set_sky(
+                sky::SUN_ELEVATION_DEG.to_radians(),
+                sky::SUN_AZIMUTH_DEG.to_radians(),
+            ),
+            // It is offered where it is chosen already.
+            Self::Picture => {}
+        }
     }
 }
