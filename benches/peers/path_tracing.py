@@ -11,7 +11,8 @@ import json
 import subprocess
 import tempfile
 import time
-from math import pi, sqrt
+from dataclasses import dataclass
+from math import pi, sqrt, tau
 from pathlib import Path
 from statistics import NormalDist, median
 
@@ -32,36 +33,79 @@ WALLS = [
     ([-1, 1, 0], [1, 0, 0], "red"),
     ([1, 1, 0], [-1, 0, 0], "green"),
 ]
-# For each scene its spheres, and the bounces after the first hit; None is without a limit.
+SPHERES = ([0.42, 0.36, 0.3], 0.36), ([-0.42, 0.5, -0.3], 0.5)
+# Reflectance 1 at every angle: Mitsuba's rough metals have no Fresnel's factor of a colour.
+METALS = {"satin": 0.35, "dull": 0.7}
+ROUGHNESS_OF_GLASS = 0.5
+# Width and height in texels.
+SKY_SIZE = 128, 64
+
+
+@dataclass
+class Box:
+    """The materials of the two spheres; the bounces after the first hit, None is without a limit; glimray's --bsdf; and
+    whether they stand in the box with its lamp, or on its floor under a sky. Mitsuba's microfacets are those of glTF's
+    specification, without compensation; its Fresnel's factor is exact, where that has Schlick's approximation."""
+
+    materials: tuple
+    bounces: int | None
+    bsdf: str = "full"
+    has_sky: bool = False
+
+
 SCENES = {
-    "matte": ([([0.42, 0.36, 0.3], 0.36, "white"), ([-0.42, 0.5, -0.3], 0.5, "white")], 4),
-    "glass": ([([0.42, 0.36, 0.3], 0.36, "glass"), ([-0.42, 0.5, -0.3], 0.5, "mirror")], None),
+    "matte": Box(("white", "white"), 4),
+    "glass": Box(("glass", "mirror"), None),
+    "metal": Box(("satin", "dull"), None, "spec"),
+    "frosted": Box(("frosted", "white"), None, "spec"),
+    "sky": Box(("satin", "white"), 4, "spec", True),
 }
+
+
+def sky(u, v):
+    """A smooth sky with a wide sun; u and v are 0 to 1 from the upper left corner of a panorama."""
+    longitude, latitude = tau * (u - 0.5), pi * (0.5 - v)
+    toward = np.stack([np.cos(latitude) * np.sin(longitude), np.sin(latitude), -np.cos(latitude) * np.cos(longitude)], -1)
+    up, toward_sun = toward[..., 1:2], toward @ np.array([[-0.6], [0.64], [0.48]])
+    return (0.3 + 0.2 * up) * [0.7, 0.9, 1.3] + 12 * np.exp(40 * (toward_sun - 1)) * [1, 0.85, 0.6]
+
+
+def panorama(width, height, top, step):
+    """The sky in texels, the first row of which is at `top` and each next one `step` below."""
+    u, v = np.meshgrid((np.arange(width) + 0.5) / width, top + step * np.arange(height))
+    return sky(u, v).astype(np.float32)
 
 
 def native(name):
     """The scene in glimray's format."""
-    spheres, _ = SCENES[name]
-    lines = ["# Written by benches/peers/path_tracing.py.", "[camera]"]
+    scene = SCENES[name]
+    lines = ["# Written by benches/peers/path_tracing.py."]
+    if scene.has_sky:
+        lines.append('background = { picture = "sky.exr" }')
+    lines.append("[camera]")
     lines += [f"{key} = {value}" for key, value in CAMERA.items()]
-    lines += [
-        "[[lights]]",
-        f"rectangle = {{ center = [0, 1.98, 0], edge_u = [{LAMP['edge_u']}, 0, 0], edge_v = [0, 0, {LAMP['edge_v']}], "
-        f"color = {LAMP['strength']} }}",
-        "[materials]",
-    ]
+    if not scene.has_sky:
+        lines += [
+            "[[lights]]",
+            f"rectangle = {{ center = [0, 1.98, 0], edge_u = [{LAMP['edge_u']}, 0, 0], edge_v = [0, 0, {LAMP['edge_v']}], "
+            f"color = {LAMP['strength']} }}",
+        ]
+    lines.append("[materials]")
     lines += [f"{key} = {{ phong = {{ diffuse = {value} }} }}" for key, value in MATTE.items()]
     lines += [
         'glass = { refract = { ior = 1.5 } }',
         'mirror = { phong = { diffuse = [0, 0, 0] }, reflect = { color = [0.9, 0.9, 0.9] } }',
+        f"frosted = {{ pbr = {{ base_color = [1, 1, 1], transmission = 1, thickness = 1, ior = 1.5, roughness = {ROUGHNESS_OF_GLASS} }} }}",
     ]
-    for center, normal, material in WALLS:
+    lines += [f"{key} = {{ pbr = {{ base_color = [1, 1, 1], metallic = 1, roughness = {roughness} }} }}"
+              for key, roughness in METALS.items()]
+    for center, normal, material in WALLS[:1] if scene.has_sky else WALLS:
         lines += [
             "[[objects]]",
             f"rectangle = {{ center = {center}, normal = {normal}, size = [2, 2] }}",
             f'material = "{material}"',
         ]
-    for center, radius, material in spheres:
+    for (center, radius), material in zip(SPHERES, scene.materials):
         lines += [
             "[[objects]]",
             f"sphere = {{ center = {center}, radius = {radius} }}",
@@ -79,6 +123,12 @@ def bsdf(material):
         return {"type": "dielectric", "int_ior": 1.5, "ext_ior": 1.0}
     if material == "mirror":
         return {"type": "conductor", "material": "none", "specular_reflectance": rgb([0.9, 0.9, 0.9])}
+    if material == "frosted":
+        return {"type": "roughdielectric", "distribution": "ggx", "alpha": ROUGHNESS_OF_GLASS**2, "int_ior": 1.5,
+                "ext_ior": 1.0}
+    if material in METALS:
+        return {"type": "roughconductor", "material": "none", "distribution": "ggx", "alpha": METALS[material] ** 2,
+                "specular_reflectance": rgb([1, 1, 1])}
     return {"type": "diffuse", "reflectance": rgb(MATTE[material])}
 
 
@@ -91,11 +141,9 @@ def rectangle(center, normal, half, material, **more):
 
 def peer(name, side):
     """The scene for Mitsuba."""
-    spheres, bounces = SCENES[name]
+    box = SCENES[name]
     # Mitsuba counts the segments of a path: the camera's, and that to the light.
-    depth = -1 if bounces is None else bounces + 2
-    area = 4 * LAMP["edge_u"] * LAMP["edge_v"]
-    radiance = [strength * pi / area for strength in LAMP["strength"]]
+    depth = -1 if box.bounces is None else box.bounces + 2
     camera = mi.ScalarTransform4f().look_at(origin=CAMERA["look_from"], target=CAMERA["look_at"], up=[0, 1, 0])
     film = {"type": "hdrfilm", "width": side, "height": side, "rfilter": {"type": "box"}, "pixel_format": "rgb",
             "component_format": "float32"}
@@ -104,27 +152,35 @@ def peer(name, side):
         "integrator": {"type": "path", "max_depth": depth},
         "sensor": {"type": "perspective", "fov": CAMERA["fov_y_deg"], "fov_axis": "y", "to_world": camera, "film": film,
                    "sampler": {"type": "independent"}},
-        "lamp": rectangle([0, 1.98, 0], [0, -1, 0], [LAMP["edge_u"], LAMP["edge_v"]], bsdf("white"),
-                          emitter={"type": "area", "radiance": rgb(radiance)}),
     }
-    # A visible lamp of glimray reflects nothing.
-    scene["lamp"]["bsdf"] = {"type": "diffuse", "reflectance": rgb([0, 0, 0])}
-    for i, (center, normal, material) in enumerate(WALLS):
+    if box.has_sky:
+        # Unlike glimray's, the centres of its first and its last row are the poles.
+        texels = panorama(*SKY_SIZE, 0, 1 / (SKY_SIZE[1] - 1))
+        turn = mi.ScalarTransform4f().rotate([0, 1, 0], 180)
+        scene["sky"] = {"type": "envmap", "bitmap": mi.Bitmap(texels), "to_world": turn}
+    else:
+        area = 4 * LAMP["edge_u"] * LAMP["edge_v"]
+        radiance = [strength * pi / area for strength in LAMP["strength"]]
+        # A visible lamp of glimray reflects nothing.
+        black = {"type": "diffuse", "reflectance": rgb([0, 0, 0])}
+        scene["lamp"] = rectangle([0, 1.98, 0], [0, -1, 0], [LAMP["edge_u"], LAMP["edge_v"]], black,
+                                  emitter={"type": "area", "radiance": rgb(radiance)})
+    for i, (center, normal, material) in enumerate(WALLS[:1] if box.has_sky else WALLS):
         scene[f"wall{i}"] = rectangle(center, normal, [1, 1], bsdf(material))
-    for i, (center, radius, material) in enumerate(spheres):
+    for i, ((center, radius), material) in enumerate(zip(SPHERES, box.materials)):
         scene[f"sphere{i}"] = {"type": "sphere", "center": center, "radius": radius, "bsdf": bsdf(material)}
     return mi.load_dict(scene)
 
 
 def rendered(program, file, name, side, samples, seed):
     """Picture and seconds of tracing of glimray."""
-    _, bounces = SCENES[name]
+    box = SCENES[name]
     with tempfile.TemporaryDirectory() as folder:
         picture, report = Path(folder, "a.exr"), Path(folder, "a.json")
         subprocess.run(
             [program, "render", file, "--integrator", "path", "--size", f"{side}x{side}", "--samples", str(samples),
-             "--max-depth", str(1000 if bounces is None else bounces), "--seed", str(seed), "--quiet", "--report", report,
-             "-o", picture],
+             "--max-depth", str(1000 if box.bounces is None else box.bounces), "--bsdf", box.bsdf, "--seed", str(seed), "--quiet",
+             "--report", report, "-o", picture],
             check=True,
         )
         bitmap = mi.Bitmap(str(picture)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
@@ -137,13 +193,22 @@ def moments(pictures):
     return pictures.mean(axis=0), pictures.var(axis=0, ddof=1) / len(pictures)
 
 
-def compare(program, side, samples, rounds):
+def write_scene(folder, name):
+    """The scene of `native`, and the picture that it names."""
+    file = folder / f"{name}.toml"
+    file.write_text(native(name))
+    if SCENES[name].has_sky:
+        texels = panorama(*SKY_SIZE, 0.5 / SKY_SIZE[1], 1 / SKY_SIZE[1])
+        mi.Bitmap(texels).write(str(folder / "sky.exr"))
+    return file
+
+
+def compare(program, names, side, samples, rounds):
     rows = []
-    for name in SCENES:
+    for name in names:
         scene = peer(name, side)
         with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, f"{name}.toml")
-            file.write_text(native(name))
+            file = write_scene(Path(folder), name)
             rendered(program, file, name, side, 1, 0)
             theirs, ours, seconds, own_seconds = [], [], [], []
             for seed in range(1, rounds + 1):
@@ -165,29 +230,34 @@ def compare(program, side, samples, rounds):
     print(tables.table(["scene", "glimray, Msamples/s", "Mitsuba", "ratio", "ratio of means", "pixels within noise"], rows))
 
 
-def write_references(folder, side, samples, rounds):
+def write_references(folder, names, side, samples, rounds):
     folder.mkdir(parents=True, exist_ok=True)
-    for name in SCENES:
+    for name in names:
         scene = peer(name, side)
         pictures = [np.array(mi.render(scene, spp=samples, seed=seed)) for seed in range(1, rounds + 1)]
         mean, variance = moments(pictures)
         for kind, picture in (("mean", mean), ("variance", variance)):
             mi.Bitmap(picture.astype(np.float32)).write(str(folder / f"{name}-{kind}.exr"))
-        (folder / f"{name}.toml").write_text(native(name))
+        write_scene(folder, name)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--glimray", default="target/release/glimray")
+    parser.add_argument("--scenes", nargs="+", default=list(SCENES), choices=SCENES)
     parser.add_argument("--side", type=int, default=128, help="width and height in pixels")
     parser.add_argument("--samples", type=int, default=64)
     parser.add_argument("--rounds", type=int, default=8)
+    parser.add_argument("--bounces", type=int, help="after the first hit, instead of the scene's own")
     parser.add_argument("--references", type=Path, help="write them here instead")
     parsed = parser.parse_args()
+    if parsed.bounces is not None:
+        for box in SCENES.values():
+            box.bounces = parsed.bounces
     if parsed.references:
-        write_references(parsed.references, parsed.side, parsed.samples, parsed.rounds)
+        write_references(parsed.references, parsed.scenes, parsed.side, parsed.samples, parsed.rounds)
     else:
-        compare(parsed.glimray, parsed.side, parsed.samples, parsed.rounds)
+        compare(parsed.glimray, parsed.scenes, parsed.side, parsed.samples, parsed.rounds)
 
 
 if __name__ == "__main__":
