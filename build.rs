@@ -1,7 +1,6 @@
 //! Compresses the kernels in `shaders/linked` for the program to embed: plain WGSL, once for each variant;
-//! `explain` and `explain_path` are the kernels `whitted` and `path_trace` with the feature `record`. The build
-//! fails if a source has changed since they were linked; with the feature `link` it links them first. It also
-//! computes the tables of albedos.
+//! `explain` is the kernel `whitted` with the feature `record`. The build fails if a source has changed since they
+//! were linked; with the feature `link` it links them first. It also computes the tables of albedos.
 
 #[cfg(feature = "link")]
 #[path = "shaders/link.rs"]

@@ -33,7 +33,7 @@ const KERNELS: [(&str, &str, &[&str], &[&str]); 11] = [
     ("explain", "whitted", &["record"], &["image", "buffer"]),
     (
         "explain_path",
-        "path_trace",
+        "explain_path",
         &["record"],
         &["image", "buffer"],
     ),

@@ -1577,6 +1577,8 @@ fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
 struct features__Features {
 	albedo: vec3f,
 	normal: vec3f,
+	trust: f32,
+	chance: f32,
 	direct: vec3f,
 	emission: vec3f,
 	position: vec3f,
@@ -1588,6 +1590,8 @@ struct features__Features {
 	is_followed: bool
 }
 
+const features__LEAST_TRUST: f32 = 1.0 / 1024.0;
+
 var<private> features__features: features__Features;
 
 var<private> features__off_centre: f32;
@@ -1595,6 +1599,8 @@ var<private> features__off_centre: f32;
 fn features__start_features() {
 	if (bindings__HAS_FEATURES) {
 		features__features = features__Features();
+		features__features.trust = features__LEAST_TRUST;
+		features__features.chance = 1.0;
 		features__features.is_followed = true;
 	}
 }
@@ -1611,10 +1617,17 @@ fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32)
 }
 
 fn features__see_albedo(albedo: vec3f, normal: vec3f) {
+	features__see_through(albedo, normal);
 	if (bindings__HAS_FEATURES && features__features.is_followed) {
-		features__features.albedo = clamp_vec3f(albedo, vec3f(0.0), vec3f(1.0));
-		features__features.normal = normal;
+		features__features.trust = 1.0;
 		features__features.is_followed = false;
+	}
+}
+
+fn features__see_through(albedo: vec3f, normal: vec3f) {
+	if (bindings__HAS_FEATURES && features__features.is_followed) {
+		features__features.albedo = clamp_vec3f(features__features.chance * albedo, vec3f(0.0), vec3f(1.0));
+		features__features.normal = normal;
 	}
 }
 

@@ -1,5 +1,3 @@
-const ROULETTE_START: u32 = 3u;
-
 @compute @workgroup_size(64, 1, 1)
 fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
 	let index = 64u * (group.y * bindings__dispatch.grid_width + group.x) + lane;
@@ -16,7 +14,7 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 				path = path__lit(path, shadow__arrived(path.lamp, hit));
 			}
 			else if (path__is_going(path)) {
-				path = traced(batch, path, hit);
+				path = path_vertex__traced(batch, path, hit);
 			}
 			record__close_ray();
 			record__sender = record__traced_index;
@@ -33,104 +31,6 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 		record__store_probe(index, probe);
 	}
 	dispatch__add_counts(lane);
-}
-
-fn traced(batch: dispatch__Batch, before: path__Path, hit: tracing__Hit) -> path__Path {
-	var path = before;
-	let is_shadow = path__is_to_lamp(path) && shadow__may_pass(hit);
-	if (!is_shadow) {
-		dispatch__count_hit(path.kind, hit);
-		record__open_ray(path.ray, hit, path.kind, path.throughput, path.media);
-		record_path__record_density(path.pdf);
-		if (hit.primitive == types__NONE) {
-			return backdrop__missed(batch, path);
-		}
-	}
-	var ray = path.ray;
-	var cone = path.cone;
-	if (is_shadow) {
-		ray = path.lamp.ray;
-		cone = shadow__NO_WIDTH;
-	}
-	let contact = contact__contact_at(ray, hit, cone);
-	let coverage = coverage__coverage_at(contact.surface);
-	if (is_shadow) {
-		return path__lit(path, shadow__crossed(path.lamp, hit, contact, coverage));
-	}
-	let surface = contact.surface;
-	let optics = material__load_optics(surface.material);
-	var met = interface__interface_at(path.media, contact, optics);
-	path.cone = ray_cone__cone_at(path.cone, hit.t);
-	if (bindings__HAS_REFRACTION) {
-		path.throughput *= medium__transmittance(medium__medium_of(met.here), hit.t);
-	}
-	record__record_surface(surface);
-	record__record_arriving(path.throughput);
-	if (bindings__HAS_COVERAGE && path.passes < path__MAX_PASSES && path__random_1d(path, dimensions__COVERAGE_CHOICE) >= coverage) {
-		record_path__record_passing();
-		return path__passed(path, surface);
-	}
-	features__see_first(surface, hit, distance(path.origin, surface.p));
-	if (bindings__HAS_CATCHERS && backdrop__is_seen(path) && (optics.flags & types__MATERIAL_SHADOW_CATCHER) != 0u) {
-		features__see_albedo(vec3f(1.0), surface.n);
-		return shadow_catcher__caught(batch, path, surface);
-	}
-	if (bindings__HAS_DISPERSION) {
-		path = dispersion__colored(path, met);
-		met = dispersion__dispersed(met, path.channel);
-	}
-	let layers = layers__layers_at(surface, optics);
-	let start = light_weight__Sender(path.origin, path.normal, shadow_catcher__density_for_lamps(path));
-	record_path__record_density(start.pdf);
-	let weight = light_weight__emission_weight(batch, surface, contact.hit, start, ray.direction);
-	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
-	let emission = coat * emitters__emitted(surface, optics, layers.glow);
-	record_path__record_found(emission, weight);
-	let found = path.throughput * (weight * emission);
-	shadow_catcher__count_unsampled(path, found);
-	path = path__gained(path, found, path.bounces);
-	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
-	seen__see_surface(path, bsdf, emission);
-	record_path__record_interface(met, bsdf);
-	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
-		path = toward_lamp__toward_lamp(batch, path, surface, bsdf, met);
-	}
-	return scattered(batch, path, surface, bsdf, met);
-}
-
-fn scattered(batch: dispatch__Batch, before: path__Path, surface: shading__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
-	var path = before;
-	let next = bsdf__bsdf_sample(bsdf, path__random_1d(path, dimensions__SCATTER_CHOICE), path__random_2d(path, dimensions__SCATTER_DIRECTION));
-	path.throughput *= next.weight;
-	record_path__record_step(next);
-	if (path.bounces > batch.max_depth || path.passes > path__MAX_PASSES) {
-		dispatch__cut_throughput += select(dot(path.throughput, tone__LUMINANCE_REC709), 0.0, bindings__HAS_CATCHERS && path.is_caught);
-		record_path__record_limit();
-		return path__ended(path);
-	}
-	let chance = select(1.0, mis__survival_chance(path.throughput), path.bounces >= ROULETTE_START);
-	let ends = path__random_1d(path, dimensions__ROULETTE) >= chance || all(path.throughput <= vec3f(0.0));
-	record_path__record_roulette(path.throughput, chance, ends);
-	if (ends) {
-		return path__ended(path);
-	}
-	path.throughput /= chance;
-	let crosses = dot(next.direction, bsdf.ng) < 0.0;
-	let is_straight = crosses && next.pdf == 0.0 && !(bindings__SOLID_GLASS && bsdf.encloses);
-	record_path__record_straight(crosses && next.pdf == 0.0 && !bsdf.bends);
-	path.kind = select(ray_states__KIND_REFLECTED, ray_states__KIND_REFRACTED, crosses);
-	path.media = select(path.media, met.media, vec4<bool>(crosses));
-	path.ray = leaving__leaving_ray(surface, next.direction, camera__T_FAR);
-	path.origin = select(surface.p, path.origin, is_straight);
-	path.normal = select(bsdf__receiving_normal(bsdf), path.normal, is_straight);
-	path.pdf = select(next.pdf, path.pdf, is_straight);
-	if (crosses && next.pdf == 0.0) {
-		path.passes += 1u;
-	}
-	else {
-		path.bounces += 1u;
-	}
-	return path;
 }
 
 @group(0) @binding(0)
@@ -1849,6 +1749,8 @@ fn filter__inverse_erf(y: vec2f) -> vec2f {
 struct features__Features {
 	albedo: vec3f,
 	normal: vec3f,
+	trust: f32,
+	chance: f32,
 	direct: vec3f,
 	emission: vec3f,
 	position: vec3f,
@@ -1876,10 +1778,24 @@ fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32)
 }
 
 fn features__see_albedo(albedo: vec3f, normal: vec3f) {
+	features__see_through(albedo, normal);
 	if (bindings__HAS_FEATURES && features__features.is_followed) {
-		features__features.albedo = clamp_vec3f(albedo, vec3f(0.0), vec3f(1.0));
-		features__features.normal = normal;
+		features__features.trust = 1.0;
 		features__features.is_followed = false;
+	}
+}
+
+fn features__see_through(albedo: vec3f, normal: vec3f) {
+	if (bindings__HAS_FEATURES && features__features.is_followed) {
+		features__features.albedo = clamp_vec3f(features__features.chance * albedo, vec3f(0.0), vec3f(1.0));
+		features__features.normal = normal;
+	}
+}
+
+fn features__follow_chain(stays: bool, chance: f32) {
+	if (bindings__HAS_FEATURES) {
+		features__features.chance *= chance;
+		features__features.is_followed &= stays;
 	}
 }
 
@@ -3520,6 +3436,107 @@ fn material__load_glow(index: u32) -> material__Glow {
 fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
 	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
 	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
+}
+
+const path_vertex__ROULETTE_START: u32 = 3u;
+
+fn path_vertex__traced(batch: dispatch__Batch, before: path__Path, hit: tracing__Hit) -> path__Path {
+	var path = before;
+	let is_shadow = path__is_to_lamp(path) && shadow__may_pass(hit);
+	if (!is_shadow) {
+		dispatch__count_hit(path.kind, hit);
+		record__open_ray(path.ray, hit, path.kind, path.throughput, path.media);
+		record_path__record_density(path.pdf);
+		if (hit.primitive == types__NONE) {
+			return backdrop__missed(batch, path);
+		}
+	}
+	var ray = path.ray;
+	var cone = path.cone;
+	if (is_shadow) {
+		ray = path.lamp.ray;
+		cone = shadow__NO_WIDTH;
+	}
+	let contact = contact__contact_at(ray, hit, cone);
+	let coverage = coverage__coverage_at(contact.surface);
+	if (is_shadow) {
+		return path__lit(path, shadow__crossed(path.lamp, hit, contact, coverage));
+	}
+	let surface = contact.surface;
+	let optics = material__load_optics(surface.material);
+	var met = interface__interface_at(path.media, contact, optics);
+	path.cone = ray_cone__cone_at(path.cone, hit.t);
+	if (bindings__HAS_REFRACTION) {
+		path.throughput *= medium__transmittance(medium__medium_of(met.here), hit.t);
+	}
+	record__record_surface(surface);
+	record__record_arriving(path.throughput);
+	if (bindings__HAS_COVERAGE && path.passes < path__MAX_PASSES && path__random_1d(path, dimensions__COVERAGE_CHOICE) >= coverage) {
+		record_path__record_passing();
+		return path__passed(path, surface);
+	}
+	features__see_first(surface, hit, distance(path.origin, surface.p));
+	if (bindings__HAS_CATCHERS && backdrop__is_seen(path) && (optics.flags & types__MATERIAL_SHADOW_CATCHER) != 0u) {
+		features__see_albedo(vec3f(1.0), surface.n);
+		return shadow_catcher__caught(batch, path, surface);
+	}
+	if (bindings__HAS_DISPERSION) {
+		path = dispersion__colored(path, met);
+		met = dispersion__dispersed(met, path.channel);
+	}
+	let layers = layers__layers_at(surface, optics);
+	let start = light_weight__Sender(path.origin, path.normal, shadow_catcher__density_for_lamps(path));
+	record_path__record_density(start.pdf);
+	let weight = light_weight__emission_weight(batch, surface, contact.hit, start, ray.direction);
+	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
+	let emission = coat * emitters__emitted(surface, optics, layers.glow);
+	record_path__record_found(emission, weight);
+	let found = path.throughput * (weight * emission);
+	shadow_catcher__count_unsampled(path, found);
+	path = path__gained(path, found, path.bounces);
+	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
+	seen__see_surface(path, bsdf, emission);
+	record_path__record_interface(met, bsdf);
+	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
+		path = toward_lamp__toward_lamp(batch, path, surface, bsdf, met);
+	}
+	return path_vertex__scattered(batch, path, surface, bsdf, met);
+}
+
+fn path_vertex__scattered(batch: dispatch__Batch, before: path__Path, surface: shading__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {
+	var path = before;
+	let next = bsdf__bsdf_sample(bsdf, path__random_1d(path, dimensions__SCATTER_CHOICE), path__random_2d(path, dimensions__SCATTER_DIRECTION));
+	path.throughput *= next.weight;
+	record_path__record_step(next);
+	if (path.bounces > batch.max_depth || path.passes > path__MAX_PASSES) {
+		dispatch__cut_throughput += select(dot(path.throughput, tone__LUMINANCE_REC709), 0.0, bindings__HAS_CATCHERS && path.is_caught);
+		record_path__record_limit();
+		return path__ended(path);
+	}
+	let chance = select(1.0, mis__survival_chance(path.throughput), path.bounces >= path_vertex__ROULETTE_START);
+	let ends = path__random_1d(path, dimensions__ROULETTE) >= chance || all(path.throughput <= vec3f(0.0));
+	record_path__record_roulette(path.throughput, chance, ends);
+	if (ends) {
+		return path__ended(path);
+	}
+	path.throughput /= chance;
+	seen__see_scattered(bsdf, next.pdf, chance);
+	let crosses = dot(next.direction, bsdf.ng) < 0.0;
+	let is_straight = crosses && next.pdf == 0.0 && !(bindings__SOLID_GLASS && bsdf.encloses);
+	record_path__record_straight(crosses && next.pdf == 0.0 && !bsdf.bends);
+	path.kind = select(ray_states__KIND_REFLECTED, ray_states__KIND_REFRACTED, crosses);
+	path.media = select(path.media, met.media, vec4<bool>(crosses));
+	path.ray = leaving__leaving_ray(surface, next.direction, camera__T_FAR);
+	path.origin = select(surface.p, path.origin, is_straight);
+	path.normal = select(bsdf__receiving_normal(bsdf), path.normal, is_straight);
+	path.pdf = select(next.pdf, path.pdf, is_straight);
+	if (crosses && next.pdf == 0.0) {
+		path.passes += 1u;
+	}
+	else {
+		path.bounces += 1u;
+	}
+	return path;
 }
 
 fn backdrop__is_seen(path: path__Path) -> bool {
@@ -6051,16 +6068,33 @@ const seen__CLEAR: f32 = 0.01;
 
 const seen__ROUGH_SHARE: f32 = 0.25;
 
+const seen__CLEAR_DENSITY: f32 = 10.0;
+
 fn seen__see_surface(path: path__Path, bsdf: lobes__Bsdf, glow: vec3f) {
 	if (bindings__HAS_FEATURES) {
-		let is_blurred = bsdf.boundary_alpha.x >= seen__CLEAR;
-		let rough = bsdf.chances.x + bsdf.coating_chances.x + bsdf.coating_chances.y + select(0.0, bsdf.chances.y, bsdf.alpha.x >= seen__CLEAR) + select(0.0, bsdf.chances.z, is_blurred);
-		if (rough >= seen__ROUGH_SHARE || any(glow > vec3f(0.0))) {
-			let boundary = select(vec3f(0.0), bsdf.reflect + bsdf.transmit, is_blurred);
-			let albedo = bsdf.diffuse + bsdf.through + bsdf.gain * bsdf.f0 + boundary + glow;
+		let boundary = select(vec3f(0.0), bsdf.reflect + bsdf.transmit, seen__is_blurred(bsdf));
+		let albedo = bsdf.diffuse + bsdf.through + bsdf.gain * bsdf.f0 + boundary + glow;
+		if (seen__rough_share(bsdf) >= seen__ROUGH_SHARE || any(glow > vec3f(0.0))) {
 			features__see_albedo(path.throughput * albedo, bsdf.normal);
 		}
+		else {
+			features__see_through(path.throughput * albedo, bsdf.normal);
+		}
 	}
+}
+
+fn seen__see_scattered(bsdf: lobes__Bsdf, pdf: f32, survival: f32) {
+	if (bindings__HAS_FEATURES) {
+		features__follow_chain(pdf <= 0.0 || pdf >= seen__CLEAR_DENSITY, survival * (1.0 - seen__rough_share(bsdf)));
+	}
+}
+
+fn seen__is_blurred(bsdf: lobes__Bsdf) -> bool {
+	return bsdf.boundary_alpha.x >= seen__CLEAR;
+}
+
+fn seen__rough_share(bsdf: lobes__Bsdf) -> f32 {
+	return bsdf.chances.x + bsdf.coating_chances.y + select(0.0, bsdf.coating_chances.x, bsdf.coating.coat_alpha >= seen__CLEAR) + select(0.0, bsdf.chances.y, bsdf.alpha.x >= seen__CLEAR) + select(0.0, bsdf.chances.z, seen__is_blurred(bsdf));
 }
 
 fn toward_lamp__toward_lamp(batch: dispatch__Batch, before: path__Path, surface: shading__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {

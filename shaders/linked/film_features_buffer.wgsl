@@ -5,8 +5,6 @@ fn film_features(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
 		let row = bindings__FILM_ROWS * work.film_index;
 		let first = row + bindings__FEATURES_ROW;
 		let sum = bindings__film[row];
-		let usable = abs(sum.w) > 0.5;
-		let scale = select(0.0, 1.0 / select(1.0, sum.w, usable), usable);
 		let mean = filter__weighted_mean(sum);
 		let luminance = dot(mean, tone__LUMINANCE_REC709);
 		let samples = select(abs(sum.w), f32(bindings__dispatch.end_sample), bindings__dispatch.end_sample > 0u);
@@ -14,8 +12,8 @@ fn film_features(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
 		let variance = max_f32(squares - luminance * luminance, 0.0) / max_f32(samples - 1.0, 1.0);
 		let p = work.pixel - vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
 		textureStore(bindings__noisy_out, p, vec4f(mean, select(variance, demodulation__UNKNOWN_VARIANCE, samples == 1.0)));
-		textureStore(bindings__albedos_out, p, vec4f(scale * bindings__film[first].xyz, 1.0));
-		textureStore(bindings__surfaces_out, p, vec4f(scale * bindings__film[first + 1u].xyz, bindings__film[first + 5u].w));
+		textureStore(bindings__albedos_out, p, vec4f(features__trusted_mean(bindings__film[first]), 1.0));
+		textureStore(bindings__surfaces_out, p, vec4f(features__trusted_mean(bindings__film[first + 1u]), bindings__film[first + 5u].w));
 	}
 }
 
@@ -147,6 +145,13 @@ fn filter__weighted_mean(sum: vec4f) -> vec3f {
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 const demodulation__UNKNOWN_VARIANCE: f32 = 1e31;
+
+const features__LEAST_TRUST: f32 = 1.0 / 1024.0;
+
+fn features__trusted_mean(sum: vec4f) -> vec3f {
+	let usable = abs(sum.w) > 0.5 * features__LEAST_TRUST;
+	return select(vec3f(0.0), clamp_vec3f(sum.xyz / select(1.0, sum.w, usable), vec3f(-1.0), vec3f(1.0)), usable);
+}
 
 override bindings__EXTREMES_BY_SELECT: bool = false;
 

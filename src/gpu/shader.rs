@@ -47,8 +47,8 @@ pub(crate) struct Compiled {
 /// A compute kernel: linked WGSL from `shaders/linked`, and its entry point.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel {
-    /// The name of the kernel, its entry point and its file in `shaders/kernels/`; `explain` and `explain_path`
-    /// are `whitted` and `path_trace` with recording.
+    /// The name of the kernel, its entry point and its file in `shaders/kernels/`; `explain` is `whitted` with
+    /// recording.
     pub name: &'static str,
     /// Its variants, and their sources as `build.rs` compressed them.
     compressed: &'static [(Variant, &'static [u8])],

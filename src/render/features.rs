@@ -76,6 +76,9 @@ pub struct PixelFeatures {
     pub samples: f32,
 }
 
+/// The weight of the albedo and normal of a sample that does not show what mirrors show.
+const LEAST_TRUST: f64 = 1.0 / 1024.0;
+
 /// Where the features are among the rows of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Places {
@@ -115,6 +118,16 @@ impl Places {
             false => 0.0,
         };
         let mean = |row: usize| [0, 1, 2].map(|channel| rows[row][channel] * scale);
+        // Their rows have weights of their own, and small ones where no sample shows what mirrors show: see `trusted_mean` in
+        // scene/features.wesl.
+        let trusted = |row: usize| {
+            let [x, y, z, weight] = rows[row];
+            let scale = match weight.abs() > 0.5 * LEAST_TRUST {
+                true => 1.0 / weight,
+                false => 0.0,
+            };
+            [x, y, z].map(|sum| (sum * scale).clamp(-1.0, 1.0))
+        };
         let whole = mean(0).map(|channel| channel.max(0.0));
         let (direct, emission) = (mean(self.direct), mean(self.emission));
         let rest = |channel: usize| whole[channel] - direct[channel] - emission[channel];
@@ -130,8 +143,8 @@ impl Places {
         PixelFeatures {
             radiance: single(whole),
             transparency: (self.opacity).map_or(0.0, |row| 1.0 - opacity(weight, &rows[row..])),
-            albedo: single(mean(self.albedo)),
-            normal: single(mean(self.normal)),
+            albedo: single(trusted(self.albedo)),
+            normal: single(trusted(self.normal)),
             direct: single(direct),
             indirect: single([0, 1, 2].map(rest)),
             emission: single(emission),

@@ -27,7 +27,8 @@ pub enum LayerKind {
     /// The sum of squared luminance, which decides when a pixel has converged; then the pixel position, and 1.
     /// It is not developed.
     Squares,
-    /// Three sums with the weights of the radiance, and the sum of the weights.
+    /// Three weighted sums, and the sum of the weights: those of the radiance, less in [`ALBEDO`] and [`NORMAL`] for samples
+    /// that do not show what mirrors show.
     Mean,
     /// What the sample nearest the pixel's centre saw: its nearness, 1/(1 + d²) at a distance of d pixels, its
     /// index, and the rest. It is the last layer of a pixel.

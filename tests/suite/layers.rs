@@ -8,7 +8,9 @@ use crate::support::random::Random;
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
 use glam::{DVec3, Vec3, dvec3, vec3};
 use glimray::render::{Features, Film, Integrator, PixelFeatures, RenderSettings, Slicing};
-use glimray::scene::{Antialias, Background, Camera, Filter, Light, LightKind, Material, Scene};
+use glimray::scene::{
+    Antialias, Background, Camera, Filter, Geometry, Light, LightKind, Material, Scene,
+};
 use std::collections::BTreeMap;
 
 fn featured(settings: RenderSettings) -> RenderSettings {
@@ -165,6 +167,38 @@ fn mirrors_show_the_albedo_and_the_normal_behind_them() {
         "{centre:?}"
     );
     assert!((centre.depth - 5.0).abs() < 1e-4, "{centre:?}");
+}
+
+/// A mirror that is a little dull scatters some samples elsewhere. What those meet is not seen in it: the albedo stays that of
+/// the ball behind the camera, and so does the normal. Elsewhere are bright walls, which would be.
+#[test]
+fn samples_that_a_dull_mirror_scatters_do_not_change_what_it_shows() {
+    let mirror = Material {
+        diffuse: Vec3::splat(0.1),
+        specular: Vec3::ZERO,
+        reflect: Vec3::splat(0.5),
+        ..Material::default()
+    };
+    let mut scene = balls(mirror);
+    scene.background = Background::Color(Vec3::ONE);
+    // As good as flat.
+    scene.shapes[1].geometry = Geometry::Sphere {
+        center: EYE + dvec3(0.0, 0.0, -1005.0),
+        radius: 1000.0,
+    };
+    let found = features(&scene, &paths(stratified(64, (9, 9))));
+    let centre = &found.pixels[40];
+    // A sample that is scattered counts 1/1024, with the mirror's own diffuse colour and normal. One in six is, at most
+    // half of them here.
+    let tolerance = 2.0 / 1024.0;
+    assert!(
+        far(centre.albedo, 0.5 * vec3(0.1, 0.7, 0.2)) < tolerance,
+        "{centre:?}"
+    );
+    assert!(
+        far(centre.normal, vec3(0.0, 0.0, -1.0)) < 2.0 * tolerance,
+        "{centre:?}"
+    );
 }
 
 #[test]
