@@ -133,9 +133,19 @@ pub struct PackedScene {
     pub work: TreeWork,
 }
 
-/// A scene that exceeds the limits of the packed formats.
+/// A scene that exceeds the limits of the packed formats, or is none.
 #[derive(Debug, thiserror::Error)]
 pub enum PackError {
+    /// A mesh whose arrays do not fit each other.
+    #[error(
+        "scene inconsistent (mesh {index}): {what}. Give each vertex one of everything; `Mesh::repair` adds missing normals."
+    )]
+    Inconsistent {
+        /// Index into [`Scene::meshes`].
+        index: usize,
+        /// How they do not fit.
+        what: String,
+    },
     /// An index does not fit its bits.
     #[error(
         "scene too big (after instancing): it has {count} {what}, at most {limit} are possible. Use fewer or simpler objects."
@@ -235,7 +245,7 @@ fn pack(
 ) -> Result<PackedScene, PackError> {
     let rest = scene.frame(0.0);
     let origin = scene.render_origin_at(&rest);
-    let meshes = mesh::cached(previous.map_or(&[], |previous| &previous.meshes), scene);
+    let meshes = mesh::cached(previous.map_or(&[], |previous| &previous.meshes), scene)?;
     let plan = Plan::new(scene, (&rest, origin), most_baked)?;
 
     let start = Instant::now();

@@ -1,6 +1,7 @@
 //! Data derived from a mesh, independent of its instances; cached as long as the mesh is the same object.
 
 use super::{
+    PackError,
     shell::{self, Shell},
     topology::Topology,
 };
@@ -108,13 +109,22 @@ impl CachedMesh {
 }
 
 /// One for each mesh of a scene; those in `before` are reused.
-pub fn cached(before: &[Arc<CachedMesh>], scene: &Scene) -> Vec<Arc<CachedMesh>> {
+///
+/// # Errors
+/// The arrays of a new one do not fit each other.
+pub fn cached(
+    before: &[Arc<CachedMesh>],
+    scene: &Scene,
+) -> Result<Vec<Arc<CachedMesh>>, PackError> {
     let known: HashMap<_, _> = (before.iter())
         .map(|cached| (Arc::as_ptr(&cached.mesh), cached))
         .collect();
-    let cached = |mesh: &Arc<Mesh>| match known.get(&Arc::as_ptr(mesh)) {
-        Some(&cached) => cached.clone(),
-        None => Arc::new(CachedMesh::new(mesh)),
+    let cached = |(index, mesh): (usize, &Arc<Mesh>)| match known.get(&Arc::as_ptr(mesh)) {
+        Some(&cached) => Ok(cached.clone()),
+        None => match mesh.inconsistency(scene.materials.len()) {
+            Some(what) => Err(PackError::Inconsistent { index, what }),
+            None => Ok(Arc::new(CachedMesh::new(mesh))),
+        },
     };
-    scene.meshes.iter().map(cached).collect()
+    scene.meshes.iter().enumerate().map(cached).collect()
 }

@@ -39,6 +39,37 @@ pub struct Repairs {
 }
 
 impl Mesh {
+    /// How the arrays do not fit each other, or the number of materials of their scene; `None` if they do.
+    pub fn inconsistency(&self, materials: usize) -> Option<String> {
+        let vertices = self.positions.len();
+        let arrays = [
+            ("normals", self.normals.len()),
+            ("materials", self.materials.len()),
+        ];
+        let optional = [
+            ("texture coordinates", self.uvs.len()),
+            ("second texture coordinates", self.second_uvs.len()),
+            ("tangents", self.tangents.len()),
+        ];
+        let given = optional.into_iter().filter(|(_, count)| *count > 0);
+        if let Some((what, count)) =
+            (arrays.into_iter().chain(given)).find(|(_, count)| *count != vertices)
+        {
+            return Some(format!("it has {count} {what} for {vertices} positions"));
+        }
+        let mut corners = self.triangles.iter().flatten();
+        if let Some(corner) = corners.find(|&&corner| corner as usize >= vertices) {
+            return Some(format!(
+                "a triangle has vertex {corner}, and there are {vertices}"
+            ));
+        }
+        let mut used = self.materials.iter();
+        let unknown = used.find(|&&material| material as usize >= materials)?;
+        Some(format!(
+            "a vertex has material {unknown}, and the scene has {materials}"
+        ))
+    }
+
     /// Both sets of texture coordinates.
     pub fn uv_sets_mut(&mut self) -> [&mut Vec<Vec2>; 2] {
         [&mut self.uvs, &mut self.second_uvs]

@@ -1,14 +1,14 @@
 //! Packing: the layout of the arrays that the GPU reads.
 
 use crate::reference::scenes::{self, Build};
-use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
+use glam::{DAffine3, DVec3, UVec2, Vec2, Vec3, dvec3, vec3};
 use glimray::layout::{
     LIGHT_POINT, LIGHT_SPOT, MATERIAL_TWO_SIDED, PackedLight, SHAPE_DISC, SHAPE_PLANE,
     SHAPE_RECTANGLE, SHAPE_SPHERE,
 };
 use glimray::pack::{self, PackError, PackedScene};
 use glimray::scene::{
-    Attenuation, CanonicalShape, Geometry, Light, LightKind, Material, Scene, Shape,
+    Attenuation, CanonicalShape, Geometry, Light, LightKind, Material, Mesh, Scene, Shape,
 };
 
 fn packed(scene: &Scene) -> PackedScene {
@@ -443,4 +443,27 @@ fn visible_lights_are_surfaces_that_shine_on_their_front() {
             assert_eq!(Vec3::from(shape.row_y).normalize(), Vec3::from(facing));
         }
     }
+}
+
+#[test]
+fn meshes_whose_arrays_do_not_fit_are_refused() {
+    let refused = |spoil: fn(&mut Mesh)| {
+        let mut scene = scenes::empty();
+        let mut mesh = scenes::quad(1.0, 0);
+        spoil(&mut mesh);
+        scene.add_mesh(scenes::quad(1.0, 0), DAffine3::IDENTITY);
+        scene.add_mesh(mesh, DAffine3::IDENTITY);
+        match pack::scene(&scene) {
+            Err(error @ PackError::Inconsistent { index: 1, .. }) => error.to_string(),
+            other => panic!("{other:?}"),
+        }
+    };
+    let told = refused(|mesh| mesh.normals.clear());
+    assert!(told.contains("(mesh 1): it has 0 normals for 4 positions"));
+    let told = refused(|mesh| mesh.uvs = vec![Vec2::ZERO; 3]);
+    assert!(told.contains("it has 3 texture coordinates for 4 positions"));
+    let told = refused(|mesh| mesh.triangles[1][2] = 4);
+    assert!(told.contains("a triangle has vertex 4, and there are 4"));
+    let told = refused(|mesh| mesh.materials[3] = 7);
+    assert!(told.contains("a vertex has material 7, and the scene has 1"));
 }
