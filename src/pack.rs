@@ -133,13 +133,11 @@ pub struct PackedScene {
     pub work: TreeWork,
 }
 
-/// A scene that exceeds the limits of the packed formats, or is none.
+/// A scene that cannot be packed: it exceeds a limit, or a mesh contradicts itself.
 #[derive(Debug, thiserror::Error)]
 pub enum PackError {
     /// A mesh whose arrays do not fit each other.
-    #[error(
-        "scene inconsistent (mesh {index}): {what}. Give each vertex one of everything; `Mesh::repair` adds missing normals."
-    )]
+    #[error("mesh refused (mesh {index}): {what}. Correct the mesh before it is packed.")]
     Inconsistent {
         /// Index into [`Scene::meshes`].
         index: usize,
@@ -193,7 +191,8 @@ pub enum PackError {
 /// Packs a scene and builds its BVHs.
 ///
 /// # Errors
-/// The scene exceeds the limits of the packed formats.
+/// The scene exceeds the limits of the packed formats, or the arrays of a mesh do not fit each other. Deformations are not
+/// checked.
 pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
     pack(None, scene, MAX_BAKED, false)
 }

@@ -249,7 +249,7 @@ impl Scene {
         let new = Arc::new(sky::picture(elevation, azimuth));
         match self.background {
             Background::Picture { picture, .. }
-                if sky::sun_of(&self.pictures[picture]).is_some() =>
+                if matches!(self.pictures[picture].origin, Origin::Sky { .. }) =>
             {
                 self.pictures[picture] = new;
             }

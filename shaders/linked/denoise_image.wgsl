@@ -1,16 +1,16 @@
-const NORMAL_FALL: f32 = 32.0;
+const NORMAL_FALL: f32 = 16.0;
 
 const ALBEDO_WIDTH: f32 = 0.09;
 
 const DEPTH_SHARE: f32 = 0.01;
 
-const DEVIATIONS: f32 = 3.0;
+const DEVIATIONS: f32 = 1.25;
 
 const OUTLIER: f32 = 3.0;
 
 const LEAST_WEIGHT: f32 = 0.3;
 
-const LUMINANCE_SHARE: f32 = 0.001;
+const LUMINANCE_SHARE: f32 = 0.002;
 
 fn load_signal(p: vec2i) -> vec4f {
 	return textureLoad(bindings__signal, p);
@@ -31,6 +31,23 @@ fn guide_at(p: vec2i) -> Guide {
 	let packed = load_guide(p);
 	let normal = vec3f(unpack2x16snorm(packed.x), unpack2x16snorm(packed.y).x);
 	return Guide(normal, unpack4x8unorm(packed.z).xyz, bitcast<f32>(packed.w), bitcast<f32>(packed.y & 4294901760u));
+}
+
+struct Estimate {
+	variance: f32,
+	pilot: f32
+}
+
+fn packed(estimate: Estimate) -> f32 {
+	let variance = clamp_f32(round(2.0 * log2(max_f32(estimate.variance, 1e-30))) + 128.0, 0.0, 255.0);
+	let pilot = clamp_f32(round(512.0 * log2(max_f32(estimate.pilot, 1e-30))) + 32768.0, 0.0, 65535.0);
+	return 65536.0 * variance + pilot;
+}
+
+fn unpacked(w: f32) -> Estimate {
+	let variance = floor(w / 65536.0);
+	let pilot = w - 65536.0 * variance;
+	return Estimate(exp2(0.5 * (variance - 128.0)), exp2((pilot - 32768.0) / 512.0));
 }
 
 fn likeness(own: Guide, other: Guide, steps: f32) -> f32 {
@@ -88,39 +105,45 @@ fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
 	}
 	let luminance = dot(own.xyz, tone__LUMINANCE_REC709);
 	let is_known = own.w <= demodulation__MOST_VARIANCE;
-	if (own.w < 0.0 || total < LEAST_WEIGHT) {
-		return vec4f(own.xyz, select(luminance * luminance, own.w, is_known));
+	if (own.w < 0.0) {
+		return own;
+	}
+	if (total < LEAST_WEIGHT) {
+		return vec4f(own.xyz, packed(Estimate(select(luminance * luminance, own.w, is_known), luminance)));
 	}
 	let mean = sum / total;
 	let spread = max_f32(squares / total - mean * mean, 0.0);
 	let most = mean + OUTLIER * sqrt(spread) + LUMINANCE_SHARE * mean;
 	let scale = select(1.0, most / luminance, luminance > most);
-	return vec4f(scale * own.xyz, select(spread, (variance + scale * scale * own.w) / (total + 1.0), is_known));
+	let noise = select(spread, (variance + scale * scale * own.w) / (total + 1.0), is_known);
+	return vec4f(scale * own.xyz, packed(Estimate(noise, (sum + scale * luminance) / (total + 1.0))));
 }
 
 fn averaged(p: vec2i, last: vec2i, step: i32) -> vec4f {
 	let own = load_signal(p);
 	let guide = guide_at(p);
-	let luminance = dot(own.xyz, tone__LUMINANCE_REC709);
-	let width = DEVIATIONS * sqrt(smooth_variance(p, last)) + LUMINANCE_SHARE * luminance + 1e-12;
+	let pilot = unpacked(own.w).pilot;
+	let width = DEVIATIONS * sqrt(smooth_variance(p, last)) + LUMINANCE_SHARE * pilot + 1e-12;
 	let fall = select(0.0, 1.0 / width, own.w >= 0.0);
 	var total = 0.0;
 	var sum = vec3f(0.0);
-	var variance = 0.0;
+	var mean = Estimate(0.0, 0.0);
 	var k = 0;
 	loop {
 		let offset = vec2i(k % 3, k / 3) - 1;
 		let q = p + step * offset;
 		let inside = clamp(q, vec2i(0), last);
 		let other = load_signal(inside);
+		let estimate = unpacked(other.w);
 		let is_usable = all(q == inside) && other.w >= 0.0;
-		let apart = fall * (dot(other.xyz, tone__LUMINANCE_REC709) - luminance);
+		let apart = fall * (estimate.pilot - pilot);
 		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
 		let alike = likeness(guide, guide_at(inside), f32(step)) * exp(-min_f32(apart * apart, 80.0));
 		let weight = select(0.0, near * alike, is_usable);
 		total += weight;
 		sum += weight * other.xyz;
-		variance += weight * weight * other.w;
+		mean.variance += weight * weight * estimate.variance;
+		mean.pilot += weight * estimate.pilot;
 		continuing {
 			k += 1;
 			break if k >= 9;
@@ -129,7 +152,7 @@ fn averaged(p: vec2i, last: vec2i, step: i32) -> vec4f {
 	if (total <= 0.0) {
 		return own;
 	}
-	return vec4f(sum / total, variance / (total * total));
+	return vec4f(sum / total, packed(Estimate(mean.variance / (total * total), mean.pilot / total)));
 }
 
 fn smooth_variance(p: vec2i, last: vec2i) -> f32 {
@@ -138,7 +161,8 @@ fn smooth_variance(p: vec2i, last: vec2i) -> f32 {
 	loop {
 		let offset = vec2i(k % 3, k / 3) - 1;
 		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
-		sum += near * max_f32(load_signal(clamp(p + offset, vec2i(0), last)).w, 0.0);
+		let w = load_signal(clamp(p + offset, vec2i(0), last)).w;
+		sum += select(0.0, near * unpacked(w).variance, w >= 0.0);
 		continuing {
 			k += 1;
 			break if k >= 9;

@@ -1577,7 +1577,7 @@ fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
 struct features__Features {
 	albedo: vec3f,
 	normal: vec3f,
-	trust: f32,
+	weight: f32,
 	chance: f32,
 	direct: vec3f,
 	emission: vec3f,
@@ -1590,7 +1590,7 @@ struct features__Features {
 	is_followed: bool
 }
 
-const features__LEAST_TRUST: f32 = 1.0 / 1024.0;
+const features__LEAST_WEIGHT: f32 = 1.0 / 1024.0;
 
 var<private> features__features: features__Features;
 
@@ -1599,7 +1599,7 @@ var<private> features__off_centre: f32;
 fn features__start_features() {
 	if (bindings__HAS_FEATURES) {
 		features__features = features__Features();
-		features__features.trust = features__LEAST_TRUST;
+		features__features.weight = features__LEAST_WEIGHT;
 		features__features.chance = 1.0;
 		features__features.is_followed = true;
 	}
@@ -1619,7 +1619,7 @@ fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32)
 fn features__see_albedo(albedo: vec3f, normal: vec3f) {
 	features__see_through(albedo, normal);
 	if (bindings__HAS_FEATURES && features__features.is_followed) {
-		features__features.trust = 1.0;
+		features__features.weight = 1.0;
 		features__features.is_followed = false;
 	}
 }

@@ -1749,7 +1749,7 @@ fn filter__inverse_erf(y: vec2f) -> vec2f {
 struct features__Features {
 	albedo: vec3f,
 	normal: vec3f,
-	trust: f32,
+	weight: f32,
 	chance: f32,
 	direct: vec3f,
 	emission: vec3f,
@@ -1780,7 +1780,7 @@ fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32)
 fn features__see_albedo(albedo: vec3f, normal: vec3f) {
 	features__see_through(albedo, normal);
 	if (bindings__HAS_FEATURES && features__features.is_followed) {
-		features__features.trust = 1.0;
+		features__features.weight = 1.0;
 		features__features.is_followed = false;
 	}
 }
@@ -6066,15 +6066,15 @@ fn gloss__scattered_often(f0: vec3f, f90: vec3f, albedo: vec2f) -> vec3f {
 
 const seen__CLEAR: f32 = 0.01;
 
-const seen__ROUGH_SHARE: f32 = 0.25;
-
 const seen__CLEAR_DENSITY: f32 = 10.0;
+
+const seen__CLEAR_SHARE: f32 = 0.75;
 
 fn seen__see_surface(path: path__Path, bsdf: lobes__Bsdf, glow: vec3f) {
 	if (bindings__HAS_FEATURES) {
 		let boundary = select(vec3f(0.0), bsdf.reflect + bsdf.transmit, seen__is_blurred(bsdf));
 		let albedo = bsdf.diffuse + bsdf.through + bsdf.gain * bsdf.f0 + boundary + glow;
-		if (seen__rough_share(bsdf) >= seen__ROUGH_SHARE || any(glow > vec3f(0.0))) {
+		if (seen__clear_share(bsdf) <= seen__CLEAR_SHARE || any(glow > vec3f(0.0))) {
 			features__see_albedo(path.throughput * albedo, bsdf.normal);
 		}
 		else {
@@ -6085,7 +6085,7 @@ fn seen__see_surface(path: path__Path, bsdf: lobes__Bsdf, glow: vec3f) {
 
 fn seen__see_scattered(bsdf: lobes__Bsdf, pdf: f32, survival: f32) {
 	if (bindings__HAS_FEATURES) {
-		features__follow_chain(pdf <= 0.0 || pdf >= seen__CLEAR_DENSITY, survival * (1.0 - seen__rough_share(bsdf)));
+		features__follow_chain(pdf <= 0.0 || pdf >= seen__CLEAR_DENSITY, survival * seen__clear_share(bsdf));
 	}
 }
 
@@ -6093,8 +6093,8 @@ fn seen__is_blurred(bsdf: lobes__Bsdf) -> bool {
 	return bsdf.boundary_alpha.x >= seen__CLEAR;
 }
 
-fn seen__rough_share(bsdf: lobes__Bsdf) -> f32 {
-	return bsdf.chances.x + bsdf.coating_chances.y + select(0.0, bsdf.coating_chances.x, bsdf.coating.coat_alpha >= seen__CLEAR) + select(0.0, bsdf.chances.y, bsdf.alpha.x >= seen__CLEAR) + select(0.0, bsdf.chances.z, seen__is_blurred(bsdf));
+fn seen__clear_share(bsdf: lobes__Bsdf) -> f32 {
+	return select(bsdf.chances.z, 0.0, seen__is_blurred(bsdf)) + select(bsdf.chances.y, 0.0, bsdf.alpha.x >= seen__CLEAR) + select(bsdf.coating_chances.x, 0.0, bsdf.coating.coat_alpha >= seen__CLEAR);
 }
 
 fn toward_lamp__toward_lamp(batch: dispatch__Batch, before: path__Path, surface: shading__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {

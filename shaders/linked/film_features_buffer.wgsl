@@ -12,8 +12,8 @@ fn film_features(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
 		let variance = max_f32(squares - luminance * luminance, 0.0) / max_f32(samples - 1.0, 1.0);
 		let p = work.pixel - vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
 		textureStore(bindings__noisy_out, p, vec4f(mean, select(variance, demodulation__UNKNOWN_VARIANCE, samples == 1.0)));
-		textureStore(bindings__albedos_out, p, vec4f(features__trusted_mean(bindings__film[first]), 1.0));
-		textureStore(bindings__surfaces_out, p, vec4f(features__trusted_mean(bindings__film[first + 1u]), bindings__film[first + 5u].w));
+		textureStore(bindings__albedos_out, p, vec4f(features__feature_mean(bindings__film[first]), 1.0));
+		textureStore(bindings__surfaces_out, p, vec4f(features__feature_mean(bindings__film[first + 1u]), bindings__film[first + 5u].w));
 	}
 }
 
@@ -146,10 +146,10 @@ const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 const demodulation__UNKNOWN_VARIANCE: f32 = 1e31;
 
-const features__LEAST_TRUST: f32 = 1.0 / 1024.0;
+const features__LEAST_WEIGHT: f32 = 1.0 / 1024.0;
 
-fn features__trusted_mean(sum: vec4f) -> vec3f {
-	let usable = abs(sum.w) > 0.5 * features__LEAST_TRUST;
+fn features__feature_mean(sum: vec4f) -> vec3f {
+	let usable = abs(sum.w) > 0.5 * features__LEAST_WEIGHT;
 	return select(vec3f(0.0), clamp_vec3f(sum.xyz / select(1.0, sum.w, usable), vec3f(-1.0), vec3f(1.0)), usable);
 }
 

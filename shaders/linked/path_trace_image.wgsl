@@ -1721,7 +1721,7 @@ fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, 
 struct features__Features {
 	albedo: vec3f,
 	normal: vec3f,
-	trust: f32,
+	weight: f32,
 	chance: f32,
 	direct: vec3f,
 	emission: vec3f,
@@ -1734,7 +1734,7 @@ struct features__Features {
 	is_followed: bool
 }
 
-const features__LEAST_TRUST: f32 = 1.0 / 1024.0;
+const features__LEAST_WEIGHT: f32 = 1.0 / 1024.0;
 
 var<private> features__features: features__Features;
 
@@ -1743,7 +1743,7 @@ var<private> features__off_centre: f32;
 fn features__start_features() {
 	if (bindings__HAS_FEATURES) {
 		features__features = features__Features();
-		features__features.trust = features__LEAST_TRUST;
+		features__features.weight = features__LEAST_WEIGHT;
 		features__features.chance = 1.0;
 		features__features.is_followed = true;
 	}
@@ -1763,7 +1763,7 @@ fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32)
 fn features__see_albedo(albedo: vec3f, normal: vec3f) {
 	features__see_through(albedo, normal);
 	if (bindings__HAS_FEATURES && features__features.is_followed) {
-		features__features.trust = 1.0;
+		features__features.weight = 1.0;
 		features__features.is_followed = false;
 	}
 }
@@ -1791,8 +1791,8 @@ fn features__see_light(light: vec3f, scatterings: u32) {
 
 fn features__add_features(first_row: u32, sample: u32, weight: f32) {
 	let row = first_row + bindings__FEATURES_ROW;
-	features__add_mean(row, features__features.albedo, features__features.trust * weight);
-	features__add_mean(row + 1u, features__features.normal, features__features.trust * weight);
+	features__add_mean(row, features__features.albedo, features__features.weight * weight);
+	features__add_mean(row + 1u, features__features.normal, features__features.weight * weight);
 	features__add_mean(row + 2u, features__features.direct, weight);
 	features__add_mean(row + 3u, features__features.emission, weight);
 	let nearness = 1.0 / (1.0 + features__off_centre);
@@ -5924,15 +5924,15 @@ fn gloss__scattered_often(f0: vec3f, f90: vec3f, albedo: vec2f) -> vec3f {
 
 const seen__CLEAR: f32 = 0.01;
 
-const seen__ROUGH_SHARE: f32 = 0.25;
-
 const seen__CLEAR_DENSITY: f32 = 10.0;
+
+const seen__CLEAR_SHARE: f32 = 0.75;
 
 fn seen__see_surface(path: path__Path, bsdf: lobes__Bsdf, glow: vec3f) {
 	if (bindings__HAS_FEATURES) {
 		let boundary = select(vec3f(0.0), bsdf.reflect + bsdf.transmit, seen__is_blurred(bsdf));
 		let albedo = bsdf.diffuse + bsdf.through + bsdf.gain * bsdf.f0 + boundary + glow;
-		if (seen__rough_share(bsdf) >= seen__ROUGH_SHARE || any(glow > vec3f(0.0))) {
+		if (seen__clear_share(bsdf) <= seen__CLEAR_SHARE || any(glow > vec3f(0.0))) {
 			features__see_albedo(path.throughput * albedo, bsdf.normal);
 		}
 		else {
@@ -5943,7 +5943,7 @@ fn seen__see_surface(path: path__Path, bsdf: lobes__Bsdf, glow: vec3f) {
 
 fn seen__see_scattered(bsdf: lobes__Bsdf, pdf: f32, survival: f32) {
 	if (bindings__HAS_FEATURES) {
-		features__follow_chain(pdf <= 0.0 || pdf >= seen__CLEAR_DENSITY, survival * (1.0 - seen__rough_share(bsdf)));
+		features__follow_chain(pdf <= 0.0 || pdf >= seen__CLEAR_DENSITY, survival * seen__clear_share(bsdf));
 	}
 }
 
@@ -5951,8 +5951,8 @@ fn seen__is_blurred(bsdf: lobes__Bsdf) -> bool {
 	return bsdf.boundary_alpha.x >= seen__CLEAR;
 }
 
-fn seen__rough_share(bsdf: lobes__Bsdf) -> f32 {
-	return bsdf.chances.x + bsdf.coating_chances.y + select(0.0, bsdf.coating_chances.x, bsdf.coating.coat_alpha >= seen__CLEAR) + select(0.0, bsdf.chances.y, bsdf.alpha.x >= seen__CLEAR) + select(0.0, bsdf.chances.z, seen__is_blurred(bsdf));
+fn seen__clear_share(bsdf: lobes__Bsdf) -> f32 {
+	return select(bsdf.chances.z, 0.0, seen__is_blurred(bsdf)) + select(bsdf.chances.y, 0.0, bsdf.alpha.x >= seen__CLEAR) + select(bsdf.coating_chances.x, 0.0, bsdf.coating.coat_alpha >= seen__CLEAR);
 }
 
 fn toward_lamp__toward_lamp(batch: dispatch__Batch, before: path__Path, surface: shading__Surface, bsdf: lobes__Bsdf, met: interface__Interface) -> path__Path {

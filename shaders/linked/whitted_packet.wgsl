@@ -1628,7 +1628,7 @@ fn rays__any_lane(condition: bool) -> bool {
 struct features__Features {
 	albedo: vec3f,
 	normal: vec3f,
-	trust: f32,
+	weight: f32,
 	chance: f32,
 	direct: vec3f,
 	emission: vec3f,
@@ -1641,7 +1641,7 @@ struct features__Features {
 	is_followed: bool
 }
 
-const features__LEAST_TRUST: f32 = 1.0 / 1024.0;
+const features__LEAST_WEIGHT: f32 = 1.0 / 1024.0;
 
 var<private> features__features: features__Features;
 
@@ -1650,7 +1650,7 @@ var<private> features__off_centre: f32;
 fn features__start_features() {
 	if (bindings__HAS_FEATURES) {
 		features__features = features__Features();
-		features__features.trust = features__LEAST_TRUST;
+		features__features.weight = features__LEAST_WEIGHT;
 		features__features.chance = 1.0;
 		features__features.is_followed = true;
 	}
@@ -1670,7 +1670,7 @@ fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32)
 fn features__see_albedo(albedo: vec3f, normal: vec3f) {
 	features__see_through(albedo, normal);
 	if (bindings__HAS_FEATURES && features__features.is_followed) {
-		features__features.trust = 1.0;
+		features__features.weight = 1.0;
 		features__features.is_followed = false;
 	}
 }
@@ -1691,8 +1691,8 @@ fn features__see_light(light: vec3f, scatterings: u32) {
 
 fn features__add_features(first_row: u32, sample: u32, weight: f32) {
 	let row = first_row + bindings__FEATURES_ROW;
-	features__add_mean(row, features__features.albedo, features__features.trust * weight);
-	features__add_mean(row + 1u, features__features.normal, features__features.trust * weight);
+	features__add_mean(row, features__features.albedo, features__features.weight * weight);
+	features__add_mean(row + 1u, features__features.normal, features__features.weight * weight);
 	features__add_mean(row + 2u, features__features.direct, weight);
 	features__add_mean(row + 3u, features__features.emission, weight);
 	let nearness = 1.0 / (1.0 + features__off_centre);

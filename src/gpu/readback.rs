@@ -1,7 +1,12 @@
 //! Readback from the GPU; all of it happens here.
 
-use super::{Gpu, GpuError, WAIT, WAITS, guard};
+use super::{Gpu, GpuError, guard};
 use std::sync::{Arc, Condvar, Mutex};
+use std::time::Duration;
+
+/// Time between two looks whether the device is lost while another thread reports, and the number of looks.
+const LOOK: Duration = Duration::from_millis(100);
+const LOOKS: u32 = 100;
 
 /// A range of a buffer to read back.
 pub(crate) struct Source<'a> {
@@ -19,7 +24,7 @@ pub(crate) struct Reading {
     mapped: Arc<Mapped>,
 }
 
-/// The mapping of a staging buffer, which the thread reports that polls the device.
+/// The outcome of mapping a staging buffer. The thread that polls the device reports it.
 #[derive(Default)]
 struct Mapped {
     outcome: Mutex<Option<Result<(), wgpu::BufferAsyncError>>>,
@@ -34,10 +39,10 @@ impl Mapped {
         self.reported.notify_all();
     }
 
-    /// Returns once it is reported, or after [`WAIT`].
+    /// Returns once it is reported, or after [`LOOK`].
     fn wait(&self) {
         if let Ok(slot) = self.outcome.lock() {
-            let _ = (self.reported).wait_timeout_while(slot, WAIT, |slot| slot.is_none());
+            let _ = (self.reported).wait_timeout_while(slot, LOOK, |slot| slot.is_none());
         }
     }
 }
@@ -122,13 +127,15 @@ impl Gpu {
     ) -> Result<T, GpuError> {
         self.wait(reading.submission.clone())?;
         // The driver may have finished before wgpu reports it, and another thread may be about to report what it polled.
-        for _ in 0..WAITS {
-            if self.is_readable(&reading)? {
-                break;
+        let mut looks = 0;
+        while !self.is_readable(&reading)? {
+            looks += 1;
+            // A browser's thread cannot wait.
+            if cfg!(target_arch = "wasm32") || looks > LOOKS {
+                return Err(GpuError::Lost);
             }
             reading.mapped.wait();
         }
-        reading.outcome().unwrap_or(Err(GpuError::Lost))?;
         let slice = reading.staging.slice(0..reading.bytes);
         (slice.get_mapped_range())
             .map(|view| read(&view))

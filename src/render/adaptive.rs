@@ -175,7 +175,7 @@ impl Adaptive {
     }
 
     /// For each pixel of the crop its rows of a film: the mean, features if there are any, and a row that starts with
-    /// the sample count. Means have a weight of 1, and the squares are a mean too.
+    /// the sample count. The mean has a weight of 1, features have theirs in proportion, and the squares are a mean too.
     pub fn means_and_counts(&self, layers: &[&Layer]) -> Vec<[f32; 4]> {
         let [x, y, width, height] = self.crop;
         let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
@@ -201,15 +201,12 @@ impl Adaptive {
         let first = index * count + layers::row_of(self.layers, layer).unwrap_or_default();
         let rows = self.features[first..].iter().take(layer.rows);
         let statistics = &self.pixels[index];
-        let to_mean = |[x, y, z, _]: [f64; 4], scale: f64| {
-            let [x, y, z] = [x, y, z].map(|sum| (sum * scale) as f32);
-            [x, y, z, 1.0]
-        };
+        let scaled = |row: [f64; 4], scale: f64| row.map(|sum| (sum * scale) as f32);
         let squares = 1.0 / f64::from(statistics.count.max(1));
         rows.map(move |&row| match layer {
             layer if *layer == FIRST => row.map(|number| number as f32),
-            layer if *layer == SQUARES => to_mean([row[0], 0.0, 0.0, 0.0], squares),
-            _ => to_mean(row, statistics.scale()),
+            layer if *layer == SQUARES => [(row[0] * squares) as f32, 0.0, 0.0, 1.0],
+            _ => scaled(row, statistics.scale()),
         })
     }
 

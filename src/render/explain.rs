@@ -1,7 +1,7 @@
-//! Records all rays of a pixel: `kernels/whitted.wesl` or `kernels/path_trace.wesl` with the feature `record`.
+//! Records all rays of a pixel: `kernels/whitted.wesl` or `kernels/explain_path.wesl` with the feature `record`.
 //!
-//! The same kernel that rendered the picture, compiled a second time with recording enabled, runs once more for
-//! each sample with the same random numbers. It writes to its own buffer, so the film, which may still be
+//! The code that rendered the picture, compiled a second time with recording enabled, runs once more for each
+//! sample with the same random numbers. It writes to its own buffer, so the film, which may still be
 //! growing, is not changed.
 
 mod path;

@@ -42,7 +42,8 @@ impl Features {
     }
 }
 
-/// The features of a pixel. Means are over all its samples, weighted by the filter. `depth`, `position`, `uv`, `object`
+/// The features of a pixel. Means are over all its samples, weighted by the filter; those of albedo and normal over the samples
+/// that show what mirrors show. `depth`, `position`, `uv`, `object`
 /// and `material` are those of the first surface of the sample nearest the centre, and 0 where that hits nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PixelFeatures {
@@ -50,7 +51,8 @@ pub struct PixelFeatures {
     pub radiance: [f32; 3],
     /// How much of what lies behind is seen, 0 to 1; see [`crate::scene::Backdrop::Transparent`].
     pub transparency: f32,
-    /// Mean albedo of what is seen through mirrors and clear glass, 0 to 1; of light its radiance, at most 1.
+    /// Mean albedo of what is seen through mirrors and clear glass, 0 to 1; of light its radiance, at most 1. Filters with
+    /// negative lobes may make it negative, not below -1.
     pub albedo: [f32; 3],
     /// Mean shading normal in world space, at most 1 long.
     pub normal: [f32; 3],
@@ -77,7 +79,7 @@ pub struct PixelFeatures {
 }
 
 /// The weight of the albedo and normal of a sample that does not show what mirrors show.
-const LEAST_TRUST: f64 = 1.0 / 1024.0;
+const LEAST_WEIGHT: f64 = 1.0 / 1024.0;
 
 /// Where the features are among the rows of a pixel.
 #[derive(Clone, Copy, Debug)]
@@ -118,11 +120,11 @@ impl Places {
             false => 0.0,
         };
         let mean = |row: usize| [0, 1, 2].map(|channel| rows[row][channel] * scale);
-        // Their rows have weights of their own, and small ones where no sample shows what mirrors show: see `trusted_mean` in
+        // These rows have weights of their own, small ones where no sample shows what mirrors show: see `feature_mean` in
         // scene/features.wesl.
-        let trusted = |row: usize| {
+        let own_mean = |row: usize| {
             let [x, y, z, weight] = rows[row];
-            let scale = match weight.abs() > 0.5 * LEAST_TRUST {
+            let scale = match weight.abs() > 0.5 * LEAST_WEIGHT {
                 true => 1.0 / weight,
                 false => 0.0,
             };
@@ -143,8 +145,8 @@ impl Places {
         PixelFeatures {
             radiance: single(whole),
             transparency: (self.opacity).map_or(0.0, |row| 1.0 - opacity(weight, &rows[row..])),
-            albedo: single(trusted(self.albedo)),
-            normal: single(trusted(self.normal)),
+            albedo: single(own_mean(self.albedo)),
+            normal: single(own_mean(self.normal)),
             direct: single(direct),
             indirect: single([0, 1, 2].map(rest)),
             emission: single(emission),

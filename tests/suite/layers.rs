@@ -6,12 +6,13 @@ use crate::reference::scenes::{self, Build};
 use crate::support::program::Workspace;
 use crate::support::random::Random;
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
-use glam::{DVec3, Vec3, dvec3, vec3};
+use glam::{DAffine3, DVec3, Vec3, dvec3, vec3};
 use glimray::render::{Features, Film, Integrator, PixelFeatures, RenderSettings, Slicing};
 use glimray::scene::{
     Antialias, Background, Camera, Filter, Geometry, Light, LightKind, Material, Scene,
 };
 use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
 
 fn featured(settings: RenderSettings) -> RenderSettings {
     RenderSettings {
@@ -170,7 +171,7 @@ fn mirrors_show_the_albedo_and_the_normal_behind_them() {
 }
 
 /// A mirror that is a little dull scatters some samples elsewhere. What those meet is not seen in it: the albedo stays that of
-/// the ball behind the camera, and so does the normal. Elsewhere are bright walls, which would be.
+/// the ball behind the camera, and so does the normal. Elsewhere is a white background.
 #[test]
 fn samples_that_a_dull_mirror_scatters_do_not_change_what_it_shows() {
     let mirror = Material {
@@ -186,19 +187,55 @@ fn samples_that_a_dull_mirror_scatters_do_not_change_what_it_shows() {
         center: EYE + dvec3(0.0, 0.0, -1005.0),
         radius: 1000.0,
     };
-    let found = features(&scene, &paths(stratified(64, (9, 9))));
-    let centre = &found.pixels[40];
-    // A sample that is scattered counts 1/1024, with the mirror's own diffuse colour and normal. One in six is, at most
-    // half of them here.
-    let tolerance = 2.0 / 1024.0;
-    assert!(
-        far(centre.albedo, 0.5 * vec3(0.1, 0.7, 0.2)) < tolerance,
-        "{centre:?}"
-    );
-    assert!(
-        far(centre.normal, vec3(0.0, 0.0, -1.0)) < 2.0 * tolerance,
-        "{centre:?}"
-    );
+    for antialias in [Antialias::Stratified, Antialias::Adaptive] {
+        let settings = RenderSettings {
+            antialias,
+            ..paths(stratified(64, (9, 9)))
+        };
+        let centre = &features(&scene, &settings).pixels[40];
+        // A sample that is scattered counts 1/1024, with the mirror's own diffuse colour and normal. One in six is, at
+        // most half of them here.
+        let tolerance = 2.0 / 1024.0;
+        assert!(
+            far(centre.albedo, 0.5 * vec3(0.1, 0.7, 0.2)) < tolerance,
+            "{antialias:?}: {centre:?}"
+        );
+        assert!(
+            far(centre.normal, vec3(0.0, 0.0, -1.0)) < 2.0 * tolerance,
+            "{antialias:?}: {centre:?}"
+        );
+    }
+}
+
+/// What is black reflects nothing, and is seen as well as what is white: a pixel on the edge between them has half the albedo.
+#[test]
+fn black_surfaces_are_seen() {
+    for integrator in [Integrator::Path, Integrator::Whitted] {
+        let black = Material {
+            diffuse: Vec3::ZERO,
+            specular: Vec3::ZERO,
+            ..Material::default()
+        };
+        let mut scene = balls(black);
+        let white = Material {
+            diffuse: Vec3::ONE,
+            ..Material::default()
+        };
+        scene.materials.push(white);
+        // Two squares side by side fill the picture, and their edge is in the middle of its middle column.
+        for (x, material) in [(-5.0, 1), (5.0, 2)] {
+            let place = DAffine3::from_translation(EYE + dvec3(x, 0.0, -4.0));
+            let upright = DAffine3::from_rotation_x(FRAC_PI_2);
+            scene.add_mesh(scenes::quad(10.0, material), place * upright);
+        }
+        let settings = RenderSettings {
+            integrator,
+            ..featured(stratified(64, (9, 9)))
+        };
+        let middle = &features(&scene, &settings).pixels[40];
+        assert!(far(middle.albedo, Vec3::splat(0.5)) < 0.02, "{middle:?}");
+        assert!(far(middle.normal, Vec3::Z) < 1e-3, "{middle:?}");
+    }
 }
 
 #[test]

@@ -21,7 +21,7 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
         (Kind::Sky, "Sky"),
     ];
     if now == Kind::Picture {
-        options.push((now, "Picture"));
+        options.push((now, "Image"));
     }
     fields.choice(("Kind", tip), now, &options, |scene, to| to.apply(scene));
     match background {
@@ -98,8 +98,9 @@ fn sun(fields: &mut Fields, picture: usize) {
     };
     let tip = "Height of the sun above the horizon in degrees, 0 to 90.";
     let limits = Limits {
-        unit: Limits::ANGLE.unit,
-        ..Limits::between(0.0, 90.0).with_speed(Limits::ANGLE.speed)
+        least: 0.0,
+        most: 90.0,
+        ..Limits::ANGLE
     };
     let degrees = elevation.to_degrees();
     fields.number(("Sun elevation", tip), degrees, limits, move |scene, to| {

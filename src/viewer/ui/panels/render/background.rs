@@ -17,7 +17,7 @@ pub fn background(ui: &mut Ui, context: &mut PanelContext) {
         .is_some_and(|scene| matches!(scene.background, Background::Picture { .. }));
     let look = &mut session.view;
     let tip = match is_picture {
-        true => "What rays see when they hit no object. The scene uses an image",
+        true => "What rays see when they hit no object. The scene uses an image or a sky",
         false => "What rays see when they hit no object",
     };
     let name = |background: &Option<Background>| match background {
