@@ -4,11 +4,13 @@ const ALBEDO_WIDTH: f32 = 0.09;
 
 const DEPTH_SHARE: f32 = 0.01;
 
-const DEVIATIONS: f32 = 1.25;
+const DEVIATIONS: f32 = 1.5;
 
 const OUTLIER: f32 = 3.0;
 
 const LEAST_WEIGHT: f32 = 0.3;
+
+const LEAST_LIKENESS: f32 = 0.05;
 
 const LUMINANCE_SHARE: f32 = 0.002;
 
@@ -82,6 +84,8 @@ fn denoise(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
 	let own = load_signal(p);
 	let guide = guide_at(p);
+	let luminance = dot(own.xyz, tone__LUMINANCE_REC709);
+	var brightest = vec2f(luminance, 1.0);
 	var total = 0.0;
 	var sum = 0.0;
 	var squares = 0.0;
@@ -93,17 +97,17 @@ fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
 		let other = load_signal(clamp(q, vec2i(0), last));
 		let is_usable = k != 4 && all(q == clamp(q, vec2i(0), last)) && other.w >= 0.0;
 		let weight = select(0.0, likeness(guide, guide_at(clamp(q, vec2i(0), last)), 1.0), is_usable);
-		let luminance = dot(other.xyz, tone__LUMINANCE_REC709);
+		let light = dot(other.xyz, tone__LUMINANCE_REC709);
+		brightest = select(brightest, vec2f(light, weight), weight > LEAST_LIKENESS && light > brightest.x);
 		total += weight;
-		sum += weight * luminance;
-		squares += weight * luminance * luminance;
+		sum += weight * light;
+		squares += weight * light * light;
 		variance += weight * other.w;
 		continuing {
 			k += 1;
 			break if k >= 9;
 		}
 	}
-	let luminance = dot(own.xyz, tone__LUMINANCE_REC709);
 	let is_known = own.w <= demodulation__MOST_VARIANCE;
 	if (own.w < 0.0) {
 		return own;
@@ -116,7 +120,9 @@ fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
 	let most = mean + OUTLIER * sqrt(spread) + LUMINANCE_SHARE * mean;
 	let scale = select(1.0, most / luminance, luminance > most);
 	let noise = select(spread, (variance + scale * scale * own.w) / (total + 1.0), is_known);
-	return vec4f(scale * own.xyz, packed(Estimate(noise, (sum + scale * luminance) / (total + 1.0))));
+	let rest = total + 1.0 - brightest.y;
+	let pilot = (sum + luminance - brightest.y * brightest.x) / rest;
+	return vec4f(scale * own.xyz, packed(Estimate(noise, pilot)));
 }
 
 fn averaged(p: vec2i, last: vec2i, step: i32) -> vec4f {
