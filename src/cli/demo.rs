@@ -40,8 +40,6 @@ fn render(
                 denoise: true,
                 ..DevelopFlags::default()
             },
-            // Speckles that six samples would leave: paths that meet the sun by way of the mirror ball.
-            clamp_indirect: Some(2.0),
             ..PictureFlags::default()
         },
         device: &arguments.device,
