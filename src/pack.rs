@@ -136,7 +136,7 @@ pub struct PackedScene {
 /// A scene that cannot be packed: it exceeds a limit, or a mesh contradicts itself.
 #[derive(Debug, thiserror::Error)]
 pub enum PackError {
-    /// A mesh whose arrays do not fit each other.
+    /// A mesh whose arrays, or what deforms it, do not fit each other.
     #[error("mesh refused (mesh {index}): {what}. Correct the mesh before it is packed.")]
     Inconsistent {
         /// Index into [`Scene::meshes`].
@@ -191,8 +191,7 @@ pub enum PackError {
 /// Packs a scene and builds its BVHs.
 ///
 /// # Errors
-/// The scene exceeds the limits of the packed formats, or the arrays of a mesh do not fit each other. Deformations are not
-/// checked.
+/// The scene exceeds the limits of the packed formats, or the arrays of a mesh, or what deforms it, do not fit each other.
 pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
     pack(None, scene, MAX_BAKED, false)
 }
@@ -242,9 +241,9 @@ fn pack(
     most_baked: usize,
     drafts: bool,
 ) -> Result<PackedScene, PackError> {
+    let meshes = mesh::cached(previous.map_or(&[], |previous| &previous.meshes), scene)?;
     let rest = scene.frame(0.0);
     let origin = scene.render_origin_at(&rest);
-    let meshes = mesh::cached(previous.map_or(&[], |previous| &previous.meshes), scene)?;
     let plan = Plan::new(scene, (&rest, origin), most_baked)?;
 
     let start = Instant::now();

@@ -111,7 +111,7 @@ impl CachedMesh {
 /// One for each mesh of a scene; those in `before` are reused.
 ///
 /// # Errors
-/// The arrays of a new one do not fit each other.
+/// The arrays of a new one, or what deforms one, do not fit each other.
 pub fn cached(
     before: &[Arc<CachedMesh>],
     scene: &Scene,
@@ -126,5 +126,15 @@ pub fn cached(
             None => Ok(Arc::new(CachedMesh::new(mesh))),
         },
     };
+    for deformation in &scene.deformations {
+        let index = deformation.mesh;
+        let what = match scene.meshes.get(index) {
+            Some(mesh) => deformation.inconsistency(mesh.positions.len(), scene.nodes.len()),
+            None => Some("it deforms, but does not exist".into()),
+        };
+        if let Some(what) = what {
+            return Err(PackError::Inconsistent { index, what });
+        }
+    }
     scene.meshes.iter().enumerate().map(cached).collect()
 }

@@ -38,6 +38,25 @@ pub struct MorphTarget {
 }
 
 impl MorphTarget {
+    fn inconsistency(&self, vertices: usize) -> Option<String> {
+        let own = self.vertices.len();
+        let optional = [("normals", &self.normals), ("tangents", &self.tangents)];
+        let given = optional.into_iter().filter(|(_, list)| !list.is_empty());
+        let lists = given.chain([("positions", &self.positions)]);
+        if let Some((what, list)) = lists.into_iter().find(|(_, list)| list.len() != own) {
+            return Some(format!(
+                "a morph target has {} {what} for {own} vertices",
+                list.len()
+            ));
+        }
+        if !self.vertices.is_sorted_by(|a, b| a < b) {
+            return Some("the vertices of a morph target are not in ascending order".into());
+        }
+        let last = self.vertices.last()?;
+        (*last as usize >= vertices)
+            .then(|| format!("a morph target moves vertex {last}, and there are {vertices}"))
+    }
+
     /// Displaces copies as the vertices are of which they were made; the first copy has the index `first`.
     pub fn copy_vertices(&mut self, vertices: &[u32], first: usize) {
         for (index, vertex) in (first..).zip(vertices) {
@@ -67,6 +86,29 @@ pub struct Skin {
     pub joints: Vec<Joint>,
     /// The joints of each vertex.
     pub influences: Arc<Influences>,
+}
+
+impl Skin {
+    fn inconsistency(&self, vertices: usize, nodes: usize) -> Option<String> {
+        let influenced = self.influences.len();
+        if influenced != vertices {
+            return Some(format!(
+                "its skin has influences for {influenced} vertices, and there are {vertices}"
+            ));
+        }
+        let joints = self.joints.len();
+        if let Some(joint) = (self.influences.last_joint()).filter(|last| *last as usize >= joints)
+        {
+            return Some(format!(
+                "a vertex follows joint {joint}, and there are {joints}"
+            ));
+        }
+        let mut used = self.joints.iter().filter_map(|joint| joint.node);
+        let unknown = used.find(|&node| node >= nodes)?;
+        Some(format!(
+            "a joint follows node {unknown}, and the scene has {nodes}"
+        ))
+    }
 }
 
 /// A joint of a skin.
@@ -135,6 +177,25 @@ pub struct Pose {
 }
 
 impl Deformation {
+    /// How it does not fit its mesh of so many vertices, or the number of nodes of its scene; `None` if it does.
+    pub fn inconsistency(&self, vertices: usize, nodes: usize) -> Option<String> {
+        let (targets, weights) = (self.targets.len(), self.weights.len());
+        if targets != weights {
+            return Some(format!(
+                "it has {weights} weights for {targets} morph targets"
+            ));
+        }
+        let flat = |range: &Range<usize>| range.start <= range.end && range.end <= vertices;
+        if let Some(Range { start, end }) = self.flat.iter().find(|range| !flat(range)) {
+            return Some(format!(
+                "vertices {start} to {end} are flat, and there are {vertices}"
+            ));
+        }
+        (self.targets.iter())
+            .find_map(|target| target.inconsistency(vertices))
+            .or_else(|| self.skin.as_ref()?.inconsistency(vertices, nodes))
+    }
+
     /// The pose in which the nodes have these states and the targets these weights.
     pub fn pose(&self, nodes: &[NodeState], weights: &[f64]) -> Pose {
         let joints = self.skin.as_ref().map_or(&[][..], |skin| &skin.joints);

@@ -8,8 +8,10 @@ use glimray::layout::{
 };
 use glimray::pack::{self, PackError, PackedScene};
 use glimray::scene::{
-    Attenuation, CanonicalShape, Geometry, Light, LightKind, Material, Mesh, Scene, Shape,
+    Attenuation, CanonicalShape, Deformation, Geometry, Influences, Joint, Light, LightKind,
+    Material, Mesh, MorphTarget, Scene, Shape, Skin,
 };
+use std::sync::Arc;
 
 fn packed(scene: &Scene) -> PackedScene {
     pack::scene(scene).expect("a scene that can be packed")
@@ -466,4 +468,85 @@ fn meshes_whose_arrays_do_not_fit_are_refused() {
     assert!(told.contains("a triangle has vertex 4, and there are 4"));
     let told = refused(|mesh| mesh.materials[3] = 7);
     assert!(told.contains("a vertex has material 7, and the scene has 1"));
+}
+
+#[test]
+fn deformations_that_do_not_fit_their_mesh_are_refused() {
+    let refused = |spoil: fn(&mut Deformation)| {
+        let mut scene = scenes::empty();
+        scene.add_mesh(scenes::quad(1.0, 0), DAffine3::IDENTITY);
+        let mut influences = Influences::default();
+        (0..4).for_each(|_| influences.push([(0, 1.0)]));
+        let mut deformation = Deformation {
+            mesh: 0,
+            targets: Arc::new([MorphTarget {
+                vertices: vec![1, 3],
+                positions: vec![Vec3::X; 2],
+                ..MorphTarget::default()
+            }]),
+            weights: vec![0.0],
+            skin: Some(Skin {
+                joints: vec![Joint {
+                    node: None,
+                    node_from_mesh: DAffine3::IDENTITY,
+                }],
+                influences: Arc::new(influences),
+            }),
+            flat: Arc::default(),
+        };
+        spoil(&mut deformation);
+        scene.deformations.push(deformation);
+        match pack::scene(&scene) {
+            Err(error @ PackError::Inconsistent { .. }) => error.to_string(),
+            Err(error) => panic!("{error}"),
+            Ok(_) => String::new(),
+        }
+    };
+    fn target(deformation: &mut Deformation) -> &mut MorphTarget {
+        &mut Arc::get_mut(&mut deformation.targets).expect("one owner")[0]
+    }
+    fn skin(deformation: &mut Deformation) -> &mut Skin {
+        deformation.skin.as_mut().expect("a skin")
+    }
+    let rows: [(fn(&mut Deformation), &str); 10] = [
+        (|_| (), ""),
+        (|it| it.mesh = 1, "(mesh 1): it deforms, but does not exist"),
+        (
+            |it| it.weights.clear(),
+            "(mesh 0): it has 0 weights for 1 morph targets",
+        ),
+        (
+            |it| target(it).vertices[1] = 4,
+            "a morph target moves vertex 4, and there are 4",
+        ),
+        (
+            |it| target(it).vertices.swap(0, 1),
+            "are not in ascending order",
+        ),
+        (
+            |it| target(it).positions.clear(),
+            "has 0 positions for 2 vertices",
+        ),
+        (
+            |it| target(it).normals = vec![Vec3::X],
+            "has 1 normals for 2 vertices",
+        ),
+        (
+            |it| skin(it).joints.clear(),
+            "a vertex follows joint 0, and there are 0",
+        ),
+        (
+            |it| skin(it).joints[0].node = Some(2),
+            "a joint follows node 2, and the scene has 0",
+        ),
+        (
+            |it| skin(it).influences = Arc::default(),
+            "its skin has influences for 0 vertices, and there are 4",
+        ),
+    ];
+    for (spoil, expected) in rows {
+        let told = refused(spoil);
+        assert!(told.contains(expected), "{told}, not {expected}");
+        assert_eq!(told.is_empty(), expected.is_empty(), "{told}");
+    }
 }
