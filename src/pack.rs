@@ -5,6 +5,7 @@ pub mod albedo;
 mod background;
 mod blas;
 mod deform;
+mod emissive_solid;
 mod emitter_places;
 mod emitters;
 mod environment;

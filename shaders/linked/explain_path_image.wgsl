@@ -1327,7 +1327,7 @@ fn path__gained(before: path__Path, light: vec3f, scatterings: u32) -> path__Pat
 		gain *= scale;
 		dispatch__kept_light += dot(gain, tone__LUMINANCE_REC709);
 	}
-	if (bindings__HAS_CATCHERS && path.is_caught) {
+	if (path__is_caught(path)) {
 		record_path__record_gain(vec3f(0.0));
 		let is_direct = scatterings == 1u && path.pdf > 0.0;
 		let luminance = dot(gain, tone__LUMINANCE_REC709);
@@ -1339,6 +1339,10 @@ fn path__gained(before: path__Path, light: vec3f, scatterings: u32) -> path__Pat
 	features__see_light(gain, scatterings);
 	path.radiance += gain;
 	return path;
+}
+
+fn path__is_caught(path: path__Path) -> bool {
+	return bindings__HAS_CATCHERS && path.is_caught;
 }
 
 fn path__ended(path: path__Path) -> path__Path {
@@ -3509,7 +3513,7 @@ fn path_vertex__scattered(batch: dispatch__Batch, before: path__Path, surface: s
 	path.throughput *= next.weight;
 	record_path__record_step(next);
 	if (path.bounces > batch.max_depth || path.passes > path__MAX_PASSES) {
-		dispatch__cut_throughput += select(dot(path.throughput, tone__LUMINANCE_REC709), 0.0, bindings__HAS_CATCHERS && path.is_caught);
+		dispatch__cut_throughput += select(dot(path.throughput, tone__LUMINANCE_REC709), 0.0, path__is_caught(path));
 		record_path__record_limit();
 		return path__ended(path);
 	}
@@ -4768,7 +4772,7 @@ fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: s
 }
 
 fn shadow_catcher__leaves_catcher(path: path__Path) -> bool {
-	return bindings__HAS_CATCHERS && path.is_caught && path.bounces == 1u && path.pdf > 0.0;
+	return path__is_caught(path) && path.bounces == 1u && path.pdf > 0.0;
 }
 
 fn shadow_catcher__density_for_lamps(path: path__Path) -> f32 {
@@ -4894,23 +4898,17 @@ fn emitters__sample_emitter(p: vec3f, source: light_choice__Source, u: vec2f) ->
 
 fn emitters__sample_shape(p: vec3f, emitter: types__PackedEmitter, source: light_choice__Source, u: vec2f) -> emitters__LightSample {
 	let shape = fetch__load_shape(emitter.primitive & ~types__SHAPE);
-	let light = emissive_shape__light_of(shape, emitter.instance);
-	let found = spherical_rectangle__solid_sample(light, p, u);
-	let surface = emissive_shape__shape_place(shape, emitter.instance, p + found.distance * found.direction);
+	let found = emissive_shape__sample_of_shape(shape, emitter.instance, p, u);
 	let glow = material__load_glow(shape.material);
 	var radiance = material__load_emission(shape.material);
 	if (bindings__HAS_TEXTURES && glow.texture != types__NO_TEXTURE) {
-		radiance *= texture__texture_color(material__load_texture(glow.texture), surface);
+		radiance *= texture__texture_color(material__load_texture(glow.texture), found.surface);
 	}
-	var front = light.direction;
-	if (light.kind == types__LIGHT_SPHERE) {
-		front = numeric__normalize_or(surface.p - light.position, -found.direction);
-	}
-	let cosine = -dot(front, found.direction);
+	let cosine = -dot(found.n, found.direction);
 	let shines = cosine > 0.0 || (material__load_optics(shape.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
-	radiance *= select(0.0, coating__through_coat(surface, abs(cosine)), shines && source.chance > 0.0);
-	let reach = numeric__max_component(abs(surface.p)) + numeric__max_component(abs(p));
-	return emitters__LightSample(shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max_f32(source.chance * found.pdf, 1e-30)), light_weight__emitter_glow(source.index, glow) * source.rate * emissive_shape__area_of(light) * found.pdf);
+	radiance *= select(0.0, coating__through_coat(found.surface, abs(cosine)), shines && source.chance > 0.0);
+	let reach = numeric__max_component(abs(found.surface.p)) + numeric__max_component(abs(p));
+	return emitters__LightSample(shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max_f32(source.chance * found.density, 1e-30)), light_weight__emitter_glow(source.index, glow) * source.rate * found.area * found.density);
 }
 
 fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: vec3f) -> vec3f {
@@ -5123,8 +5121,85 @@ fn light_cluster__cluster_importance(cluster: types__PackedCluster, p: vec3f, n:
 	return min_f32(importance * cluster.power / nearest2, 1e30);
 }
 
-fn emissive_shape__is_sampled(shape: types__PackedShape, instance: u32) -> bool {
+struct emissive_shape__ShapeSample {
+	direction: vec3f,
+	distance: f32,
+	density: f32,
+	area: f32,
+	n: vec3f,
+	surface: shading__Surface
+}
+
+fn emissive_shape__is_lamp_like(shape: types__PackedShape, instance: u32) -> bool {
 	return shape.kind == types__SHAPE_RECTANGLE || (shape.kind == types__SHAPE_DISC && shape.size0 == 0.0) || (shape.kind == types__SHAPE_SPHERE && instance == types__NO_INSTANCE);
+}
+
+fn emissive_shape__has_others() -> bool {
+	return (bindings__SHAPE_KINDS & (shape__BOXES | shape__CONES | shape__DISCS | shape__ELLIPSOIDS | shape__TORI)) != 0u || (bindings__HAS_INSTANCES && (bindings__SHAPE_KINDS & shape__SPHERES) != 0u);
+}
+
+fn emissive_shape__sample_of_shape(shape: types__PackedShape, instance: u32, p: vec3f, u: vec2f) -> emissive_shape__ShapeSample {
+	var found: emissive_shape__ShapeSample;
+	var part = 0.0;
+	if (!emissive_shape__has_others() || emissive_shape__is_lamp_like(shape, instance)) {
+		let light = emissive_shape__light_of(shape, instance);
+		let toward = spherical_rectangle__solid_sample(light, p, u);
+		found.direction = toward.direction;
+		found.distance = toward.distance;
+		found.density = toward.pdf;
+		found.area = emissive_shape__area_of(light);
+		found.n = light.direction;
+		if (light.kind == types__LIGHT_SPHERE) {
+			found.n = numeric__normalize_or(p + found.distance * found.direction - light.position, -found.direction);
+		}
+	}
+	else {
+		let place = shape_placement__placement_of(shape, instance);
+		let areas = shape_placement__areas_of(shape, place);
+		let drawn = shape_placement__point_of(shape, areas, u);
+		let other = shape_placement__opposite(shape, drawn);
+		let faces = shape_placement__faces_point(place, drawn, p);
+		let other_faces = shape_placement__faces_point(place, other, p);
+		let is_other = !faces && other_faces;
+		let n = select(drawn.n, other.n, is_other);
+		let across = place.across * n;
+		let to_point = place.center + place.columns * select(drawn.p, other.p, is_other) - p;
+		part = select(drawn.part, other.part, is_other);
+		found.distance = length(to_point);
+		found.direction = numeric__normalize_or(to_point, vec3f(0.0, 0.0, 1.0));
+		found.n = numeric__normalize_or(across, -found.direction);
+		found.area = areas.x + areas.y + areas.z;
+		let density = select(1.0, 2.0, faces != other_faces) * drawn.density / max_f32(length(across), 1e-30);
+		found.density = emissive_shape__density_toward(density, found.distance, dot(found.n, found.direction));
+	}
+	found.surface = emissive_shape__surface_of(shape, instance, p + found.distance * found.direction, part);
+	return found;
+}
+
+fn emissive_shape__shape_density(hit: tracing__Hit, ng: vec3f, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
+	if (!bindings__HAS_EMISSIVE_SHAPES) {
+		return 0.0;
+	}
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	if (shape.kind == types__SHAPE_GLOBE) {
+		return 0.0;
+	}
+	if (!emissive_shape__has_others() || emissive_shape__is_lamp_like(shape, hit.instance)) {
+		let light = emissive_shape__light_of(shape, hit.instance);
+		return emissive_shape__area_of(light) * spherical_rectangle__solid_density(light, origin, direction, distance);
+	}
+	let place = shape_placement__placement_of(shape, hit.instance);
+	let areas = shape_placement__areas_of(shape, place);
+	let n = numeric__normalize_or(ng * place.columns, vec3f(0.0, 1.0, 0.0));
+	let point = shape_sampling__ShapePoint(shape_placement__canonical_place(place, origin + distance * direction), n, 0.0, shape_placement__density_of(shape, areas, n));
+	let faces = dot(direction, ng) < 0.0;
+	let other_faces = shape_placement__faces_point(place, shape_placement__opposite(shape, point), origin);
+	let density = select(1.0, select(0.0, 2.0, faces), faces != other_faces) * point.density / max_f32(length(place.across * n), 1e-30);
+	return (areas.x + areas.y + areas.z) * emissive_shape__density_toward(density, distance, dot(direction, ng));
+}
+
+fn emissive_shape__density_toward(density: f32, distance: f32, cosine: f32) -> f32 {
+	return density * distance * distance / max_f32(abs(cosine), 1e-6);
 }
 
 fn emissive_shape__light_of(shape: types__PackedShape, instance: u32) -> types__PackedLight {
@@ -5137,19 +5212,11 @@ fn emissive_shape__light_of(shape: types__PackedShape, instance: u32) -> types__
 		return light;
 	}
 	light.kind = select(types__LIGHT_DISC, types__LIGHT_RECTANGLE, shape.kind == types__SHAPE_RECTANGLE);
-	let across = cross(shape.row_y, shape.row_z);
-	let determinant = dot(shape.row_x, across);
-	light.edge_u = across / determinant;
-	light.edge_v = cross(shape.row_x, shape.row_y) / determinant;
-	light.direction = shape.row_y;
-	if (bindings__HAS_INSTANCES && instance != types__NO_INSTANCE) {
-		let space = instance__space_of(fetch__load_instance(instance));
-		light.position = space.linear * light.position + space.translation;
-		light.edge_u = space.linear * light.edge_u;
-		light.edge_v = space.linear * light.edge_v;
-		light.direction = instance__placed_normal(space, light.direction);
-	}
-	light.direction = numeric__normalize_or(light.direction, vec3f(0.0, 1.0, 0.0));
+	let place = shape_placement__placement_of(shape, instance);
+	light.position = place.center;
+	light.edge_u = place.columns[0];
+	light.edge_v = place.columns[2];
+	light.direction = numeric__normalize_or(place.across[1], vec3f(0.0, 1.0, 0.0));
 	return light;
 }
 
@@ -5160,19 +5227,7 @@ fn emissive_shape__area_of(light: types__PackedLight) -> f32 {
 	return select(warp__PI, 4.0, light.kind == types__LIGHT_RECTANGLE) * length(cross(light.edge_u, light.edge_v));
 }
 
-fn emissive_shape__shape_density(hit: tracing__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
-	if (!bindings__HAS_EMISSIVE_SHAPES) {
-		return 0.0;
-	}
-	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	if (!emissive_shape__is_sampled(shape, hit.instance)) {
-		return 0.0;
-	}
-	let light = emissive_shape__light_of(shape, hit.instance);
-	return emissive_shape__area_of(light) * spherical_rectangle__solid_density(light, origin, direction, distance);
-}
-
-fn emissive_shape__shape_place(shape: types__PackedShape, instance: u32, p: vec3f) -> shading__Surface {
+fn emissive_shape__surface_of(shape: types__PackedShape, instance: u32, p: vec3f, part: f32) -> shading__Surface {
 	var surface: shading__Surface;
 	surface.p = p;
 	surface.place = p;
@@ -5187,13 +5242,119 @@ fn emissive_shape__shape_place(shape: types__PackedShape, instance: u32, p: vec3
 		q = space.inverse * (p - space.translation);
 		surface.place = instance__pattern_place(own, q);
 	}
-	let canonical = canonical__canonical_vector(shape, q - shape.position);
-	surface.uv = saturate_vec2f(0.5 + 0.5 * vec2f(canonical.x, -canonical.z));
-	if (shape.kind == types__SHAPE_SPHERE) {
-		surface.uv = canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
+	if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
+		surface.uv = canonical__sphere_uv(numeric__normalize_or(q - shape.position, vec3f(0.0, 1.0, 0.0)));
+	}
+	else {
+		surface.uv = shape__canonical_point(shape, q, part).uv;
 	}
 	surface.second_uv = surface.uv;
 	return surface;
+}
+
+struct shape_placement__Placement {
+	center: vec3f,
+	columns: mat3x3f,
+	across: mat3x3f
+}
+
+fn shape_placement__placement_of(shape: types__PackedShape, instance: u32) -> shape_placement__Placement {
+	var place: shape_placement__Placement;
+	place.center = shape.position;
+	if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
+		place.columns = mat3x3f(vec3f(shape.size0, 0.0, 0.0), vec3f(0.0, shape.size0, 0.0), vec3f(0.0, 0.0, shape.size0));
+	}
+	else {
+		let x = cross(shape.row_y, shape.row_z);
+		let scale = 1.0 / dot(shape.row_x, x);
+		place.columns = mat3x3f(scale * x, scale * cross(shape.row_z, shape.row_x), scale * cross(shape.row_x, shape.row_y));
+	}
+	if (bindings__HAS_INSTANCES && instance != types__NO_INSTANCE) {
+		let space = instance__space_of(fetch__load_instance(instance));
+		place.center = space.linear * place.center + space.translation;
+		place.columns = space.linear * place.columns;
+	}
+	let columns = place.columns;
+	let x = cross(columns[1], columns[2]);
+	let side = select(-1.0, 1.0, dot(columns[0], x) > 0.0);
+	place.across = mat3x3f(side * x, side * cross(columns[2], columns[0]), side * cross(columns[0], columns[1]));
+	return place;
+}
+
+fn shape_placement__canonical_place(place: shape_placement__Placement, p: vec3f) -> vec3f {
+	return ((p - place.center) * place.across) / dot(place.columns[0], place.across[0]);
+}
+
+fn shape_placement__faces_point(place: shape_placement__Placement, point: shape_sampling__ShapePoint, p: vec3f) -> bool {
+	return dot(place.across * point.n, p - place.center - place.columns * point.p) > 0.0;
+}
+
+fn shape_placement__opposite(shape: types__PackedShape, point: shape_sampling__ShapePoint) -> shape_sampling__ShapePoint {
+	var other = shape_sampling__ShapePoint(-point.p, -point.n, point.part, point.density);
+	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && shape.kind == types__SHAPE_BOX) {
+		other.part = select(point.part + 3.0, point.part - 3.0, point.part > 2.5);
+	}
+	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && shape.kind == types__SHAPE_CONE) {
+		let turn = select(vec3f(1.0), vec3f(-1.0, 1.0, -1.0), (shape.flags & types__SHAPE_CAPPED) != 0u);
+		other.p = turn * point.p;
+		other.n = turn * point.n;
+	}
+	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && shape.kind == types__SHAPE_DISC) {
+		other = point;
+	}
+	return other;
+}
+
+fn shape_placement__areas_of(shape: types__PackedShape, place: shape_placement__Placement) -> vec3f {
+	let factors = vec3f(length(place.across[0]), length(place.across[1]), length(place.across[2]));
+	var areas = vec3f(shape_sampling__ball_area(factors), 0.0, 0.0);
+	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && shape.kind == types__SHAPE_DISC) {
+		areas.x = shape_sampling__ring_area(shape.size0, factors);
+	}
+	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && shape.kind == types__SHAPE_BOX) {
+		areas = shape_sampling__box_areas(factors);
+	}
+	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && shape.kind == types__SHAPE_CONE) {
+		areas = shape_sampling__cone_areas(shape.size0, shape.size1, (shape.flags & types__SHAPE_CAPPED) != 0u, factors);
+	}
+	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && shape.kind == types__SHAPE_TORUS) {
+		areas.x = shape_sampling__torus_area(shape.size0, factors);
+	}
+	return areas;
+}
+
+fn shape_placement__point_of(shape: types__PackedShape, areas: vec3f, u: vec2f) -> shape_sampling__ShapePoint {
+	var point = shape_sampling__ball_point(u);
+	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && shape.kind == types__SHAPE_DISC) {
+		point = shape_sampling__ring_point(shape.size0, u);
+	}
+	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && shape.kind == types__SHAPE_BOX) {
+		point = shape_sampling__box_side_point(areas, u);
+	}
+	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && shape.kind == types__SHAPE_CONE) {
+		point = shape_sampling__cone_surface_point(shape.size0, shape.size1, areas, u);
+	}
+	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && shape.kind == types__SHAPE_TORUS) {
+		point = shape_sampling__torus_surface_point(shape.size0, u);
+	}
+	return point;
+}
+
+fn shape_placement__density_of(shape: types__PackedShape, areas: vec3f, n: vec3f) -> f32 {
+	var density = shape_sampling__ball_density();
+	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && shape.kind == types__SHAPE_DISC) {
+		density = shape_sampling__ring_density(shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && shape.kind == types__SHAPE_BOX) {
+		density = shape_sampling__box_density(areas, n);
+	}
+	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && shape.kind == types__SHAPE_CONE) {
+		density = shape_sampling__cone_density(shape.size0, shape.size1, areas, n);
+	}
+	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && shape.kind == types__SHAPE_TORUS) {
+		density = shape_sampling__torus_density(shape.size0);
+	}
+	return density;
 }
 
 const spherical_rectangle__LEAST_ANGLE: f32 = 0.02;
@@ -5354,6 +5515,136 @@ fn area_light__short_of(distance: f32, reach: f32, cosine: f32) -> f32 {
 
 fn area_light__max_abs(v: vec3f) -> f32 {
 	return max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
+}
+
+const shape_sampling__END_COSINE: f32 = 0.9;
+
+struct shape_sampling__ShapePoint {
+	p: vec3f,
+	n: vec3f,
+	part: f32,
+	density: f32
+}
+
+struct shape_sampling__ShapePart {
+	index: u32,
+	u: vec2f
+}
+
+fn shape_sampling__part_of(areas: vec3f, u: vec2f) -> shape_sampling__ShapePart {
+	let ends = vec3f(areas.x, areas.x + areas.y, areas.x + areas.y + areas.z);
+	let x = u.x * ends.z;
+	let index = select(select(2u, 1u, x < ends.y), 0u, x < ends.x);
+	let start = ends[index] - areas[index];
+	return shape_sampling__ShapePart(index, vec2f(clamp_f32((x - start) / max_f32(areas[index], 1e-30), 0.0, 0.99999994), u.y));
+}
+
+fn shape_sampling__part_chance(areas: vec3f, index: u32) -> f32 {
+	return areas[index] / max_f32(areas.x + areas.y + areas.z, 1e-30);
+}
+
+fn shape_sampling__ball_area(factors: vec3f) -> f32 {
+	return 4.0 * warp__PI * sqrt(dot(factors, factors) / 3.0);
+}
+
+fn shape_sampling__ball_point(u: vec2f) -> shape_sampling__ShapePoint {
+	let n = warp__cone_from_square(u, 2.0);
+	return shape_sampling__ShapePoint(n, n, 0.0, shape_sampling__ball_density());
+}
+
+fn shape_sampling__ball_density() -> f32 {
+	return 0.25 / warp__PI;
+}
+
+fn shape_sampling__ring_area(hole: f32, factors: vec3f) -> f32 {
+	return warp__PI * (1.0 - hole * hole) * factors.y;
+}
+
+fn shape_sampling__ring_point(hole: f32, u: vec2f) -> shape_sampling__ShapePoint {
+	let radius = sqrt(mix(hole * hole, 1.0, u.x));
+	let angle = 2.0 * warp__PI * u.y;
+	let p = vec3f(radius * cos(angle), 0.0, radius * sin(angle));
+	return shape_sampling__ShapePoint(p, vec3f(0.0, 1.0, 0.0), 0.0, shape_sampling__ring_density(hole));
+}
+
+fn shape_sampling__ring_density(hole: f32) -> f32 {
+	return 1.0 / (warp__PI * (1.0 - hole * hole));
+}
+
+fn shape_sampling__box_areas(factors: vec3f) -> vec3f {
+	return 8.0 * factors;
+}
+
+fn shape_sampling__box_side_point(areas: vec3f, u: vec2f) -> shape_sampling__ShapePoint {
+	let part = shape_sampling__part_of(areas, u);
+	let is_upper = part.u.x >= 0.5;
+	let sign = select(-1.0, 1.0, is_upper);
+	let within = 2.0 * vec2f(2.0 * part.u.x - select(0.0, 1.0, is_upper), part.u.y) - 1.0;
+	let is_axis = vec3<bool>(part.index == 0u, part.index == 1u, part.index == 2u);
+	let n = select(vec3f(0.0), vec3f(sign), is_axis);
+	let place = vec3f(within.x, select(within.y, within.x, is_axis.x), within.y);
+	let code = f32(part.index) + select(0.0, 3.0, is_upper);
+	return shape_sampling__ShapePoint(select(place, n, is_axis), n, code, 0.125 * shape_sampling__part_chance(areas, part.index));
+}
+
+fn shape_sampling__box_density(areas: vec3f, n: vec3f) -> f32 {
+	let size = abs(n);
+	let largest = max_f32(size.x, max_f32(size.y, size.z));
+	return 0.125 * shape_sampling__part_chance(areas, select(select(2u, 1u, size.y == largest), 0u, size.x == largest));
+}
+
+fn shape_sampling__cone_areas(bottom: f32, top: f32, is_capped: bool, factors: vec3f) -> vec3f {
+	let slope = top - bottom;
+	let squares = factors * factors;
+	let side = (bottom + top) * sqrt(0.5 * (squares.x + squares.z) + slope * slope * squares.y);
+	let ends = select(vec2f(0.0), vec2f(bottom * bottom, top * top), is_capped) * factors.y;
+	return warp__PI * vec3f(side, ends);
+}
+
+fn shape_sampling__cone_surface_point(bottom: f32, top: f32, areas: vec3f, u: vec2f) -> shape_sampling__ShapePoint {
+	let part = shape_sampling__part_of(areas, u);
+	if (part.index > 0u) {
+		let is_top = part.index == 2u;
+		let flat = select(bottom, top, is_top) * warp__disc_from_square(part.u);
+		let n = vec3f(0.0, select(-1.0, 1.0, is_top), 0.0);
+		return shape_sampling__ShapePoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), n, f32(part.index), shape_sampling__cone_density(bottom, top, areas, n));
+	}
+	let radius = sqrt(mix(bottom * bottom, top * top, part.u.x));
+	let y = part.u.x * (bottom + top) / (bottom + radius);
+	let angle = 2.0 * warp__PI * part.u.y;
+	let out = vec2f(cos(angle), sin(angle));
+	let slope = top - bottom;
+	let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
+	return shape_sampling__ShapePoint(vec3f(radius * out.x, y, radius * out.y), n, 0.0, shape_sampling__cone_density(bottom, top, areas, n));
+}
+
+fn shape_sampling__cone_density(bottom: f32, top: f32, areas: vec3f, n: vec3f) -> f32 {
+	let slope = top - bottom;
+	let index = select(0u, select(1u, 2u, n.y > 0.0), abs(n.y) > shape_sampling__END_COSINE);
+	let side = (bottom + top) * sqrt(1.0 + slope * slope);
+	let size = vec3f(side, bottom * bottom, top * top);
+	return shape_sampling__part_chance(areas, index) / max_f32(warp__PI * size[index], 1e-30);
+}
+
+fn shape_sampling__torus_area(minor: f32, factors: vec3f) -> f32 {
+	let squares = factors * factors;
+	return 4.0 * warp__PI * warp__PI * minor * sqrt(0.25 * (squares.x + squares.z) + 0.5 * squares.y);
+}
+
+fn shape_sampling__torus_surface_point(minor: f32, u: vec2f) -> shape_sampling__ShapePoint {
+	let half = warp__PI * (u.y - 0.5);
+	let outer = 0.5 * (1.0 + minor * cos(half));
+	let is_outer = u.x < outer;
+	let tube = select(-1.0, 1.0, is_outer) * vec2f(cos(half), sin(half));
+	let along = select((u.x - outer) / max_f32(1.0 - outer, 1e-30), u.x / outer, is_outer);
+	let out = vec2f(cos(2.0 * warp__PI * along), sin(2.0 * warp__PI * along));
+	let ring = 1.0 + minor * tube.x;
+	let p = vec3f(ring * out.x, minor * tube.y, ring * out.y);
+	return shape_sampling__ShapePoint(p, vec3f(tube.x * out.x, tube.y, tube.x * out.y), 0.0, shape_sampling__torus_density(minor));
+}
+
+fn shape_sampling__torus_density(minor: f32) -> f32 {
+	return 1.0 / (4.0 * warp__PI * warp__PI * minor);
 }
 
 const coating__COAT_F0: f32 = 0.04;
@@ -5590,7 +5881,7 @@ fn light_weight__emission_weight(batch: dispatch__Batch, surface: shading__Surfa
 
 fn light_weight__emitter_density(surface: shading__Surface, hit: tracing__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
 	if ((hit.primitive & types__SHAPE) != 0u) {
-		return emissive_shape__shape_density(hit, origin, direction, distance);
+		return emissive_shape__shape_density(hit, surface.ng, origin, direction, distance);
 	}
 	return distance * distance / max_f32(abs(dot(direction, surface.ng)), 1e-30);
 }

@@ -5048,8 +5048,9 @@ fn opacity__add_opacity(first_row: u32, weight: f32, radiance: vec3f) {
 	let catchers = bindings__film[row].y;
 	let usual = max_f32((bindings__film[row + 1u].y + weight * unshadowed) / select(catchers, 1e-30, catchers == 0.0), 0.0);
 	let most = opacity__MOST_SCATTERED * usual * opacity__clearness.catchers;
-	let light = opacity__clearness.light + select(min_f32(opacity__clearness.scattered, most), opacity__clearness.scattered, usual == 0.0);
-	features__add_mean(row + 1u, vec3f(light, unshadowed, 0.0), weight);
+	let scattered = select(min_f32(opacity__clearness.scattered, most), opacity__clearness.scattered, usual == 0.0);
+	let light = opacity__clearness.light + scattered;
+	features__add_mean(row + 1u, vec3f(light, unshadowed, opacity__clearness.scattered - scattered), weight);
 	if (bindings__ADAPTIVE) {
 		let luminance = dot(radiance, tone__LUMINANCE_REC709);
 		let seen = opacity__clearness.catchers;

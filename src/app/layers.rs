@@ -103,7 +103,7 @@ impl PictureLayer {
         const RGB: &[&str] = &["R", "G", "B"];
         const XYZ: &[&str] = &["X", "Y", "Z"];
         match self {
-            Self::Beauty => color("", beauty, opacity),
+            Self::Beauty => ImageLayer::color("", beauty, opacity, true),
             Self::Albedo => layer(RGB, true, |pixel, index| pixel.albedo[index]),
             Self::Normal => layer(XYZ, true, |pixel, index| pixel.normal[index]),
             Self::Depth => layer(&["Z"], false, |pixel, _| pixel.depth),
@@ -117,22 +117,5 @@ impl PictureLayer {
             Self::Variance => layer(&["Y"], false, |pixel, _| pixel.variance),
             Self::Samples => layer(&["N"], false, |pixel, _| pixel.samples),
         }
-    }
-}
-
-/// A layer of colours; with opacity those are multiplied by it, as OpenEXR asks.
-pub fn color(name: &'static str, image: &Image, opacity: bool) -> ImageLayer {
-    let names: &[&str] = match opacity {
-        true => &["R", "G", "B", "A"],
-        false => &["R", "G", "B"],
-    };
-    let channel = |(index, name): (usize, &&'static str)| Channel {
-        name,
-        values: image.premultiplied().map(|pixel| pixel[index]).collect(),
-        is_half: true,
-    };
-    ImageLayer {
-        name,
-        channels: names.iter().enumerate().map(channel).collect(),
     }
 }

@@ -30,7 +30,6 @@ use crate::cli::interrupt::Interrupt;
 use crate::cli::job::{Job, Outcome};
 use crate::cli::progress::FrameProgress;
 use crate::cli::report::{AnimationReport, Draft};
-use crate::output::Format;
 use crate::output::video::{FrameRate, VideoOptions};
 use crate::render::Stats;
 use frame_renderer::{FrameRenderer, Sink};
@@ -133,11 +132,12 @@ impl<'a> Sequence<'a> {
         self.job.warn_of_skipped();
         let settings = self.job.settings();
         let files = self.target.frames.as_ref();
-        let takes_layers = files.is_some_and(|files| files.format == Format::Exr);
-        let takes_opacity =
-            self.target.video.is_none() && files.is_some_and(|files| files.format.has_opacity());
-        let path = &self.target.path;
-        (self.job).check_format(&settings, path, takes_layers, takes_opacity)?;
+        (self.job).check_format(
+            &settings,
+            &self.target.path,
+            self.target.takes_layers(),
+            self.target.takes_opacity(),
+        )?;
         let size = picture_size(&settings)?;
         let video = self.video_options()?;
         draft.set_image(self.job.image(&self.target.path, &settings, size));
@@ -174,6 +174,7 @@ impl<'a> Sequence<'a> {
         }
         draft.seconds.set_render_times(&frames.stats);
         draft.fetch = renderer.fetch();
+        draft.catcher_light = renderer.catcher_light();
         draft.seconds.write = renderer.write_seconds();
         draft.seconds.denoise = self
             .job

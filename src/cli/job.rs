@@ -90,13 +90,16 @@ impl Job<'_> {
         }
     }
 
-    /// The picture of a renderer that is done.
-    pub fn finish(&self, renderer: &mut Renderer, tone: &Tone) -> Result<Finished, AppError> {
+    /// The picture of a renderer that is done, for a file that may take layers.
+    pub fn finish(
+        &self,
+        renderer: &mut Renderer,
+        tone: &Tone,
+        takes_layers: bool,
+    ) -> Result<Finished, AppError> {
         let settings = self.settings();
         let finished = match settings.features {
-            true => self
-                .layers
-                .finish(&renderer.film()?, renderer.gpu(), tone)?,
+            true => (self.layers).finish(&renderer.film()?, renderer.gpu(), tone, takes_layers)?,
             false => Finished::plain(renderer.develop(tone)?, settings.has_opacity()),
         };
         Ok(finished.placed(settings.region(), settings.size))
@@ -265,6 +268,7 @@ impl Job<'_> {
             cut_off_trees: stats.cut_off_trees,
             paths: of_paths.then_some(stats.samples),
             energy_cut: of_paths.then(|| stats.energy_cut()),
+            catcher_cut: draft.catcher_light.cut(),
             memory: Memory {
                 gpu_bytes: stats.gpu_bytes,
                 host_peak_bytes: report::host_peak_bytes(),
@@ -351,6 +355,12 @@ fn details(console: Console, report: &Report) {
         let percent = 100.0 * cut;
         console.detail(format_args!(
             "the limit of bounces and clamps removed about {percent:.2} % of the light"
+        ));
+    }
+    if let Some(cut) = report.catcher_cut {
+        let percent = 100.0 * cut;
+        console.detail(format_args!(
+            "the cap of single samples removed {percent:.2} % of the light on shadow catchers"
         ));
     }
     if let Some(fetch) = &report.fetch {

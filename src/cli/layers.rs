@@ -1,12 +1,12 @@
 //! Layers of pictures on the command line, and denoised pictures.
 
 use crate::app::error::AppError;
-use crate::app::layers::{LAYERS, color};
+use crate::app::layers::LAYERS;
 use crate::cli::args::LayerFlags;
 use crate::gpu::Gpu;
 use crate::image::Image;
-use crate::output::{self, LayeredImage, OutputError, Place, SaveOptions};
-use crate::render::{Film, Integrator, Shows, Tone};
+use crate::output::{self, ImageLayer, LayeredImage, OutputError, Place, SaveOptions};
+use crate::render::{Features, Film, Integrator, Shows, Tone};
 use std::path::Path;
 use std::time::Instant;
 
@@ -103,11 +103,18 @@ impl LayerFlags {
         Ok(())
     }
 
-    /// The picture of a film, with the layers that the flags name.
+    /// The picture of a film, with the layers that the flags name. A file that `takes_layers` keeps the raw picture
+    /// beside a denoised one.
     ///
     /// # Errors
     /// The film has no features, or the device failed.
-    pub fn finish(&self, film: &Film, gpu: &Gpu, tone: &Tone) -> Result<Finished, AppError> {
+    pub fn finish(
+        &self,
+        film: &Film,
+        gpu: &Gpu,
+        tone: &Tone,
+        takes_layers: bool,
+    ) -> Result<Finished, AppError> {
         let opacity = film.header().has_opacity();
         if !tone.denoise && self.layers.is_empty() {
             return Ok(Finished::plain(film.develop(gpu, tone)?, opacity));
@@ -118,31 +125,48 @@ impl LayerFlags {
                     .into(),
             ));
         };
-        let mut finished = Finished::plain(Image::new(0, 0), opacity);
-        // Beside a denoised picture the raw one is only seen among the layers.
-        if !self.layers.is_empty() {
-            finished.image = film.develop(gpu, tone)?;
-            // In the order of the table, each once.
-            let known = LAYERS.0.iter().map(|(.., layer)| layer);
-            let wanted = known.filter(|layer| self.layers.contains(layer));
-            finished.layers = Some(LayeredImage {
-                width: features.width,
-                height: features.height,
-                layers: wanted
-                    .map(|layer| layer.of(&finished.image, opacity, &features))
-                    .collect(),
-                in_parts: self.layers_parts,
-            });
-        }
+        let raw = takes_layers.then(|| film.develop(gpu, tone)).transpose()?;
+        let mut denoised = None;
+        let mut denoise_seconds = None;
         if tone.denoise {
             let started = Instant::now();
-            let denoised = features.picture().denoised(gpu, &features)?;
-            finished.denoise_seconds = Some(started.elapsed().as_secs_f64());
-            finished.image = tone.develop(gpu, &denoised)?;
-            if let Some(layered) = &mut finished.layers {
-                (layered.layers).push(color("denoised", &finished.image, opacity));
-            }
+            let picture = features.picture().denoised(gpu, &features)?;
+            denoise_seconds = Some(started.elapsed().as_secs_f64());
+            denoised = Some(tone.develop(gpu, &picture)?);
         }
-        Ok(finished)
+        let layers = raw.as_ref().map(|raw| LayeredImage {
+            width: features.width,
+            height: features.height,
+            layers: self.of(raw, denoised.as_ref(), opacity, &features),
+            in_parts: self.layers_parts,
+        });
+        Ok(Finished {
+            layers,
+            denoise_seconds,
+            ..Finished::plain(denoised.or(raw).unwrap_or(Image::new(0, 0)), opacity)
+        })
+    }
+
+    /// The layers of a file: those that the flags name in the order of the table, each once.
+    fn of(
+        &self,
+        raw: &Image,
+        denoised: Option<&Image>,
+        opacity: bool,
+        features: &Features,
+    ) -> Vec<ImageLayer> {
+        if let (Some(denoised), true) = (denoised, self.layers.is_empty()) {
+            // Most programs show the nameless layer, and this is the picture that was asked for.
+            return vec![
+                ImageLayer::color("", denoised, opacity, false),
+                ImageLayer::color("beauty", raw, opacity, true),
+            ];
+        }
+        let known = LAYERS.0.iter().map(|(.., layer)| layer);
+        let wanted = known.filter(|layer| self.layers.contains(layer));
+        let denoised = denoised.map(|image| ImageLayer::color("denoised", image, opacity, true));
+        (wanted.map(|layer| layer.of(raw, opacity, features)))
+            .chain(denoised)
+            .collect()
     }
 }

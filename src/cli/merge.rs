@@ -79,7 +79,8 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
         .overrides()
         .tone(&said, *integrator, is_linear);
     let gpu = Gpu::new(&arguments.device.choice())?;
-    let finished = arguments.layers.finish(&film, &gpu, &tone)?;
+    let takes_layers = destination.takes_layers();
+    let finished = (arguments.layers).finish(&film, &gpu, &tone, takes_layers)?;
     destination.save(&finished.placed(film.region(), film.header().size))
 }
 

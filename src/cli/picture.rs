@@ -201,6 +201,7 @@ fn write(
         started
     };
     draft.seconds.write = started.elapsed().as_secs_f64();
+    draft.catcher_light = renderer.catcher_light()?;
     Ok(())
 }
 
@@ -212,7 +213,7 @@ fn develop(
     interrupt: &Interrupt,
 ) -> Result<Finished, AppError> {
     let tone = job.tone(settings, destination.is_linear());
-    let image = job.finish(renderer, &tone)?;
+    let image = job.finish(renderer, &tone, destination.takes_layers())?;
     interrupt.check()?;
     if let (Levels::Found, Some(quantity)) = (tone.levels, settings.integrator.quantity())
         && let Some(range) = renderer.range()?

@@ -42,6 +42,9 @@ pub struct Report {
     /// The estimated share of the light that the limit of bounces and clamps removed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_cut: Option<f64>,
+    /// The share of the light on shadow catchers that the cap of single samples removed; present where they are seen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub catcher_cut: Option<f64>,
     pub memory: Memory,
     /// The share of the work that was in the checkpoint from which the run went on, 0 to 1; absent without one.
     #[serde(skip_serializing_if = "Option::is_none")]

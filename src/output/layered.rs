@@ -1,6 +1,7 @@
 //! Pictures of several layers in one OpenEXR file.
 
 use super::{OutputError, Place, SaveOptions, atomic};
+use crate::image::Image as Picture;
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
     LayerAttributes, Text, Vec2, WritableImage,
@@ -73,24 +74,32 @@ pub fn save_layers_to_stdout(
         .map_err(|source| OutputError::Stdout { source })
 }
 
+impl ImageLayer {
+    /// A layer of colours, multiplied by their opacity if it has that, as OpenEXR asks.
+    pub fn color(name: &'static str, image: &Picture, opacity: bool, is_half: bool) -> Self {
+        let names: &[&str] = match opacity {
+            true => &["R", "G", "B", "A"],
+            false => &["R", "G", "B"],
+        };
+        let channel = |(index, name): (usize, &&'static str)| Channel {
+            name,
+            values: image.premultiplied().map(|pixel| pixel[index]).collect(),
+            is_half,
+        };
+        Self {
+            name,
+            channels: names.iter().enumerate().map(channel).collect(),
+        }
+    }
+}
+
 /// An image of one layer in 32-bit floats, with opacity if that is asked for or some pixel is not opaque.
-pub(super) fn plain(image: &crate::image::Image, opacity: bool) -> LayeredImage {
-    let names: &[&str] = match opacity || !image.is_opaque() {
-        true => &["R", "G", "B", "A"],
-        false => &["R", "G", "B"],
-    };
-    let channel = |(index, name): (usize, &&'static str)| Channel {
-        name,
-        values: image.premultiplied().map(|pixel| pixel[index]).collect(),
-        is_half: false,
-    };
+pub(super) fn plain(image: &Picture, opacity: bool) -> LayeredImage {
+    let opacity = opacity || !image.is_opaque();
     LayeredImage {
         width: image.width,
         height: image.height,
-        layers: vec![ImageLayer {
-            name: "",
-            channels: names.iter().enumerate().map(channel).collect(),
-        }],
+        layers: vec![ImageLayer::color("", image, opacity, false)],
         in_parts: false,
     }
 }

@@ -4,6 +4,7 @@
 use super::{
     PackedScene,
     deform::Deformed,
+    emissive_solid::EmissiveSolid,
     emitter_places::Places,
     glow::{self, Glow},
     light_cluster::{Cluster, LUMINANCE},
@@ -12,7 +13,7 @@ use super::{
 };
 use crate::layout::{
     MATERIAL_TWO_SIDED, NO_INSTANCE, PackedEmitter, PackedMaterial, PackedShape, PackedTriangle,
-    PackedVertex, SHAPE, SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_SPHERE,
+    PackedVertex, SHAPE, SHAPE_DISC, SHAPE_RECTANGLE,
 };
 use glam::{DVec3, Mat3, Vec3};
 use std::{array::from_fn, collections::HashMap, f32::consts::PI};
@@ -26,17 +27,25 @@ pub struct Emissive {
     /// Its index in the triangles array, or in the shapes array with [`SHAPE`].
     primitive: u32,
     material: u32,
-    /// A corner and two edges, in render space or in the space of its BLAS. Its area is that of their parallelogram times
-    /// `share`. The centre of a sphere, and two radii.
-    corner: Vec3,
-    edges: [Vec3; 2],
-    share: f32,
-    /// Three normals on its front.
-    normals: [Vec3; 3],
-    /// Whether it is a sphere, which no instance may stretch.
-    is_sphere: bool,
+    form: Form,
     /// The mean luminance of the texture of its emission.
     glow: f32,
+}
+
+/// In render space or in the space of its BLAS.
+#[derive(Clone, Copy, Debug)]
+enum Form {
+    /// A part of a parallelogram.
+    Flat {
+        corner: Vec3,
+        edges: [Vec3; 2],
+        /// Its area as a fraction of the parallelogram's.
+        share: f32,
+        /// Three normals on its front.
+        normals: [Vec3; 3],
+    },
+    /// A curved shape or one of several sides.
+    Solid(EmissiveSolid),
 }
 
 /// All emissive triangles and shapes of a scene.
@@ -75,35 +84,26 @@ const SAME_WAY: f64 = 0.99;
 
 /// A shape that paths sample; `None` for other kinds.
 fn emissive_shape(primitive: u32, shape: &PackedShape, glow: f32) -> Option<Emissive> {
-    let center = Vec3::from(shape.position);
-    let own = Emissive {
-        primitive,
-        material: shape.material,
-        corner: center,
-        edges: [shape.size0 * Vec3::X, shape.size0 * Vec3::Y],
-        share: 4.0 * PI,
-        normals: [shape.row_y.into(); 3],
-        is_sphere: true,
-        glow,
-    };
     let flat = |share| {
-        let rows = [shape.row_x, shape.row_y, shape.row_z];
-        let inverse = Mat3::from_cols_array_2d(&rows).transpose().inverse();
-        let halves = [inverse.x_axis, inverse.z_axis];
-        Some(Emissive {
-            corner: center - halves[0] - halves[1],
+        let solid = EmissiveSolid::of(shape)?;
+        let halves = [solid.columns.x_axis, solid.columns.z_axis];
+        Some(Form::Flat {
+            corner: solid.center - halves[0] - halves[1],
             edges: halves.map(|half| 2.0 * half),
             share,
-            is_sphere: false,
-            ..own
+            normals: [shape.row_y.into(); 3],
         })
     };
-    match shape.kind {
-        SHAPE_RECTANGLE => flat(1.0),
-        SHAPE_DISC if shape.size0 == 0.0 => flat(PI / 4.0),
-        SHAPE_SPHERE => Some(own),
-        _ => None,
-    }
+    Some(Emissive {
+        primitive,
+        material: shape.material,
+        form: match shape.kind {
+            SHAPE_RECTANGLE => flat(1.0)?,
+            SHAPE_DISC if shape.size0 == 0.0 => flat(PI / 4.0)?,
+            _ => Form::Solid(EmissiveSolid::of(shape)?),
+        },
+        glow,
+    })
 }
 
 fn emissive_triangle(
@@ -116,11 +116,12 @@ fn emissive_triangle(
     Emissive {
         primitive,
         material: vertices[0].material,
-        corner: v0,
-        edges: [v1 - v0, v2 - v0],
-        share: 0.5,
-        normals: vertices.map(|vertex| vertex.normal.into()),
-        is_sphere: false,
+        form: Form::Flat {
+            corner: v0,
+            edges: [v1 - v0, v2 - v0],
+            share: 0.5,
+            normals: vertices.map(|vertex| vertex.normal.into()),
+        },
         glow,
     }
 }
@@ -128,24 +129,36 @@ fn emissive_triangle(
 impl Emissive {
     /// The corners of what it lies in, in its own space.
     fn corners(&self) -> Vec<DVec3> {
-        let [corner, u, v] = [self.corner, self.edges[0], self.edges[1]].map(|v| v.as_dvec3());
-        let mut corners = vec![corner, corner + u, corner + v];
-        if self.primitive & SHAPE != 0 {
-            corners.push(corner + u + v);
+        match self.form {
+            Form::Flat { corner, edges, .. } => {
+                let [corner, u, v] = [corner, edges[0], edges[1]].map(|v| v.as_dvec3());
+                let mut corners = vec![corner, corner + u, corner + v];
+                if self.primitive & SHAPE != 0 {
+                    corners.push(corner + u + v);
+                }
+                corners
+            }
+            Form::Solid(solid) => solid.corners(),
         }
-        corners
+    }
+
+    /// Its area after a transform, or an estimate: the same as that of the shaders.
+    fn area(&self, linear: Mat3) -> f32 {
+        match self.form {
+            Form::Flat { edges, share, .. } => {
+                let [a, b] = edges.map(|edge| linear * edge);
+                a.cross(b).length() * share
+            }
+            Form::Solid(solid) => solid.area(linear),
+        }
     }
 
     /// Its cluster, for its intensity `power`, where it is while the shutter is open. `later` are its corners at later keys.
     fn cluster(&self, power: f64, places: &Places, later: &[DVec3]) -> Cluster {
-        if self.is_sphere {
-            let (center, radius) = (self.corner.as_dvec3(), f64::from(self.edges[0].x));
-            return Cluster::of_surface((center - radius, center + radius), power, None);
-        }
         let corners = [&self.corners(), later].concat();
-        let normal = match later.is_empty() {
-            true => places.front(self.edges, self.normals),
-            false => None,
+        let normal = match self.form {
+            Form::Flat { edges, normals, .. } if later.is_empty() => places.front(edges, normals),
+            _ => None,
         };
         Cluster::of_surface(places.bounds(&corners), power, normal)
     }
@@ -193,7 +206,7 @@ impl Emitters {
 }
 
 impl PackedScene {
-    /// The triangles, spheres, rectangles and discs whose material `emits`, by material index.
+    /// The triangles and shapes whose material `emits`, by material index; planes and globes are none of them.
     pub(super) fn emissive(&self, emits: &[bool], glows: &[Glow]) -> EmissiveParts {
         let mut found = EmissiveParts::default();
         if !emits.contains(&true) {
@@ -258,10 +271,9 @@ impl PackedScene {
             |instance: u32, places: &Places, one: &Emissive, later: &dyn Fn() -> Vec<DVec3>| {
                 let material = &materials[one.material as usize];
                 let radiance = LUMINANCE.dot(material.emission.into()) * one.glow;
-                let [a, b] = one.edges.map(|edge| places.linear() * edge);
-                let own_area = f64::from(a.cross(b).length() * one.share);
+                let own_area = f64::from(one.area(places.linear()));
                 let weight = f64::from(radiance) * own_area;
-                if weight > 0.0 && (instance == NO_INSTANCE || !one.is_sphere) {
+                if weight > 0.0 {
                     let power = weight / std::f64::consts::PI;
                     let mut cluster = one.cluster(power, places, &later());
                     cluster.two_sided = material.flags & MATERIAL_TWO_SIDED != 0;

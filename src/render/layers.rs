@@ -87,7 +87,7 @@ const fn mean(name: &'static str) -> Layer {
 }
 
 /// How much of what lies behind the picture can be seen: see [`super::opacity`]. The rows are: what is seen of nothing, and
-/// of shadow catchers; the light on these, and the same without shadows.
+/// of shadow catchers; the light on these, the same without shadows, and what the cap of single samples removed.
 pub const OPACITY: Layer = Layer {
     name: "opacity",
     rows: 2,

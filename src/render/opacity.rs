@@ -18,10 +18,34 @@ use super::{
     sums::{Sums, fill_rectangle},
 };
 use crate::image::Image;
-use std::borrow::Borrow;
+use std::{borrow::Borrow, ops::AddAssign};
 
 /// The least opacity by which colours are divided.
 const LEAST: f32 = 1e-4;
+
+/// The light on shadow catchers of pictures, in luminance; in any unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CatcherLight {
+    /// What the pictures show.
+    pub kept: f64,
+    /// What the cap of single samples removed: see `MOST_SCATTERED` in `scene/opacity.wesl`.
+    pub removed: f64,
+}
+
+impl CatcherLight {
+    /// The share that was removed, 0 to 1; `None` without light.
+    pub fn cut(self) -> Option<f64> {
+        let all = self.kept + self.removed;
+        (all > 0.0).then(|| self.removed / all)
+    }
+}
+
+impl AddAssign for CatcherLight {
+    fn add_assign(&mut self, other: Self) {
+        self.kept += other.kept;
+        self.removed += other.removed;
+    }
+}
 
 /// The opacity of a pixel, from 0 to 1, from the sum of its weights and its rows of the layer
 /// [`layers::OPACITY`]. A pixel without samples is transparent.
@@ -73,6 +97,32 @@ pub fn picture<S: Borrow<Sums>>(
 }
 
 impl Renderer {
+    /// The light on the shadow catchers of the picture so far; none without opacity.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn catcher_light(&mut self) -> Result<CatcherLight, RenderError> {
+        let mut light = CatcherLight::default();
+        if !self.settings.has_opacity() {
+            return Ok(light);
+        }
+        self.fetch_film()?;
+        let layers = layers::of_pictures(&self.settings);
+        let Some(place) = layers::row_of(layers, &layers::OPACITY) else {
+            return Ok(light);
+        };
+        let rows = layers::pixel_rows(layers);
+        let mut pixel = Vec::new();
+        for ([.., width, height], sums) in self.tiles.sums(layers) {
+            for index in 0..width as usize * height as usize {
+                sums.round_pixel(index, rows, &mut pixel);
+                let [kept, _, removed, _] = pixel[place + 1];
+                light += CatcherLight { kept, removed };
+            }
+        }
+        Ok(light)
+    }
+
     /// The picture so far in linear radiance, if it has opacity.
     pub(super) fn transparent_picture(&mut self) -> Result<Option<Image>, RenderError> {
         if !self.settings.has_opacity() {

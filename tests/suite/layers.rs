@@ -431,6 +431,40 @@ fn files_have_the_channels_that_other_programs_read() {
     assert_eq!(names.join(","), format!("{ALL},denoised"));
 }
 
+/// What most programs show is the denoised picture that was asked for; the raw one is a layer.
+#[test]
+fn denoised_files_keep_the_raw_picture() {
+    let folder = Workspace::new();
+    let run = |line: &str| folder.run(line).expect(0);
+    let flags = "--samples 4 --size 12x8 --integrator path";
+    run(&format!("render a.scene {flags} --denoise -o clean.exr"));
+    run(&format!("render a.scene {flags} -o raw.exr"));
+    run(&format!(
+        "render a.scene {flags} --denoise --layers beauty -o both.exr"
+    ));
+    run(&format!("render a.scene {flags} --denoise -o a.film"));
+    run("merge a.film --denoise -o merged.exr");
+    run(&format!(
+        "animate a.scene {flags} --denoise --frames 0 -o frame_%d.exr"
+    ));
+    let [clean, raw, both] = ["clean", "raw", "both"].map(|name| {
+        let channels = channels(&folder, &format!("{name}.exr"));
+        move |name: &str| channels[name].clone()
+    });
+    let near = |a: &[f32], b: &[f32]| {
+        // Half floats have 11 bits.
+        (a.iter().zip(b)).all(|(a, b)| (a - b).abs() <= 5e-4 * b.abs().max(1e-3))
+    };
+    for channel in ["R", "G", "B"] {
+        let denoised = clean(channel);
+        assert!(near(&both(&format!("denoised.{channel}")), &denoised));
+        assert!(near(&clean(&format!("beauty.{channel}")), &raw(channel)));
+        assert!(!near(&denoised, &raw(channel)), "{channel} is denoised");
+    }
+    assert!(folder.read("merged.exr") == folder.read("clean.exr"));
+    assert!(folder.read("frame_0.exr") == folder.read("clean.exr"));
+}
+
 #[test]
 fn a_merged_film_gives_the_file_of_one_run() {
     let folder = Workspace::new();

@@ -92,6 +92,7 @@ mod shader_quad_warp;
 mod shader_ray_cone;
 mod shader_rng;
 mod shader_sampling;
+mod shader_shape_sampling;
 mod shader_sphere;
 mod shader_spherical_rectangle;
 mod shader_thin_film;

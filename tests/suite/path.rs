@@ -2,6 +2,7 @@
 
 mod backdrop;
 mod emission_maps;
+mod emissive_solids;
 mod emitter_sides;
 mod emitter_tree;
 mod emitters;

@@ -18,7 +18,7 @@ use crate::gpu::{AdapterReport, Gpu};
 use crate::output::video::{self, Picture8, VideoOptions, Y4mWriter};
 use crate::output::{self, Format, OutputError};
 use crate::pack::{self, PackedScene, PackedView};
-use crate::render::{self, ExecutionPolicy, RenderSettings, Renderer, Stats, Tone};
+use crate::render::{self, CatcherLight, ExecutionPolicy, RenderSettings, Renderer, Stats, Tone};
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -41,6 +41,7 @@ pub struct FrameRenderer<'a> {
     fingerprints: (Fingerprint, Fingerprint),
     write_seconds: f64,
     denoise_seconds: f64,
+    catcher_light: CatcherLight,
     /// `None` before a frame is rendered.
     fetch: Option<FetchReport>,
 }
@@ -74,6 +75,7 @@ impl<'a> FrameRenderer<'a> {
             missing: 0,
             write_seconds: 0.0,
             denoise_seconds: 0.0,
+            catcher_light: CatcherLight::default(),
             fetch: None,
         })
     }
@@ -95,6 +97,11 @@ impl<'a> FrameRenderer<'a> {
     /// Time to denoise frames, in seconds.
     pub fn denoise_seconds(&self) -> f64 {
         self.denoise_seconds
+    }
+
+    /// The light on shadow catchers of all frames that were rendered.
+    pub fn catcher_light(&self) -> CatcherLight {
+        self.catcher_light
     }
 
     /// Where the kernels read the frames from; `None` if none was rendered.
@@ -226,7 +233,9 @@ impl<'a> FrameRenderer<'a> {
             renderer.step()?;
             progress.update(number, renderer.progress());
         }
-        let picture = self.sequence.job.finish(renderer, &self.tone)?;
+        self.catcher_light += renderer.catcher_light()?;
+        let takes_layers = self.sequence.target.takes_layers();
+        let picture = (self.sequence.job).finish(renderer, &self.tone, takes_layers)?;
         self.denoise_seconds += picture.denoise_seconds().unwrap_or_default();
         Ok(picture)
     }

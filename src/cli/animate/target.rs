@@ -128,6 +128,17 @@ impl Target {
         (self.frames.as_ref()).is_some_and(|frames| frames.format.is_linear())
     }
 
+    /// Whether the frames can take layers.
+    pub fn takes_layers(&self) -> bool {
+        (self.frames.as_ref()).is_some_and(|frames| frames.format == Format::Exr)
+    }
+
+    /// Whether the frames keep opacity; a video has none.
+    pub fn takes_opacity(&self) -> bool {
+        let frames = self.frames.as_ref().filter(|_| self.video.is_none());
+        frames.is_some_and(|frames| frames.format.has_opacity())
+    }
+
     /// Refuses a report at the path of the video or of a frame.
     pub fn check_report_name(&self, log: &LogFlags) -> Result<(), AppError> {
         job::check_report_name(log, &self.path, |report| {

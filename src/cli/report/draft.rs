@@ -9,6 +9,7 @@ use crate::cli::report::{
 };
 use crate::cli::scene_file;
 use crate::import::Options;
+use crate::render::CatcherLight;
 use crate::scene::Scene;
 use serde_json::{Value, json};
 use std::fs;
@@ -32,6 +33,7 @@ pub struct Draft<'a> {
     pub seconds: Seconds,
     pub adapter: Option<Adapter>,
     pub fetch: Option<FetchReport>,
+    pub catcher_light: CatcherLight,
     /// The share of the work that was in a checkpoint at the start, if there was one.
     pub resumed: Option<f64>,
     /// Output path.
@@ -60,6 +62,7 @@ impl<'a> Draft<'a> {
             seconds: Seconds::default(),
             adapter: None,
             fetch: None,
+            catcher_light: CatcherLight::default(),
             resumed: None,
             image_path: image_path.into(),
             image: None,

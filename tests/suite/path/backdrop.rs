@@ -1,7 +1,7 @@
 //! What paths from the camera see where there is nothing, opacity, and shadow catchers, against closed forms.
 
 use super::{ball_in, looking, matte, near, paths};
-use crate::film::{bytes, film};
+use crate::film::{bytes, film, traced};
 use crate::reference::compare::{open_gpu, render};
 use crate::reference::scenes::Build;
 use crate::support::verdict::Verdict;
@@ -328,6 +328,46 @@ fn light_that_glass_refracts_onto_a_catcher_is_no_shadow() {
     verdict.close();
 }
 
+/// Paths find a small glowing ball in a shell of glass that bends nothing, in a fraction f = sin² θ of the samples of a floor
+/// below. The light of radiance R counts up to eight times U, which is that of the ball and of the sky of 1.
+#[test]
+fn what_the_cap_takes_from_catchers_is_reported() {
+    const RADIANCE: f64 = 1e4;
+    let mut scene = floor(None, &[]);
+    scene.background = Background::Color(Vec3::ONE);
+    let center = dvec3(0.0, 3.0, 0.0);
+    scene.materials[1].emission = Vec3::splat(RADIANCE as f32);
+    scene.add_sphere(center, 0.15, 1);
+    let bare = traced(&scene, &behind(Backdrop::Transparent, 64)).catcher_light();
+    assert_eq!(
+        bare.expect("sums").removed,
+        0.0,
+        "light samples have no cap"
+    );
+
+    let clear = scene.add_material(Material {
+        reflect: Vec3::ONE,
+        transmit: Vec3::ONE,
+        opacity: 0.0,
+        ior: 1.0,
+        fresnel: Fresnel::Exact,
+        ..matte(0.0)
+    });
+    scene.add_sphere(center, 0.16, clear);
+    let settings = RenderSettings {
+        size: (8, 8),
+        ..behind(Backdrop::Transparent, 4096)
+    };
+    let light = traced(&scene, &settings).catcher_light().expect("sums");
+    let fraction = (0.15_f64 / 3.0).powi(2);
+    let most = 8.0 * (1.0 + fraction * RADIANCE);
+    let removed = fraction * (RADIANCE - most);
+    let kept = 1.0 - fraction + fraction * most;
+    let cut = light.cut().expect("a share");
+    let expected = removed / (kept + removed);
+    assert!((cut - expected).abs() < 0.008, "{cut}, not {expected}");
+}
+
 /// An emissive wall, which light samples do not choose, fills half of what the floor sees, and a disc hides half of that and of
 /// the sky beside it. So L = 1/4 · 0.5 + 1/4 · 1. U is the whole sky, as nothing but what is hit is known of the wall, and the
 /// part of the wall that the floor sees: 0.5 + 1/4 · 1.
@@ -339,15 +379,7 @@ fn emitters_that_light_samples_do_not_find_are_light_without_shadow_too() {
         emission: Vec3::ONE,
         ..matte(0.0)
     });
-    scene.shapes.push(Shape {
-        geometry: Geometry::Placed {
-            canonical: CanonicalShape::Box,
-            world_from_canonical: DAffine3::from_translation(dvec3(-51.001, 0.0, 0.0))
-                * DAffine3::from_scale(dvec3(50.0, 1e4, 1e4)),
-        },
-        material: 2,
-        node: None,
-    });
+    scene.add_plane(dvec3(-1.001, 0.0, 0.0), DVec3::X, 2);
     let mut verdict = Verdict::on("a disc beside an emissive wall");
     near(&mut verdict, "opacity", opacity(&scene, 256), 0.5, 0.005);
     verdict.close();

@@ -357,7 +357,7 @@ pub fn height_field(
 }
 
 /// A mesh over the unit square, with point and normal of each (u, v).
-fn lattice(parts: UVec2, material: u32, at: impl Fn(f64, f64) -> (DVec3, DVec3)) -> Mesh {
+pub fn lattice(parts: UVec2, material: u32, at: impl Fn(f64, f64) -> (DVec3, DVec3)) -> Mesh {
     let mut mesh = Mesh::default();
     for j in 0..=parts.y {
         for i in 0..=parts.x {

@@ -1,0 +1,206 @@
+//! Emissive shapes that no lamp has the form of, as lights of paths.
+
+use super::{lit_floor, matte, mean, near, paths};
+use crate::motion_blur::{exposed, track};
+use crate::reference::scenes::{Build, ball, lattice, torus};
+use crate::support::verdict::Verdict;
+use glam::{DAffine3, DMat3, DQuat, DVec3, UVec2, Vec3, dvec3, uvec2};
+use glimray::scene::{
+    Antialias, CanonicalShape, Geometry, Light, Material, Mesh, Node, NodeProperty, Scene, Shape,
+    Target, Values,
+};
+use std::f64::consts::TAU;
+
+const AROUND: u32 = 96;
+
+/// A disc at this height, or what a hole leaves of it.
+fn disc(hole: f64, radius: f64, y: f64, up: f64) -> Mesh {
+    lattice(uvec2(AROUND, 1), 1, |u, v| {
+        let (sin, cos) = (up * TAU * u).sin_cos();
+        let radius = hole + (radius - hole) * v;
+        (dvec3(radius * sin, y, radius * cos), up * DVec3::Y)
+    })
+}
+
+fn side(bottom: f64, top: f64) -> Mesh {
+    lattice(uvec2(AROUND, 1), 1, |u, v| {
+        let (sin, cos) = (TAU * u).sin_cos();
+        let y = 1.0 - v;
+        let radius = bottom + (top - bottom) * y;
+        let normal = dvec3(sin, bottom - top, cos);
+        (dvec3(radius * sin, y, radius * cos), normal.normalize())
+    })
+}
+
+/// One side of a box: the images of the upper side.
+fn sides() -> Vec<Mesh> {
+    let up = |turn: DQuat| {
+        lattice(UVec2::ONE, 1, |u, v| {
+            let p = dvec3(2.0 * u - 1.0, 1.0, 2.0 * v - 1.0);
+            (turn * p, turn * DVec3::Y)
+        })
+    };
+    let turns = (0..4).map(|k| DQuat::from_rotation_x(f64::from(k) * TAU / 4.0));
+    let ends = [1.0, -1.0].map(|side| DQuat::from_rotation_z(side * TAU / 4.0));
+    turns.chain(ends).map(up).collect()
+}
+
+/// Shapes, and meshes of them.
+fn solids() -> Vec<(&'static str, CanonicalShape, Vec<Mesh>)> {
+    let cone = |bottom, top, capped| CanonicalShape::Cone {
+        bottom,
+        top,
+        capped,
+    };
+    vec![
+        (
+            "ellipsoid",
+            CanonicalShape::Ellipsoid,
+            vec![ball(uvec2(AROUND, 48), 1)],
+        ),
+        ("box", CanonicalShape::Box, sides()),
+        ("tube", cone(1.0, 1.0, false), vec![side(1.0, 1.0)]),
+        (
+            "cylinder",
+            cone(1.0, 1.0, true),
+            vec![
+                side(1.0, 1.0),
+                disc(0.0, 1.0, 0.0, -1.0),
+                disc(0.0, 1.0, 1.0, 1.0),
+            ],
+        ),
+        (
+            "frustum",
+            cone(0.5, 1.5, true),
+            vec![
+                side(0.5, 1.5),
+                disc(0.0, 0.5, 0.0, -1.0),
+                disc(0.0, 1.5, 1.0, 1.0),
+            ],
+        ),
+        (
+            "torus",
+            CanonicalShape::Torus { minor: 0.3 },
+            vec![torus(1.0, 0.3, uvec2(AROUND, 48), 1)],
+        ),
+        (
+            "ring",
+            CanonicalShape::Disc { hole: 0.6 },
+            vec![disc(0.6, 1.0, 0.0, 1.0)],
+        ),
+    ]
+}
+
+/// A floor below something that glows on its outside.
+fn floor(radiance: f32) -> Scene {
+    let mut scene = lit_floor(matte(0.5), Light::default());
+    scene.lights.clear();
+    scene.add_material(Material {
+        emission: Vec3::splat(radiance),
+        two_sided: false,
+        ..matte(0.0)
+    });
+    scene
+}
+
+fn under(canonical: CanonicalShape, placed: DAffine3, radiance: f32) -> Scene {
+    let mut scene = floor(radiance);
+    scene.shapes.push(Shape {
+        geometry: Geometry::Placed {
+            canonical,
+            world_from_canonical: placed,
+        },
+        material: 1,
+        node: None,
+    });
+    scene
+}
+
+/// Turned so that its front and back, and its top and bottom, are seen from below; stretched, and mirrored.
+fn placed(size: f64) -> DAffine3 {
+    let turn = DMat3::from_quat(DQuat::from_axis_angle(
+        dvec3(1.0, 0.2, 0.5).normalize(),
+        2.4,
+    ));
+    DAffine3 {
+        matrix3: turn * DMat3::from_diagonal(size * dvec3(0.9, 0.7, -1.4)),
+        translation: dvec3(0.4, 1.1, -0.5),
+    }
+}
+
+/// The mean of a picture while a node carries what glows past the floor.
+fn carried(mut scene: Scene) -> f64 {
+    scene.nodes.push(Node::default());
+    let nodes = (scene.shapes.iter_mut().map(|shape| &mut shape.node))
+        .chain(scene.instances.iter_mut().map(|mesh| &mut mesh.node));
+    nodes.skip(1).for_each(|node| *node = Some(0));
+    scene.tracks.push(track(
+        Target::Node(0, NodeProperty::Translation),
+        Values::Vector(vec![dvec3(-0.3, 0.1, 0.0), dvec3(0.3, 0.0, 0.2)]),
+    ));
+    let image = exposed(&scene, &paths(512, (24, 16), 0));
+    let sum: f64 = image.pixels.iter().map(|pixel| f64::from(pixel[1])).sum();
+    sum / image.pixels.len() as f64
+}
+
+#[test]
+fn emissive_shapes_of_every_kind_shine_like_meshes_of_them() {
+    let mut verdict = Verdict::on("floors under glowing shapes");
+    for (name, canonical, meshes) in solids() {
+        let mut expected = floor(2.0);
+        for mesh in meshes {
+            expected.add_mesh(mesh, placed(0.3));
+        }
+        let scene = under(canonical, placed(0.3), 2.0);
+        let still = [&expected, &scene].map(|scene| mean(scene, &paths(512, (24, 16), 0)));
+        for (how, [expected, found]) in [
+            ("still", still),
+            ("carried", [expected, scene].map(carried)),
+        ] {
+            let what = format!("{name}, {how}");
+            near(&mut verdict, what, found, expected, 0.01 * expected);
+        }
+    }
+    verdict.close();
+}
+
+/// A node may stretch a sphere.
+#[test]
+fn a_sphere_that_a_node_stretches_shines_like_an_ellipsoid() {
+    let expected = mean(
+        &under(CanonicalShape::Ellipsoid, placed(0.3), 2.0),
+        &paths(512, (24, 16), 0),
+    );
+    let mut scene = floor(2.0);
+    scene.shapes.push(Shape {
+        geometry: Geometry::Sphere {
+            center: DVec3::ZERO,
+            radius: 1.0,
+        },
+        material: 1,
+        node: Some(0),
+    });
+    scene.nodes.push(Node {
+        placement: placed(0.3),
+        ..Node::default()
+    });
+    let found = mean(&scene, &paths(512, (24, 16), 0));
+    assert!(
+        (found / expected - 1.0).abs() < 0.01,
+        "{found}, expected {expected}"
+    );
+}
+
+/// A small shape is found by light samples: paths hit one of these once in 100,000 samples.
+#[test]
+fn small_shapes_of_every_kind_are_found_by_few_samples() {
+    let mut verdict = Verdict::on("the light of small shapes");
+    for (name, canonical, _) in solids() {
+        let mut scene = under(canonical, placed(0.01), 1000.0);
+        scene.output.antialias = Some(Antialias::Stratified);
+        let few = mean(&scene, &paths(16, (16, 16), 0));
+        let many = mean(&scene, &paths(1024, (16, 16), 0));
+        near(&mut verdict, name, few, many, 0.03 * many);
+    }
+    verdict.close();
+}
