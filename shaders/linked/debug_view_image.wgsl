@@ -856,13 +856,34 @@ fn stack__move_registers(references: vec3u, count: i32) {
 	let deepest = select(select(last.y, last.z, count == 2), last.w, count == 1);
 	loops__is_stack_full |= (count > 0) & (deepest != stack__EMPTY);
 	let m0 = stack__moved(above, stack__s0, stack__s1, count);
-	let m1 = stack__moved(stack__s0, stack__s1, stack__s2, count);
-	let m2 = stack__moved(stack__s1, stack__s2, stack__s3, count);
-	let m3 = stack__moved(stack__s2, stack__s3, stack__s4, count);
-	let m4 = stack__moved(stack__s3, stack__s4, stack__s5, count);
-	let m5 = stack__moved(stack__s4, stack__s5, stack__s6, count);
-	let m6 = stack__moved(stack__s5, stack__s6, stack__s7, count);
-	let m7 = stack__moved(stack__s6, stack__s7, vec4u(stack__EMPTY), count);
+	var m1: vec4u;
+	if (bindings__STACK_REGISTERS > 1u) {
+		m1 = stack__moved(stack__s0, stack__s1, stack__s2, count);
+	}
+	var m2: vec4u;
+	if (bindings__STACK_REGISTERS > 2u) {
+		m2 = stack__moved(stack__s1, stack__s2, stack__s3, count);
+	}
+	var m3: vec4u;
+	if (bindings__STACK_REGISTERS > 3u) {
+		m3 = stack__moved(stack__s2, stack__s3, stack__s4, count);
+	}
+	var m4: vec4u;
+	if (bindings__STACK_REGISTERS > 4u) {
+		m4 = stack__moved(stack__s3, stack__s4, stack__s5, count);
+	}
+	var m5: vec4u;
+	if (bindings__STACK_REGISTERS > 5u) {
+		m5 = stack__moved(stack__s4, stack__s5, stack__s6, count);
+	}
+	var m6: vec4u;
+	if (bindings__STACK_REGISTERS > 6u) {
+		m6 = stack__moved(stack__s5, stack__s6, stack__s7, count);
+	}
+	var m7: vec4u;
+	if (bindings__STACK_REGISTERS > 7u) {
+		m7 = stack__moved(stack__s6, stack__s7, vec4u(stack__EMPTY), count);
+	}
 	stack__s0 = m0;
 	if (bindings__STACK_REGISTERS > 1u) {
 		stack__s1 = m1;
@@ -972,13 +993,9 @@ fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
 }
 
 fn rng__hash(x: u32) -> u32 {
-	var h = x;
-	h ^= h >> 16u;
-	h *= 2146121005u;
-	h ^= h >> 15u;
-	h *= 2221713035u;
-	h ^= h >> 16u;
-	return h;
+	let a = (x ^ (x >> 16u)) * 2146121005u;
+	let b = (a ^ (a >> 15u)) * 2221713035u;
+	return b ^ (b >> 16u);
 }
 
 fn rng__hash_combine(a: u32, b: u32) -> u32 {
@@ -2899,23 +2916,20 @@ fn filter__inverse_erf(y: vec2f) -> vec2f {
 }
 
 fn sampling__sobol(index: u32) -> vec2u {
-	var x = index;
-	x ^= (x >> 1u) & 1431655765u;
-	x ^= (x >> 2u) & 858993459u;
-	x ^= (x >> 4u) & 252645135u;
-	x ^= (x >> 8u) & 16711935u;
-	x ^= (x >> 16u) & 65535u;
-	return vec2u(reverseBits(index), reverseBits(x));
+	let a = index ^ ((index >> 1u) & 1431655765u);
+	let b = a ^ ((a >> 2u) & 858993459u);
+	let c = b ^ ((b >> 4u) & 252645135u);
+	let d = c ^ ((c >> 8u) & 16711935u);
+	let e = d ^ ((d >> 16u) & 65535u);
+	return vec2u(reverseBits(index), reverseBits(e));
 }
 
 fn sampling__owen_scramble(fraction: u32, seed: u32) -> u32 {
-	var x = reverseBits(fraction);
-	x += seed;
-	x ^= x * 1817228412u;
-	x ^= x * 3090095698u;
-	x ^= x * 3350193720u;
-	x ^= x * 2367878886u;
-	return reverseBits(x);
+	let a = reverseBits(fraction) + seed;
+	let b = a ^ (a * 1817228412u);
+	let c = b ^ (b * 3090095698u);
+	let d = c ^ (c * 3350193720u);
+	return reverseBits(d ^ (d * 2367878886u));
 }
 
 fn sampling__sobol_34(index: u32) -> vec2u {

@@ -1257,13 +1257,9 @@ fn fetch__material_row(row: u32) -> vec4u {
 var<private> albedo__albedo_first: u32;
 
 fn rng__hash(x: u32) -> u32 {
-	var h = x;
-	h ^= h >> 16u;
-	h *= 2146121005u;
-	h ^= h >> 15u;
-	h *= 2221713035u;
-	h ^= h >> 16u;
-	return h;
+	let a = (x ^ (x >> 16u)) * 2146121005u;
+	let b = (a ^ (a >> 15u)) * 2221713035u;
+	return b ^ (b >> 16u);
 }
 
 fn rng__hash_combine(a: u32, b: u32) -> u32 {
@@ -1521,23 +1517,20 @@ fn filter__inverse_erf(y: vec2f) -> vec2f {
 }
 
 fn sampling__sobol(index: u32) -> vec2u {
-	var x = index;
-	x ^= (x >> 1u) & 1431655765u;
-	x ^= (x >> 2u) & 858993459u;
-	x ^= (x >> 4u) & 252645135u;
-	x ^= (x >> 8u) & 16711935u;
-	x ^= (x >> 16u) & 65535u;
-	return vec2u(reverseBits(index), reverseBits(x));
+	let a = index ^ ((index >> 1u) & 1431655765u);
+	let b = a ^ ((a >> 2u) & 858993459u);
+	let c = b ^ ((b >> 4u) & 252645135u);
+	let d = c ^ ((c >> 8u) & 16711935u);
+	let e = d ^ ((d >> 16u) & 65535u);
+	return vec2u(reverseBits(index), reverseBits(e));
 }
 
 fn sampling__owen_scramble(fraction: u32, seed: u32) -> u32 {
-	var x = reverseBits(fraction);
-	x += seed;
-	x ^= x * 1817228412u;
-	x ^= x * 3090095698u;
-	x ^= x * 3350193720u;
-	x ^= x * 2367878886u;
-	return reverseBits(x);
+	let a = reverseBits(fraction) + seed;
+	let b = a ^ (a * 1817228412u);
+	let c = b ^ (b * 3090095698u);
+	let d = c ^ (c * 3350193720u);
+	return reverseBits(d ^ (d * 2367878886u));
 }
 
 fn sampling__sobol_34(index: u32) -> vec2u {

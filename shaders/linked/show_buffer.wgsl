@@ -193,18 +193,22 @@ const quantity__FAR_LEVEL: f32 = 0.1;
 const quantity__LEAST_COVERAGE: f32 = 0.01;
 
 fn quantity__shown(mean: vec3f, tone: types__PackedTone) -> vec3f {
-	if (tone.view != types__VIEW_DEPTH && tone.view != types__VIEW_HEAT) {
-		return tone__develop(mean, tone);
+	var color = mean;
+	if (tone.view == types__VIEW_DEPTH || tone.view == types__VIEW_HEAT) {
+		color = quantity__quantity_color(quantity__quantity(mean, tone.view), tone);
 	}
-	let value = quantity__quantity(mean, tone.view);
+	return tone__develop(color, tone);
+}
+
+fn quantity__quantity_color(value: f32, tone: types__PackedTone) -> vec3f {
 	if (tone.has_range == 0u) {
-		return tone__develop(vec3f(value), tone);
+		return vec3f(value);
 	}
 	if (tone.view == types__VIEW_HEAT) {
-		return tone__develop(colormap__heat(quantity__position_in_range(value, tone.range)), tone);
+		return colormap__heat(quantity__position_in_range(value, tone.range));
 	}
 	let far = quantity__position_in_range(log2(max_f32(value, 1e-30)), log2(max_vec2f(tone.range, vec2f(1e-30))));
-	return tone__develop(vec3f(select(0.0, mix(1.0, quantity__FAR_LEVEL, far), value > 0.0)), tone);
+	return vec3f(select(0.0, mix(1.0, quantity__FAR_LEVEL, far), value > 0.0));
 }
 
 fn quantity__quantity(mean: vec3f, view: u32) -> f32 {
@@ -217,6 +221,14 @@ fn quantity__quantity(mean: vec3f, view: u32) -> f32 {
 fn quantity__position_in_range(value: f32, range: vec2f) -> f32 {
 	let extent = range.y - range.x;
 	return select(0.5, clamp_f32((value - range.x) / max_f32(extent, 1e-30), 0.0, 1.0), extent > 0.0);
+}
+
+fn colormap__heat(x: f32) -> vec3f {
+	let s = clamp_f32(x, 0.0, 1.0) * 5.0;
+	let red = clamp_f32(s - 2.0, 0.0, 1.0);
+	let green = clamp_f32(s - 1.0, 0.0, 1.0) - clamp_f32(s - 3.0, 0.0, 1.0) + clamp_f32(s - 4.0, 0.0, 1.0);
+	let blue = clamp_f32(s, 0.0, 1.0) - clamp_f32(s - 1.0, 0.0, 1.0) + clamp_f32(s - 4.0, 0.0, 1.0);
+	return vec3f(red, green, blue);
 }
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
@@ -263,14 +275,6 @@ fn tone__develop(radiance: vec3f, tone: types__PackedTone) -> vec3f {
 		color = tone__srgb_from_linear(clamp_vec3f(color, vec3f(0.0), vec3f(1.0)));
 	}
 	return color;
-}
-
-fn colormap__heat(x: f32) -> vec3f {
-	let s = clamp_f32(x, 0.0, 1.0) * 5.0;
-	let red = clamp_f32(s - 2.0, 0.0, 1.0);
-	let green = clamp_f32(s - 1.0, 0.0, 1.0) - clamp_f32(s - 3.0, 0.0, 1.0) + clamp_f32(s - 4.0, 0.0, 1.0);
-	let blue = clamp_f32(s, 0.0, 1.0) - clamp_f32(s - 1.0, 0.0, 1.0) + clamp_f32(s - 4.0, 0.0, 1.0);
-	return vec3f(red, green, blue);
 }
 
 override bindings__EXTREMES_BY_SELECT: bool = false;

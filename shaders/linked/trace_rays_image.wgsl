@@ -487,13 +487,34 @@ fn stack__move_registers(references: vec3u, count: i32) {
 	let deepest = select(select(last.y, last.z, count == 2), last.w, count == 1);
 	loops__is_stack_full |= (count > 0) & (deepest != stack__EMPTY);
 	let m0 = stack__moved(above, stack__s0, stack__s1, count);
-	let m1 = stack__moved(stack__s0, stack__s1, stack__s2, count);
-	let m2 = stack__moved(stack__s1, stack__s2, stack__s3, count);
-	let m3 = stack__moved(stack__s2, stack__s3, stack__s4, count);
-	let m4 = stack__moved(stack__s3, stack__s4, stack__s5, count);
-	let m5 = stack__moved(stack__s4, stack__s5, stack__s6, count);
-	let m6 = stack__moved(stack__s5, stack__s6, stack__s7, count);
-	let m7 = stack__moved(stack__s6, stack__s7, vec4u(stack__EMPTY), count);
+	var m1: vec4u;
+	if (bindings__STACK_REGISTERS > 1u) {
+		m1 = stack__moved(stack__s0, stack__s1, stack__s2, count);
+	}
+	var m2: vec4u;
+	if (bindings__STACK_REGISTERS > 2u) {
+		m2 = stack__moved(stack__s1, stack__s2, stack__s3, count);
+	}
+	var m3: vec4u;
+	if (bindings__STACK_REGISTERS > 3u) {
+		m3 = stack__moved(stack__s2, stack__s3, stack__s4, count);
+	}
+	var m4: vec4u;
+	if (bindings__STACK_REGISTERS > 4u) {
+		m4 = stack__moved(stack__s3, stack__s4, stack__s5, count);
+	}
+	var m5: vec4u;
+	if (bindings__STACK_REGISTERS > 5u) {
+		m5 = stack__moved(stack__s4, stack__s5, stack__s6, count);
+	}
+	var m6: vec4u;
+	if (bindings__STACK_REGISTERS > 6u) {
+		m6 = stack__moved(stack__s5, stack__s6, stack__s7, count);
+	}
+	var m7: vec4u;
+	if (bindings__STACK_REGISTERS > 7u) {
+		m7 = stack__moved(stack__s6, stack__s7, vec4u(stack__EMPTY), count);
+	}
 	stack__s0 = m0;
 	if (bindings__STACK_REGISTERS > 1u) {
 		stack__s1 = m1;
