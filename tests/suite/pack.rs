@@ -472,7 +472,8 @@ fn meshes_whose_arrays_do_not_fit_are_refused() {
 
 #[test]
 fn deformations_that_do_not_fit_their_mesh_are_refused() {
-    let refused = |spoil: fn(&mut Deformation)| {
+    type Spoil = fn(&mut Deformation);
+    let refused = |spoil: Spoil| {
         let mut scene = scenes::empty();
         scene.add_mesh(scenes::quad(1.0, 0), DAffine3::IDENTITY);
         let mut influences = Influences::default();
@@ -508,7 +509,7 @@ fn deformations_that_do_not_fit_their_mesh_are_refused() {
     fn skin(deformation: &mut Deformation) -> &mut Skin {
         deformation.skin.as_mut().expect("a skin")
     }
-    let rows: [(fn(&mut Deformation), &str); 10] = [
+    let rows: [(Spoil, &str); 10] = [
         (|_| (), ""),
         (|it| it.mesh = 1, "(mesh 1): it deforms, but does not exist"),
         (
