@@ -2482,6 +2482,11 @@ fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
 	return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
 }
 
+fn numeric__is_finite(v: vec3f) -> bool {
+	let exponents = bitcast<vec3u>(v) & vec3u(2139095040u);
+	return all(exponents != vec3u(2139095040u));
+}
+
 fn numeric__max_component(v: vec3f) -> f32 {
 	return max_f32(v.x, max_f32(v.y, v.z));
 }
@@ -5190,12 +5195,12 @@ fn emissive_shape__sample_of_shape(shape: types__PackedShape, instance: u32, p: 
 	return found;
 }
 
-fn emissive_shape__shape_density(hit: tracing__Hit, ng: vec3f, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
+fn emissive_shape__shape_density(hit: tracing__Hit, surface: shading__Surface, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
 	if (!bindings__HAS_EMISSIVE_SHAPES) {
 		return 0.0;
 	}
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	if (shape.kind == types__SHAPE_GLOBE) {
+	if (shape.kind == types__SHAPE_PLANE || shape.kind == types__SHAPE_GLOBE) {
 		return 0.0;
 	}
 	if (!emissive_shape__has_others() || emissive_shape__is_lamp_like(shape, hit.instance)) {
@@ -5204,12 +5209,13 @@ fn emissive_shape__shape_density(hit: tracing__Hit, ng: vec3f, origin: vec3f, di
 	}
 	let place = shape_placement__placement_of(shape, hit.instance);
 	let areas = shape_placement__areas_of(shape, place);
-	let n = numeric__normalize_or(ng * place.columns, vec3f(0.0, 1.0, 0.0));
-	let point = shape_sampling__ShapePoint(shape_placement__canonical_place(place, origin + distance * direction), n, 0.0, shape_placement__density_of(shape, areas, n));
-	let faces = dot(direction, ng) < 0.0;
+	let point = shape_placement__point_at(shape, place, areas, surface.p, surface.ng, hit.b1);
+	let faces = dot(direction, surface.ng) < 0.0;
 	let other_faces = shape_placement__faces_point(place, shape_placement__opposite(shape, point), origin);
-	let density = select(1.0, select(0.0, 2.0, faces), faces != other_faces) * point.density / max_f32(length(place.across * n), 1e-30);
-	return (areas.x + areas.y + areas.z) * emissive_shape__density_toward(density, distance, dot(direction, ng));
+	let chance = select(1.0, select(0.0, 2.0, faces), faces != other_faces);
+	let density = chance * point.density / max_f32(length(place.across * point.n), 1e-30);
+	let all = areas.x + areas.y + areas.z;
+	return select(0.0, all * emissive_shape__density_toward(density, distance, dot(direction, surface.ng)), numeric__is_finite(vec3f(all)));
 }
 
 fn emissive_shape__density_toward(density: f32, distance: f32, cosine: f32) -> f32 {
@@ -5354,16 +5360,27 @@ fn shape_placement__point_of(shape: types__PackedShape, areas: vec3f, u: vec2f) 
 	return point;
 }
 
-fn shape_placement__density_of(shape: types__PackedShape, areas: vec3f, n: vec3f) -> f32 {
+fn shape_placement__point_at(shape: types__PackedShape, place: shape_placement__Placement, areas: vec3f, p: vec3f, ng: vec3f, part: f32) -> shape_sampling__ShapePoint {
+	var n = numeric__normalize_or(ng * place.columns, vec3f(0.0, 1.0, 0.0));
+	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && shape.kind == types__SHAPE_BOX) {
+		n = shape_sampling__box_normal(part);
+	}
+	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && shape.kind == types__SHAPE_CONE && part > 0.5) {
+		n = vec3f(0.0, select(-1.0, 1.0, part > 1.5), 0.0);
+	}
+	return shape_sampling__ShapePoint(shape_placement__canonical_place(place, p), n, part, shape_placement__density_of(shape, areas, part));
+}
+
+fn shape_placement__density_of(shape: types__PackedShape, areas: vec3f, part: f32) -> f32 {
 	var density = shape_sampling__ball_density();
 	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && shape.kind == types__SHAPE_DISC) {
 		density = shape_sampling__ring_density(shape.size0);
 	}
 	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && shape.kind == types__SHAPE_BOX) {
-		density = shape_sampling__box_density(areas, n);
+		density = shape_sampling__box_density(areas, part);
 	}
 	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && shape.kind == types__SHAPE_CONE) {
-		density = shape_sampling__cone_density(shape.size0, shape.size1, areas, n);
+		density = shape_sampling__cone_density(shape.size0, shape.size1, areas, part);
 	}
 	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && shape.kind == types__SHAPE_TORUS) {
 		density = shape_sampling__torus_density(shape.size0);
@@ -5531,8 +5548,6 @@ fn area_light__max_abs(v: vec3f) -> f32 {
 	return max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
 }
 
-const shape_sampling__END_COSINE: f32 = 0.9;
-
 struct shape_sampling__ShapePoint {
 	p: vec3f,
 	n: vec3f,
@@ -5595,16 +5610,19 @@ fn shape_sampling__box_side_point(areas: vec3f, u: vec2f) -> shape_sampling__Sha
 	let sign = select(-1.0, 1.0, is_upper);
 	let within = 2.0 * vec2f(2.0 * part.u.x - select(0.0, 1.0, is_upper), part.u.y) - 1.0;
 	let is_axis = vec3<bool>(part.index == 0u, part.index == 1u, part.index == 2u);
-	let n = select(vec3f(0.0), vec3f(sign), is_axis);
 	let place = vec3f(within.x, select(within.y, within.x, is_axis.x), within.y);
 	let code = f32(part.index) + select(0.0, 3.0, is_upper);
-	return shape_sampling__ShapePoint(select(place, n, is_axis), n, code, 0.125 * shape_sampling__part_chance(areas, part.index));
+	return shape_sampling__ShapePoint(select(place, vec3f(sign), is_axis), shape_sampling__box_normal(code), code, shape_sampling__box_density(areas, code));
 }
 
-fn shape_sampling__box_density(areas: vec3f, n: vec3f) -> f32 {
-	let size = abs(n);
-	let largest = max_f32(size.x, max_f32(size.y, size.z));
-	return 0.125 * shape_sampling__part_chance(areas, select(select(2u, 1u, size.y == largest), 0u, size.x == largest));
+fn shape_sampling__box_normal(part: f32) -> vec3f {
+	let code = u32(part + 0.5);
+	let axis = code % 3u;
+	return select(vec3f(0.0), vec3f(select(-1.0, 1.0, code >= 3u)), vec3<bool>(axis == 0u, axis == 1u, axis == 2u));
+}
+
+fn shape_sampling__box_density(areas: vec3f, part: f32) -> f32 {
+	return 0.125 * shape_sampling__part_chance(areas, u32(part + 0.5) % 3u);
 }
 
 fn shape_sampling__cone_areas(bottom: f32, top: f32, is_capped: bool, factors: vec3f) -> vec3f {
@@ -5617,24 +5635,25 @@ fn shape_sampling__cone_areas(bottom: f32, top: f32, is_capped: bool, factors: v
 
 fn shape_sampling__cone_surface_point(bottom: f32, top: f32, areas: vec3f, u: vec2f) -> shape_sampling__ShapePoint {
 	let part = shape_sampling__part_of(areas, u);
+	let density = shape_sampling__cone_density(bottom, top, areas, f32(part.index));
 	if (part.index > 0u) {
 		let is_top = part.index == 2u;
 		let flat = select(bottom, top, is_top) * warp__disc_from_square(part.u);
 		let n = vec3f(0.0, select(-1.0, 1.0, is_top), 0.0);
-		return shape_sampling__ShapePoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), n, f32(part.index), shape_sampling__cone_density(bottom, top, areas, n));
+		return shape_sampling__ShapePoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), n, f32(part.index), density);
 	}
 	let radius = sqrt(mix(bottom * bottom, top * top, part.u.x));
-	let y = part.u.x * (bottom + top) / (bottom + radius);
+	let y = part.u.x * (bottom + top) / max_f32(bottom + radius, 1e-30);
 	let angle = 2.0 * warp__PI * part.u.y;
 	let out = vec2f(cos(angle), sin(angle));
 	let slope = top - bottom;
 	let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
-	return shape_sampling__ShapePoint(vec3f(radius * out.x, y, radius * out.y), n, 0.0, shape_sampling__cone_density(bottom, top, areas, n));
+	return shape_sampling__ShapePoint(vec3f(radius * out.x, y, radius * out.y), n, 0.0, density);
 }
 
-fn shape_sampling__cone_density(bottom: f32, top: f32, areas: vec3f, n: vec3f) -> f32 {
+fn shape_sampling__cone_density(bottom: f32, top: f32, areas: vec3f, part: f32) -> f32 {
 	let slope = top - bottom;
-	let index = select(0u, select(1u, 2u, n.y > 0.0), abs(n.y) > shape_sampling__END_COSINE);
+	let index = u32(part + 0.5);
 	let side = (bottom + top) * sqrt(1.0 + slope * slope);
 	let size = vec3f(side, bottom * bottom, top * top);
 	return shape_sampling__part_chance(areas, index) / max_f32(warp__PI * size[index], 1e-30);
@@ -5862,6 +5881,9 @@ fn light_weight__emission_weight(batch: dispatch__Batch, surface: shading__Surfa
 	let distance = distance(sender.p, surface.p);
 	let glow = material__load_glow(surface.material);
 	let is_lamp = bindings__HAS_AREA_LIGHTS && glow.light != types__NONE;
+	if (!is_lamp && glow.luminance <= 0.0) {
+		return 1.0;
+	}
 	var density = 0.0;
 	var chance = 0.0;
 	var trail = 0u;
@@ -5895,7 +5917,7 @@ fn light_weight__emission_weight(batch: dispatch__Batch, surface: shading__Surfa
 
 fn light_weight__emitter_density(surface: shading__Surface, hit: tracing__Hit, origin: vec3f, direction: vec3f, distance: f32) -> f32 {
 	if ((hit.primitive & types__SHAPE) != 0u) {
-		return emissive_shape__shape_density(hit, surface.ng, origin, direction, distance);
+		return emissive_shape__shape_density(hit, surface, origin, direction, distance);
 	}
 	return distance * distance / max_f32(abs(dot(direction, surface.ng)), 1e-30);
 }

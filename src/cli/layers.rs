@@ -125,7 +125,9 @@ impl LayerFlags {
                     .into(),
             ));
         };
-        let raw = takes_layers.then(|| film.develop(gpu, tone)).transpose()?;
+        // Beside a denoised picture the raw one is only seen among the layers.
+        let needs_raw = takes_layers || !tone.denoise;
+        let raw = needs_raw.then(|| film.develop(gpu, tone)).transpose()?;
         let mut denoised = None;
         let mut denoise_seconds = None;
         if tone.denoise {
@@ -134,7 +136,8 @@ impl LayerFlags {
             denoise_seconds = Some(started.elapsed().as_secs_f64());
             denoised = Some(tone.develop(gpu, &picture)?);
         }
-        let layers = raw.as_ref().map(|raw| LayeredImage {
+        let layers = raw.as_ref().filter(|_| takes_layers);
+        let layers = layers.map(|raw| LayeredImage {
             width: features.width,
             height: features.height,
             layers: self.of(raw, denoised.as_ref(), opacity, &features),
@@ -159,7 +162,7 @@ impl LayerFlags {
             // Most programs show the nameless layer, and this is the picture that was asked for.
             return vec![
                 ImageLayer::color("", denoised, opacity, false),
-                ImageLayer::color("beauty", raw, opacity, true),
+                ImageLayer::color("beauty", raw, opacity, false),
             ];
         }
         let known = LAYERS.0.iter().map(|(.., layer)| layer);

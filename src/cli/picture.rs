@@ -187,6 +187,7 @@ fn write(
     interrupt: &Interrupt,
     draft: &mut Draft,
 ) -> Result<(), AppError> {
+    draft.catcher_light = renderer.catcher_light()?;
     let started = if destination.is_film() {
         let mut film = renderer.film()?;
         film.set_tone(job.tone(settings, false));
@@ -201,7 +202,6 @@ fn write(
         started
     };
     draft.seconds.write = started.elapsed().as_secs_f64();
-    draft.catcher_light = renderer.catcher_light()?;
     Ok(())
 }
 

@@ -42,7 +42,7 @@ pub struct Report {
     /// The estimated share of the light that the limit of bounces and clamps removed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_cut: Option<f64>,
-    /// The share of the light on shadow catchers that the cap of single samples removed; present where they are seen.
+    /// The share of the light on shadow catchers that the cap of single samples removed; present where they are seen and lit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub catcher_cut: Option<f64>,
     pub memory: Memory,

@@ -1,8 +1,8 @@
-//! Emissive shapes that are curved or have several sides, as paths sample them.
+//! Where emissive shapes are, and the areas of those that are curved or have several sides.
 
 use crate::layout::{
-    PackedShape, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC, SHAPE_GLOBE, SHAPE_PLANE,
-    SHAPE_SPHERE, SHAPE_TORUS,
+    PackedShape, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_GLOBE, SHAPE_PLANE, SHAPE_SPHERE,
+    SHAPE_TORUS,
 };
 use glam::{DVec3, Mat3, Vec3, vec3};
 use std::f32::consts::PI;
@@ -39,7 +39,6 @@ impl EmissiveSolid {
     /// The corners of a box around it.
     pub fn corners(&self) -> Vec<DVec3> {
         let (min, max) = match self.kind {
-            SHAPE_DISC => (vec3(-1.0, 0.0, -1.0), vec3(1.0, 0.0, 1.0)),
             SHAPE_CONE => (vec3(-1.0, 0.0, -1.0), Vec3::ONE),
             SHAPE_TORUS => {
                 let [minor, _] = self.sizes;
@@ -67,7 +66,6 @@ impl EmissiveSolid {
         let squares = factors * factors;
         let [first, second] = self.sizes;
         match self.kind {
-            SHAPE_DISC => PI * (1.0 - first * first) * factors.y,
             SHAPE_BOX => 8.0 * factors.element_sum(),
             SHAPE_CONE => {
                 let slope = second - first;

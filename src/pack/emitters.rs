@@ -99,7 +99,7 @@ fn emissive_shape(primitive: u32, shape: &PackedShape, glow: f32) -> Option<Emis
         material: shape.material,
         form: match shape.kind {
             SHAPE_RECTANGLE => flat(1.0)?,
-            SHAPE_DISC if shape.size0 == 0.0 => flat(PI / 4.0)?,
+            SHAPE_DISC => flat(PI / 4.0 * (1.0 - shape.size0 * shape.size0))?,
             _ => Form::Solid(EmissiveSolid::of(shape)?),
         },
         glow,
@@ -273,7 +273,8 @@ impl PackedScene {
                 let radiance = LUMINANCE.dot(material.emission.into()) * one.glow;
                 let own_area = f64::from(one.area(places.linear()));
                 let weight = f64::from(radiance) * own_area;
-                if weight > 0.0 {
+                // Areas beyond the range of f32 have no chance.
+                if weight > 0.0 && weight.is_finite() {
                     let power = weight / std::f64::consts::PI;
                     let mut cluster = one.cluster(power, places, &later());
                     cluster.two_sided = material.flags & MATERIAL_TWO_SIDED != 0;

@@ -126,9 +126,11 @@ pub fn cached(
             None => Ok(Arc::new(CachedMesh::new(mesh))),
         },
     };
-    for deformation in &scene.deformations {
+    for (before, deformation) in scene.deformations.iter().enumerate() {
         let index = deformation.mesh;
+        let follows = before == 0 || scene.deformations[before - 1].mesh < index;
         let what = match scene.meshes.get(index) {
+            _ if !follows => Some("deformations are not in the order of their meshes".into()),
             Some(mesh) => deformation.inconsistency(mesh.positions.len(), scene.nodes.len()),
             None => Some("it deforms, but does not exist".into()),
         };

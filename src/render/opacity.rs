@@ -26,7 +26,7 @@ const LEAST: f32 = 1e-4;
 /// The light on shadow catchers of pictures, in luminance; in any unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CatcherLight {
-    /// What the pictures show.
+    /// What was counted.
     pub kept: f64,
     /// What the cap of single samples removed: see `MOST_SCATTERED` in `scene/opacity.wesl`.
     pub removed: f64,
@@ -36,7 +36,8 @@ impl CatcherLight {
     /// The share that was removed, 0 to 1; `None` without light.
     pub fn cut(self) -> Option<f64> {
         let all = self.kept + self.removed;
-        (all > 0.0).then(|| self.removed / all)
+        // Filters with negative lobes leave the sums of few samples beyond that.
+        (all > 0.0).then(|| (self.removed / all).clamp(0.0, 1.0))
     }
 }
 
@@ -97,13 +98,13 @@ pub fn picture<S: Borrow<Sums>>(
 }
 
 impl Renderer {
-    /// The light on the shadow catchers of the picture so far; none without opacity.
+    /// The light on the shadow catchers of the picture so far; none if it shows none.
     ///
     /// # Errors
     /// The device failed.
     pub fn catcher_light(&mut self) -> Result<CatcherLight, RenderError> {
         let mut light = CatcherLight::default();
-        if !self.settings.has_opacity() {
+        if !(self.settings.has_opacity() && self.scene.features.shadow_catchers) {
             return Ok(light);
         }
         self.fetch_film()?;

@@ -185,10 +185,13 @@ impl Deformation {
                 "it has {weights} weights for {targets} morph targets"
             ));
         }
-        let flat = |range: &Range<usize>| range.start <= range.end && range.end <= vertices;
-        if let Some(Range { start, end }) = self.flat.iter().find(|range| !flat(range)) {
+        let is_whole = |range: &Range<usize>| {
+            range.start <= range.end && range.len().is_multiple_of(3) && range.end <= vertices
+        };
+        let are_ascending = self.flat.is_sorted_by(|a, b| a.end <= b.start);
+        if !are_ascending || !self.flat.iter().all(is_whole) {
             return Some(format!(
-                "vertices {start} to {end} are flat, and there are {vertices}"
+                "its flat triangles are not in ascending order, or not among {vertices} vertices"
             ));
         }
         (self.targets.iter())

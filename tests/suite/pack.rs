@@ -509,7 +509,7 @@ fn deformations_that_do_not_fit_their_mesh_are_refused() {
     fn skin(deformation: &mut Deformation) -> &mut Skin {
         deformation.skin.as_mut().expect("a skin")
     }
-    let rows: [(Spoil, &str); 10] = [
+    let rows: [(Spoil, &str); 11] = [
         (|_| (), ""),
         (|it| it.mesh = 1, "(mesh 1): it deforms, but does not exist"),
         (
@@ -537,6 +537,10 @@ fn deformations_that_do_not_fit_their_mesh_are_refused() {
             "a vertex follows joint 0, and there are 0",
         ),
         (
+            |it| it.flat = Arc::new([0..3, 3..4]),
+            "its flat triangles are not in ascending order, or not among 4 vertices",
+        ),
+        (
             |it| skin(it).joints[0].node = Some(2),
             "a joint follows node 2, and the scene has 0",
         ),
@@ -550,4 +554,20 @@ fn deformations_that_do_not_fit_their_mesh_are_refused() {
         assert!(told.contains(expected), "{told}, not {expected}");
         assert_eq!(told.is_empty(), expected.is_empty(), "{told}");
     }
+    let mut scene = scenes::empty();
+    scene.add_mesh(scenes::quad(1.0, 0), DAffine3::IDENTITY);
+    scene.deformations = vec![
+        Deformation {
+            mesh: 0,
+            targets: Arc::default(),
+            weights: Vec::new(),
+            skin: None,
+            flat: Arc::default(),
+        };
+        2
+    ];
+    let told = pack::scene(&scene)
+        .expect_err("two of one mesh")
+        .to_string();
+    assert!(told.contains("not in the order of their meshes"), "{told}");
 }

@@ -20,8 +20,8 @@ use crate::support::verdict::Verdict;
 use glam::{DAffine3, DQuat, DVec3, Vec3, dvec3, vec3};
 use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{
-    Antialias, Attenuation, Background, Camera, CanonicalShape, Fresnel, Geometry, Instance, Light,
-    LightKind, Material, Mesh, Scene,
+    Antialias, Attenuation, Background, Camera, Fresnel, Instance, Light, LightKind, Material,
+    Mesh, Scene,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -149,16 +149,16 @@ fn a_closed_room_of_even_light_sums_all_bounces() {
 
 #[test]
 fn clamping_cuts_each_bounce_of_indirect_light_to_the_limit() {
-    let mut verdict = Verdict::on("the inside of a glowing ball");
+    let mut verdict = Verdict::on("the inside of a glowing room");
     let (albedo, limit) = (0.8, 0.1);
     let mut scene = ball_in(0.0, matte(albedo));
     scene.materials[0].emission = Vec3::splat(0.5);
     scene.cameras = vec![looking(DVec3::ZERO, DVec3::Z, 1.0)];
-    // An ellipsoid is no light for light samples, so a path finds all light by itself.
-    scene.shapes[0].geometry = Geometry::Placed {
-        canonical: CanonicalShape::Ellipsoid,
-        world_from_canonical: DAffine3::IDENTITY,
-    };
+    // Planes are no lights for light samples, so a path finds all light by itself.
+    scene.shapes.clear();
+    for normal in DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]) {
+        scene.add_plane(-normal, normal, 0);
+    }
     let settings = RenderSettings {
         clamp_indirect: Some(limit),
         ..paths(256, (16, 16), 2)

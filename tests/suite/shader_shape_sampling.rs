@@ -87,7 +87,7 @@ impl Kind {
             Self::Box => own(
                 "box_areas(factors)",
                 "box_side_point(areas, u)",
-                "box_density(areas, point.n)",
+                "box_density(areas, point.part)",
             ),
             Self::Cone {
                 bottom,
@@ -96,7 +96,7 @@ impl Kind {
             } => [
                 format!("cone_areas({bottom:?}, {top:?}, {is_capped}, factors)"),
                 format!("cone_surface_point({bottom:?}, {top:?}, areas, u)"),
-                format!("cone_density({bottom:?}, {top:?}, areas, point.n)"),
+                format!("cone_density({bottom:?}, {top:?}, areas, point.part)"),
             ],
             Self::Torus { minor } => [
                 format!("vec3f(torus_area({minor:?}, factors), 0.0, 0.0)"),
@@ -256,7 +256,10 @@ impl Kind {
 #[test]
 fn points_lie_on_their_shape_with_the_density_of_their_cell() {
     let mut verdict = Verdict::on("points of shapes");
-    let points = square_points(SAMPLES, 11);
+    // Independent points, and those on the edges of the square.
+    let mut points = square_points(SAMPLES, 11);
+    let ends = [0.0, 0.5, 0.99999994];
+    points.extend(ends.iter().flat_map(|&x| ends.map(|y| [x, y])));
     let stretch = factors(DMat3::from_diagonal(dvec3(0.5, 2.0, 1.5)));
     for kind in kinds() {
         let places = kind.map("vec4f(point.p, point.density)", stretch, &points);
@@ -301,10 +304,10 @@ fn points_lie_on_their_shape_with_the_density_of_their_cell() {
                 cells
                     .areas
                     .iter()
-                    .map(|area| SAMPLES as f64 * density * area),
+                    .map(|area| points.len() as f64 * density * area),
             );
         }
-        let total = expected.iter().sum::<f64>() / SAMPLES as f64;
+        let total = expected.iter().sum::<f64>() / points.len() as f64;
         verdict.that(
             format!("{kind:?}: the whole"),
             (total - 1.0).abs() < 1e-5,

@@ -83,3 +83,23 @@ fn the_report_says_what_the_light_of_paths_lacks() {
     let (said, _) = render("--integrator whitted");
     assert_eq!(said, json!([null, null, null, false]));
 }
+
+/// Only where shadow catchers are seen is there something that their cap could take away.
+#[test]
+fn the_report_says_what_the_cap_takes_from_shadow_catchers() {
+    let workspace = Workspace::new();
+    let scene = "[output]\nsize = [8, 8]\nbackdrop = \"transparent\"\nintegrator = \"path\"\n\
+        [[lights]]\npoint = { position = [0, 3, 0] }\n\
+        [[objects]]\nplane = { point = [0, -1, 0] }\n";
+    let report = |catcher: bool| -> Value {
+        let material = format!("material = {{ shadow_catcher = {catcher} }}\n");
+        workspace.write("catcher.toml", &(scene.to_owned() + &material));
+        workspace
+            .run("render catcher.toml --samples 4 -v --report r.json -o a.png")
+            .expect(0);
+        serde_json::from_slice(&workspace.read("r.json")).expect("JSON")
+    };
+    let cut = report(true)["catcher_cut"].as_f64().expect("a share");
+    assert!((0.0..=1.0).contains(&cut), "{cut}");
+    assert_eq!(report(false).get("catcher_cut"), None);
+}

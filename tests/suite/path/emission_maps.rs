@@ -69,7 +69,7 @@ fn panel_and_quad(bright: [u32; 2]) -> [Scene; 2] {
     [textured, alone]
 }
 
-fn add_picture_texture(scene: &mut Scene, picture: Picture) {
+pub fn add_picture_texture(scene: &mut Scene, picture: Picture) {
     scene.pictures.push(picture.into());
     scene.textures.push(Texture {
         pattern: Pattern::Picture {
