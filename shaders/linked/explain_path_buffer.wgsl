@@ -2803,11 +2803,17 @@ fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
 	let positive = code >= 3u;
 	let axis = code - select(0u, 3u, positive);
 	let sign = select(-1.0, 1.0, positive);
-	let n = select(vec3f(0.0), vec3f(sign), vec3<bool>(axis == 0u, axis == 1u, axis == 2u));
+	let n = box__box_normal(side);
 	let place = select(p, n, n != vec3f(0.0));
 	let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
 	let up = select(p.y, -sign * p.z, axis == 1u);
 	return canonical__CanonicalPoint(place, n, saturate_vec2f(0.5 + 0.5 * vec2f(right, up)));
+}
+
+fn box__box_normal(side: f32) -> vec3f {
+	let code = u32(side + 0.5);
+	let axis = code % 3u;
+	return select(vec3f(0.0), vec3f(select(-1.0, 1.0, code >= 3u)), vec3<bool>(axis == 0u, axis == 1u, axis == 2u));
 }
 
 const cone__FAR: f32 = 1e30;
@@ -2880,8 +2886,7 @@ fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__Ca
 	if (part < 0.5) {
 		let y = saturate_f32(p.y);
 		let radius = bottom + slope * y;
-		let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
-		return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(canonical__longitude(p.x, p.z), y));
+		return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), cone__cone_side_normal(out, slope), vec2f(canonical__longitude(p.x, p.z), y));
 	}
 	let is_top = part > 1.5;
 	let radius = select(bottom, top, is_top);
@@ -2889,6 +2894,10 @@ fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__Ca
 	let sign = select(-1.0, 1.0, is_top);
 	let uv = vec2f(flat.x, -sign * flat.y) / max_f32(radius, 1e-18);
 	return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate_vec2f(0.5 + 0.5 * uv));
+}
+
+fn cone__cone_side_normal(out: vec2f, slope: f32) -> vec3f {
+	return vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
 }
 
 const torus__MOST_ROUNDS: u32 = 40u;
@@ -5283,7 +5292,7 @@ fn shape_placement__point_of(shape: types__PackedShape, areas: vec3f, u: vec2f) 
 fn shape_placement__point_at(shape: types__PackedShape, place: shape_placement__Placement, areas: vec3f, p: vec3f, ng: vec3f, part: f32) -> shape_sampling__ShapePoint {
 	var n = numeric__normalize_or(ng * place.columns, vec3f(0.0, 1.0, 0.0));
 	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && shape.kind == types__SHAPE_BOX) {
-		n = shape_sampling__box_normal(part);
+		n = box__box_normal(part);
 	}
 	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && shape.kind == types__SHAPE_CONE && part > 0.5) {
 		n = vec3f(0.0, select(-1.0, 1.0, part > 1.5), 0.0);
@@ -5532,13 +5541,7 @@ fn shape_sampling__box_side_point(areas: vec3f, u: vec2f) -> shape_sampling__Sha
 	let is_axis = vec3<bool>(part.index == 0u, part.index == 1u, part.index == 2u);
 	let place = vec3f(within.x, select(within.y, within.x, is_axis.x), within.y);
 	let code = f32(part.index) + select(0.0, 3.0, is_upper);
-	return shape_sampling__ShapePoint(select(place, vec3f(sign), is_axis), shape_sampling__box_normal(code), code, shape_sampling__box_density(areas, code));
-}
-
-fn shape_sampling__box_normal(part: f32) -> vec3f {
-	let code = u32(part + 0.5);
-	let axis = code % 3u;
-	return select(vec3f(0.0), vec3f(select(-1.0, 1.0, code >= 3u)), vec3<bool>(axis == 0u, axis == 1u, axis == 2u));
+	return shape_sampling__ShapePoint(select(place, vec3f(sign), is_axis), box__box_normal(code), code, shape_sampling__box_density(areas, code));
 }
 
 fn shape_sampling__box_density(areas: vec3f, part: f32) -> f32 {
@@ -5566,9 +5569,8 @@ fn shape_sampling__cone_surface_point(bottom: f32, top: f32, areas: vec3f, u: ve
 	let y = part.u.x * (bottom + top) / max_f32(bottom + radius, 1e-30);
 	let angle = 2.0 * warp__PI * part.u.y;
 	let out = vec2f(cos(angle), sin(angle));
-	let slope = top - bottom;
-	let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
-	return shape_sampling__ShapePoint(vec3f(radius * out.x, y, radius * out.y), n, 0.0, density);
+	let p = vec3f(radius * out.x, y, radius * out.y);
+	return shape_sampling__ShapePoint(p, cone__cone_side_normal(out, top - bottom), 0.0, density);
 }
 
 fn shape_sampling__cone_density(bottom: f32, top: f32, areas: vec3f, part: f32) -> f32 {

@@ -3043,11 +3043,17 @@ fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
 	let positive = code >= 3u;
 	let axis = code - select(0u, 3u, positive);
 	let sign = select(-1.0, 1.0, positive);
-	let n = select(vec3f(0.0), vec3f(sign), vec3<bool>(axis == 0u, axis == 1u, axis == 2u));
+	let n = box__box_normal(side);
 	let place = select(p, n, n != vec3f(0.0));
 	let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
 	let up = select(p.y, -sign * p.z, axis == 1u);
 	return canonical__CanonicalPoint(place, n, saturate_vec2f(0.5 + 0.5 * vec2f(right, up)));
+}
+
+fn box__box_normal(side: f32) -> vec3f {
+	let code = u32(side + 0.5);
+	let axis = code % 3u;
+	return select(vec3f(0.0), vec3f(select(-1.0, 1.0, code >= 3u)), vec3<bool>(axis == 0u, axis == 1u, axis == 2u));
 }
 
 const cone__FAR: f32 = 1e30;
@@ -3120,8 +3126,7 @@ fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__Ca
 	if (part < 0.5) {
 		let y = saturate_f32(p.y);
 		let radius = bottom + slope * y;
-		let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
-		return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(canonical__longitude(p.x, p.z), y));
+		return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), cone__cone_side_normal(out, slope), vec2f(canonical__longitude(p.x, p.z), y));
 	}
 	let is_top = part > 1.5;
 	let radius = select(bottom, top, is_top);
@@ -3129,6 +3134,10 @@ fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__Ca
 	let sign = select(-1.0, 1.0, is_top);
 	let uv = vec2f(flat.x, -sign * flat.y) / max_f32(radius, 1e-18);
 	return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate_vec2f(0.5 + 0.5 * uv));
+}
+
+fn cone__cone_side_normal(out: vec2f, slope: f32) -> vec3f {
+	return vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
 }
 
 const torus__MOST_ROUNDS: u32 = 40u;

@@ -126,17 +126,18 @@ pub fn cached(
             None => Ok(Arc::new(CachedMesh::new(mesh))),
         },
     };
-    for (before, deformation) in scene.deformations.iter().enumerate() {
+    let mut next = 0;
+    for deformation in &scene.deformations {
         let index = deformation.mesh;
-        let follows = before == 0 || scene.deformations[before - 1].mesh < index;
         let what = match scene.meshes.get(index) {
-            _ if !follows => Some("deformations are not in the order of their meshes".into()),
+            _ if index < next => Some("deformations are not in the order of their meshes".into()),
             Some(mesh) => deformation.inconsistency(mesh.positions.len(), scene.nodes.len()),
             None => Some("it deforms, but does not exist".into()),
         };
         if let Some(what) = what {
             return Err(PackError::Inconsistent { index, what });
         }
+        next = index + 1;
     }
     scene.meshes.iter().enumerate().map(cached).collect()
 }

@@ -44,6 +44,18 @@ fn matte(albedo: f32) -> Material {
     }
 }
 
+/// Glass that bends and reflects nothing: light samples are stopped by it, so that paths find by themselves what is behind it.
+fn clear() -> Material {
+    Material {
+        reflect: Vec3::ONE,
+        transmit: Vec3::ONE,
+        fresnel: Fresnel::Exact,
+        opacity: 0.0,
+        ior: 1.0,
+        ..matte(0.0)
+    }
+}
+
 fn looking(from: DVec3, at: DVec3, fov_y: f64) -> Camera {
     Camera {
         look_from: from,

@@ -1,6 +1,6 @@
 //! What paths from the camera see where there is nothing, opacity, and shadow catchers, against closed forms.
 
-use super::{ball_in, looking, matte, near, paths};
+use super::{ball_in, clear, looking, matte, near, paths};
 use crate::film::{bytes, film, traced};
 use crate::reference::compare::{open_gpu, render};
 use crate::reference::scenes::Build;
@@ -345,15 +345,8 @@ fn what_the_cap_takes_from_catchers_is_reported() {
         "light samples have no cap"
     );
 
-    let clear = scene.add_material(Material {
-        reflect: Vec3::ONE,
-        transmit: Vec3::ONE,
-        opacity: 0.0,
-        ior: 1.0,
-        fresnel: Fresnel::Exact,
-        ..matte(0.0)
-    });
-    scene.add_sphere(center, 0.16, clear);
+    let shell = scene.add_material(clear());
+    scene.add_sphere(center, 0.16, shell);
     let settings = RenderSettings {
         size: (8, 8),
         ..behind(Backdrop::Transparent, 4096)

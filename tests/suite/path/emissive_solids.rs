@@ -1,15 +1,15 @@
 //! Emissive shapes that no lamp has the form of, as lights of paths.
 
 use super::emission_maps::add_picture_texture;
-use super::{lit_floor, looking, matte, mean, near, paths};
+use super::{clear, lit_floor, looking, matte, mean, near, paths};
 use crate::motion_blur::{exposed, track};
 use crate::reference::scenes::{Build, ball, lattice, torus};
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DMat3, DQuat, DVec3, UVec2, Vec3, dvec3, uvec2};
 use glimray::pack;
 use glimray::scene::{
-    Antialias, CanonicalShape, Fresnel, Geometry, Light, Material, Mesh, Node, NodeProperty,
-    Picture, Scene, Shape, Target, Values,
+    Antialias, CanonicalShape, Geometry, Light, Material, Mesh, Node, NodeProperty, Picture, Scene,
+    Shape, Target, Values,
 };
 use std::f64::consts::TAU;
 
@@ -256,15 +256,8 @@ fn textures_of_glowing_shapes_are_looked_up_where_their_samples_are() {
         add_picture_texture(&mut scene, Picture::opaque(2, 2, texels));
         scene.materials[1].textures.emission = Some(0);
         let mut found_by_paths = scene.clone();
-        let clear = found_by_paths.add_material(Material {
-            reflect: Vec3::ONE,
-            transmit: Vec3::ONE,
-            fresnel: Fresnel::Exact,
-            opacity: 0.0,
-            ior: 1.0,
-            ..matte(0.0)
-        });
-        found_by_paths.add_sphere(placed(0.3).translation, 0.9, clear);
+        let shell = found_by_paths.add_material(clear());
+        found_by_paths.add_sphere(placed(0.3).translation, 0.9, shell);
         let found = mean(&scene, &paths(512, (24, 16), 0));
         // Two bounces lead through the shell.
         let expected = mean(&found_by_paths, &paths(4096, (24, 16), 2));

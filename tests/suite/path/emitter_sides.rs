@@ -3,7 +3,7 @@
 
 use super::emitter_tree::{lambert, mean_irradiance};
 use super::light_chances::{chances, mean_from};
-use super::{glowing_square, lit_floor, looking, matte, mean, near, paths};
+use super::{clear, glowing_square, lit_floor, looking, matte, mean, near, paths};
 use crate::motion_blur::track;
 use crate::reference::scenes::{Build, quad};
 use crate::support::verdict::Verdict;
@@ -11,8 +11,8 @@ use glam::{DAffine3, DVec3, Vec3, dvec3};
 use glimray::pack;
 use glimray::render::RenderSettings;
 use glimray::scene::{
-    CanonicalShape, Deformation, Fresnel, Geometry, Light, Material, MorphTarget, Scene, Shape,
-    Target, Values,
+    CanonicalShape, Deformation, Geometry, Light, Material, MorphTarget, Scene, Shape, Target,
+    Values,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -202,22 +202,14 @@ fn emitters_that_touch_glass_are_hit_with_their_own_chance() {
             });
         }
         glowing_square(&mut scene, lamps[1], 3.0);
-        let clear = scene.add_material(Material {
-            diffuse: Vec3::ZERO,
-            reflect: Vec3::ONE,
-            transmit: Vec3::ONE,
-            fresnel: Fresnel::Exact,
-            opacity: 0.0,
-            ior: 1.0,
-            ..Material::default()
-        });
+        let shell = scene.add_material(clear());
         scene.shapes.push(Shape {
             geometry: Geometry::Placed {
                 canonical: CanonicalShape::Box,
                 world_from_canonical: DAffine3::from_translation(dvec3(0.4, 0.9 - 4e-6, -0.9))
                     * DAffine3::from_scale(dvec3(0.5, 0.1, 0.5)),
             },
-            material: clear,
+            material: shell,
             node: None,
         });
         let front = tilted.transform_vector3(DVec3::NEG_Y);

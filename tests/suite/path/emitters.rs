@@ -1,6 +1,6 @@
 //! Emissive shapes as lights of paths.
 
-use super::{lights, lit_floor, looking, matte, mean, near, paths};
+use super::{clear, lights, lit_floor, looking, matte, mean, near, paths};
 use crate::motion_blur::{exposed, track};
 use crate::reference::compare::render;
 use crate::reference::scenes::Build;
@@ -317,14 +317,8 @@ fn light_samples_of_a_glowing_mesh_take_most_of_the_noise_away() {
         DAffine3::from_translation(center),
     );
     let mut found = sampled.clone();
-    let clear = found.add_material(Material {
-        diffuse: Vec3::ZERO,
-        transmit: Vec3::ONE,
-        opacity: 0.0,
-        ior: 1.0,
-        ..Material::default()
-    });
-    found.add_sphere(center, 1.1 * f64::from(radius), clear);
+    let shell = found.add_material(clear());
+    found.add_sphere(center, 1.1 * f64::from(radius), shell);
     let pictures = [&sampled, &found].map(|scene| {
         let image = |samples| render(scene, &paths(samples, (40, 30), 6)).0;
         let (few, many) = (image(64), image(4096));
