@@ -119,3 +119,12 @@ impl PictureLayer {
         }
     }
 }
+
+/// A denoised picture with the raw one beside it. Most programs show the nameless layer, and the denoised picture is what was
+/// asked for.
+pub fn beside_raw(denoised: &Image, raw: &Image, opacity: bool) -> Vec<ImageLayer> {
+    vec![
+        ImageLayer::color("", denoised, opacity, false),
+        ImageLayer::color("beauty", raw, opacity, false),
+    ]
+}

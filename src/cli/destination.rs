@@ -82,7 +82,7 @@ impl Destination {
     pub fn takes_layers(&self) -> bool {
         let format = self.options.format;
         let format = format.or_else(|| Format::from_path(&self.path));
-        self.is_film() || format == Some(Format::Exr)
+        self.is_film() || format.is_some_and(Format::has_layers)
     }
 
     pub fn save(&self, picture: &Finished) -> Result<(), AppError> {

@@ -1,7 +1,7 @@
 //! Layers of pictures on the command line, and denoised pictures.
 
 use crate::app::error::AppError;
-use crate::app::layers::LAYERS;
+use crate::app::layers::{LAYERS, beside_raw};
 use crate::cli::args::LayerFlags;
 use crate::gpu::Gpu;
 use crate::image::Image;
@@ -159,11 +159,7 @@ impl LayerFlags {
         features: &Features,
     ) -> Vec<ImageLayer> {
         if let (Some(denoised), true) = (denoised, self.layers.is_empty()) {
-            // Most programs show the nameless layer, and this is the picture that was asked for.
-            return vec![
-                ImageLayer::color("", denoised, opacity, false),
-                ImageLayer::color("beauty", raw, opacity, false),
-            ];
+            return beside_raw(denoised, raw, opacity);
         }
         let known = LAYERS.0.iter().map(|(.., layer)| layer);
         let wanted = known.filter(|layer| self.layers.contains(layer));

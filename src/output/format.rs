@@ -43,6 +43,11 @@ impl Format {
         matches!(self, Self::Png | Self::Exr)
     }
 
+    /// Whether it stores several layers.
+    pub fn has_layers(self) -> bool {
+        self == Self::Exr
+    }
+
     /// Refuses images that exceed the format's limits.
     pub(super) fn check_size(self, width: u32, height: u32) -> Result<(), OutputError> {
         let (max_width, max_height) = self.max_size();

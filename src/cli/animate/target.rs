@@ -130,7 +130,7 @@ impl Target {
 
     /// Whether the frames can take layers.
     pub fn takes_layers(&self) -> bool {
-        (self.frames.as_ref()).is_some_and(|frames| frames.format == Format::Exr)
+        (self.frames.as_ref()).is_some_and(|frames| frames.format.has_layers())
     }
 
     /// Whether the frames keep opacity; a video has none.

@@ -1,13 +1,13 @@
 //! The state of files: open, watched, requested and being written.
 
 use crate::app::inputs::Inputs;
-use crate::image::Image;
 use crate::import::ImportError;
 use crate::output::Format;
 use crate::scene::Picture;
 use crate::viewer::model::file_dialog::{FileDialogs, Reply};
 use crate::viewer::model::loader::Trouble;
 use crate::viewer::model::watch::Watch;
+use crate::viewer::worker::still::Still;
 use eframe::egui::ColorImage;
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -191,7 +191,7 @@ pub struct SaveDialog {
 #[derive(Debug)]
 pub struct Captured {
     /// `None` if the picture must be finished first.
-    pub(in crate::viewer) image: Result<Option<Image>, String>,
+    pub(in crate::viewer) still: Result<Option<Still>, String>,
     pub(in crate::viewer) samples: u32,
     pub(in crate::viewer) of: u32,
     pub(in crate::viewer) target: Target,

@@ -1,14 +1,44 @@
-//! A picture that is rendered for a file, beside the one in the window.
+//! Pictures for files: what the window shows, or one that is rendered beside it.
 
 use crate::gpu::Gpu;
 use crate::image::Image;
 use crate::pack;
-use crate::render::{Renderer, Tone};
+use crate::render::{RenderError, Renderer, Tone};
 use crate::viewer::worker::classical::ShownScenes;
 use crate::viewer::worker::progressive_image::{ImageError, packing, policy};
 use crate::viewer::worker::request::RenderRequest;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A picture for a file.
+#[derive(Clone, Debug)]
+pub struct Still {
+    /// The picture, denoised if its tone asks for that.
+    pub image: Image,
+    /// The raw picture beside a denoised one, if it is kept.
+    pub raw: Option<Image>,
+}
+
+impl Still {
+    /// Develops the samples so far.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn developed(
+        renderer: &mut Renderer,
+        tone: &Tone,
+        keeps_raw: bool,
+    ) -> Result<Self, RenderError> {
+        let image = renderer.develop(tone)?;
+        let has_raw = keeps_raw && renderer.denoises(tone);
+        let tone = Tone {
+            denoise: false,
+            ..*tone
+        };
+        let raw = has_raw.then(|| renderer.develop(&tone)).transpose()?;
+        Ok(Self { image, raw })
+    }
+}
 
 /// Renders all samples of a request in slices that keep the window responsive. Returns `None` once `is_cancelled` is set.
 ///
@@ -18,8 +48,9 @@ pub fn render(
     gpu: Gpu,
     request: &RenderRequest,
     tone: &Tone,
+    keeps_raw: bool,
     is_cancelled: &AtomicBool,
-) -> Result<Option<Image>, ImageError> {
+) -> Result<Option<Still>, ImageError> {
     let scene = ShownScenes::default().of(request);
     let packed = Arc::new(pack::scene(&scene)?);
     let (open, close) = request.shutter_interval;
@@ -33,5 +64,5 @@ pub fn render(
         }
         renderer.step()?;
     }
-    Ok(Some(renderer.develop(tone)?))
+    Ok(Some(Still::developed(&mut renderer, tone, keeps_raw)?))
 }

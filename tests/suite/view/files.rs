@@ -6,10 +6,10 @@ use eframe::egui;
 use egui_kittest::kittest::{Queryable, by};
 use glimray::image::Image;
 use glimray::scene::Background;
-use glimray::viewer::actions::files;
+use glimray::viewer::actions::files::{self, pictures};
 use glimray::viewer::model::file_dialog::{FileDialogs, Reply};
 use glimray::viewer::model::messages::sentence;
-use glimray::viewer::state::files::Intent;
+use glimray::viewer::state::files::{Intent, SaveSize};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -338,6 +338,47 @@ fn a_saved_picture_has_the_bytes_of_the_command_lines() {
         assert!(output.status.success(), "{output:?}");
         let [ours, theirs] = [ours, theirs].map(|path| fs::read(path).expect("a picture"));
         assert!(ours == theirs, "the {ending} files differ");
+    }
+}
+
+/// An OpenEXR file has the raw picture as a layer, whether the window's picture is saved or one is rendered for it.
+#[test]
+fn a_denoised_picture_has_the_bytes_of_the_command_lines() {
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
+    let path = place.path("one.toml");
+    let path = path.to_str().expect("a name");
+    let flags = ["--samples", "2", "--integrator", "path", "--denoise"];
+    let mut window = Window::open(&[&[path, "--size", "48x32"], flags.as_slice()].concat());
+    window.settle();
+    for (ending, larger) in [
+        ("png", false),
+        ("exr", false),
+        ("exr", true),
+        ("hdr", false),
+    ] {
+        let name = |side: &str| place.path(&format!("{side}_{larger}.{ending}"));
+        let (ours, theirs) = (name("ours"), name("theirs"));
+        let size = match larger {
+            true => "96x64",
+            false => "48x32",
+        };
+        {
+            let mut session = window.session();
+            pictures::open(&mut session, false);
+            let dialog = session.files.saving.as_mut().expect("a sheet");
+            dialog.path = ours.display().to_string();
+            if larger {
+                dialog.size = SaveSize::Twice;
+            }
+            pictures::save(&mut session, false);
+        }
+        wait(&mut window, "the picture is written", |_| ours.exists());
+        let out = theirs.to_str().expect("a name");
+        let line = ["render", path, "-o", out, "--size", size];
+        let output = glimray(&[line.as_slice(), &flags].concat());
+        assert!(output.status.success(), "{output:?}");
+        let [ours, theirs] = [ours, theirs].map(|path| fs::read(path).expect("a picture"));
+        assert!(ours == theirs, "the {ending} files of {size} differ");
     }
 }
 

@@ -1,8 +1,8 @@
 //! Saves the picture to a file, as `glimray render` would.
 
 use crate::app::advice;
-use crate::image::Image;
-use crate::output::{self, SaveOptions};
+use crate::app::layers::beside_raw;
+use crate::output::{self, LayeredImage, SaveOptions};
 use crate::render::Tone;
 use crate::viewer::actions::files::{NO_DIALOG, short};
 use crate::viewer::model::file_dialog::{self, PICTURES, Reply, Request};
@@ -13,7 +13,7 @@ use crate::viewer::state::files::Target;
 use crate::viewer::state::files::{Pose, Rendering, SaveSize};
 use crate::viewer::state::session::Session;
 use crate::viewer::worker::progressive_image::{FrameRenderer, PictureSlot};
-use crate::viewer::worker::still;
+use crate::viewer::worker::still::{self, Still};
 use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -163,8 +163,9 @@ fn render(session: &mut Session, mut target: Target, size: (u32, u32)) {
     session.ask(move |frame| {
         let gpu = frame.renderer.gpu().clone();
         let work = move || {
-            let outcome = match still::render(gpu, &order, &tone, &is_cancelled) {
-                Ok(Some(image)) => write_file(&image, &target, "").map(Some),
+            let keeps_raw = target.format.has_layers();
+            let outcome = match still::render(gpu, &order, &tone, keeps_raw, &is_cancelled) {
+                Ok(Some(still)) => write_file(&still, &target, "").map(Some),
                 Ok(None) => Ok(None),
                 Err(error) => Err(error.to_string()),
             };
@@ -179,7 +180,7 @@ fn render(session: &mut Session, mut target: Target, size: (u32, u32)) {
 }
 
 /// Writes a picture. The outcome is a message.
-fn write_file(image: &Image, target: &Target, how_far: &str) -> Result<String, String> {
+fn write_file(still: &Still, target: &Target, how_far: &str) -> Result<String, String> {
     let options = SaveOptions {
         format: Some(target.format),
         quality: target.quality,
@@ -187,7 +188,19 @@ fn write_file(image: &Image, target: &Target, how_far: &str) -> Result<String, S
         opacity: target.opacity,
         ..SaveOptions::default()
     };
-    match output::save_with(&target.path, image, &options) {
+    let saved = match &still.raw {
+        None => output::save_with(&target.path, &still.image, &options),
+        Some(raw) => {
+            let layers = LayeredImage {
+                width: raw.width,
+                height: raw.height,
+                layers: beside_raw(&still.image, raw, target.opacity),
+                in_parts: false,
+            };
+            output::save_layers(&target.path, &layers, &options)
+        }
+    };
+    match saved {
         Ok(()) => Ok(format!("Saved {}{how_far}", target.path.display())),
         Err(error) => Err(error.to_string()),
     }
@@ -207,7 +220,7 @@ fn ask(session: &mut Session, target: Target, waits: Option<u32>) {
 fn capture(frame: &mut FrameRenderer, target: Target, waits: Option<u32>, linear: Tone) -> Answer {
     let of = frame.settings().samples;
     let mut captured = Captured {
-        image: Ok(None),
+        still: Ok(None),
         samples: 0,
         of,
         target,
@@ -220,13 +233,14 @@ fn capture(frame: &mut FrameRenderer, target: Target, waits: Option<u32>, linear
         true => linear,
         false => frame.order.tone,
     };
-    match frame.image(&tone) {
-        Ok((image, samples)) => {
-            captured.samples = samples;
+    let keeps_raw = captured.target.format.has_layers();
+    match Still::developed(frame.renderer, &tone, keeps_raw) {
+        Ok(still) => {
+            captured.samples = frame.renderer.samples_done();
             captured.target.opacity = frame.settings().has_opacity();
-            captured.image = Ok(Some(image));
+            captured.still = Ok(Some(still));
         }
-        Err(error) => captured.image = Err(advice::render(&error)),
+        Err(error) => captured.still = Err(advice::render(&error)),
     }
     Answer::Picture(Box::new(captured))
 }
@@ -240,8 +254,8 @@ pub fn captured(session: &mut Session, captured: Captured) {
         session.messages.warn(not_finished(&captured.target));
         return;
     }
-    let image = match captured.image {
-        Ok(Some(image)) => image,
+    let still = match captured.still {
+        Ok(Some(still)) => still,
         Ok(None) => {
             pending.waiting.push(captured.target);
             return;
@@ -255,14 +269,14 @@ pub fn captured(session: &mut Session, captured: Captured) {
         true => format!(" ({} of {} samples)", captured.samples, captured.of),
         false => String::new(),
     };
-    write(session, image, captured.target, how_far);
+    write(session, still, captured.target, how_far);
 }
 
 /// Writes on a separate thread.
-pub(super) fn write(session: &mut Session, image: Image, target: Target, how_far: String) {
+pub(super) fn write(session: &mut Session, still: Still, target: Target, how_far: String) {
     let (sender, receiver) = channel();
     let work = move || {
-        let outcome = write_file(&image, &target, &how_far);
+        let outcome = write_file(&still, &target, &how_far);
         // The window may have been closed meanwhile.
         let _ = sender.send(outcome);
     };

@@ -3,6 +3,7 @@
 use crate::image::Image;
 use crate::viewer::actions::files::pictures;
 use crate::viewer::state::session::Session;
+use crate::viewer::worker::still::Still;
 use eframe::egui::{self, ColorImage, Rect};
 use std::sync::mpsc::{TryRecvError, channel};
 
@@ -35,7 +36,8 @@ pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
                 return;
             };
             let image = cut(&image, view.rect, ctx.pixels_per_point());
-            pictures::write(session, image, pose.target, String::new());
+            let still = Still { image, raw: None };
+            pictures::write(session, still, pose.target, String::new());
         }
         Err(TryRecvError::Empty) => session.files.pending.pose = Some(pose),
         Err(TryRecvError::Disconnected) => {
