@@ -21,8 +21,10 @@ const FINER_LEVELS: u32 = 2;
 /// The grid of a sky has 2 to this power rows: it is smooth, as its sun is not in the picture.
 const SKY_LEVELS: u32 = 7;
 
-/// A picture with less than this part of its light above the mean has no table.
-const LEAST_PART: f64 = 1e-3;
+/// A picture has no table if the variance of its luminance over all directions, divided by the square of the mean, is less
+/// than this: paths find its light so well that a second ray at each surface does not pay (`benches/LOG.md`, 2026-11-28). A gradient
+/// from black has 1/3.
+const LEAST_VARIANCE: f64 = 0.5;
 
 /// A chance is a multiple of 1 divided by this.
 const STEPS: u32 = 1023;
@@ -48,7 +50,7 @@ pub struct Environment {
     pub sun_chance: f64,
 }
 
-/// The table of the scene's background; `None` if that is no picture, or one that is as bright everywhere. The table
+/// The table of the scene's background; `None` if that is no picture, or one that is about as bright everywhere. The table
 /// `before` is reused if it is of the same picture.
 pub fn of_scene(
     scene: &Scene,
@@ -80,9 +82,10 @@ pub fn of_scene(
         f64::from(width) * sky::SUN_SOLID_ANGLE / (4.0 * PI) * sun.radiance.dot(scene::LUMINANCE)
     });
     let total = weights.iter().sum::<f64>() + sun;
+    let pays = sun > 0.0 || relative_variance(&weights, levels) > LEAST_VARIANCE;
     compensate(&mut weights, levels);
     let samples = weights.iter().sum::<f64>() + sun;
-    (samples > LEAST_PART * total).then(|| Environment {
+    (pays && samples > 0.0).then(|| Environment {
         index,
         picture: picture.clone(),
         largest,
@@ -201,6 +204,24 @@ fn weights(picture: &Picture, largest: f32, levels: u32) -> Vec<f64> {
         line.iter_mut().for_each(|sum| *sum *= band);
     }
     sums
+}
+
+/// The variance of the luminance over all directions, divided by the square of its mean; 0 without light.
+fn relative_variance(weights: &[f64], levels: u32) -> f64 {
+    let columns = 2 << levels;
+    let lines = weights.chunks(columns).zip(bands(levels));
+    let squares = lines.map(|(line, band)| {
+        line.iter()
+            .map(|weight| weight * weight / band)
+            .sum::<f64>()
+    });
+    let mean = weights.iter().sum::<f64>() / columns as f64;
+    let mean_square = squares.sum::<f64>() / columns as f64;
+    if mean > 0.0 {
+        mean_square / (mean * mean) - 1.0
+    } else {
+        0.0
+    }
 }
 
 /// Takes the mean radiance off these weights. Paths find light of the mean radiance by themselves, so light samples are for

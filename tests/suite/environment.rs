@@ -113,11 +113,11 @@ fn grey(width: u32, height: u32, value: impl Fn(u32, u32) -> f32) -> Picture {
     Picture::opaque(width, height, all)
 }
 
-/// Random texels between 0 and 1, cubed, so that they differ much.
+/// Random texels between 0 and 1, to a power, so that they differ much.
 fn random_picture(width: u32, height: u32) -> Picture {
     let mut random = Random::new(u64::from(width));
     let values: Vec<_> = (0..width * height)
-        .map(|_| random.between(0.0, 1.0).powi(3) as f32)
+        .map(|_| random.between(0.0, 1.0).powi(6) as f32)
         .collect();
     grey(width, height, |x, y| values[(y * width + x) as usize])
 }
@@ -318,12 +318,29 @@ fn densities_are_in_proportion_to_the_light_above_the_mean() {
     verdict.close();
 }
 
+/// Of the height h of a direction, in -1..=1, ((1 + h)/2)^k has the mean 1/(k + 1) over all directions, and its square
+/// 1/(2k + 1). So the variance over the square of the mean is k²/(2k + 1): 1/3 for a gradient from black, 4/5 for its square.
 #[test]
 fn an_even_picture_has_no_table() {
-    let scene = plane_under(grey(16, 8, |_, _| 0.7), DVec3::Y, 0.0);
-    let packed = pack::scene(&scene).expect("a packed scene");
-    let frame = packed.frame(&scene.frame(0.0)).expect("a view").frame;
-    assert_eq!((frame.environment_width, frame.environment_share), (0, 0.0));
+    let heights = |power: i32| {
+        grey(64, 32, move |_, y| {
+            let height = (PI * (0.5 - (f64::from(y) + 0.5) / 32.0)).sin();
+            (0.5 + 0.5 * height).powi(power) as f32
+        })
+    };
+    for (picture, has_table) in [
+        (grey(16, 8, |_, _| 0.7), false),
+        (grey(16, 8, |_, _| 0.0), false),
+        (heights(1), false),
+        (heights(2), true),
+        (heights(8), true),
+    ] {
+        let scene = plane_under(picture, DVec3::Y, 0.0);
+        let packed = pack::scene(&scene).expect("a packed scene");
+        let frame = packed.frame(&scene.frame(0.0)).expect("a view").frame;
+        assert_eq!(frame.environment_width > 0, has_table);
+        assert_eq!(frame.environment_share > 0.0, has_table);
+    }
 }
 
 /// Light samples go to the sun, and paths to an even sky. Its radiance is always the same, and what differs are edges of
