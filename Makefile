@@ -144,7 +144,7 @@ build: compiler shaders
 # Links the kernels again where a shader has changed since. Sums are compared, not times: a fresh
 # checkout has none to go by.
 shaders: linker
-	@cd shaders && find * -name '*.wesl' | LC_ALL=C sort | xargs cksum | diff -q - linked/sources.txt > /dev/null || { \
+	@cd shaders && find * -name '*.wesl' | LC_ALL=C sort | xargs cksum | diff - linked/sources.txt > /dev/null || { \
 		cd .. && echo 'A shader has changed: linking the kernels again.' && \
 		$(CARGO) check $(FLAGS) --lib --no-default-features --features link; }
 
