@@ -3243,7 +3243,7 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 	let ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
 	var n = select(surface.n, -surface.n, dot(surface.n, direction) > 0.0);
 	n = select(ng, n, dot(fresnel__mirrored(direction, n), ng) > 0.0);
-	let boundary = boundary__boundary_at(optics.flags, clamp_f32(-dot(direction, n), 0.0, 1.0), eta);
+	let boundary = fresnel__boundary_at(optics.flags, clamp_f32(-dot(direction, n), 0.0, 1.0), eta);
 	var reflect = factors[0] * surface.phong.reflect;
 	var transmit = factors[1] * optics.transmit;
 	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
@@ -4214,8 +4214,6 @@ fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) 
 	return vec4f(numeric__normalize_or(within - dot(within, n) * n, other), hand);
 }
 
-const layers__SMOOTH: f32 = 0.0001;
-
 struct layers__Layers {
 	diffuse: vec3f,
 	f0: vec3f,
@@ -4587,6 +4585,14 @@ fn fresnel__schlick(cos_i: f32, eta: f32, exact: fresnel__Boundary) -> f32 {
 	return select(mix(r0, 1.0, grazing), 1.0, exact.total);
 }
 
+fn fresnel__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
+	var boundary = fresnel__fresnel(cos_i, eta);
+	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
+		boundary.reflectance = fresnel__schlick(cos_i, eta, boundary);
+	}
+	return boundary;
+}
+
 fn fresnel__schlick_weight(cosine: f32) -> f32 {
 	let x = 1.0 - clamp_f32(cosine, 0.0, 1.0);
 	let x2 = x * x;
@@ -4600,14 +4606,6 @@ fn fresnel__mirrored(direction: vec3f, n: vec3f) -> vec3f {
 fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f {
 	let cos_i = -dot(direction, n);
 	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
-}
-
-fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
-	var boundary = fresnel__fresnel(cos_i, eta);
-	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
-		boundary.reflectance = fresnel__schlick(cos_i, eta, boundary);
-	}
-	return boundary;
 }
 
 fn leaving__leaving_ray(surface: shading__Surface, direction: vec3f, t_max: f32) -> tracing__Ray {
@@ -4912,11 +4910,11 @@ fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, 
 	let cos_i = min_f32(abs(dot(surface.n, ray.direction)), 1.0);
 	if (bindings__SOLID_GLASS) {
 		let layers = layers__layers_at(surface, optics);
-		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < layers__SMOOTH;
+		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < bsdf_ggx__SMOOTH;
 		let medium = medium__medium_of(behind);
 		var share = 1.0;
 		if ((layers.fresnel & types__MATERIAL_FRESNEL) != 0u) {
-			share -= boundary__boundary_at(layers.fresnel, cos_i, medium.ior / layers.ior).reflectance;
+			share -= fresnel__boundary_at(layers.fresnel, cos_i, medium.ior / layers.ior).reflectance;
 		}
 		return select(vec3f(0.0), share * layers.transmit * medium__transmittance(medium, distance), is_window);
 	}
@@ -4939,6 +4937,8 @@ fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
 	let turn = vec2f(cos(rotation), sin(rotation));
 	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
 }
+
+const bsdf_ggx__SMOOTH: f32 = 0.0001;
 
 override bindings__EXTREMES_BY_SELECT: bool = false;
 

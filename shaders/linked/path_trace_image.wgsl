@@ -1717,11 +1717,11 @@ fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, 
 	let cos_i = min_f32(abs(dot(surface.n, ray.direction)), 1.0);
 	if (bindings__SOLID_GLASS) {
 		let layers = layers__layers_at(surface, optics);
-		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < layers__SMOOTH;
+		let is_window = (optics.flags & types__MATERIAL_THIN) != 0u && layers.boundary_alpha < bsdf_ggx__SMOOTH;
 		let medium = medium__medium_of(behind);
 		var share = 1.0;
 		if ((layers.fresnel & types__MATERIAL_FRESNEL) != 0u) {
-			share -= boundary__boundary_at(layers.fresnel, cos_i, medium.ior / layers.ior).reflectance;
+			share -= fresnel__boundary_at(layers.fresnel, cos_i, medium.ior / layers.ior).reflectance;
 		}
 		return select(vec3f(0.0), share * layers.transmit * medium__transmittance(medium, distance), is_window);
 	}
@@ -4270,8 +4270,6 @@ fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) 
 	return vec4f(numeric__normalize_or(within - dot(within, n) * n, other), hand);
 }
 
-const layers__SMOOTH: f32 = 0.0001;
-
 struct layers__Layers {
 	diffuse: vec3f,
 	f0: vec3f,
@@ -4629,12 +4627,35 @@ fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
 	return vec2f(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
 }
 
-fn boundary__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
-	var boundary = fresnel__fresnel(cos_i, eta);
-	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
-		boundary.reflectance = fresnel__schlick(cos_i, eta, boundary);
-	}
-	return boundary;
+const bsdf_ggx__SMOOTH: f32 = 0.0001;
+
+fn bsdf_ggx__ggx_distribution(h: vec3f, alpha: vec2f) -> f32 {
+	let scaled = vec3f(h.xy / alpha, h.z);
+	let squared = dot(scaled, scaled);
+	return select(0.0, 1.0 / (warp__PI * alpha.x * alpha.y * squared * squared), h.z > 0.0);
+}
+
+fn bsdf_ggx__ggx_lambda(w: vec3f, alpha: vec2f) -> f32 {
+	let slope = alpha * w.xy;
+	return 0.5 * (sqrt(1.0 + dot(slope, slope) / max_f32(w.z * w.z, 1e-12)) - 1.0);
+}
+
+fn bsdf_ggx__ggx_normal(wo: vec3f, alpha: vec2f, u: vec2f) -> vec3f {
+	let stretched = normalize(vec3f(alpha * wo.xy, wo.z));
+	let z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
+	let radius = sqrt(clamp_f32(1.0 - z * z, 0.0, 1.0));
+	let angle = 2.0 * warp__PI * u.x;
+	let sum = vec3f(radius * cos(angle), radius * sin(angle), z) + stretched;
+	return normalize(vec3f(alpha * sum.xy, max_f32(sum.z, 1e-6)));
+}
+
+fn bsdf_ggx__ggx_eval(wo: vec3f, wi: vec3f, alpha: vec2f, separable: bool) -> vec2f {
+	let h = normalize(vec3f(wo.xy + wi.xy, max_f32(wo.z, 0.0) + max_f32(wi.z, 1e-6)));
+	let seen = 1.0 + bsdf_ggx__ggx_lambda(wo, alpha);
+	let lit = 1.0 + bsdf_ggx__ggx_lambda(wi, alpha);
+	let facets = bsdf_ggx__ggx_distribution(h, alpha) / (4.0 * max_f32(wo.z, 1e-6));
+	let shadowed = select(seen + lit - 1.0, seen * lit, separable);
+	return select(vec2f(0.0), vec2f(facets / shadowed, facets / seen), wo.z > 0.0 && wi.z > 0.0);
 }
 
 struct fresnel__Boundary {
@@ -4666,6 +4687,14 @@ fn fresnel__schlick(cos_i: f32, eta: f32, exact: fresnel__Boundary) -> f32 {
 	return select(mix(r0, 1.0, grazing), 1.0, exact.total);
 }
 
+fn fresnel__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
+	var boundary = fresnel__fresnel(cos_i, eta);
+	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
+		boundary.reflectance = fresnel__schlick(cos_i, eta, boundary);
+	}
+	return boundary;
+}
+
 fn fresnel__schlick_weight(cosine: f32) -> f32 {
 	let x = 1.0 - clamp_f32(cosine, 0.0, 1.0);
 	let x2 = x * x;
@@ -4674,6 +4703,10 @@ fn fresnel__schlick_weight(cosine: f32) -> f32 {
 
 fn fresnel__schlick_between(f0: vec3f, f90: vec3f, cosine: f32) -> vec3f {
 	return mix(f0, f90, fresnel__schlick_weight(cosine));
+}
+
+fn fresnel__mirrored(direction: vec3f, n: vec3f) -> vec3f {
+	return normalize(direction - 2.0 * dot(direction, n) * n);
 }
 
 fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f {
@@ -5658,8 +5691,6 @@ fn shape_sampling__torus_density(minor: f32) -> f32 {
 	return 1.0 / (4.0 * warp__PI * warp__PI * minor);
 }
 
-const coating__COAT_F0: f32 = 0.04;
-
 struct coating__Coating {
 	coat: f32,
 	coat_axis: vec3f,
@@ -5668,31 +5699,25 @@ struct coating__Coating {
 	sheen_alpha: f32,
 	below_coat: f32,
 	left: f32,
-	fresnel: f32,
 	albedos: vec2f
 }
 
 fn coating__coating_at(layers: layers__Layers, wo: vec3f, coat_axis: vec3f) -> coating__Coating {
-	let coat_cos = dot(wo, coat_axis);
-	let coat_alpha = max_f32(layers.coat_roughness * layers.coat_roughness, layers__SMOOTH);
+	let coat_alpha = max_f32(layers.coat_roughness * layers.coat_roughness, bsdf_ggx__SMOOTH);
 	let sheen_alpha = max_f32(layers.sheen_roughness * layers.sheen_roughness, 0.001);
 	let of_sheen = albedo__sheen_albedo(wo.z, sheen_alpha);
-	let coat_albedo = layers.coat * coating__coat_reflectance(coat_cos, coat_alpha);
+	let coat_albedo = layers.coat * coating__coat_reflectance(dot(wo, coat_axis), coat_alpha);
 	let below_coat = 1.0 - coat_albedo;
 	let sheen = (below_coat * select(of_sheen.y, 1.0, bindings__BSDF_SPEC)) * layers.sheen;
-	return coating__Coating(layers.coat, coat_axis, coat_alpha, sheen, sheen_alpha, below_coat, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), coating__coat_fresnel(coat_cos), vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
-}
-
-fn coating__coat_fresnel(cosine: f32) -> f32 {
-	return mix(coating__COAT_F0, 1.0, fresnel__schlick_weight(cosine));
+	return coating__Coating(layers.coat, coat_axis, coat_alpha, sheen, sheen_alpha, below_coat, below_coat * (1.0 - numeric__max_component(layers.sheen) * of_sheen.x), vec2f(coat_albedo, below_coat * of_sheen.x * dot(layers.sheen, tone__LUMINANCE_REC709)));
 }
 
 fn coating__coat_reflectance(cos_o: f32, alpha: f32) -> f32 {
 	if (bindings__BSDF_SPEC) {
-		return coating__coat_fresnel(cos_o);
+		return bsdf_coat__coat_fresnel(cos_o);
 	}
 	let albedo = albedo__ggx_albedo(cos_o, alpha);
-	return coating__COAT_F0 * albedo.x + albedo.y;
+	return bsdf_coat__COAT_F0 * albedo.x + albedo.y;
 }
 
 fn coating__through_coat(surface: shading__Surface, cosine: f32) -> f32 {
@@ -5706,19 +5731,16 @@ fn coating__through_coat(surface: shading__Surface, cosine: f32) -> f32 {
 		coat *= layers__textured(own, types__SLOT_COAT, surface).x;
 		roughness *= layers__textured(own, types__SLOT_COAT_ROUGHNESS, surface).y;
 	}
-	return 1.0 - coat * coating__coat_reflectance(clamp_f32(cosine, 0.0, 1.0), max_f32(roughness * roughness, layers__SMOOTH));
+	return 1.0 - coat * coating__coat_reflectance(clamp_f32(cosine, 0.0, 1.0), max_f32(roughness * roughness, bsdf_ggx__SMOOTH));
 }
 
-fn coating__coat_eval(coating: coating__Coating, wo: vec3f, wi: vec3f) -> vec2f {
-	let cos_h = dot(wo, numeric__normalize_or(wo + wi, wo));
-	let reflectance = coating.coat * select(coating__coat_fresnel(cos_h), coating.fresnel, bindings__BSDF_SPEC);
-	let white = bsdf_ggx__ggx_eval(coating__to_coat(coating, wo), coating__to_coat(coating, wi), vec2f(coating.coat_alpha), bindings__BSDF_SPEC);
-	return vec2f(reflectance * white.x, white.y);
+fn coating__coating_eval(coating: coating__Coating, wo: vec3f, wi: vec3f) -> vec2f {
+	let whole = bsdf_coat__coat_eval(coating__to_coat(coating, wo), coating__to_coat(coating, wi), coating.coat_alpha, bindings__BSDF_SPEC);
+	return vec2f(coating.coat * whole.x, whole.y);
 }
 
 fn coating__coating_sample(coating: coating__Coating, wo: vec3f, u: vec2f, is_coat: bool) -> vec3f {
-	let own = coating__to_coat(coating, wo);
-	var reflected = boundary_lobe__reflected_at(own, bsdf_ggx__ggx_normal(own, vec2f(coating.coat_alpha), u));
+	var reflected = bsdf_coat__coat_sample(coating__to_coat(coating, wo), coating.coat_alpha, u);
 	if (bindings__HAS_COAT_NORMALS) {
 		reflected = warp__turn_to(coating.coat_axis, reflected);
 	}
@@ -5732,6 +5754,22 @@ fn coating__to_coat(coating: coating__Coating, w: vec3f) -> vec3f {
 	let x = warp__turn_to(coating.coat_axis, vec3f(1.0, 0.0, 0.0));
 	let y = warp__turn_to(coating.coat_axis, vec3f(0.0, 1.0, 0.0));
 	return vec3f(dot(w, x), dot(w, y), dot(w, coating.coat_axis));
+}
+
+const bsdf_coat__COAT_F0: f32 = 0.04;
+
+fn bsdf_coat__coat_fresnel(cosine: f32) -> f32 {
+	return mix(bsdf_coat__COAT_F0, 1.0, fresnel__schlick_weight(cosine));
+}
+
+fn bsdf_coat__coat_eval(wo: vec3f, wi: vec3f, alpha: f32, separable: bool) -> vec2f {
+	let cos_h = dot(wo, numeric__normalize_or(wo + wi, wo));
+	let white = bsdf_ggx__ggx_eval(wo, wi, vec2f(alpha), separable);
+	return vec2f(bsdf_coat__coat_fresnel(select(cos_h, wo.z, separable)) * white.x, white.y);
+}
+
+fn bsdf_coat__coat_sample(wo: vec3f, alpha: f32, u: vec2f) -> vec3f {
+	return fresnel__mirrored(-wo, bsdf_ggx__ggx_normal(wo, vec2f(alpha), u));
 }
 
 const albedo__ALBEDO_SIDE: u32 = 32u;
@@ -6003,14 +6041,8 @@ struct lobes__Bsdf {
 	f90: vec3f,
 	gain: vec3f,
 	alpha: vec2f,
-	reflect: vec3f,
-	transmit: vec3f,
-	boundary_alpha: vec2f,
-	boundary_gain: f32,
-	eta: f32,
-	bends: bool,
+	boundary: bsdf_boundary__BoundaryLobe,
 	encloses: bool,
-	flags: u32,
 	through: vec3f,
 	over_f0: vec3f,
 	over_f90: vec3f,
@@ -6021,13 +6053,6 @@ struct lobes__Bsdf {
 	coating_chances: vec2f
 }
 
-struct lobes__Split {
-	reflect: vec3f,
-	transmit: vec3f,
-	reflectance: f32,
-	cos_t: f32
-}
-
 fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: layers__Layers, met: interface__Interface, direction: vec3f) -> lobes__Bsdf {
 	var bsdf: lobes__Bsdf;
 	bsdf.ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
@@ -6035,7 +6060,7 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	bsdf.normal = select(bsdf.ng, n, dot(n, direction) < -0.001);
 	bsdf.x = warp__turn_to(bsdf.normal, vec3f(1.0, 0.0, 0.0));
 	bsdf.y = warp__turn_to(bsdf.normal, vec3f(0.0, 1.0, 0.0));
-	let width = max_f32(layers.alpha, layers__SMOOTH);
+	let width = max_f32(layers.alpha, bsdf_ggx__SMOOTH);
 	bsdf.alpha = vec2f(width);
 	var stretch = vec2f(1.0);
 	if (bindings__HAS_ANISOTROPY && surface.tangent.w != 0.0 && layers.anisotropy > 0.0) {
@@ -6048,22 +6073,13 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	}
 	bsdf.wo = lobes__to_frame(bsdf, -direction);
 	bsdf.metallic = layers.metallic;
-	var seen = lobes__Split();
+	var seen = bsdf_boundary__Split();
 	var inside = 1.0;
 	if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
 		inside = select(0.0, 1.0, met.is_boundary);
-		bsdf.reflect = inside * layers.reflect;
-		bsdf.transmit = select(vec3f(1.0), layers.transmit, met.is_boundary);
-		bsdf.flags = select(0u, layers.fresnel | (optics.flags & types__MATERIAL_SUM), met.is_boundary);
-		bsdf.boundary_alpha = (inside * layers.boundary_alpha) * stretch;
 		bsdf.encloses = met.encloses;
-		bsdf.bends = met.is_boundary && met.encloses;
-		bsdf.eta = met.ior / select(layers.ior, met.ior_behind, met.encloses);
-		bsdf.boundary_alpha *= select(1.0, 0.0, bsdf.bends && abs(bsdf.eta - 1.0) < 0.0001);
-		if (bindings__BSDF_SPEC && bsdf.flags == types__MATERIAL_FRESNEL) {
-			bsdf.flags |= types__MATERIAL_SCHLICK;
-		}
-		seen = lobes__split_at(bsdf, bsdf.wo.z);
+		bsdf.boundary = lobes__boundary_lobe(layers, optics, met, stretch);
+		seen = bsdf_boundary__boundary_split(bsdf.boundary, bsdf.wo.z);
 	}
 	bsdf.f0 = inside * layers.f0;
 	bsdf.f90 = inside * layers.f90;
@@ -6078,14 +6094,13 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 		over = mix(over, film, layers.film * numeric__max_component(layers.over_f90));
 	}
 	let gloss = gloss__gloss_at(layers, bsdf.f0, bsdf.f90, over, inside, bsdf.wo, bsdf.alpha);
-	bsdf.boundary_gain = 1.0;
-	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && bsdf.boundary_alpha.x >= layers__SMOOTH) {
-		let glass = albedo__glass_albedo(bsdf.wo.z, sqrt(bsdf.alpha.x * bsdf.alpha.y), bsdf.eta);
+	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && bsdf.boundary.alpha.x >= bsdf_ggx__SMOOTH) {
+		let glass = albedo__glass_albedo(bsdf.wo.z, sqrt(bsdf.alpha.x * bsdf.alpha.y), bsdf.boundary.eta);
 		let wall = max_f32(gloss.albedo.x + gloss.albedo.y, 0.001);
-		let share = select(min_f32(glass.x * glass.y / wall, 1.0), glass.y, bsdf.bends);
-		bsdf.boundary_gain = 1.0 / select(wall, max_f32(glass.x, 0.001), bsdf.bends);
-		seen.reflect = share * bsdf.reflect;
-		seen.transmit = (1.0 - share) * bsdf.transmit;
+		let share = select(min_f32(glass.x * glass.y / wall, 1.0), glass.y, bsdf.boundary.bends);
+		bsdf.boundary.gain = 1.0 / select(wall, max_f32(glass.x, 0.001), bsdf.boundary.bends);
+		seen.reflect = share * bsdf.boundary.reflect;
+		seen.transmit = (1.0 - share) * bsdf.boundary.transmit;
 	}
 	var left = 1.0 - numeric__max_component(gloss.over);
 	if ((optics.flags & types__MATERIAL_SUM) == 0u) {
@@ -6106,13 +6121,23 @@ fn lobes__bsdf_at(surface: shading__Surface, optics: shading__Optics, layers: la
 	}
 	bsdf.diffuse *= scale;
 	bsdf.gain = scale * gloss.boost;
-	bsdf.reflect *= scale;
-	bsdf.transmit *= scale;
+	bsdf.boundary.reflect *= scale;
+	bsdf.boundary.transmit *= scale;
 	let weights = vec3f(dot(bsdf.diffuse + bsdf.through, tone__LUMINANCE_REC709), scale * dot(gloss.whole, tone__LUMINANCE_REC709), scale * dot(seen.reflect + seen.transmit, tone__LUMINANCE_REC709));
 	let total = max_f32(weights.x + weights.y + weights.z + bsdf.coating.albedos.x + bsdf.coating.albedos.y, 1e-30);
 	bsdf.chances = weights / total;
 	bsdf.coating_chances = bsdf.coating.albedos / total;
 	return bsdf;
+}
+
+fn lobes__boundary_lobe(layers: layers__Layers, optics: shading__Optics, met: interface__Interface, stretch: vec2f) -> bsdf_boundary__BoundaryLobe {
+	let eta = met.ior / select(layers.ior, met.ior_behind, met.encloses);
+	let scatters = met.is_boundary && !(met.encloses && abs(eta - 1.0) < 0.0001);
+	var flags = select(0u, layers.fresnel | (optics.flags & types__MATERIAL_SUM), met.is_boundary);
+	if (bindings__BSDF_SPEC && flags == types__MATERIAL_FRESNEL) {
+		flags |= types__MATERIAL_SCHLICK;
+	}
+	return bsdf_boundary__BoundaryLobe(select(vec3f(0.0), layers.reflect, met.is_boundary), select(vec3f(1.0), layers.transmit, met.is_boundary), select(0.0, layers.boundary_alpha, scatters) * stretch, 1.0, eta, met.is_boundary && met.encloses, flags);
 }
 
 fn lobes__beside_metal(bsdf: lobes__Bsdf, reflected: vec3f) -> f32 {
@@ -6152,23 +6177,9 @@ fn lobes__below_glossy(bsdf: lobes__Bsdf, cos_h: f32) -> f32 {
 	}
 	var left = 1.0 - numeric__max_component(fresnel__schlick_between(bsdf.over_f0, bsdf.over_f90, cos_h));
 	if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
-		left *= 1.0 - lobes__beside_metal(bsdf, lobes__split_at(bsdf, cos_h).reflect);
+		left *= 1.0 - lobes__beside_metal(bsdf, bsdf_boundary__boundary_split(bsdf.boundary, cos_h).reflect);
 	}
 	return left;
-}
-
-fn lobes__split_at(bsdf: lobes__Bsdf, cos_i: f32) -> lobes__Split {
-	let boundary = boundary__boundary_at(bsdf.flags, clamp_f32(cos_i, 0.0, 1.0), bsdf.eta);
-	var split = lobes__Split(bsdf.reflect, bsdf.transmit, boundary.reflectance, boundary.cos_t);
-	if ((bsdf.flags & types__MATERIAL_FRESNEL) != 0u) {
-		split.reflect *= boundary.reflectance;
-		split.transmit *= 1.0 - boundary.reflectance;
-	}
-	else if (boundary.total && bsdf.bends) {
-		split.reflect += select(bsdf.transmit, vec3f(0.0), (bsdf.flags & types__MATERIAL_SUM) != 0u);
-		split.transmit = vec3f(0.0);
-	}
-	return split;
 }
 
 fn lobes__to_frame(bsdf: lobes__Bsdf, direction: vec3f) -> vec3f {
@@ -6177,6 +6188,139 @@ fn lobes__to_frame(bsdf: lobes__Bsdf, direction: vec3f) -> vec3f {
 
 fn lobes__from_frame(bsdf: lobes__Bsdf, w: vec3f) -> vec3f {
 	return w.x * bsdf.x + w.y * bsdf.y + w.z * bsdf.normal;
+}
+
+const bsdf_boundary__MOST_REDRAWS: u32 = 64u;
+
+struct bsdf_boundary__BoundaryLobe {
+	reflect: vec3f,
+	transmit: vec3f,
+	alpha: vec2f,
+	gain: f32,
+	eta: f32,
+	bends: bool,
+	flags: u32
+}
+
+struct bsdf_boundary__Split {
+	reflect: vec3f,
+	transmit: vec3f,
+	reflectance: f32,
+	cos_t: f32
+}
+
+struct bsdf_boundary__BoundarySample {
+	wi: vec3f,
+	reflects: bool,
+	is_smooth: bool,
+	fraction: vec3f
+}
+
+struct bsdf_boundary__Facet {
+	wi: vec3f,
+	reflects: bool,
+	split: bsdf_boundary__Split,
+	chance: f32
+}
+
+struct bsdf_boundary__BoundaryValue {
+	value: vec3f,
+	pdf: f32
+}
+
+fn bsdf_boundary__boundary_split(lobe: bsdf_boundary__BoundaryLobe, cos_i: f32) -> bsdf_boundary__Split {
+	let boundary = fresnel__boundary_at(lobe.flags, clamp_f32(cos_i, 0.0, 1.0), lobe.eta);
+	var split = bsdf_boundary__Split(lobe.reflect, lobe.transmit, boundary.reflectance, boundary.cos_t);
+	if ((lobe.flags & types__MATERIAL_FRESNEL) != 0u) {
+		split.reflect *= boundary.reflectance;
+		split.transmit *= 1.0 - boundary.reflectance;
+	}
+	else if (boundary.total && lobe.bends) {
+		split.reflect += select(lobe.transmit, vec3f(0.0), (lobe.flags & types__MATERIAL_SUM) != 0u);
+		split.transmit = vec3f(0.0);
+	}
+	return split;
+}
+
+fn bsdf_boundary__boundary_eval(lobe: bsdf_boundary__BoundaryLobe, wo: vec3f, wi: vec3f, separable: bool) -> bsdf_boundary__BoundaryValue {
+	let upper = vec3f(wi.xy, abs(wi.z));
+	var facets = bsdf_ggx__ggx_eval(wo, upper, lobe.alpha, separable);
+	var h = numeric__normalize_or(wo + upper, wo);
+	if (wi.z <= 0.0 && lobe.bends) {
+		facets = bsdf_ggx_transmission__ggx_transmission(wo, wi, lobe.alpha, lobe.eta);
+		h = bsdf_ggx_transmission__transmission_half(wo, wi, lobe.eta);
+	}
+	let split = bsdf_boundary__boundary_split(lobe, dot(wo, h));
+	let reflected = bsdf_boundary__rough_chance(lobe, split, separable);
+	let chance = select(1.0 - reflected, reflected, wi.z > 0.0);
+	let fraction = select(split.transmit, split.reflect, wi.z > 0.0);
+	let density = select(facets.x * lobe.gain, facets.y, separable);
+	return bsdf_boundary__BoundaryValue((facets.x * lobe.gain) * fraction, chance * density);
+}
+
+fn bsdf_boundary__boundary_sample(lobe: bsdf_boundary__BoundaryLobe, wo: vec3f, choice: f32, u: vec2f, separable: bool) -> bsdf_boundary__BoundarySample {
+	let is_smooth = lobe.alpha.x < bsdf_ggx__SMOOTH;
+	let alpha = max_vec2f(lobe.alpha, vec2f(bsdf_ggx__SMOOTH));
+	let up = vec3f(0.0, 0.0, 1.0);
+	var numbers = vec3f(choice, u);
+	var key = rng__hash_combine(bitcast<u32>(choice), rng__hash_combine(bitcast<u32>(u.x), bitcast<u32>(u.y)));
+	var draws = select(1u, 1u + bsdf_boundary__MOST_REDRAWS, !separable && !is_smooth);
+	var facet: bsdf_boundary__Facet;
+	loop {
+		let h = select(bsdf_ggx__ggx_normal(wo, alpha, numbers.yz), up, is_smooth);
+		let split = bsdf_boundary__boundary_split(lobe, dot(wo, h));
+		let chance = select(bsdf_boundary__rough_chance(lobe, split, separable), bsdf_boundary__smooth_chance(split), is_smooth);
+		facet = bsdf_boundary__facet_at(lobe, wo, h, split, chance, numbers.x);
+		let is_found = rng__unit_float(key) < bsdf_boundary__unshadowed(lobe, wo, facet, alpha);
+		draws = select(draws - 1u, 0u, is_found);
+		let fresh = vec3u(rng__hash(key ^ 1757159915u), rng__hash(key ^ 48610963u), rng__hash(key ^ 2524612763u));
+		numbers = vec3f(rng__unit_float(fresh.x), rng__unit_float(fresh.y), rng__unit_float(fresh.z));
+		key = rng__hash_combine(key, fresh.x);
+		continuing {
+		
+			break if draws == 0u;
+		}
+	}
+	return bsdf_boundary__BoundarySample(facet.wi, facet.reflects, is_smooth, bsdf_boundary__fraction_of(facet));
+}
+
+fn bsdf_boundary__smooth_boundary_sample(lobe: bsdf_boundary__BoundaryLobe, wo: vec3f, choice: f32) -> bsdf_boundary__BoundarySample {
+	let split = bsdf_boundary__boundary_split(lobe, wo.z);
+	let facet = bsdf_boundary__facet_at(lobe, wo, vec3f(0.0, 0.0, 1.0), split, bsdf_boundary__smooth_chance(split), choice);
+	return bsdf_boundary__BoundarySample(facet.wi, facet.reflects, true, bsdf_boundary__fraction_of(facet));
+}
+
+fn bsdf_boundary__facet_at(lobe: bsdf_boundary__BoundaryLobe, wo: vec3f, h: vec3f, split: bsdf_boundary__Split, chance: f32, choice: f32) -> bsdf_boundary__Facet {
+	let reflects = choice < chance;
+	let reflected = fresnel__mirrored(-wo, h);
+	var wi = select(vec3f(reflected.xy, -reflected.z), reflected, reflects);
+	if (!reflects && lobe.bends) {
+		wi = fresnel__refracted(-wo, h, lobe.eta, split.cos_t);
+	}
+	return bsdf_boundary__Facet(wi, reflects, split, chance);
+}
+
+fn bsdf_boundary__unshadowed(lobe: bsdf_boundary__BoundaryLobe, wo: vec3f, facet: bsdf_boundary__Facet, alpha: vec2f) -> f32 {
+	let seen = 1.0 + bsdf_ggx__ggx_lambda(wo, alpha);
+	let lit = bsdf_ggx__ggx_lambda(facet.wi, alpha);
+	let part = select(seen / (seen + lit), 1.0 / (1.0 + lit), !facet.reflects && lobe.bends);
+	return select(0.0, part, (facet.wi.z > 0.0) == facet.reflects);
+}
+
+fn bsdf_boundary__fraction_of(facet: bsdf_boundary__Facet) -> vec3f {
+	let transmitted = facet.split.transmit / max_f32(1.0 - facet.chance, 1e-6);
+	let reflected = facet.split.reflect / max_f32(facet.chance, 1e-6);
+	return select(transmitted, reflected, facet.reflects);
+}
+
+fn bsdf_boundary__smooth_chance(split: bsdf_boundary__Split) -> f32 {
+	let reflected = dot(split.reflect, tone__LUMINANCE_REC709);
+	return reflected / max_f32(reflected + dot(split.transmit, tone__LUMINANCE_REC709), 1e-30);
+}
+
+fn bsdf_boundary__rough_chance(lobe: bsdf_boundary__BoundaryLobe, split: bsdf_boundary__Split, separable: bool) -> f32 {
+	let is_clear = !separable && (lobe.flags & types__MATERIAL_FRESNEL) != 0u;
+	return select(bsdf_boundary__smooth_chance(split), split.reflectance, is_clear);
 }
 
 const thin_film__XYZ_TO_RGB: mat3x3f = mat3x3f(vec3f(3.2404542, -0.969266, 0.0556434), vec3f(-1.5371385, 1.8760108, -0.2040259), vec3f(-0.4985314, 0.041556, 1.0572252));
@@ -6255,7 +6399,7 @@ const seen__CLEAR_SHARE: f32 = 0.75;
 
 fn seen__see_surface(path: path__Path, bsdf: lobes__Bsdf, glow: vec3f) {
 	if (bindings__HAS_FEATURES) {
-		let boundary = select(vec3f(0.0), bsdf.reflect + bsdf.transmit, seen__is_blurred(bsdf));
+		let boundary = select(vec3f(0.0), bsdf.boundary.reflect + bsdf.boundary.transmit, seen__is_blurred(bsdf));
 		let albedo = bsdf.diffuse + bsdf.through + bsdf.gain * bsdf.f0 + boundary + glow;
 		if (seen__clear_share(bsdf) <= seen__CLEAR_SHARE || any(glow > vec3f(0.0))) {
 			features__see_albedo(path.throughput * albedo, bsdf.normal);
@@ -6273,7 +6417,7 @@ fn seen__see_scattered(bsdf: lobes__Bsdf, pdf: f32, survival: f32) {
 }
 
 fn seen__is_blurred(bsdf: lobes__Bsdf) -> bool {
-	return bsdf.boundary_alpha.x >= seen__CLEAR;
+	return bsdf.boundary.alpha.x >= seen__CLEAR;
 }
 
 fn seen__clear_share(bsdf: lobes__Bsdf) -> f32 {
@@ -6306,8 +6450,15 @@ struct bsdf__BsdfSample {
 	pdf: f32
 }
 
+struct bsdf__Draw {
+	wi: vec3f,
+	is_on_side: bool,
+	is_smooth: bool,
+	fraction: vec3f
+}
+
 fn bsdf__receiving_normal(bsdf: lobes__Bsdf) -> vec3f {
-	let passes = (bindings__HAS_ROUGH_GLASS && bindings__HAS_REFRACTION && boundary_lobe__has_rough_boundary(bsdf)) || (bindings__HAS_COATINGS && any(bsdf.through > vec3f(0.0)));
+	let passes = (bindings__HAS_ROUGH_GLASS && bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) || (bindings__HAS_COATINGS && any(bsdf.through > vec3f(0.0)));
 	let normal = select(bsdf.normal, bsdf.ng, bindings__HAS_COAT_NORMALS && bsdf.coating.coat > 0.0);
 	return select(normal, vec3f(0.0), passes);
 }
@@ -6331,23 +6482,11 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 			value += sheen.x * bsdf.coating.sheen;
 			pdf += bsdf.coating_chances.y * sheen.y;
 		}
-		if (bindings__HAS_ROUGH_GLASS && boundary_lobe__has_rough_boundary(bsdf)) {
-			let boundary = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.boundary_alpha, bindings__BSDF_SPEC);
-			let split = lobes__split_at(bsdf, cos_h);
-			value += (boundary.x * bsdf.boundary_gain) * split.reflect;
-			pdf += bsdf.chances.z * boundary_lobe__reflection_chance(bsdf, split) * boundary_lobe__boundary_density(bsdf, boundary);
-		}
 	}
-	else if (bindings__HAS_ROUGH_GLASS && bindings__HAS_REFRACTION && boundary_lobe__has_rough_boundary(bsdf)) {
-		var boundary = bsdf_ggx__ggx_eval(bsdf.wo, vec3f(wi.xy, -wi.z), bsdf.boundary_alpha, bindings__BSDF_SPEC);
-		var h = normalize(bsdf.wo + vec3f(wi.xy, -wi.z));
-		if (bsdf.bends) {
-			boundary = bsdf_ggx_transmission__ggx_transmission(bsdf.wo, wi, bsdf.boundary_alpha, bsdf.eta);
-			h = bsdf_ggx_transmission__transmission_half(bsdf.wo, wi, bsdf.eta);
-		}
-		let split = lobes__split_at(bsdf, dot(bsdf.wo, h));
-		value = (boundary.x * bsdf.boundary_gain) * split.transmit;
-		pdf = bsdf.chances.z * (1.0 - boundary_lobe__reflection_chance(bsdf, split)) * boundary_lobe__boundary_density(bsdf, boundary);
+	if (bindings__HAS_ROUGH_GLASS && bsdf__has_rough_boundary(bsdf)) {
+		let boundary = bsdf_boundary__boundary_eval(bsdf.boundary, bsdf.wo, wi, bindings__BSDF_SPEC);
+		value += boundary.value;
+		pdf += bsdf.chances.z * boundary.pdf;
 	}
 	if (bindings__HAS_COATINGS && wi.z < 0.0) {
 		let through = bsdf_diffuse__diffuse_eval(-wi);
@@ -6357,7 +6496,7 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 	let is_outside = dot(direction, bsdf.ng) > 0.0;
 	value = select(vec3f(0.0), value, is_outside == (wi.z > 0.0));
 	if (bindings__HAS_COATINGS) {
-		let coat = coating__coat_eval(bsdf.coating, bsdf.wo, wi);
+		let coat = coating__coating_eval(bsdf.coating, bsdf.wo, wi);
 		value += select(0.0, coat.x, is_outside);
 		pdf += bsdf.coating_chances.x * coat.y;
 	}
@@ -6367,9 +6506,9 @@ fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
 fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
 	let chances = bsdf.chances;
 	let first = chances.x + chances.y + bsdf.coating_chances.x + bsdf.coating_chances.y;
-	var draw: boundary_lobe__Draw;
+	var draw: bsdf__Draw;
 	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && choice >= first && chances.z > 0.0) {
-		draw = boundary_lobe__boundary_draw(bsdf, clamp_f32((choice - first) / chances.z, 0.0, 1.0), u);
+		draw = bsdf__boundary_draw(bsdf, clamp_f32((choice - first) / chances.z, 0.0, 1.0), u);
 	}
 	else {
 		draw = bsdf__lobe_draw(bsdf, choice, u);
@@ -6384,13 +6523,27 @@ fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSamp
 	return bsdf__BsdfSample(direction, weight, found.pdf);
 }
 
-fn bsdf__lobe_draw(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> boundary_lobe__Draw {
+fn bsdf__boundary_draw(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__Draw {
+	if (!bindings__HAS_ROUGH_GLASS) {
+		let drawn = bsdf_boundary__smooth_boundary_sample(bsdf.boundary, bsdf.wo, choice);
+		return bsdf__Draw(drawn.wi, drawn.reflects, true, drawn.fraction);
+	}
+	let drawn = bsdf_boundary__boundary_sample(bsdf.boundary, bsdf.wo, choice, u, bindings__BSDF_SPEC);
+	let is_on_side = select((drawn.wi.z > 0.0) == drawn.reflects, drawn.reflects, drawn.is_smooth);
+	return bsdf__Draw(drawn.wi, is_on_side, drawn.is_smooth, drawn.fraction);
+}
+
+fn bsdf__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
+	return bsdf.chances.z > 0.0 && bsdf.boundary.alpha.x >= bsdf_ggx__SMOOTH;
+}
+
+fn bsdf__lobe_draw(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__Draw {
 	let chances = bsdf.chances;
 	let is_diffuse = choice < chances.x;
 	let is_glossy = !is_diffuse && choice < chances.x + chances.y;
 	var wi = bsdf_diffuse__diffuse_sample(u);
 	if (bindings__HAS_GLOSS && !is_diffuse) {
-		wi = boundary_lobe__reflected_at(bsdf.wo, bsdf_ggx__ggx_normal(bsdf.wo, bsdf.alpha, u));
+		wi = fresnel__mirrored(-bsdf.wo, bsdf_ggx__ggx_normal(bsdf.wo, bsdf.alpha, u));
 	}
 	var is_on_side = wi.z > 0.0;
 	if (bindings__HAS_COATINGS) {
@@ -6402,7 +6555,7 @@ fn bsdf__lobe_draw(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> boundary_lobe__D
 		let passes = is_diffuse && choice < chances.x * bsdf__through_share(bsdf);
 		wi.z = select(wi.z, -wi.z, passes);
 	}
-	return boundary_lobe__Draw(wi, is_on_side, false, vec3f(0.0));
+	return bsdf__Draw(wi, is_on_side, false, vec3f(0.0));
 }
 
 fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
@@ -6411,125 +6564,6 @@ fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
 	}
 	let through = dot(bsdf.through, tone__LUMINANCE_REC709);
 	return through / max_f32(through + dot(bsdf.diffuse, tone__LUMINANCE_REC709), 1e-30);
-}
-
-const boundary_lobe__MOST_REDRAWS: u32 = 64u;
-
-struct boundary_lobe__Draw {
-	wi: vec3f,
-	is_on_side: bool,
-	is_smooth: bool,
-	fraction: vec3f
-}
-
-fn boundary_lobe__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
-	return bsdf.chances.z > 0.0 && bsdf.boundary_alpha.x >= layers__SMOOTH;
-}
-
-struct boundary_lobe__Facet {
-	wi: vec3f,
-	reflects: bool,
-	split: lobes__Split,
-	chance: f32
-}
-
-fn boundary_lobe__facet_at(bsdf: lobes__Bsdf, h: vec3f, choice: f32) -> boundary_lobe__Facet {
-	let split = lobes__split_at(bsdf, dot(bsdf.wo, h));
-	let chance = boundary_lobe__reflection_chance(bsdf, split);
-	let reflects = choice < chance;
-	let mirrored = boundary_lobe__reflected_at(bsdf.wo, h);
-	var wi = select(vec3f(mirrored.xy, -mirrored.z), mirrored, reflects);
-	if (!reflects && bsdf.bends) {
-		wi = fresnel__refracted(-bsdf.wo, h, bsdf.eta, split.cos_t);
-	}
-	return boundary_lobe__Facet(wi, reflects, split, chance);
-}
-
-fn boundary_lobe__unshadowed(bsdf: lobes__Bsdf, facet: boundary_lobe__Facet, alpha: vec2f) -> f32 {
-	let seen = 1.0 + bsdf_ggx__ggx_lambda(bsdf.wo, alpha);
-	let lit = bsdf_ggx__ggx_lambda(facet.wi, alpha);
-	let part = select(seen / (seen + lit), 1.0 / (1.0 + lit), !facet.reflects && bsdf.bends);
-	return select(0.0, part, (facet.wi.z > 0.0) == facet.reflects);
-}
-
-fn boundary_lobe__boundary_draw(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> boundary_lobe__Draw {
-	if (!bindings__HAS_ROUGH_GLASS) {
-		return boundary_lobe__smooth_draw(boundary_lobe__facet_at(bsdf, vec3f(0.0, 0.0, 1.0), choice));
-	}
-	let is_smooth = bsdf.boundary_alpha.x < layers__SMOOTH;
-	let alpha = max_vec2f(bsdf.boundary_alpha, vec2f(layers__SMOOTH));
-	var numbers = vec3f(choice, u);
-	var key = rng__hash_combine(bitcast<u32>(choice), rng__hash_combine(bitcast<u32>(u.x), bitcast<u32>(u.y)));
-	var draws = select(1u, 1u + boundary_lobe__MOST_REDRAWS, !bindings__BSDF_SPEC && !is_smooth);
-	var facet: boundary_lobe__Facet;
-	loop {
-		let h = select(bsdf_ggx__ggx_normal(bsdf.wo, alpha, numbers.yz), vec3f(0.0, 0.0, 1.0), is_smooth);
-		facet = boundary_lobe__facet_at(bsdf, h, numbers.x);
-		let is_found = rng__unit_float(key) < boundary_lobe__unshadowed(bsdf, facet, alpha);
-		draws = select(draws - 1u, 0u, is_found);
-		let fresh = vec3u(rng__hash(key ^ 1757159915u), rng__hash(key ^ 48610963u), rng__hash(key ^ 2524612763u));
-		numbers = vec3f(rng__unit_float(fresh.x), rng__unit_float(fresh.y), rng__unit_float(fresh.z));
-		key = rng__hash_combine(key, fresh.x);
-		continuing {
-		
-			break if draws == 0u;
-		}
-	}
-	if (is_smooth) {
-		return boundary_lobe__smooth_draw(facet);
-	}
-	return boundary_lobe__Draw(facet.wi, (facet.wi.z > 0.0) == facet.reflects, false, vec3f(0.0));
-}
-
-fn boundary_lobe__smooth_draw(facet: boundary_lobe__Facet) -> boundary_lobe__Draw {
-	let transmitted = facet.split.transmit / max_f32(1.0 - facet.chance, 1e-6);
-	let reflected = facet.split.reflect / max_f32(facet.chance, 1e-6);
-	return boundary_lobe__Draw(facet.wi, facet.reflects, true, select(transmitted, reflected, facet.reflects));
-}
-
-fn boundary_lobe__boundary_density(bsdf: lobes__Bsdf, boundary: vec2f) -> f32 {
-	return select(boundary.x * bsdf.boundary_gain, boundary.y, bindings__BSDF_SPEC);
-}
-
-fn boundary_lobe__reflection_chance(bsdf: lobes__Bsdf, split: lobes__Split) -> f32 {
-	if (bindings__HAS_ROUGH_GLASS && !bindings__BSDF_SPEC && (bsdf.flags & types__MATERIAL_FRESNEL) != 0u && bsdf.boundary_alpha.x >= layers__SMOOTH) {
-		return split.reflectance;
-	}
-	let reflected = dot(split.reflect, tone__LUMINANCE_REC709);
-	return reflected / max_f32(reflected + dot(split.transmit, tone__LUMINANCE_REC709), 1e-30);
-}
-
-fn boundary_lobe__reflected_at(wo: vec3f, h: vec3f) -> vec3f {
-	return normalize(2.0 * dot(wo, h) * h - wo);
-}
-
-fn bsdf_ggx__ggx_distribution(h: vec3f, alpha: vec2f) -> f32 {
-	let scaled = vec3f(h.xy / alpha, h.z);
-	let squared = dot(scaled, scaled);
-	return select(0.0, 1.0 / (warp__PI * alpha.x * alpha.y * squared * squared), h.z > 0.0);
-}
-
-fn bsdf_ggx__ggx_lambda(w: vec3f, alpha: vec2f) -> f32 {
-	let slope = alpha * w.xy;
-	return 0.5 * (sqrt(1.0 + dot(slope, slope) / max_f32(w.z * w.z, 1e-12)) - 1.0);
-}
-
-fn bsdf_ggx__ggx_normal(wo: vec3f, alpha: vec2f, u: vec2f) -> vec3f {
-	let stretched = normalize(vec3f(alpha * wo.xy, wo.z));
-	let z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
-	let radius = sqrt(clamp_f32(1.0 - z * z, 0.0, 1.0));
-	let angle = 2.0 * warp__PI * u.x;
-	let sum = vec3f(radius * cos(angle), radius * sin(angle), z) + stretched;
-	return normalize(vec3f(alpha * sum.xy, max_f32(sum.z, 1e-6)));
-}
-
-fn bsdf_ggx__ggx_eval(wo: vec3f, wi: vec3f, alpha: vec2f, separable: bool) -> vec2f {
-	let h = normalize(vec3f(wo.xy + wi.xy, max_f32(wo.z, 0.0) + max_f32(wi.z, 1e-6)));
-	let seen = 1.0 + bsdf_ggx__ggx_lambda(wo, alpha);
-	let lit = 1.0 + bsdf_ggx__ggx_lambda(wi, alpha);
-	let facets = bsdf_ggx__ggx_distribution(h, alpha) / (4.0 * max_f32(wo.z, 1e-6));
-	let shadowed = select(seen + lit - 1.0, seen * lit, separable);
-	return select(vec2f(0.0), vec2f(facets / shadowed, facets / seen), wo.z > 0.0 && wi.z > 0.0);
 }
 
 fn bsdf_sheen__charlie_distribution(h: vec3f, alpha: f32) -> f32 {

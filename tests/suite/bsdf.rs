@@ -1,6 +1,7 @@
 //! The lobes of the path tracer in `shaders/lib`: samples follow their density, values are those of the papers'
 //! formulas, light goes both ways alike, and no energy is gained.
 
+mod boundary;
 mod check;
 mod mixture;
 pub mod reference;

@@ -400,7 +400,7 @@ fn long_functions_of_the_path_tracer_are_not_inlined_again_and_again() {
         ("sample_light", 1),
         // Without rough glass nothing is evaluated at microfacets of a boundary.
         ("ggx_transmission", 0),
-        ("boundary_density", 0),
+        ("boundary_eval", 0),
         // For the whole surface, and for a microfacet.
         ("boundary_at", 2),
     ] {

@@ -70,7 +70,7 @@ fn glass_albedo(cos_o: f64, alpha: f64, eta: f64) -> [f64; 2] {
     let seen = reference::ggx_lambda(wo, widths);
     let mut sums = [0.0; 2];
     over_normals(wo, alpha, [600, 240], |h, cos, share| {
-        let fresnel = fresnel(cos, eta);
+        let fresnel = reference::fresnel(cos, eta);
         let up = 2.0 * cos * h - wo;
         if up.z > 0.0 {
             sums[0] += share * fresnel / (1.0 + seen + reference::ggx_lambda(up, widths));
@@ -465,24 +465,12 @@ fn light_that_is_scattered_again_takes_the_colour_of_the_metal_again() {
     );
 }
 
-/// Fresnel's equations for the cosine on the side of the index `eta`, relative to the other.
-fn fresnel(cos_i: f64, eta: f64) -> f64 {
-    let sin2 = eta * eta * (1.0 - cos_i * cos_i);
-    if sin2 >= 1.0 {
-        return 1.0;
-    }
-    let cos_t = (1.0 - sin2).sqrt();
-    let s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-    let p = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-    0.5 * (s * s + p * p)
-}
-
-/// The same for an angle at which the cosine of the transmitted light, squared, has a soft minimum of 0.
+/// Fresnel's equations for an angle at which the cosine of the transmitted light, squared, has a soft minimum of 0.
 fn softened(cos_i: f64, alpha: f64, eta: f64) -> f64 {
     let squared = 1.0 - eta * eta * (1.0 - cos_i * cos_i);
     let soft = alpha * (eta * eta - 1.0).max(0.0).sqrt();
     let cos2_t = (0.5 * (squared + squared.hypot(soft))).min(1.0);
-    fresnel((1.0 - (1.0 - cos2_t) / (eta * eta)).max(0.0).sqrt(), eta)
+    reference::fresnel((1.0 - (1.0 - cos2_t) / (eta * eta)).max(0.0).sqrt(), eta)
 }
 
 #[test]

@@ -106,36 +106,41 @@ impl Lobe {
         sum
     }
 
-    /// Samples follow the density: Pearson's χ² test over bins of directions. Their weights have the albedo as
-    /// their mean, which is at most 1.
+    /// [`Self::check_samples_towards`] all views.
     pub fn check_samples(&self, verdict: &mut Verdict, parameters: &[Wide]) {
         for &p in parameters {
             for wo in views() {
-                let wo = wide(narrow(wo));
-                let name = format!("{} {p:?} towards {wo:.3}", self.name);
-                let found = self.sample(wo, p);
-                let unit = found.iter().map(|w| (w.length() - 1.0).abs());
-                let off = unit.fold(0.0, f64::max);
-                verdict.that(format!("{name}: unit length"), off < 1e-6, || off);
-                self.check_bins(verdict, &name, wo, p, &found);
-                let rows: Vec<_> = found.iter().map(|&wi| (wo, wi, p)).collect();
-                let weights: Vec<f64> = self
-                    .evaluate(&rows)
-                    .iter()
-                    .map(|[value, pdf]| f64::from(value / pdf.max(1e-30)))
-                    .collect();
-                let count = weights.len() as f64;
-                let mean = weights.iter().sum::<f64>() / count;
-                let spread = weights.iter().map(|w| (w - mean).powi(2)).sum::<f64>() / count;
-                let room = 4.0 * (spread / count).sqrt() + 1e-3;
-                let albedo = self.albedo(wo, p);
-                verdict.that(
-                    format!("{name}: albedo"),
-                    (mean - albedo).abs() < room && albedo < 1.002,
-                    || format!("{mean} of samples, {albedo} of the formulas, room {room}"),
-                );
+                self.check_samples_towards(verdict, wo, p);
             }
         }
+    }
+
+    /// Samples follow the density: Pearson's χ² test over bins of directions. Their weights have the albedo as
+    /// their mean, which is at most 1.
+    pub fn check_samples_towards(&self, verdict: &mut Verdict, wo: DVec3, p: Wide) {
+        let wo = wide(narrow(wo));
+        let name = format!("{} {p:?} towards {wo:.3}", self.name);
+        let found = self.sample(wo, p);
+        let unit = found.iter().map(|w| (w.length() - 1.0).abs());
+        let off = unit.fold(0.0, f64::max);
+        verdict.that(format!("{name}: unit length"), off < 1e-6, || off);
+        self.check_bins(verdict, &name, wo, p, &found);
+        let rows: Vec<_> = found.iter().map(|&wi| (wo, wi, p)).collect();
+        let weights: Vec<f64> = self
+            .evaluate(&rows)
+            .iter()
+            .map(|[value, pdf]| f64::from(value / pdf.max(1e-30)))
+            .collect();
+        let count = weights.len() as f64;
+        let mean = weights.iter().sum::<f64>() / count;
+        let spread = weights.iter().map(|w| (w - mean).powi(2)).sum::<f64>() / count;
+        let room = 4.0 * (spread / count).sqrt() + 1e-3;
+        let albedo = self.albedo(wo, p);
+        verdict.that(
+            format!("{name}: albedo"),
+            (mean - albedo).abs() < room && albedo < 1.002,
+            || format!("{mean} of samples, {albedo} of the formulas, room {room}"),
+        );
     }
 
     fn check_bins(&self, verdict: &mut Verdict, name: &str, wo: DVec3, p: Wide, found: &[DVec3]) {

@@ -39,21 +39,21 @@ const SURFACES: [Surface; 5] = [
     Surface {
         name: "rough glass, seen from outside",
         lobes: "bsdf.chances = vec3f(0.0, 0.0, 1.0);
-            bsdf.eta = 1.0 / 1.5;
-            bsdf.bends = true;",
+            bsdf.boundary.eta = 1.0 / 1.5;
+            bsdf.boundary.bends = true;",
         is_scaled: true,
     },
     Surface {
         name: "rough glass, seen from inside",
         lobes: "bsdf.chances = vec3f(0.0, 0.0, 1.0);
-            bsdf.eta = 1.5;
-            bsdf.bends = true;",
+            bsdf.boundary.eta = 1.5;
+            bsdf.boundary.bends = true;",
         is_scaled: true,
     },
     Surface {
         name: "a rough wall",
         lobes: "bsdf.chances = vec3f(0.0, 0.0, 1.0);
-            bsdf.eta = 1.0 / 1.5;",
+            bsdf.boundary.eta = 1.0 / 1.5;",
         is_scaled: true,
     },
 ];
@@ -77,11 +77,11 @@ impl Surface {
                 bsdf.f90 = vec3f(1.0);
                 bsdf.gain = vec3f(1.0);
                 bsdf.alpha = vec2f(0.6, 0.3);
-                bsdf.reflect = vec3f(1.0);
-                bsdf.transmit = vec3f(1.0);
-                bsdf.boundary_alpha = vec2f(0.4);
-                bsdf.boundary_gain = 1.0;
-                bsdf.flags = MATERIAL_FRESNEL;
+                bsdf.boundary.reflect = vec3f(1.0);
+                bsdf.boundary.transmit = vec3f(1.0);
+                bsdf.boundary.alpha = vec2f(0.4);
+                bsdf.boundary.gain = 1.0;
+                bsdf.boundary.flags = MATERIAL_FRESNEL;
                 {}
                 return bsdf;
             }}

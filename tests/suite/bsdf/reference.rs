@@ -95,3 +95,52 @@ pub fn sheen(wo: DVec3, wi: DVec3, [alpha, ..]: [f64; 4]) -> [f64; 2] {
     let g = 1.0 / (1.0 + lambda(wo.z) + lambda(wi.z));
     [distribution * g / (4.0 * wo.z), 0.5 / PI]
 }
+
+/// Fresnel's equations for the cosine on the side of the index `eta`, relative to the other.
+pub fn fresnel(cos_i: f64, eta: f64) -> f64 {
+    let sin2 = eta * eta * (1.0 - cos_i * cos_i);
+    if sin2 >= 1.0 {
+        return 1.0;
+    }
+    let cos_t = (1.0 - sin2).sqrt();
+    let s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    let p = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    0.5 * (s * s + p * p)
+}
+
+/// Clear glass. The parameters are the width, the index on wo's side over that on the other, 1 where transmitted light
+/// bends, and the gain, or 0 for separable shadowing. With a gain the density is the value. A wall scatters what it
+/// transmits as if it were reflected on the other side.
+pub fn boundary(wo: DVec3, wi: DVec3, [alpha, eta, bends, gain]: [f64; 4]) -> [f64; 2] {
+    let separable = if gain == 0.0 { 1.0 } else { 0.0 };
+    let upper = DVec3::new(wi.x, wi.y, wi.z.abs());
+    let reflected = fresnel(wo.dot((wo + upper).normalize()), eta);
+    let (share, [value, pdf]) = match (wi.z > 0.0, bends > 0.0) {
+        (true, _) => (reflected, ggx(wo, upper, [alpha, alpha, separable, 0.0])),
+        (false, false) => (
+            1.0 - reflected,
+            ggx(wo, upper, [alpha, alpha, separable, 0.0]),
+        ),
+        (false, true) => {
+            let h = -(eta * wo + wi).normalize();
+            let h = if h.z < 0.0 { -h } else { h };
+            let scattered = transmission(wo, wi, [alpha, alpha, eta, 0.0]);
+            (1.0 - fresnel(wo.dot(h), eta), scattered)
+        }
+    };
+    match gain == 0.0 {
+        true => [share * value, share * pdf],
+        false => [share * value * gain; 2],
+    }
+}
+
+/// Microfacets with Schlick's reflectance of glass of index 1.5. The parameters are the width, and 1 for what the body
+/// of the glTF specification says: separable shadowing, and the reflectance from wo's direction.
+pub fn coat(wo: DVec3, wi: DVec3, [alpha, separable, ..]: [f64; 4]) -> [f64; 2] {
+    let cos = match separable == 1.0 {
+        true => wo.z,
+        false => wo.dot((wo + wi).normalize()),
+    };
+    let [value, pdf] = ggx(wo, wi, [alpha, alpha, separable, 0.0]);
+    [(0.04 + 0.96 * (1.0 - cos).powi(5)) * value, pdf]
+}
