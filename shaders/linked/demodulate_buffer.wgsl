@@ -34,8 +34,8 @@ const demodulation__MOST_VARIANCE: f32 = 1e30;
 
 const demodulation__UNKNOWN_VARIANCE: f32 = 1e31;
 
-fn demodulation__divisor_at(p: vec2i) -> vec3f {
-	return clamp_vec3f(textureLoad(bindings__albedos, p, 0).xyz, vec3f(demodulation__LEAST_ALBEDO), vec3f(1.0));
+fn demodulation__divisor_of(albedo: vec3f) -> vec3f {
+	return clamp_vec3f(albedo, vec3f(demodulation__LEAST_ALBEDO), vec3f(1.0));
 }
 
 fn demodulation__signal_at(p: vec2i) -> vec4f {
@@ -43,7 +43,7 @@ fn demodulation__signal_at(p: vec2i) -> vec4f {
 	if (!numeric__is_finite(pixel.xyz) || !numeric__is_finite(pixel.www)) {
 		return vec4f(0.0, 0.0, 0.0, -1.0);
 	}
-	let divisor = demodulation__divisor_at(p);
+	let divisor = demodulation__divisor_of(textureLoad(bindings__albedos, p, 0).xyz);
 	let luminance = dot(divisor, tone__LUMINANCE_REC709);
 	let color = clamp_vec3f(pixel.xyz / divisor, vec3f(0.0), vec3f(demodulation__MOST_SIGNAL));
 	let variance = clamp_f32(pixel.w / (luminance * luminance), 0.0, demodulation__MOST_VARIANCE);
@@ -52,9 +52,24 @@ fn demodulation__signal_at(p: vec2i) -> vec4f {
 
 fn demodulation__packed_guide_at(p: vec2i, last: vec2i) -> vec4u {
 	let surface = textureLoad(bindings__surfaces, p, 0);
-	let albedo = textureLoad(bindings__albedos, p, 0).xyz;
 	let slope = max_f32(demodulation__least_step(surface.w, p, last, vec2i(1, 0)), demodulation__least_step(surface.w, p, last, vec2i(0, 1)));
-	return vec4u(pack2x16snorm(surface.xy), (pack2x16snorm(vec2f(surface.z, 0.0)) & 65535u) | (bitcast<u32>(slope) & 4294901760u), pack4x8unorm(vec4f(albedo, 0.0)), bitcast<u32>(surface.w));
+	let normal = vec3u(clamp_vec3f(0.5 + 0.5 * surface.xyz, vec3f(0.0), vec3f(1.0)) * 1023.0 + 0.5);
+	let albedo = vec3u(clamp_vec3f(textureLoad(bindings__albedos, p, 0).xyz, vec3f(0.0), vec3f(1.0)) * vec3f(31.0, 63.0, 31.0) + 0.5);
+	return vec4u(normal.x | (normal.y << 10u) | (normal.z << 20u), (bitcast<u32>(slope) & 4294901760u) | albedo.x | (albedo.y << 5u) | (albedo.z << 11u), pack4x8unorm(vec4f(demodulation__mean_albedo(p, last), 0.0)), bitcast<u32>(surface.w));
+}
+
+fn demodulation__mean_albedo(p: vec2i, last: vec2i) -> vec3f {
+	var sum = vec3f(0.0);
+	var k = 0;
+	loop {
+		let offset = vec2i(k % 3, k / 3) - 1;
+		sum += textureLoad(bindings__albedos, clamp(p + offset, vec2i(0), last), 0).xyz;
+		continuing {
+			k += 1;
+			break if k >= 9;
+		}
+	}
+	return sum / 9.0;
 }
 
 fn demodulation__least_step(depth: f32, p: vec2i, last: vec2i, axis: vec2i) -> f32 {

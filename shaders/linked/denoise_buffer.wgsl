@@ -1,9 +1,3 @@
-const NORMAL_FALL: f32 = 16.0;
-
-const ALBEDO_WIDTH: f32 = 0.09;
-
-const DEPTH_SHARE: f32 = 0.01;
-
 const DEVIATIONS: f32 = 1.5;
 
 const OUTLIER: f32 = 3.0;
@@ -16,23 +10,6 @@ const LUMINANCE_SHARE: f32 = 0.002;
 
 fn load_signal(p: vec2i) -> vec4f {
 	return textureLoad(bindings__signal, p, 0);
-}
-
-fn load_guide(p: vec2i) -> vec4u {
-	return textureLoad(bindings__guides, p, 0);
-}
-
-struct Guide {
-	normal: vec3f,
-	albedo: vec3f,
-	depth: f32,
-	slope: f32
-}
-
-fn guide_at(p: vec2i) -> Guide {
-	let packed = load_guide(p);
-	let normal = vec3f(unpack2x16snorm(packed.x), unpack2x16snorm(packed.y).x);
-	return Guide(normal, unpack4x8unorm(packed.z).xyz, bitcast<f32>(packed.w), bitcast<f32>(packed.y & 4294901760u));
 }
 
 struct Estimate {
@@ -52,13 +29,6 @@ fn unpacked(w: f32) -> Estimate {
 	return Estimate(exp2(0.5 * (variance - 128.0)), exp2((pilot - 32768.0) / 512.0));
 }
 
-fn likeness(own: Guide, other: Guide, steps: f32) -> f32 {
-	let n = own.normal - other.normal;
-	let a = own.albedo - other.albedo;
-	let depth = abs(own.depth - other.depth) / (own.slope * steps + DEPTH_SHARE * own.depth + 1e-9);
-	return exp(-(NORMAL_FALL * dot(n, n) + dot(a, a) / ALBEDO_WIDTH + depth));
-}
-
 @compute @workgroup_size(64, 1, 1)
 fn denoise(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
 	let size = vec2i(textureDimensions(bindings__signal));
@@ -74,7 +44,7 @@ fn denoise(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 		result = averaged(p, last, step);
 	}
 	if (bindings__MODULATES) {
-		result = vec4f(result.xyz * demodulation__divisor_at(p), 1.0);
+		result = vec4f(result.xyz * modulation__modulator_at(p, last), 1.0);
 	}
 	if (all(own < size)) {
 		textureStore(bindings__denoised, p, result);
@@ -83,7 +53,7 @@ fn denoise(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 
 fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
 	let own = load_signal(p);
-	let guide = guide_at(p);
+	let guide = guide__guide_at(p);
 	let luminance = dot(own.xyz, tone__LUMINANCE_REC709);
 	var brightest = vec2f(luminance, 1.0);
 	var total = 0.0;
@@ -96,7 +66,7 @@ fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
 		let q = p + offset;
 		let other = load_signal(clamp(q, vec2i(0), last));
 		let is_usable = k != 4 && all(q == clamp(q, vec2i(0), last)) && other.w >= 0.0;
-		let weight = select(0.0, likeness(guide, guide_at(clamp(q, vec2i(0), last)), 1.0), is_usable);
+		let weight = select(0.0, guide__likeness(guide, guide__guide_at(clamp(q, vec2i(0), last)), 1.0), is_usable);
 		let light = dot(other.xyz, tone__LUMINANCE_REC709);
 		brightest = select(brightest, vec2f(light, weight), weight > LEAST_LIKENESS && light > brightest.x);
 		total += weight;
@@ -127,7 +97,7 @@ fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
 
 fn averaged(p: vec2i, last: vec2i, step: i32) -> vec4f {
 	let own = load_signal(p);
-	let guide = guide_at(p);
+	let guide = guide__guide_at(p);
 	let pilot = unpacked(own.w).pilot;
 	let width = DEVIATIONS * sqrt(smooth_variance(p, last)) + LUMINANCE_SHARE * pilot + 1e-12;
 	let fall = select(0.0, 1.0 / width, own.w >= 0.0);
@@ -144,7 +114,7 @@ fn averaged(p: vec2i, last: vec2i, step: i32) -> vec4f {
 		let is_usable = all(q == inside) && other.w >= 0.0;
 		let apart = fall * (estimate.pilot - pilot);
 		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
-		let alike = likeness(guide, guide_at(inside), f32(step)) * exp(-min_f32(apart * apart, 80.0));
+		let alike = guide__likeness(guide, guide__guide_at(inside), f32(step)) * exp(-min_f32(apart * apart, 80.0));
 		let weight = select(0.0, near * alike, is_usable);
 		total += weight;
 		sum += weight * other.xyz;
@@ -196,14 +166,89 @@ override bindings__FIRST_PASS: bool = false;
 
 override bindings__MODULATES: bool = false;
 
+const guide__NORMAL_FALL: f32 = 16.0;
+
+const guide__ALBEDO_WIDTH: f32 = 0.3;
+
+const guide__MEAN_ALBEDO_WIDTH: f32 = 0.09;
+
+const guide__DEPTH_SHARE: f32 = 0.01;
+
+struct guide__Guide {
+	normal: vec3f,
+	albedo: vec3f,
+	mean_albedo: vec3f,
+	depth: f32,
+	slope: f32
+}
+
+fn guide__load_guide(p: vec2i) -> vec4u {
+	return textureLoad(bindings__guides, p, 0);
+}
+
+fn guide__guide_at(p: vec2i) -> guide__Guide {
+	let packed = guide__load_guide(p);
+	let normal = vec3f((vec3u(packed.x) >> vec3u(0u, 10u, 20u)) & vec3u(1023u)) * (2.0 / 1023.0) - 1.0;
+	let albedo = vec3f((vec3u(packed.y) >> vec3u(0u, 5u, 11u)) & vec3u(31u, 63u, 31u)) / vec3f(31.0, 63.0, 31.0);
+	let slope = bitcast<f32>(packed.y & 4294901760u);
+	return guide__Guide(normal, albedo, unpack4x8unorm(packed.z).xyz, bitcast<f32>(packed.w), slope);
+}
+
+fn guide__likeness(own: guide__Guide, other: guide__Guide, steps: f32) -> f32 {
+	let n = own.normal - other.normal;
+	let a = own.albedo - other.albedo;
+	let m = own.mean_albedo - other.mean_albedo;
+	let albedos = dot(a, a) / guide__ALBEDO_WIDTH + dot(m, m) / guide__MEAN_ALBEDO_WIDTH;
+	let depth = abs(own.depth - other.depth) / (own.slope * steps + guide__DEPTH_SHARE * own.depth + 1e-9);
+	return exp(-(guide__NORMAL_FALL * dot(n, n) + albedos + depth));
+}
+
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 const demodulation__LEAST_ALBEDO: f32 = 0.02;
 
 const demodulation__MOST_VARIANCE: f32 = 1e30;
 
-fn demodulation__divisor_at(p: vec2i) -> vec3f {
-	return clamp_vec3f(textureLoad(bindings__albedos, p, 0).xyz, vec3f(demodulation__LEAST_ALBEDO), vec3f(1.0));
+fn demodulation__divisor_of(albedo: vec3f) -> vec3f {
+	return clamp_vec3f(albedo, vec3f(demodulation__LEAST_ALBEDO), vec3f(1.0));
+}
+
+const modulation__MEAN_DEVIATIONS: f32 = 1.5;
+
+const modulation__PIXEL_DEVIATIONS: f32 = 4.0;
+
+const modulation__LEAST_NOISE: f32 = 4e-6;
+
+fn modulation__load_albedo(p: vec2i) -> vec4f {
+	return textureLoad(bindings__albedos, p, 0);
+}
+
+fn modulation__modulator_at(p: vec2i, last: vec2i) -> vec3f {
+	let own = modulation__load_albedo(p);
+	let mean = guide__guide_at(p).mean_albedo;
+	var total = 0.0;
+	var sum = vec3f(0.0);
+	var k = 0;
+	loop {
+		let offset = vec2i(k % 3, k / 3) - 1;
+		let q = clamp(p + offset, vec2i(0), last);
+		let other = modulation__load_albedo(q);
+		let noise = min_f32(own.w, other.w);
+		let apart = modulation__far(guide__guide_at(q).mean_albedo - mean, modulation__MEAN_DEVIATIONS, noise) + modulation__far(other.xyz - own.xyz, modulation__PIXEL_DEVIATIONS, noise);
+		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
+		let weight = near * exp(-min_f32(apart, 80.0));
+		total += weight;
+		sum += weight * other.xyz;
+		continuing {
+			k += 1;
+			break if k >= 9;
+		}
+	}
+	return demodulation__divisor_of(sum / total);
+}
+
+fn modulation__far(difference: vec3f, deviations: f32, variance: f32) -> f32 {
+	return dot(difference, difference) / (3.0 * (deviations * deviations * variance + modulation__LEAST_NOISE));
 }
 
 override bindings__EXTREMES_BY_SELECT: bool = false;

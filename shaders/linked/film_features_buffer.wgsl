@@ -12,8 +12,12 @@ fn film_features(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
 		let variance = max_f32(squares - luminance * luminance, 0.0) / max_f32(samples - 1.0, 1.0);
 		let p = work.pixel - vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
 		textureStore(bindings__noisy_out, p, vec4f(mean, select(variance, demodulation__UNKNOWN_VARIANCE, samples == 1.0)));
-		textureStore(bindings__albedos_out, p, vec4f(features__feature_mean(bindings__film[first]), 1.0));
-		textureStore(bindings__surfaces_out, p, vec4f(features__feature_mean(bindings__film[first + 1u]), bindings__film[first + 5u].w));
+		let weight = bindings__film[first].w;
+		let albedo = features__feature_mean(bindings__film[first], weight).xyz;
+		let normal = features__feature_mean(bindings__film[first + 1u], weight);
+		let shown = samples * weight / select(1.0, sum.w, sum.w != 0.0);
+		textureStore(bindings__albedos_out, p, vec4f(albedo, features__albedo_variance(albedo, normal.w, shown)));
+		textureStore(bindings__surfaces_out, p, vec4f(normal.xyz, bindings__film[first + 5u].w));
 	}
 }
 
@@ -148,9 +152,14 @@ const demodulation__UNKNOWN_VARIANCE: f32 = 1e31;
 
 const features__LEAST_WEIGHT: f32 = 1.0 / 1024.0;
 
-fn features__feature_mean(sum: vec4f) -> vec3f {
-	let usable = abs(sum.w) > 0.5 * features__LEAST_WEIGHT;
-	return select(vec3f(0.0), clamp_vec3f(sum.xyz / select(1.0, sum.w, usable), vec3f(-1.0), vec3f(1.0)), usable);
+fn features__feature_mean(sum: vec4f, weight: f32) -> vec4f {
+	let usable = abs(weight) > 0.5 * features__LEAST_WEIGHT;
+	return select(vec4f(0.0), clamp_vec4f(sum / select(1.0, weight, usable), vec4f(-1.0), vec4f(1.0)), usable);
+}
+
+fn features__albedo_variance(albedo: vec3f, squares: f32, samples: f32) -> f32 {
+	let luminance = dot(albedo, tone__LUMINANCE_REC709);
+	return max_f32(squares - luminance * luminance, 0.0) / max_f32(samples - 1.0, 1.0);
 }
 
 override bindings__EXTREMES_BY_SELECT: bool = false;
@@ -197,4 +206,26 @@ fn clamp_vec3f(value: vec3f, low: vec3f, high: vec3f) -> vec3f {
 
 fn saturate_vec3f(value: vec3f) -> vec3f {
 	return clamp_vec3f(value, vec3f(0), vec3f(1));
+}
+
+fn min_vec4f(a: vec4f, b: vec4f) -> vec4f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec4f(a: vec4f, b: vec4f) -> vec4f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec4f(value: vec4f, low: vec4f, high: vec4f) -> vec4f {
+	return min_vec4f(max_vec4f(value, low), high);
+}
+
+fn saturate_vec4f(value: vec4f) -> vec4f {
+	return clamp_vec4f(value, vec4f(0), vec4f(1));
 }

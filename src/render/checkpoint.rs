@@ -25,7 +25,7 @@ use std::io::{self, Read, Write};
 use xxhash_rust::xxh3::Xxh3;
 
 const SIGNATURE: [u8; 8] = *b"glimckpt";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The state of a render, to be written to a file.
 pub struct Checkpoint<'a>(&'a Renderer);

@@ -161,6 +161,7 @@ impl Denoiser {
             let texels = threads::collect(pixels.len(), texel);
             gpu.write_image(target, 0, cast_slice(&texels))
         };
+        let finite = |number: f32| if number.is_finite() { number } else { 0.0 };
         write(&self.noisy, &|at| {
             let ([r, g, b, opacity], features) = (image.pixels[at], &pixels[at]);
             let variance = match features.samples {
@@ -170,12 +171,12 @@ impl Denoiser {
             [r * opacity, g * opacity, b * opacity, variance]
         })?;
         write(&self.albedos, &|at| {
-            let [r, g, b] = pixels[at]
-                .albedo
-                .map(|it| if it.is_nan() { 1.0 } else { it });
-            [r, g, b, 1.0]
+            let [r, g, b] = (pixels[at].albedo).map(|it| match it.is_nan() {
+                true => 1.0,
+                false => it.clamp(-1.0, 1.0),
+            });
+            [r, g, b, finite(pixels[at].albedo_variance).max(0.0)]
         })?;
-        let finite = |number: f32| if number.is_finite() { number } else { 0.0 };
         write(&self.surfaces, &|at| {
             let [x, y, z] = pixels[at].normal.map(finite);
             [x, y, z, finite(pixels[at].depth)]

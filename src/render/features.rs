@@ -54,6 +54,8 @@ pub struct PixelFeatures {
     /// Mean albedo of what is seen through mirrors and clear glass, 0 to 1; of light its radiance, at most 1. Filters with
     /// negative lobes may make it negative, not below -1.
     pub albedo: [f32; 3],
+    /// Variance of its luminance, as if samples were independent; 0 if it is unknown, with a single sample.
+    pub albedo_variance: f32,
     /// Mean shading normal in world space, at most 1 long.
     pub normal: [f32; 3],
     /// Mean light that was scattered once.
@@ -120,16 +122,16 @@ impl Places {
             false => 0.0,
         };
         let mean = |row: usize| [0, 1, 2].map(|channel| rows[row][channel] * scale);
-        // These rows have weights of their own, small ones where no sample shows what mirrors show: see `feature_mean` in
+        // These rows have a weight of their own, a small one where no sample shows what mirrors show: see `feature_mean` in
         // scene/features.wesl.
-        let own_mean = |row: usize| {
-            let [x, y, z, weight] = rows[row];
-            let scale = match weight.abs() > 0.5 * LEAST_WEIGHT {
-                true => 1.0 / weight,
-                false => 0.0,
-            };
-            [x, y, z].map(|sum| (sum * scale).clamp(-1.0, 1.0))
+        let own_weight = rows[self.albedo][3];
+        let own_scale = match own_weight.abs() > 0.5 * LEAST_WEIGHT {
+            true => 1.0 / own_weight,
+            false => 0.0,
         };
+        let own_mean = |row: usize| rows[row].map(|sum| (sum * own_scale).clamp(-1.0, 1.0));
+        let [red, green, blue, _] = own_mean(self.albedo);
+        let [normal_x, normal_y, normal_z, albedo_squares] = own_mean(self.normal);
         let whole = mean(0).map(|channel| channel.max(0.0));
         let (direct, emission) = (mean(self.direct), mean(self.emission));
         let rest = |channel: usize| whole[channel] - direct[channel] - emission[channel];
@@ -140,13 +142,17 @@ impl Places {
         };
         let luminance = luminance(whole);
         let variance = (squares - luminance * luminance).max(0.0) / (samples - 1.0).max(1.0);
+        let albedo_luminance = self::luminance([red, green, blue]);
+        let albedo_variance = (albedo_squares - albedo_luminance * albedo_luminance).max(0.0)
+            / (samples * own_weight * scale - 1.0).max(1.0);
         let first = &rows[self.first..];
         let [x, y, z, depth] = first[1];
         PixelFeatures {
             radiance: single(whole),
             transparency: (self.opacity).map_or(0.0, |row| 1.0 - opacity(weight, &rows[row..])),
-            albedo: single(own_mean(self.albedo)),
-            normal: single(own_mean(self.normal)),
+            albedo: single([red, green, blue]),
+            albedo_variance: finite(albedo_variance),
+            normal: single([normal_x, normal_y, normal_z]),
             direct: single(direct),
             indirect: single([0, 1, 2].map(rest)),
             emission: single(emission),

@@ -27,7 +27,7 @@ pub enum LayerKind {
     /// The sum of squared luminance, which decides when a pixel has converged; then the pixel position, and 1.
     /// It is not developed.
     Squares,
-    /// Three weighted sums, and the sum of their weights.
+    /// Three weighted sums, and the sum of their weights if no other layer has that.
     Mean,
     /// What the sample nearest the pixel's centre saw: its nearness, 1/(1 + d²) at a distance of d pixels, its
     /// index, and the rest. It is the last layer of a pixel.
@@ -60,7 +60,8 @@ pub const COUNT: Layer = Layer {
 /// The albedo of what is seen, through mirrors and clear glass; of what shines its radiance, both at most 1.
 pub const ALBEDO: Layer = mean("albedo");
 
-/// Its shading normal in world space; zero where nothing is hit.
+/// Its shading normal in world space; zero where nothing is hit. The weights are those of [`ALBEDO`]. In place of their sum is
+/// that of the albedo's squared luminance.
 pub const NORMAL: Layer = mean("normal");
 
 /// Light that was scattered once.

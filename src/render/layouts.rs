@@ -84,7 +84,7 @@ pub fn target(
     let read = |format| image(StorageTextureAccess::ReadOnly, format);
     let type_of = |binding| match binding {
         2 => written(SCREEN_FORMAT),
-        4 if variant == Variant::Image => read(COLOR_FORMAT),
+        4 | 8 if variant == Variant::Image => read(COLOR_FORMAT),
         5 if variant == Variant::Image => read(GUIDE_FORMAT),
         4 | 7..=9 => sampled(TextureSampleType::Float { filterable: false }),
         5 => sampled(TextureSampleType::Uint),

@@ -125,6 +125,58 @@ fn edges_of_every_feature_stay() {
     }
 }
 
+/// A pattern that is known without noise stays. One that has much noise becomes the mean of 3x3 pixels with the weights 1, 2
+/// and 4 of a tent. Something between is kept from what differs by far more than its noise.
+#[test]
+fn albedos_are_smoothed_as_far_as_they_are_noisy() {
+    let level = |x: u32, y: u32| 0.3 + 0.01 * ((7 * x + 13 * y) % 11) as f32;
+    let stripe = |x: u32| if (x / 4).is_multiple_of(2) { 0.0 } else { 0.5 };
+    let given = |albedo: &dyn Fn(u32, u32) -> f32, noise: f32| {
+        let (_, mut features) = picture(|_, _| [1.0; 3], 1e-4);
+        for (index, pixel) in features.pixels.iter_mut().enumerate() {
+            let own = albedo(index as u32 % SIDE, index as u32 / SIDE);
+            pixel.albedo = [own; 3];
+            // Even light.
+            pixel.radiance = [2.0 * own; 3];
+            pixel.albedo_variance = noise;
+        }
+        (features.picture(), features)
+    };
+    let tent = |x: u32, y: u32| {
+        let around = (0..9).map(|k| (k % 3, k / 3));
+        let weighted = around.map(|(i, j)| {
+            let near = |k: u32| if k == 1 { 2.0 } else { 1.0 };
+            near(i) * near(j) * level(x + i - 1, y + j - 1)
+        });
+        weighted.sum::<f32>() / 16.0
+    };
+    type Check<'a> = (&'a str, (Image, Features), &'a dyn Fn(u32, u32) -> f32, f32);
+    let striped = |x: u32, y: u32| level(x, y) + stripe(x);
+    let checks: [Check; 3] = [
+        ("without noise", given(&level, 0.0), &level, 1e-5),
+        ("with much noise", given(&level, 1e4), &tent, 1e-5),
+        // The standard deviation is 0.01: within stripes that are 4 pixels wide, and as far from their edges as
+        // means of 3x3 pixels see, half of the pattern is left at most; between them, nothing is lost.
+        (
+            "with stripes",
+            given(&striped, 1e-4),
+            &|x, _| 0.35 + stripe(x),
+            0.051,
+        ),
+    ];
+    for (name, given, expected, tolerance) in checks {
+        let found = denoised(&given);
+        for (x, y) in (1..SIDE - 1).flat_map(|y| (1..SIDE - 1).map(move |x| (x, y))) {
+            let value = found.pixel(x, y).expect("inside")[1];
+            let wanted = 2.0 * expected(x, y);
+            assert!(
+                (value - wanted).abs() <= 2.0 * tolerance,
+                "{name}, {x},{y}: {value}, not {wanted}"
+            );
+        }
+    }
+}
+
 #[test]
 fn pixels_that_are_not_finite_do_not_spread() {
     let (mut image, features) = picture(|_, _| [0.25; 3], 1e-3);

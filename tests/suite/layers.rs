@@ -170,6 +170,35 @@ fn mirrors_show_the_albedo_and_the_normal_behind_them() {
     assert!((centre.depth - 5.0).abs() < 1e-4, "{centre:?}");
 }
 
+/// Samples at the edge of the ball have one of two albedos. So the mean tells how many have which, and these the variance.
+#[test]
+fn albedos_have_the_variance_of_their_samples() {
+    let luminance = |[r, g, b]: [f32; 3]| {
+        [(0.2126, r), (0.7152, g), (0.0722, b)].map(|(weight, part)| weight * f64::from(part))
+    };
+    let luminance = |color| luminance(color).iter().sum::<f64>();
+    let (ball, behind) = (luminance([0.6, 0.4, 0.5]), luminance([0.2, 0.3, 0.4]));
+    for antialias in [Antialias::Stratified, Antialias::Adaptive] {
+        let settings = RenderSettings {
+            antialias,
+            ..paths(stratified(64, (31, 31)))
+        };
+        let mut mixed = 0;
+        for pixel in &features(&balls(matte()), &settings).pixels {
+            let share = (luminance(pixel.albedo) - behind) / (ball - behind);
+            let of_samples = share * (1.0 - share) * (ball - behind).powi(2);
+            let expected = of_samples / f64::from(pixel.samples - 1.0);
+            let found = f64::from(pixel.albedo_variance);
+            assert!(
+                (found - expected).abs() < 1e-3 * expected + 1e-8,
+                "{found} for {expected}: {pixel:?}"
+            );
+            mixed += usize::from(share > 0.1 && share < 0.9);
+        }
+        assert!(mixed > 20, "{mixed} pixels at the edge");
+    }
+}
+
 /// A mirror that is a little dull scatters some samples elsewhere. What those meet is not seen in it: the albedo stays that of
 /// the ball behind the camera, and so does the normal. Elsewhere is a white background.
 #[test]

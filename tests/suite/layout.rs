@@ -214,7 +214,7 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (3, 5, "guides", "guides"),
     (3, 6, "denoised", "colors out"),
     (3, 7, "noisy", "color texture"),
-    (3, 8, "albedos", "color texture"),
+    (3, 8, "albedos", "albedos"),
     (3, 9, "surfaces", "color texture"),
     (3, 10, "guides_out", "guides out"),
     (3, 11, "noisy_out", "colors out"),
@@ -303,6 +303,8 @@ fn bindings_are_where_the_host_puts_them() {
             ("geometry" | "guides", false) => "image",
             ("texels", false) => "layered image",
             ("signal", false) => "color image",
+            ("albedos", _) if kernel == "denoise (Image)" => "color image",
+            ("albedos", _) => "color texture",
             (kind, _) => kind,
         };
         for (group, slot, name, kind) in bindings(&module) {

@@ -20,7 +20,7 @@ use std::{
 use xxhash_rust::xxh3::Xxh3;
 
 const SIGNATURE: [u8; 8] = *b"glimfilm";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 impl Film {
     /// Writes the film. Equal films give the same bytes.
