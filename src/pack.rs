@@ -291,7 +291,8 @@ fn pack(
     let (packed_pictures, pictures) = picture::pictures(scene, before)?;
     let before = previous.and_then(|previous| previous.environment.as_ref());
     let environment = environment::of_scene(scene, &packed_pictures, before);
-    let table = environment.iter().map(|table| table.words.clone());
+    let table = environment.as_ref().and_then(Environment::table);
+    let table = table.map(|table| table.words.clone());
     let words = packed_pictures.iter().map(|packed| packed.words.clone());
     let albedos = [albedo_words()];
     let texels: Segments<u32> = words.chain(albedos).chain(table).collect();

@@ -64,7 +64,8 @@ def main():
 
 def measure(flags, name, index, piece):
     """The errors of the noisy picture and of those that both denoisers make of it, and the seconds that these take."""
-    noisy, many, report = (flags.out / f"{name}.{index}{end}" for end in (".exr", ".many.exr", ".json"))
+    piece_name = f"{name}.{flags.size}.{flags.crop or 'all'}.{index}"
+    noisy, many, report = (flags.out / f"{piece_name}{end}" for end in (".exr", f".{flags.reference}.exr", ".json"))
     command = [flags.glimray, "render", f"assets/scenes/{name}.toml", "--integrator", "path", "--size", flags.size, *piece, "--quiet"]
     layers = ["--layers", "beauty,albedo,normal", "--denoise", "--report", report]
     subprocess.run([*command, "--samples", flags.samples, *layers, "-o", noisy], check=True)

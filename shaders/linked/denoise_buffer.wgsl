@@ -113,9 +113,8 @@ fn averaged(p: vec2i, last: vec2i, step: i32) -> vec4f {
 		let estimate = unpacked(other.w);
 		let is_usable = all(q == inside) && other.w >= 0.0;
 		let apart = fall * (estimate.pilot - pilot);
-		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
 		let alike = guide__likeness(guide, guide__guide_at(inside), f32(step)) * exp(-min_f32(apart * apart, 80.0));
-		let weight = select(0.0, near * alike, is_usable);
+		let weight = select(0.0, guide__tent(offset) * alike, is_usable);
 		total += weight;
 		sum += weight * other.xyz;
 		mean.variance += weight * weight * estimate.variance;
@@ -136,9 +135,8 @@ fn smooth_variance(p: vec2i, last: vec2i) -> f32 {
 	var k = 0;
 	loop {
 		let offset = vec2i(k % 3, k / 3) - 1;
-		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
 		let w = load_signal(clamp(p + offset, vec2i(0), last)).w;
-		sum += select(0.0, near * unpacked(w).variance, w >= 0.0);
+		sum += select(0.0, guide__tent(offset) * unpacked(w).variance, w >= 0.0);
 		continuing {
 			k += 1;
 			break if k >= 9;
@@ -203,6 +201,10 @@ fn guide__likeness(own: guide__Guide, other: guide__Guide, steps: f32) -> f32 {
 	return exp(-(guide__NORMAL_FALL * dot(n, n) + albedos + depth));
 }
 
+fn guide__tent(offset: vec2i) -> f32 {
+	return f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
+}
+
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 const demodulation__LEAST_ALBEDO: f32 = 0.02;
@@ -217,7 +219,9 @@ const modulation__MEAN_DEVIATIONS: f32 = 1.5;
 
 const modulation__PIXEL_DEVIATIONS: f32 = 4.0;
 
-const modulation__LEAST_NOISE: f32 = 4e-6;
+const modulation__MEAN_NOISE: f32 = 4e-6;
+
+const modulation__PIXEL_NOISE: f32 = 1e-12;
 
 fn modulation__load_albedo(p: vec2i) -> vec4f {
 	return textureLoad(bindings__albedos, p, 0);
@@ -234,9 +238,9 @@ fn modulation__modulator_at(p: vec2i, last: vec2i) -> vec3f {
 		let q = clamp(p + offset, vec2i(0), last);
 		let other = modulation__load_albedo(q);
 		let noise = min_f32(own.w, other.w);
-		let apart = modulation__far(guide__guide_at(q).mean_albedo - mean, modulation__MEAN_DEVIATIONS, noise) + modulation__far(other.xyz - own.xyz, modulation__PIXEL_DEVIATIONS, noise);
-		let near = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
-		let weight = near * exp(-min_f32(apart, 80.0));
+		let means = modulation__far(guide__guide_at(q).mean_albedo - mean, modulation__MEAN_DEVIATIONS * modulation__MEAN_DEVIATIONS * noise + modulation__MEAN_NOISE);
+		let pixels = modulation__far(other.xyz - own.xyz, modulation__PIXEL_DEVIATIONS * modulation__PIXEL_DEVIATIONS * noise + modulation__PIXEL_NOISE);
+		let weight = guide__tent(offset) * exp(-min_f32(means + pixels, 80.0));
 		total += weight;
 		sum += weight * other.xyz;
 		continuing {
@@ -247,8 +251,8 @@ fn modulation__modulator_at(p: vec2i, last: vec2i) -> vec3f {
 	return demodulation__divisor_of(sum / total);
 }
 
-fn modulation__far(difference: vec3f, deviations: f32, variance: f32) -> f32 {
-	return dot(difference, difference) / (3.0 * (deviations * deviations * variance + modulation__LEAST_NOISE));
+fn modulation__far(difference: vec3f, variance: f32) -> f32 {
+	return dot(difference, difference) / (3.0 * variance);
 }
 
 override bindings__EXTREMES_BY_SELECT: bool = false;

@@ -1703,8 +1703,12 @@ fn features__see_light(light: vec3f, scatterings: u32) {
 fn features__add_features(first_row: u32, sample: u32, weight: f32) {
 	let row = first_row + bindings__FEATURES_ROW;
 	let luminance = dot(features__features.albedo, tone__LUMINANCE_REC709);
-	features__add_row(row, features__features.weight * weight * vec4f(features__features.albedo, 1.0));
-	features__add_row(row + 1u, features__features.weight * weight * vec4f(features__features.normal, luminance * luminance));
+	let albedo = bindings__film[row] + features__features.weight * weight * vec4f(features__features.albedo, 1.0);
+	let normal = bindings__film[row + 1u] + features__features.weight * weight * vec4f(features__features.normal, luminance * luminance);
+	if (numeric__is_finite(albedo.xyz) && numeric__is_finite(normal.xyz) && numeric__is_finite(normal.www)) {
+		bindings__film[row] = albedo;
+		bindings__film[row + 1u] = normal;
+	}
 	features__add_mean(row + 2u, features__features.direct, weight);
 	features__add_mean(row + 3u, features__features.emission, weight);
 	let nearness = 1.0 / (1.0 + features__off_centre);
@@ -1717,11 +1721,7 @@ fn features__add_features(first_row: u32, sample: u32, weight: f32) {
 }
 
 fn features__add_mean(row: u32, value: vec3f, weight: f32) {
-	features__add_row(row, weight * vec4f(value, 1.0));
-}
-
-fn features__add_row(row: u32, sums: vec4f) {
-	let next = bindings__film[row] + sums;
+	let next = bindings__film[row] + weight * vec4f(value, 1.0);
 	if (numeric__is_finite(next.xyz)) {
 		bindings__film[row] = next;
 	}

@@ -32,7 +32,7 @@ const STEPS: u32 = 1023;
 /// The smallest density of a cell with light.
 const LEAST_DENSITY: f64 = 1e-30;
 
-/// The table of a picture.
+/// A picture in the background.
 #[derive(Clone, Debug)]
 pub struct Environment {
     /// Its index in the scene.
@@ -40,6 +40,13 @@ pub struct Environment {
     picture: Arc<Picture>,
     /// The largest value of its texels that is shown.
     largest: f32,
+    /// Its table; `None` if light samples do not pay.
+    table: Option<Table>,
+}
+
+/// The table of a picture.
+#[derive(Clone, Debug)]
+pub struct Table {
     /// Tree and densities.
     pub words: Arc<[u32]>,
     /// Columns of the grid.
@@ -50,8 +57,7 @@ pub struct Environment {
     pub sun_chance: f64,
 }
 
-/// The table of the scene's background; `None` if that is no picture, or one that is about as bright everywhere. The table
-/// `before` is reused if it is of the same picture.
+/// The picture in the scene's background, if there is one. What is known of it from `before` is reused if that is the same.
 pub fn of_scene(
     scene: &Scene,
     packed: &[PackedPicture],
@@ -70,6 +76,16 @@ pub fn of_scene(
             ..known.clone()
         });
     }
+    Some(Environment {
+        index,
+        picture: picture.clone(),
+        largest,
+        table: table_of(picture, largest),
+    })
+}
+
+/// The table of a picture; `None` if that is about as bright everywhere. Skies with a sun have one.
+fn table_of(picture: &Picture, largest: f32) -> Option<Table> {
     let sun = sky::sun_of(picture);
     let levels = match sun {
         Some(_) => SKY_LEVELS,
@@ -85,15 +101,19 @@ pub fn of_scene(
     let pays = sun > 0.0 || relative_variance(&weights, levels) > LEAST_VARIANCE;
     compensate(&mut weights, levels);
     let samples = weights.iter().sum::<f64>() + sun;
-    (pays && samples > 0.0).then(|| Environment {
-        index,
-        picture: picture.clone(),
-        largest,
+    (pays && samples > 0.0).then(|| Table {
         words: words(weights, levels).into(),
         width,
         part: samples / total,
         sun_chance: sun / samples,
     })
+}
+
+impl Environment {
+    /// The table for light samples.
+    pub fn table(&self) -> Option<&Table> {
+        self.table.as_ref()
+    }
 }
 
 impl PackedScene {
@@ -104,17 +124,17 @@ impl PackedScene {
 
     /// The index of the first word of the table of the environment.
     pub(super) fn environment_first(&self) -> u32 {
-        let table = self.environment.as_ref();
+        let table = self.environment.as_ref().and_then(Environment::table);
         (self.texels.len() - table.map_or(0, |table| table.words.len())) as u32
     }
 
     /// The table of a background; `None` if light samples find no light in it.
-    pub(super) fn environment_of(&self, background: &Background) -> Option<&Environment> {
-        let table = self.environment.as_ref()?;
+    pub(super) fn environment_of(&self, background: &Background) -> Option<&Table> {
+        let environment = self.environment.as_ref()?;
         match *background {
             Background::Picture {
                 picture, strength, ..
-            } if picture == table.index && strength > 0.0 => Some(table),
+            } if picture == environment.index && strength > 0.0 => environment.table(),
             _ => None,
         }
     }

@@ -54,7 +54,8 @@ pub struct PixelFeatures {
     /// Mean albedo of what is seen through mirrors and clear glass, 0 to 1; of light its radiance, at most 1. Filters with
     /// negative lobes may make it negative, not below -1.
     pub albedo: [f32; 3],
-    /// Variance of its luminance, as if samples were independent; 0 if it is unknown, with a single sample.
+    /// Variance of the luminance of that mean, as if samples were independent; 0 if hardly more than one sample shows what
+    /// mirrors show.
     pub albedo_variance: f32,
     /// Mean shading normal in world space, at most 1 long.
     pub normal: [f32; 3],
@@ -140,11 +141,12 @@ impl Places {
             Some(_) => rows[self.squares][0],
             None => rows[self.squares][0] / samples.max(1.0),
         };
-        let luminance = luminance(whole);
-        let variance = (squares - luminance * luminance).max(0.0) / (samples - 1.0).max(1.0);
-        let albedo_luminance = self::luminance([red, green, blue]);
-        let albedo_variance = (albedo_squares - albedo_luminance * albedo_luminance).max(0.0)
-            / (samples * own_weight * scale - 1.0).max(1.0);
+        let variance_of = |squares: f64, mean: [f64; 3], samples: f64| {
+            (squares - luminance(mean).powi(2)).max(0.0) / (samples - 1.0).max(1.0)
+        };
+        let variance = variance_of(squares, whole, samples);
+        let shown = samples * own_weight * scale;
+        let albedo_variance = variance_of(albedo_squares, [red, green, blue], shown);
         let first = &rows[self.first..];
         let [x, y, z, depth] = first[1];
         PixelFeatures {

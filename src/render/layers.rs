@@ -27,7 +27,7 @@ pub enum LayerKind {
     /// The sum of squared luminance, which decides when a pixel has converged; then the pixel position, and 1.
     /// It is not developed.
     Squares,
-    /// Three weighted sums, and the sum of their weights if no other layer has that.
+    /// Three weighted sums, and the sum of their weights or what the layer says.
     Mean,
     /// What the sample nearest the pixel's centre saw: its nearness, 1/(1 + d²) at a distance of d pixels, its
     /// index, and the rest. It is the last layer of a pixel.

@@ -152,8 +152,11 @@ fn albedos_are_smoothed_as_far_as_they_are_noisy() {
     };
     type Check<'a> = (&'a str, (Image, Features), &'a dyn Fn(u32, u32) -> f32, f32);
     let striped = |x: u32, y: u32| level(x, y) + stripe(x);
-    let checks: [Check; 3] = [
+    // A dark pattern of little contrast, whose means of 3x3 pixels are as good as equal.
+    let faint = |x: u32, y: u32| 0.03 + 0.001 * ((x + y) % 2) as f32;
+    let checks: [Check; 4] = [
         ("without noise", given(&level, 0.0), &level, 1e-5),
+        ("faint, without noise", given(&faint, 0.0), &faint, 1e-6),
         ("with much noise", given(&level, 1e4), &tent, 1e-5),
         // The standard deviation is 0.01: within stripes that are 4 pixels wide, and as far from their edges as
         // means of 3x3 pixels see, half of the pattern is left at most; between them, nothing is lost.

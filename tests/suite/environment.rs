@@ -321,7 +321,7 @@ fn densities_are_in_proportion_to_the_light_above_the_mean() {
 /// Of the height h of a direction, in -1..=1, ((1 + h)/2)^k has the mean 1/(k + 1) over all directions, and its square
 /// 1/(2k + 1). So the variance over the square of the mean is k²/(2k + 1): 1/3 for a gradient from black, 4/5 for its square.
 #[test]
-fn an_even_picture_has_no_table() {
+fn pictures_without_contrast_have_no_table() {
     let heights = |power: i32| {
         grey(64, 32, move |_, y| {
             let height = (PI * (0.5 - (f64::from(y) + 0.5) / 32.0)).sin();

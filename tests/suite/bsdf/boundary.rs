@@ -1,21 +1,21 @@
 //! The lobes of boundaries and coats, in `shaders/lib/bsdf_boundary.wesl` and `bsdf_coat.wesl`.
 
 use super::check::{Lobe, Wide, views};
-use super::reference;
+use super::reference::{self, REFLECT, TRANSMIT};
 use crate::support::{
     harness::gpu,
     verdict::{Tolerance, Verdict},
 };
 use glam::{DVec3, dvec3};
 
-/// Clear glass, of which each lobe below is what goes to one side. Its parameters are the width, the relative index,
+/// Tinted glass, of which each lobe below is what goes to one side. Its parameters are the width, the relative index,
 /// whether transmitted light bends, and the gain, or 0 for separable shadowing.
 const GLASS: &str = "import package::types::MATERIAL_FRESNEL;
     import package::lib::bsdf_boundary::{BoundaryLobe, boundary_eval, boundary_sample};
     import package::lib::rng::{hash_combine, unit_float};
     fn glass(p: vec4f) -> BoundaryLobe {
         let gain = select(p.w, 1.0, p.w == 0.0);
-        return BoundaryLobe(vec3f(1.0), vec3f(1.0), vec2f(p.x), gain, p.y, p.z > 0.5, MATERIAL_FRESNEL);
+        return BoundaryLobe(vec3f(0.9, 0.6, 0.3), vec3f(0.2, 0.5, 0.8), vec2f(p.x), gain, p.y, p.z > 0.5, MATERIAL_FRESNEL);
     }
     fn seen(wo: vec3f, wi: vec3f, p: vec4f, side: f32) -> vec2f {
         let found = boundary_eval(glass(p), wo, wi, p.w == 0.0);
@@ -108,8 +108,10 @@ fn directions_of_a_boundary_follow_their_density() {
     let mut verdict = Verdict::on("boundary_sample");
     for surface in SURFACES {
         for wo in views() {
-            let once = SIDES.map(|lobe| lobe.albedo(wo, with_gain(surface, 1.0)));
-            let gain = 1.0 / once.iter().sum::<f64>();
+            // What clear glass would scatter.
+            let [reflected, transmitted] =
+                SIDES.map(|lobe| lobe.albedo(wo, with_gain(surface, 1.0)));
+            let gain = 1.0 / (reflected / REFLECT[0] + transmitted / TRANSMIT[0]);
             for lobe in SIDES {
                 lobe.check_samples_towards(&mut verdict, wo, with_gain(surface, 0.0));
                 lobe.check_samples_towards(&mut verdict, wo, with_gain(surface, gain));
@@ -125,7 +127,7 @@ fn smooth_boundaries_scatter_in_two_directions_as_snell_and_fresnel_say() {
     let mut rows = Vec::new();
     for [_, eta, bends] in SURFACES {
         for wo in views() {
-            let reflected = reference::fresnel(wo.z, eta);
+            let reflected = reference::reflected_share(reference::fresnel(wo.z, eta));
             // Just below and above the chance of reflection.
             for choice in [0.0, reflected - 2e-3, reflected + 2e-3, 0.9999] {
                 if (0.0..1.0).contains(&choice) {
@@ -140,7 +142,9 @@ fn smooth_boundaries_scatter_in_two_directions_as_snell_and_fresnel_say() {
             "import package::types::MATERIAL_FRESNEL;
             import package::lib::bsdf_boundary::{{BoundaryLobe, boundary_sample, smooth_boundary_sample}};
             fn glass(p: vec2f, alpha: f32) -> BoundaryLobe {{
-                return BoundaryLobe(vec3f(1.0), vec3f(1.0), vec2f(alpha), 1.0, p.x, p.y > 0.5, MATERIAL_FRESNEL);
+                let reflect = vec3f(0.9, 0.6, 0.3);
+                let transmit = vec3f(0.2, 0.5, 0.8);
+                return BoundaryLobe(reflect, transmit, vec2f(alpha), 1.0, p.x, p.y > 0.5, MATERIAL_FRESNEL);
             }}
             fn probe(wo: vec3f, choice: f32, p: vec2f) -> array<f32, 5> {{
                 let found = {call};
@@ -160,7 +164,9 @@ fn smooth_boundaries_scatter_in_two_directions_as_snell_and_fresnel_say() {
         let (wo, choice, [eta, bends]) = *row;
         let wo = DVec3::from(wo.map(f64::from));
         let name = format!("{row:?}");
-        let reflects = f64::from(choice) < reference::fresnel(wo.z, f64::from(eta));
+        let fresnel = reference::fresnel(wo.z, f64::from(eta));
+        let share = reference::reflected_share(fresnel);
+        let reflects = f64::from(choice) < share;
         let expected = match (reflects, bends > 0.5) {
             (true, _) => dvec3(-wo.x, -wo.y, wo.z),
             (false, false) => -wo,
@@ -177,9 +183,12 @@ fn smooth_boundaries_scatter_in_two_directions_as_snell_and_fresnel_say() {
             (known[4] == 1.0) == reflects,
             || known[4],
         );
-        // Clear glass absorbs nothing.
-        let all = Tolerance::Absolute(2e-3);
-        verdict.near(format!("{name}: fraction"), &known[3], &1.0, all);
+        let fraction = match reflects {
+            true => REFLECT[1] * fresnel / share,
+            false => TRANSMIT[1] * (1.0 - fresnel) / (1.0 - share),
+        };
+        let room = Tolerance::Absolute(2e-3);
+        verdict.near(format!("{name}: fraction"), &known[3], &fraction, room);
         verdict.that(format!("{name}: the same"), found == known, || {
             format!("{found:?} and {known:?}")
         });

@@ -108,29 +108,54 @@ pub fn fresnel(cos_i: f64, eta: f64) -> f64 {
     0.5 * (s * s + p * p)
 }
 
-/// Clear glass. The parameters are the width, the index on wo's side over that on the other, 1 where transmitted light
+/// What tinted glass leaves of reflected and of transmitted light.
+pub const REFLECT: [f64; 3] = [0.9, 0.6, 0.3];
+pub const TRANSMIT: [f64; 3] = [0.2, 0.5, 0.8];
+
+/// The reflected part of the luminance that such glass leaves, for the part that clear glass reflects.
+pub fn reflected_share(fresnel: f64) -> f64 {
+    let luminance = |[r, g, b]: [f64; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let (reflected, transmitted) = (
+        fresnel * luminance(REFLECT),
+        (1.0 - fresnel) * luminance(TRANSMIT),
+    );
+    reflected / (reflected + transmitted)
+}
+
+/// The red of tinted glass. The parameters are the width, the index on wo's side over that on the other, 1 where transmitted light
 /// bends, and the gain, or 0 for separable shadowing. With a gain the density is the value. A wall scatters what it
 /// transmits as if it were reflected on the other side.
 pub fn boundary(wo: DVec3, wi: DVec3, [alpha, eta, bends, gain]: [f64; 4]) -> [f64; 2] {
     let separable = if gain == 0.0 { 1.0 } else { 0.0 };
     let upper = DVec3::new(wi.x, wi.y, wi.z.abs());
-    let reflected = fresnel(wo.dot((wo + upper).normalize()), eta);
-    let (share, [value, pdf]) = match (wi.z > 0.0, bends > 0.0) {
-        (true, _) => (reflected, ggx(wo, upper, [alpha, alpha, separable, 0.0])),
-        (false, false) => (
-            1.0 - reflected,
-            ggx(wo, upper, [alpha, alpha, separable, 0.0]),
-        ),
-        (false, true) => {
+    let (fresnel, [value, pdf]) = match wi.z > 0.0 || bends == 0.0 {
+        true => {
+            let cos = wo.dot((wo + upper).normalize());
+            (
+                fresnel(cos, eta),
+                ggx(wo, upper, [alpha, alpha, separable, 0.0]),
+            )
+        }
+        false => {
             let h = -(eta * wo + wi).normalize();
             let h = if h.z < 0.0 { -h } else { h };
             let scattered = transmission(wo, wi, [alpha, alpha, eta, 0.0]);
-            (1.0 - fresnel(wo.dot(h), eta), scattered)
+            (fresnel(wo.dot(h), eta), scattered)
         }
     };
+    // The chance of reflection is that of clear glass where directions are drawn again.
+    let reflected = if gain == 0.0 {
+        reflected_share(fresnel)
+    } else {
+        fresnel
+    };
+    let (part, chance) = match wi.z > 0.0 {
+        true => (REFLECT[0] * fresnel, reflected),
+        false => (TRANSMIT[0] * (1.0 - fresnel), 1.0 - reflected),
+    };
     match gain == 0.0 {
-        true => [share * value, share * pdf],
-        false => [share * value * gain; 2],
+        true => [part * value, chance * pdf],
+        false => [part * value * gain, chance * value * gain],
     }
 }
 

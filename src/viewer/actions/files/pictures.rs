@@ -145,10 +145,8 @@ fn render(session: &mut Session, mut target: Target, size: (u32, u32)) {
     };
     order.settings = session.view.settings_at(size, integrator);
     target.opacity = order.settings.has_opacity();
-    let tone = match target.format.is_linear() {
-        true => (session.request.overrides.tone).tone(&order.scene.output, integrator, true),
-        false => order.tone,
-    };
+    let linear = (session.request.overrides.tone).tone(&order.scene.output, integrator, true);
+    let tone = tone_of(&target, order.tone, linear);
     let (sender, receiver) = channel();
     let is_cancelled = Arc::new(AtomicBool::new(false));
     session.files.pending.rendering.push(Rendering {
@@ -177,6 +175,17 @@ fn render(session: &mut Session, mut target: Target, size: (u32, u32)) {
             Err(error) => Answer::Failed(format!("cannot render a picture: {error}.")),
         }
     });
+}
+
+/// The tone of a file: what the window shows, or for linear light that of the command line, denoised as in the window.
+fn tone_of(target: &Target, shown: Tone, linear: Tone) -> Tone {
+    match target.format.is_linear() {
+        true => Tone {
+            denoise: shown.denoise,
+            ..linear
+        },
+        false => shown,
+    }
 }
 
 /// Writes a picture. The outcome is a message.
@@ -229,10 +238,7 @@ fn capture(frame: &mut FrameRenderer, target: Target, waits: Option<u32>, linear
     if waits.is_some() && !frame.renderer.is_done() {
         return Answer::Picture(Box::new(captured));
     }
-    let tone = match captured.target.format.is_linear() {
-        true => linear,
-        false => frame.order.tone,
-    };
+    let tone = tone_of(&captured.target, frame.order.tone, linear);
     let keeps_raw = captured.target.format.has_layers();
     match Still::developed(frame.renderer, &tone, keeps_raw) {
         Ok(still) => {
