@@ -71,6 +71,7 @@ use crate::{
 };
 use denoise::Denoiser;
 use device::Device;
+use film_tile::GroupOrder;
 use film_tiles::FilmTiles;
 use losses::or_replacement;
 use slice::Planner;
@@ -126,7 +127,8 @@ impl Renderer {
     ) -> Result<Self, RenderError> {
         effort::check(view, &settings)?;
         let view = view.with_aspect(settings.size.0, settings.size.1);
-        let tiles = FilmTiles::new(&settings, policy.slicing.tile_side);
+        let order = GroupOrder::of(&gpu);
+        let tiles = FilmTiles::new(&settings, policy.slicing.tile_side, order);
         let fetch = bindings::choose_fetch(&policy, &gpu, &scene, &view);
         let shown = (&*scene, &view, fetch);
         let mut stats = Stats {
@@ -192,7 +194,8 @@ impl Renderer {
         effort::check(view, &settings)?;
         self.work = None;
         let view = view.with_aspect(settings.size.0, settings.size.1);
-        let tiles = FilmTiles::new(&settings, policy.slicing.tile_side);
+        let order = GroupOrder::of(&self.device.gpu);
+        let tiles = FilmTiles::new(&settings, policy.slicing.tile_side, order);
         let fetch = bindings::choose_fetch(&policy, &self.device.gpu, &scene, &view);
         let shown = (&*scene, &view, fetch);
         let bytes = planned_bytes(shown, &settings, &policy, &tiles)?;
@@ -318,6 +321,12 @@ impl Renderer {
     /// The device that it renders on.
     pub fn gpu(&self) -> &Gpu {
         &self.device.gpu
+    }
+
+    /// Film tiles without samples.
+    fn new_tiles(&self) -> FilmTiles {
+        let order = GroupOrder::of(self.gpu());
+        FilmTiles::new(&self.settings, self.policy.slicing.tile_side, order)
     }
 
     /// Whether every pixel has all its samples.

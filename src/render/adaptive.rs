@@ -9,7 +9,7 @@ mod tests;
 
 use super::{
     Integrator,
-    film_tile::FilmTile,
+    film_tile::{FilmTile, GroupOrder},
     layers::{self, COUNT, FIRST, Layer, RADIANCE, SQUARES},
     settings::RenderSettings,
     sums::PixelRows,
@@ -51,6 +51,7 @@ pub struct Adaptive {
     rounds: u32,
     /// Maximum number of pixels of a film tile.
     tile_pixels: usize,
+    order: GroupOrder,
     layers: &'static [&'static Layer],
     pixels: Vec<PixelStatistics>,
     /// The rows of all pixels as in film tiles, for films with features or opacity; otherwise empty.
@@ -64,7 +65,7 @@ pub struct Adaptive {
 }
 
 impl Adaptive {
-    pub fn new(settings: &RenderSettings, tile_side: u32) -> Self {
+    pub fn new(settings: &RenderSettings, tile_side: u32, order: GroupOrder) -> Self {
         let crop = settings.region();
         let (first_samples, brightness): (_, fn(f64) -> f64) = match settings.integrator {
             Integrator::Path => (FIRST_PATHS, compressed),
@@ -89,6 +90,7 @@ impl Adaptive {
             first_samples,
             // As many rows as without features.
             tile_pixels: 2 * side * side / layers::rows(layers::of_sampling(settings)),
+            order,
             layers: layers::of_sampling(settings),
             features: match settings.has_features() || settings.has_opacity() {
                 true => {
@@ -142,7 +144,7 @@ impl Adaptive {
         let starts = (self.tile_pixels..pixels.len()).step_by(self.tile_pixels);
         let mut lists: Vec<_> = starts.rev().map(|start| pixels.split_off(start)).collect();
         lists.push(pixels);
-        let tile = |list| FilmTile::list(list, samples.clone(), self.layers);
+        let tile = |list| FilmTile::list(list, samples.clone(), self.layers, self.order);
         lists.into_iter().rev().map(tile).collect()
     }
 

@@ -68,7 +68,7 @@ impl Renderer {
         }
         Identity::of(self).check_same(&Identity::read(&mut input)?)?;
         let counts = Counts::read(&mut input)?;
-        let mut tiles = FilmTiles::new(&self.settings, self.policy.slicing.tile_side);
+        let mut tiles = self.new_tiles();
         tiles.read_round(&mut input)?;
         let position = Position::read(&mut input, &tiles)?;
         let Cursor { tile, sample, .. } = position.cursor;

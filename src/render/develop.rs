@@ -3,7 +3,7 @@
 use super::{
     Fetch, Integrator, Quantity, RenderError, RenderSettings, Renderer, Slicing, Tone,
     bindings::Buffers,
-    film_tile::{FilmTile, rectangles},
+    film_tile::{FilmTile, GroupOrder, rectangles},
     layouts::{Layouts, group},
     levels, overrides, pipelines,
     slice::Slice,
@@ -264,7 +264,13 @@ pub fn develop_sums(
 ) -> Result<Image, RenderError> {
     let [x, y, width, height] = region;
     let mut image = Image::new(width, height);
-    let tiles = rectangles(region, Slicing::default().tile_side, 0..0, PixelRows::ONE);
+    let tiles = rectangles(
+        region,
+        Slicing::default().tile_side,
+        0..0,
+        PixelRows::ONE,
+        GroupOrder::Diagonal,
+    );
     let Some(most) = tiles.iter().map(FilmTile::pixel_count).max() else {
         return Ok(image);
     };

@@ -8,12 +8,35 @@ use super::{
     layers::{self, Layer, SQUARES},
     sums::{PixelRows, SAMPLE_BLOCK, Sums, Totals},
 };
-use crate::threads;
+use crate::{gpu::Gpu, threads};
 use std::{borrow::Cow, ops::Range};
 
 /// Pixels of a workgroup.
 pub const GROUP_PIXELS: usize = 64;
 const GROUP_SIDE: u32 = 8;
+
+/// The order in which workgroups visit a film tile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GroupOrder {
+    /// Down a diagonal, then down the next: those that run at the same time are neighbours, and share cached data.
+    Diagonal,
+    /// Down a row and over a part of the width, by the golden section: all ranges take about as long. Software adapters give
+    /// each thread one range.
+    Spread,
+}
+
+/// The smaller part of a length that is divided by it.
+const GOLDEN_SECTION: f64 = 0.381_966;
+
+impl GroupOrder {
+    /// The faster one on an adapter.
+    pub fn of(gpu: &Gpu) -> Self {
+        match gpu.is_cpu() {
+            true => Self::Spread,
+            false => Self::Diagonal,
+        }
+    }
+}
 
 /// A rectangle or a list of pixels of the picture that is on the GPU at a time. Its pixels are in film order:
 /// workgroup by workgroup in dispatch order, 64 lanes each, with padding at the edges.
@@ -25,6 +48,7 @@ pub struct FilmTile {
     pub height: u32,
     /// The samples to render.
     pub samples: Range<u32>,
+    order: GroupOrder,
     /// The pixels of a list, in film order; empty for a rectangle.
     places: Vec<[u32; 2]>,
     /// Rows of a pixel, and the row that holds the pixel position in a list.
@@ -38,13 +62,19 @@ pub struct FilmTile {
 
 impl FilmTile {
     /// A rectangle of the picture.
-    pub fn new([x, y, width, height]: [u32; 4], samples: Range<u32>, rows: PixelRows) -> Self {
+    pub fn new(
+        [x, y, width, height]: [u32; 4],
+        samples: Range<u32>,
+        rows: PixelRows,
+        order: GroupOrder,
+    ) -> Self {
         Self {
             x,
             y,
             width,
             height,
             samples,
+            order,
             places: Vec::new(),
             rows,
             place_row: 0,
@@ -54,9 +84,15 @@ impl FilmTile {
     }
 
     /// A list of pixels of the picture, not empty.
-    pub fn list(places: Vec<[u32; 2]>, samples: Range<u32>, layers: &[&Layer]) -> Self {
+    pub fn list(
+        places: Vec<[u32; 2]>,
+        samples: Range<u32>,
+        layers: &[&Layer],
+        order: GroupOrder,
+    ) -> Self {
         let side = GROUP_SIDE;
-        let mut tile = Self::new([0, 0, side, side], samples, layers::pixel_rows(layers));
+        let rows = layers::pixel_rows(layers);
+        let mut tile = Self::new([0, 0, side, side], samples, rows, order);
         tile.place_row = layers::row_of(layers, &SQUARES).unwrap_or_default();
         tile.places = places;
         tile
@@ -64,7 +100,7 @@ impl FilmTile {
 
     /// The same rectangle without sums.
     pub fn blank(&self) -> Self {
-        Self::new(self.region(), self.samples.clone(), self.rows)
+        Self::new(self.region(), self.samples.clone(), self.rows, self.order)
     }
 
     /// x, y, width, height.
@@ -103,16 +139,18 @@ impl FilmTile {
         }
     }
 
-    /// A stride, coprime to the number of workgroups, that steps to the next one down and right. Neighbouring
-    /// workgroups then share cached data, and any long enough range of workgroups covers the full height of the
-    /// tile.
+    /// The stride in which workgroups visit the tile, coprime to their number: one down, and some to the right.
     pub fn group_stride(&self) -> u32 {
         let count = self.group_count();
         let columns = match self.places.len() {
             0 => self.group_columns(),
             _ => count.isqrt(),
         };
-        coprime_stride(columns + 1, count)
+        let right = match self.order {
+            GroupOrder::Diagonal => 1,
+            GroupOrder::Spread => 1 + (f64::from(columns) * GOLDEN_SECTION) as u32,
+        };
+        coprime_stride(columns + right, count)
     }
 
     /// Number of pixels in film order, padding included.
@@ -266,6 +304,7 @@ pub fn rectangles(
     side: u32,
     samples: Range<u32>,
     rows: PixelRows,
+    order: GroupOrder,
 ) -> Vec<FilmTile> {
     let cuts = |start: u32, length: u32| {
         (0..length.div_ceil(side)).map(move |i| {
@@ -275,7 +314,7 @@ pub fn rectangles(
     };
     let row = |(wy, wh)| {
         let samples = samples.clone();
-        let tile = move |(wx, ww)| FilmTile::new([wx, wy, ww, wh], samples.clone(), rows);
+        let tile = move |(wx, ww)| FilmTile::new([wx, wy, ww, wh], samples.clone(), rows, order);
         cuts(x, width).map(tile)
     };
     cuts(y, height).flat_map(row).collect()
@@ -289,4 +328,34 @@ pub fn coprime_stride(least: u32, count: u32) -> u32 {
 
 fn gcd(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { gcd(b, a % b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FilmTile, GROUP_PIXELS, GroupOrder};
+    use crate::render::sums::PixelRows;
+
+    /// Any quarter of the workgroups, one after the other, has about as many in each quarter of the picture: lavapipe gives
+    /// each thread such a range.
+    #[test]
+    fn ranges_of_workgroups_are_spread_over_the_picture() {
+        for [width, height] in [[512, 512], [640, 480], [1920, 1080], [300, 1000]] {
+            let region = [0, 0, width, height];
+            let tile = FilmTile::new(region, 0..1, PixelRows::ONE, GroupOrder::Spread);
+            let corners: Vec<_> = (tile.pixels().step_by(GROUP_PIXELS).flatten()).collect();
+            let quarter = corners.len() / 4;
+            for range in corners.chunks_exact(quarter) {
+                let mut counts = [0; 4];
+                for [x, y] in range {
+                    counts[usize::from(2 * x >= width) + 2 * usize::from(2 * y >= height)] += 1;
+                }
+                let even = quarter as f64 / 4.0;
+                let off = counts.map(|count| (f64::from(count) / even - 1.0).abs());
+                assert!(
+                    off.iter().all(|off| *off < 0.1),
+                    "{width}×{height}: {counts:?}"
+                );
+            }
+        }
+    }
 }

@@ -8,7 +8,7 @@ mod saved;
 use super::{
     adaptive::Adaptive,
     film::{Film, FilmError, FilmHeader, Piece},
-    film_tile::{FilmTile, rectangles},
+    film_tile::{FilmTile, GroupOrder, rectangles},
     layers::{self, Layer},
     settings::RenderSettings,
     sums::{PixelRows, SAMPLE_BLOCK, Sums, Totals},
@@ -27,8 +27,8 @@ pub struct FilmTiles {
 
 impl FilmTiles {
     /// Splits the region into tiles of at most `tile_side` pixels a side and plans the first round.
-    pub fn new(settings: &RenderSettings, tile_side: u32) -> Self {
-        let adaptive = (settings.is_adaptive()).then(|| Adaptive::new(settings, tile_side));
+    pub fn new(settings: &RenderSettings, tile_side: u32, order: GroupOrder) -> Self {
+        let adaptive = (settings.is_adaptive()).then(|| Adaptive::new(settings, tile_side, order));
         let region = (adaptive.as_ref()).map_or(settings.region(), Adaptive::region);
         // With adaptive sampling, only the mean is arranged in rectangles, to be developed.
         let rows = match adaptive {
@@ -37,7 +37,7 @@ impl FilmTiles {
         };
         let side = tile_side / (rows.count as u32).isqrt();
         let mut tiles = Self {
-            list: rectangles(region, side, settings.samples_to_render(), rows),
+            list: rectangles(region, side, settings.samples_to_render(), rows, order),
             adaptive,
             largest: 0,
         };
@@ -88,10 +88,16 @@ impl FilmTiles {
             let rows = tile.rows_of(|pixel| so_far.mean(pixel));
             (tile, rows)
         };
-        rectangles(adaptive.crop(), tile_side, 0..0, PixelRows::ONE)
-            .into_iter()
-            .map(means)
-            .collect()
+        rectangles(
+            adaptive.crop(),
+            tile_side,
+            0..0,
+            PixelRows::ONE,
+            GroupOrder::Diagonal,
+        )
+        .into_iter()
+        .map(means)
+        .collect()
     }
 
     /// The film of the samples so far: all samples of the first `done` tiles, and the finished blocks of the

@@ -5,7 +5,6 @@ use super::{
     device::Readback,
     effort::LongPath,
     film_tile::FilmTile,
-    film_tiles::FilmTiles,
     policy::{Fetch, Stack},
     slice::Slice,
     sums::SAMPLE_BLOCK,
@@ -244,7 +243,7 @@ impl Renderer {
                 true => self.enlarge_stack()?,
                 false => self.policy.host_copy = true,
             }
-            self.tiles = FilmTiles::new(&self.settings, self.policy.slicing.tile_side);
+            self.tiles = self.new_tiles();
             self.cursor = Cursor::at_start(&self.tiles);
             self.work = None;
             return Ok(());

@@ -3,7 +3,11 @@
 use super::Adaptive;
 use crate::{
     random::{SplitMix64, mixed, unit},
-    render::{Antialias, Integrator, RenderSettings, film_tile::FilmTile, sums::SAMPLE_BLOCK},
+    render::{
+        Antialias, Integrator, RenderSettings,
+        film_tile::{FilmTile, GroupOrder},
+        sums::SAMPLE_BLOCK,
+    },
     threads,
 };
 use std::ops::Range;
@@ -139,7 +143,7 @@ fn render(tile: &mut FilmTile, plain: &mut Plain, seed: u64) {
 
 /// The rounds after the first, and how many pixels they had.
 fn check_rounds(settings: &RenderSettings, tile_side: u32, seed: u64) -> Vec<usize> {
-    let mut adaptive = Adaptive::new(settings, tile_side);
+    let mut adaptive = Adaptive::new(settings, tile_side, GroupOrder::Spread);
     let region = adaptive.region();
     let [left, top, width, height] = region;
     let all = (top..top + height).flat_map(|y| (left..left + width).map(move |x| [x, y]));
