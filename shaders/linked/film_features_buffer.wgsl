@@ -6,17 +6,16 @@ fn film_features(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
 		let first = row + bindings__FEATURES_ROW;
 		let sum = bindings__film[row];
 		let mean = filter__weighted_mean(sum);
-		let luminance = dot(mean, tone__LUMINANCE_REC709);
 		let samples = select(abs(sum.w), f32(bindings__dispatch.end_sample), bindings__dispatch.end_sample > 0u);
 		let squares = bindings__film[row + bindings__SQUARES_ROW].x / max_f32(samples, 1.0);
-		let variance = max_f32(squares - luminance * luminance, 0.0) / max_f32(samples - 1.0, 1.0);
+		let variance = features__mean_variance(mean, squares, samples);
 		let p = work.pixel - vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
 		textureStore(bindings__noisy_out, p, vec4f(mean, select(variance, demodulation__UNKNOWN_VARIANCE, samples == 1.0)));
 		let weight = bindings__film[first].w;
 		let albedo = features__feature_mean(bindings__film[first], weight).xyz;
 		let normal = features__feature_mean(bindings__film[first + 1u], weight);
 		let shown = samples * weight / select(1.0, sum.w, sum.w != 0.0);
-		textureStore(bindings__albedos_out, p, vec4f(albedo, features__albedo_variance(albedo, normal.w, shown)));
+		textureStore(bindings__albedos_out, p, vec4f(albedo, features__mean_variance(albedo, normal.w, shown)));
 		textureStore(bindings__surfaces_out, p, vec4f(normal.xyz, bindings__film[first + 5u].w));
 	}
 }
@@ -146,10 +145,6 @@ fn filter__weighted_mean(sum: vec4f) -> vec3f {
 	return select(vec3f(0.0), max_vec3f(sum.xyz / select(1.0, sum.w, usable), vec3f(0.0)), usable);
 }
 
-const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
-
-const demodulation__UNKNOWN_VARIANCE: f32 = 1e31;
-
 const features__LEAST_WEIGHT: f32 = 1.0 / 1024.0;
 
 fn features__feature_mean(sum: vec4f, weight: f32) -> vec4f {
@@ -157,10 +152,14 @@ fn features__feature_mean(sum: vec4f, weight: f32) -> vec4f {
 	return select(vec4f(0.0), clamp_vec4f(sum / select(1.0, weight, usable), vec4f(-1.0), vec4f(1.0)), usable);
 }
 
-fn features__albedo_variance(albedo: vec3f, squares: f32, samples: f32) -> f32 {
-	let luminance = dot(albedo, tone__LUMINANCE_REC709);
+fn features__mean_variance(mean: vec3f, squares: f32, samples: f32) -> f32 {
+	let luminance = dot(mean, tone__LUMINANCE_REC709);
 	return max_f32(squares - luminance * luminance, 0.0) / max_f32(samples - 1.0, 1.0);
 }
+
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+
+const demodulation__UNKNOWN_VARIANCE: f32 = 1e31;
 
 override bindings__EXTREMES_BY_SELECT: bool = false;
 

@@ -184,7 +184,7 @@ fn rough_glass_is_invisible_in_even_light() {
                     (-1.0, 0.25),
                 ] {
                     let scene = boundary(glass(roughness, thickness, ior), side, cos);
-                    let found = mean(&scene, &paths(4096, (4, 4), 8));
+                    let found = mean(&scene, &paths(32_768, (4, 4), 8));
                     let what = format!(
                         "roughness {roughness}, thickness {thickness}, index {ior}, side {side}, cos {cos}"
                     );
@@ -252,9 +252,9 @@ fn partly_transmissive_boundaries_are_invisible_in_even_light() {
                 ..MetallicRoughness::default()
             });
             let scene = boundary(white, side, cos);
-            let found = mean(&scene, &paths(4096, (4, 4), 8));
+            let found = mean(&scene, &paths(32_768, (4, 4), 8));
             let what = format!("transmission {transmission}, side {side}, cos {cos}");
-            verdict.that(what, (found - 1.0).abs() < 0.008, || found);
+            verdict.that(what, found > 0.995 && found < 1.002, || found);
         }
     }
     verdict.close();
