@@ -2,6 +2,7 @@
 
 use super::check::{Lobe, Wide, views};
 use super::reference::{self, REFLECT, TRANSMIT};
+use super::same;
 use crate::support::{
     harness::gpu,
     verdict::{Tolerance, Verdict},
@@ -69,10 +70,6 @@ fn other_side([alpha, eta, bends, gain]: Wide) -> (Wide, f64) {
     }
 }
 
-fn same_side(p: Wide) -> (Wide, f64) {
-    (p, 1.0)
-}
-
 const COAT: Lobe = Lobe {
     name: "coat",
     imports: "import package::lib::bsdf_coat::{coat_eval, coat_sample};",
@@ -97,7 +94,7 @@ fn rough_boundaries_scatter_as_walter_and_fresnel_say() {
         });
         lobe.check_limits(&mut verdict, &ends.collect::<Vec<_>>());
     }
-    REFLECTED.check_reciprocity(&mut verdict, &parameters, same_side);
+    REFLECTED.check_reciprocity(&mut verdict, &parameters, same);
     TRANSMITTED.check_reciprocity(&mut verdict, &parameters, other_side);
     verdict.close();
 }
@@ -250,7 +247,7 @@ fn coats_reflect_as_heitz_and_schlick_say() {
         COAT.check_limits(&mut verdict, &ends);
     }
     // The specification takes the reflectance from one of the two directions.
-    COAT.check_reciprocity(&mut verdict, &parameters(0.0), same_side);
+    COAT.check_reciprocity(&mut verdict, &parameters(0.0), same);
     let cosines = [1.0, 0.5, 0.0_f64];
     let found: Vec<f32> = gpu().map("lib::bsdf_coat::coat_fresnel", &cosines.map(|c| c as f32));
     for (cosine, found) in cosines.iter().zip(found) {
