@@ -157,7 +157,7 @@ impl Renderer {
         };
         let cursor = Cursor::at_start(&tiles);
         Ok(Self {
-            planner: Planner::new(policy.slicing, effort::shadow_rays(&view, &settings)),
+            planner: Planner::new(policy.slicing, order, effort::shadow_rays(&view, &settings)),
             scene,
             settings,
             policy,
@@ -204,7 +204,8 @@ impl Renderer {
         if policy.count_rays {
             self.stats.rays.get_or_insert_default();
         }
-        let planner = Planner::new(policy.slicing, effort::shadow_rays(&view, &settings));
+        let shadow_rays = effort::shadow_rays(&view, &settings);
+        let planner = Planner::new(policy.slicing, order, shadow_rays);
         if policy.slicing != self.policy.slicing || planner.is_for_more_work_than(&self.planner) {
             self.planner = planner;
         }

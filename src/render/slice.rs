@@ -1,15 +1,21 @@
 //! Splits the work on a film tile into submissions of about the target time each: watchdogs kill long
 //! submissions, and nothing can be displayed, stopped or saved during one.
 
-use super::{film_tile::FilmTile, policy::Slicing, settings::RenderSettings};
+use super::{
+    film_tile::{FilmTile, GroupOrder},
+    policy::Slicing,
+    settings::RenderSettings,
+};
 use crate::layout::{PackedCounters, PackedDispatch};
 
 /// Workgroups of the first submission, so that it stays short even if the work is heavier than expected.
-const FIRST_GROUPS: f64 = 8.0;
+const FIRST_GROUPS: f64 = 32.0;
 /// Number of shadow rays per point above which the first submission has fewer workgroups.
 const FEW_SHADOW_RAYS: f64 = 256.0;
-/// Maximum growth from one submission to the next.
-const GROWTH: f64 = 4.0;
+/// Maximum growth from one submission to the next: each is spread over the picture, so the next one takes as long for the
+/// same work, or each renders another part of it.
+const GROWTH_OF_SPREAD: f64 = 16.0;
+const GROWTH_OF_PARTS: f64 = 4.0;
 /// If twice the work takes at most this factor longer, the time is spent on overhead: on the submission itself,
 /// or on other work of the adapter and the machine. Smaller submissions would only add overhead.
 const TWICE: f64 = 2.0;
@@ -132,6 +138,8 @@ impl Slice {
 #[derive(Clone, Debug)]
 pub struct Planner {
     slicing: Slicing,
+    /// Maximum growth from one submission to the next.
+    growth: f64,
     /// Work of the first submission.
     first: f64,
     /// Work that is expected to take the target time.
@@ -145,12 +153,16 @@ pub struct Planner {
 }
 
 impl Planner {
-    /// A planner for a picture with this many shadow rays per point.
-    pub fn new(slicing: Slicing, shadow_rays: u64) -> Self {
+    /// A planner for a picture with this many shadow rays per point, whose workgroups are visited in this order.
+    pub fn new(slicing: Slicing, order: GroupOrder, shadow_rays: u64) -> Self {
         let fraction = FEW_SHADOW_RAYS / (shadow_rays as f64).max(FEW_SHADOW_RAYS);
         let first = (FIRST_GROUPS * fraction).max(1.0);
         Self {
             slicing,
+            growth: match order {
+                GroupOrder::Spread => GROWTH_OF_SPREAD,
+                GroupOrder::Diagonal => GROWTH_OF_PARTS,
+            },
             first,
             budget: first,
             floor: 1.0,
@@ -218,7 +230,7 @@ impl Planner {
         }
         .max(1.0);
         self.last = Some((work, seconds));
-        let most = work.max(self.first) * GROWTH;
+        let most = work.max(self.first) * self.growth;
         let fitting = work * self.slicing.target_seconds / seconds.max(1e-6);
         self.budget = fitting.clamp(self.floor.min(most), most);
     }
@@ -232,5 +244,50 @@ impl Planner {
     pub fn shrink(&mut self) {
         self.budget = (self.budget / 2.0).max(1.0);
         self.floor = 1.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{GroupOrder, Planner, Slicing};
+
+    /// The workgroups of each submission of a picture of 512×512 pixels, of which each takes as long as the others.
+    fn submissions(order: GroupOrder, seconds_of_group: f64) -> Vec<u32> {
+        let mut planner = Planner::new(Slicing::default(), order, 1);
+        let (mut sizes, mut done) = (Vec::new(), 0);
+        while done < 4096 {
+            let slice = planner.next_slice(4096, done, 0, 1);
+            let groups = slice.end_group - slice.first_group;
+            planner.learn(&slice, seconds_of_group * f64::from(groups));
+            done = slice.end_group;
+            sizes.push(groups);
+        }
+        sizes
+    }
+
+    /// Each submission of a light picture takes a fraction of a millisecond of its own.
+    #[test]
+    fn light_pictures_take_few_submissions() {
+        assert_eq!(submissions(GroupOrder::Spread, 2e-6).len(), 3);
+        assert!(submissions(GroupOrder::Diagonal, 2e-6).len() <= 5);
+    }
+
+    #[test]
+    fn submissions_of_heavy_pictures_take_the_target_time() {
+        let target = Slicing::default().target_seconds;
+        for order in [GroupOrder::Spread, GroupOrder::Diagonal] {
+            for seconds in [2e-4, 1e-3, 2e-3] {
+                let sizes = submissions(order, seconds);
+                let times = sizes.iter().map(|groups| f64::from(*groups) * seconds);
+                let longest = times.clone().fold(0.0, f64::max);
+                assert!(longest <= 1.01 * target, "{order:?}: {longest} s");
+                let most = (4096.0 * seconds / target).ceil() as usize + 3;
+                assert!(
+                    sizes.len() <= most,
+                    "{order:?}: {} submissions",
+                    sizes.len()
+                );
+            }
+        }
     }
 }
