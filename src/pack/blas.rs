@@ -4,8 +4,9 @@
 use super::{
     geometry::{self, Flat, PlacedMesh},
     nodes::{self, Children, Offsets},
-    pieces::Divided,
+    shape_pieces,
     topology::{Fit, PIECES, Topology, build, leaf_range},
+    triangle_pieces,
 };
 use crate::{
     bvh::{Aabb, Child, threads},
@@ -101,13 +102,24 @@ impl Blas {
     pub fn joint(flat: Flat, stack_size: usize, offsets: Offsets) -> Self {
         let corners = |triangle: u32| geometry::corners(&flat.triangles[triangle as usize]);
         let boxes = flat.triangles.iter().map(geometry::triangle_box);
-        let divided = Divided::new(boxes.collect(), corners);
-        let shapes: Vec<_> = flat.bounded.iter().map(|(_, bounds)| *bounds).collect();
-        let bvh = build(&divided, &shapes, stack_size);
+        let triangles = triangle_pieces::divided(boxes.collect(), corners);
+        let boxes = flat.bounded.iter().map(|(_, bounds)| *bounds);
+        let shapes = shape_pieces::divided(boxes.collect(), flat.pieces);
+        let bvh = build(&triangles, &shapes, stack_size);
+        let pieces = &bvh.order[usize::from(PIECES)];
         let reference = |child: &Child| match *child {
             Child::Leaf { group, first, .. } if group == PIECES => {
-                let piece = divided.piece(bvh.order[usize::from(PIECES)][first as usize]);
-                leaf_reference(offsets.triangle + divided.pieces[piece].triangle, 1, false)
+                let place = pieces[first as usize] as usize;
+                match place.checked_sub(triangles.boxes.len()) {
+                    None => {
+                        let piece = &triangles.pieces[triangles.piece(place)];
+                        leaf_reference(offsets.triangle + piece.triangle, 1, false)
+                    }
+                    Some(place) => {
+                        let piece = &shapes.pieces[shapes.piece(place)];
+                        leaf_reference(offsets.shape + piece.shape, 1, true)
+                    }
+                }
             }
             _ => offsets.reference(child),
         };
@@ -115,15 +127,17 @@ impl Blas {
             let children = bvh.nodes[index].children.iter();
             Children::new(children.map(|(aabb, child)| (*aabb, reference(child))))
         };
-        let triangles = divided.order(&bvh.order[usize::from(nodes::TRIANGLES)]);
-        let shapes = bvh.order[usize::from(nodes::SHAPES)].iter();
+        let boxes_of = |group: u8| bvh.order[usize::from(group)].iter().copied();
+        let triangle_order = triangles.order(boxes_of(nodes::TRIANGLES));
+        let first_shape = triangles.boxes.len() as u32;
+        let shape_order = shapes.order(boxes_of(nodes::SHAPES).map(|place| place - first_shape));
         Self {
             offsets,
             nodes: (0..bvh.nodes.len())
                 .map(|index| nodes::quantize(children_of(index).as_slice()))
                 .collect(),
-            triangles: (triangles.iter().map(|&i| flat.triangles[i as usize])).collect(),
-            shapes: (shapes.map(|&i| flat.bounded[i as usize - divided.boxes.len()].0)).collect(),
+            triangles: (triangle_order.iter().map(|&i| flat.triangles[i as usize])).collect(),
+            shapes: (shape_order.iter().map(|&i| flat.bounded[i as usize].0)).collect(),
             vertices: flat.vertices.into(),
             tangents: flat.tangents.into(),
             stack_need: bvh.stack_need,

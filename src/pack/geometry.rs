@@ -1,6 +1,9 @@
 //! Packs meshes and shapes in render space, or in the space of an instanced BLAS.
 
-use super::PackError;
+use super::{
+    PackError,
+    shape_pieces::{self, ShapePiece},
+};
 use crate::{
     bvh::{Aabb, threads},
     layout::{
@@ -30,6 +33,8 @@ pub struct Flat {
     /// Bounded shapes with their boxes, and unbounded ones.
     pub bounded: Vec<(PackedShape, Aabb)>,
     pub planes: Vec<PackedShape>,
+    /// Of bounded shapes, by index, for the BVH.
+    pub pieces: Vec<ShapePiece>,
 }
 
 impl Flat {
@@ -116,10 +121,18 @@ impl Flat {
         let (min, max) = (render_point(min, origin)?, render_point(max, origin)?);
         // Enlarged for the rounding of the bounds, the position and the rows.
         let slack = (min.abs().max(max.abs()) + (max - min).max_element()) * (2.0 * f32::EPSILON);
-        let bounds = Aabb {
+        let enlarged = |min: Vec3, max: Vec3| Aabb {
             min: min - slack,
             max: max + slack,
         };
+        for piece in shape_pieces::pieces(geometry) {
+            let (min, max) = piece.bounds().unwrap_or_default();
+            self.pieces.push(ShapePiece {
+                shape: self.bounded.len() as u32,
+                aabb: enlarged(render_point(min, origin)?, render_point(max, origin)?),
+            });
+        }
+        let bounds = enlarged(min, max);
         self.bounded.push((packed, bounds));
         Ok(())
     }

@@ -1,9 +1,11 @@
 //! The topology of a mesh's BVH, built once in object space, and its boxes for a position of the mesh.
 
 use super::{
+    divided::Divided,
     geometry::{self, PlacedMesh},
     nodes::{self, Children, Offsets},
-    pieces::{Divided, Piece},
+    shape_pieces::ShapePiece,
+    triangle_pieces::{self, TrianglePiece},
 };
 use crate::{
     bvh::{self, Aabb, Bvh, Child, linear, threads},
@@ -22,7 +24,7 @@ const LEAF_SIZE: u32 = 4;
 /// Stack limit of BVHs below another one, which leaves room for it.
 pub const STACK_BELOW: usize = 60;
 
-/// The group of the pieces of triangles; see [`nodes::TRIANGLES`].
+/// The group of the pieces of triangles and shapes; see [`nodes::TRIANGLES`].
 pub const PIECES: u8 = nodes::GROUP_COUNT as u8;
 
 /// The assignment of the triangles of a mesh to leaves, without boxes, which depend on the position.
@@ -34,7 +36,7 @@ pub struct Topology {
     /// Triangles of the mesh in leaf order, then those in pieces.
     order: Vec<u32>,
     /// Their triangles are places in `order`.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<TrianglePiece>,
     pub stack_need: usize,
     /// The cost of traversal in the position that it was built for; see [`cost_of`]. Infinite for drafts, whose meshes do
     /// not deform.
@@ -46,12 +48,13 @@ pub struct Topology {
 impl Topology {
     pub fn build(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
         let corners = scaled(positions, triangles);
-        let divided = Divided::new(boxes(triangles.len(), &corners), &corners);
-        let bvh = build(&divided, &[], STACK_BELOW);
+        let divided = triangle_pieces::divided(boxes(triangles.len(), &corners), &corners);
+        let bvh = build(&divided, &Divided::NONE, STACK_BELOW);
         let offsets = Offsets::default();
         let reference = |child: &Child| match *child {
             Child::Leaf { group, first, .. } if group == PIECES => {
-                let piece = divided.piece(bvh.order[usize::from(PIECES)][first as usize]);
+                let place = bvh.order[usize::from(PIECES)][first as usize];
+                let piece = divided.piece(place as usize);
                 leaf_reference(piece as u32, 1, true)
             }
             _ => offsets.reference(child),
@@ -70,7 +73,7 @@ impl Topology {
         Self {
             cost: cost_of(areas),
             children: threads::collect(bvh.nodes.len(), |index| references(&bvh.nodes[index])),
-            order: divided.order(&bvh.order[usize::from(nodes::TRIANGLES)]),
+            order: divided.order(bvh.order[usize::from(nodes::TRIANGLES)].iter().copied()),
             pieces: divided.pieces,
             stack_need: bvh.stack_need,
             is_draft: false,
@@ -196,14 +199,19 @@ impl<'a> Fit<'a> {
     }
 }
 
-/// A BVH over triangles and the boxes of shapes.
-pub fn build(triangles: &Divided, shapes: &[Aabb], stack_size: usize) -> Bvh {
+/// A BVH over triangles and shapes.
+pub fn build(
+    triangles: &Divided<TrianglePiece>,
+    shapes: &Divided<ShapePiece>,
+    stack_size: usize,
+) -> Bvh {
     let mut groups = vec![nodes::TRIANGLES; triangles.whole_count()];
     groups.resize(triangles.boxes.len(), PIECES);
-    groups.resize(triangles.boxes.len() + shapes.len(), nodes::SHAPES);
-    let boxes = match shapes {
+    groups.resize(triangles.boxes.len() + shapes.whole_count(), nodes::SHAPES);
+    groups.resize(triangles.boxes.len() + shapes.boxes.len(), PIECES);
+    let boxes = match shapes.boxes[..] {
         [] => Cow::Borrowed(&triangles.boxes),
-        _ => Cow::Owned([&triangles.boxes, shapes].concat()),
+        _ => Cow::Owned([&triangles.boxes[..], &shapes.boxes].concat()),
     };
     let limits = bvh::Limits {
         leaf_size: LEAF_SIZE,

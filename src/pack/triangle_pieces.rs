@@ -2,6 +2,7 @@
 //! its pieces are not (Ernst and Greiner, Early Split Clipping for Bounding Volume Hierarchies, 2007). The triangle
 //! is stored once; each piece is a leaf that refers to it.
 
+use super::divided::Divided;
 use crate::bvh::{Aabb, threads};
 use glam::Vec3;
 
@@ -19,7 +20,7 @@ const TRIANGLES_PER_PIECE: usize = 4;
 
 /// A slice of a triangle, parallel to its shortest edge.
 #[derive(Clone, Copy, Debug)]
-pub struct Piece {
+pub struct TrianglePiece {
     /// The triangle that it is a part of.
     pub triangle: u32,
     /// The corner opposite the shortest edge: 0, 1 or 2.
@@ -29,7 +30,7 @@ pub struct Piece {
     extent: [f32; 2],
 }
 
-impl Piece {
+impl TrianglePiece {
     fn whole(triangle: u32, corners: [Vec3; 3]) -> Self {
         let opposite = |apex: usize| {
             let [b, c] = [1, 2].map(|step| corners[(apex + step) % 3]);
@@ -67,64 +68,18 @@ impl Piece {
     }
 }
 
-/// The boxes of triangles for a BVH, long ones in pieces.
-pub struct Divided {
-    /// Those of triangles that are not divided, then those of the pieces.
-    pub boxes: Vec<Aabb>,
-    /// Their triangles are places in [`Self::order`].
-    pub pieces: Vec<Piece>,
-    /// The triangles that are not divided, and those that are, in ascending order.
-    whole: Vec<u32>,
-    divided: Vec<u32>,
-}
-
-impl Divided {
-    /// `boxes` are those of the triangles, `corners` gives the corners of each.
-    pub fn new(mut boxes: Vec<Aabb>, corners: impl Fn(u32) -> [Vec3; 3] + Sync) -> Self {
-        let mut pieces = pieces(&boxes, &corners);
-        let mut divided: Vec<_> = pieces.iter().map(|piece| piece.triangle).collect();
-        divided.dedup();
-        let mut next = divided.iter().peekable();
-        let is_whole = |triangle: &u32| next.next_if_eq(&triangle).is_none();
-        let whole: Vec<_> = (0..boxes.len() as u32).filter(is_whole).collect();
-        // The boxes before the first that is divided are in their places.
-        let first = divided.first().map_or(whole.len(), |it| *it as usize);
-        for (place, &triangle) in whole.iter().enumerate().skip(first) {
-            boxes[place] = boxes[triangle as usize];
-        }
-        boxes.truncate(whole.len());
-        for piece in &mut pieces {
-            boxes.push(piece.aabb(corners(piece.triangle)));
-            let place = divided.partition_point(|triangle| *triangle < piece.triangle);
-            piece.triangle = (whole.len() + place) as u32;
-        }
-        Self {
-            boxes,
-            pieces,
-            whole,
-            divided,
-        }
-    }
-
-    /// The number of triangles that are not divided.
-    pub fn whole_count(&self) -> usize {
-        self.whole.len()
-    }
-
-    /// All triangles: those that are not divided in this order of their boxes, then the others.
-    pub fn order(&self, boxes: &[u32]) -> Vec<u32> {
-        let whole = boxes.iter().map(|&place| self.whole[place as usize]);
-        whole.chain(self.divided.iter().copied()).collect()
-    }
-
-    /// The piece of a box.
-    pub fn piece(&self, place: u32) -> usize {
-        place as usize - self.whole.len()
-    }
+/// The boxes of triangles, given with the corners of each, long ones in pieces.
+pub fn divided(
+    boxes: Vec<Aabb>,
+    corners: impl Fn(u32) -> [Vec3; 3] + Sync,
+) -> Divided<TrianglePiece> {
+    let pieces = pieces(&boxes, &corners);
+    let aabb = |piece: &TrianglePiece| piece.aabb(corners(piece.triangle));
+    Divided::new(boxes, pieces, aabb, |piece| &mut piece.triangle)
 }
 
 /// The pieces of all triangles worth dividing, triangle by triangle.
-fn pieces(boxes: &[Aabb], corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<Piece> {
+fn pieces(boxes: &[Aabb], corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<TrianglePiece> {
     let total: f64 = boxes.iter().map(|aabb| f64::from(aabb.half_area())).sum();
     let mean = (total / boxes.len() as f64) as f32;
     let pays = threads::collect(boxes.len(), |index| {
@@ -132,7 +87,7 @@ fn pieces(boxes: &[Aabb], corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<P
         let is_large = boxes[index].half_area() > LARGE * mean;
         is_large && {
             let corners = corners(triangle);
-            pays(&Piece::whole(triangle, corners), corners)
+            pays(&TrianglePiece::whole(triangle, corners), corners)
         }
     });
     let worth = |least: f32| {
@@ -145,7 +100,7 @@ fn pieces(boxes: &[Aabb], corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<P
     let (mut pieces, mut open) = (Vec::new(), Vec::new());
     loop {
         pieces.clear();
-        let is_full = |pieces: &[Piece]| pieces.len() > boxes.len() / TRIANGLES_PER_PIECE;
+        let is_full = |pieces: &[TrianglePiece]| pieces.len() > boxes.len() / TRIANGLES_PER_PIECE;
         for triangle in worth(least) {
             divide(triangle, corners(triangle), least, &mut pieces, &mut open);
             if is_full(&pieces) {
@@ -160,7 +115,7 @@ fn pieces(boxes: &[Aabb], corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<P
 }
 
 /// Whether both halves of a piece have much smaller boxes than the piece.
-fn pays(piece: &Piece, corners: [Vec3; 3]) -> bool {
+fn pays(piece: &TrianglePiece, corners: [Vec3; 3]) -> bool {
     let [left, right] = piece.halves().map(|half| half.aabb(corners).half_area());
     (left + right) * GAIN < piece.aabb(corners).half_area()
 }
@@ -171,10 +126,10 @@ fn divide(
     triangle: u32,
     corners: [Vec3; 3],
     least: f32,
-    pieces: &mut Vec<Piece>,
-    open: &mut Vec<(Piece, u32)>,
+    pieces: &mut Vec<TrianglePiece>,
+    open: &mut Vec<(TrianglePiece, u32)>,
 ) {
-    open.push((Piece::whole(triangle, corners), 0));
+    open.push((TrianglePiece::whole(triangle, corners), 0));
     while let Some((piece, depth)) = open.pop() {
         let is_large = piece.aabb(corners).half_area() > least;
         match depth < MOST_HALVINGS && is_large && pays(&piece, corners) {

@@ -3,15 +3,17 @@
 use crate::reference::compare::{assert_none, check_same_bits, open_gpu, render};
 use crate::reference::scenes::{self, Build, Random};
 use crate::support::verdict::Verdict;
-use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3, UVec2, Vec3, dvec3};
 use glimray::bvh::{self, Aabb, Bvh, Child, Limits};
 use glimray::image::Image;
 use glimray::layout::{
-    LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, SHAPE, STACK_SIZE,
+    LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, PackedShape, SHAPE, SHAPE_BOX,
+    SHAPE_CONE, SHAPE_RECTANGLE, STACK_SIZE,
 };
 use glimray::pack::{self, PackedScene};
 use glimray::render::{Integrator, RenderSettings, TriangleTest};
-use glimray::scene::{Mesh, Scene};
+use glimray::scene::{CanonicalShape, Geometry, Mesh, Scene, Shape};
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 const LIMITS: Limits = Limits {
@@ -299,12 +301,25 @@ fn triangles_of(reference: u32) -> Range<usize> {
     }
 }
 
+/// The same of shapes.
+fn shapes_of(reference: u32) -> Range<usize> {
+    match reference & (LEAF | SHAPE) == LEAF | SHAPE {
+        true => primitives_of(reference),
+        false => 0..0,
+    }
+}
+
 /// The number of leaves that each triangle is in.
 fn leaves_of_triangles(scene: &PackedScene) -> Vec<u32> {
-    let mut leaves = vec![0; scene.triangles.len()];
+    leaves_of(scene, scene.triangles.len(), triangles_of)
+}
+
+/// The number of leaves that each primitive is in, whose indices `of` gives for a child.
+fn leaves_of(scene: &PackedScene, count: usize, of: fn(u32) -> Range<usize>) -> Vec<u32> {
+    let mut leaves = vec![0; count];
     let mut open = vec![0];
     while let Some(reference) = open.pop() {
-        triangles_of(reference).for_each(|triangle| leaves[triangle] += 1);
+        of(reference).for_each(|index| leaves[index] += 1);
         if reference & LEAF == 0 {
             open.extend(decode(scene, reference).iter().map(|(child, _)| child));
         }
@@ -414,16 +429,21 @@ fn nodes_with_float_planes_have_the_same_boxes() {
     verdict.close();
 }
 
-/// Whether all boxes down to some leaf with the triangle hold the point.
-fn is_found(scene: &PackedScene, reference: u32, point: DVec3, triangle: usize) -> bool {
+/// Whether all boxes down to some leaf of the primitive hold the point.
+fn is_found(
+    scene: &PackedScene,
+    reference: u32,
+    point: DVec3,
+    is_its_leaf: &impl Fn(u32) -> bool,
+) -> bool {
     if reference & LEAF != 0 {
-        return triangles_of(reference).contains(&triangle);
+        return is_its_leaf(reference);
     }
     decode(scene, reference)
         .into_iter()
         .any(|(child, decoded)| {
             let holds = |(low, high): &Box64| low.cmple(point).all() && high.cmpge(point).all();
-            decoded.iter().all(holds) && is_found(scene, child, point, triangle)
+            decoded.iter().all(holds) && is_found(scene, child, point, is_its_leaf)
         })
 }
 
@@ -459,7 +479,8 @@ fn every_point_of_a_triangle_in_several_leaves_is_found() {
             {
                 let (u, v) = (i / 40.0, j / 4.0 * (1.0 - i / 40.0));
                 let point = a + (b - a) * u + (c - a) * v;
-                if !is_found(&packed, 0, point, index) {
+                let is_its_leaf = |reference| triangles_of(reference).contains(&index);
+                if !is_found(&packed, 0, point, &is_its_leaf) {
                     return Err(format!(
                         "triangle {index} of {count} is not found at {u}, {v}"
                     ));
@@ -468,6 +489,133 @@ fn every_point_of_a_triangle_in_several_leaves_is_found() {
             Ok(())
         })
     }));
+}
+
+/// Long and short cylinders, cones, boxes and rectangles, oblique and along the axes.
+fn beams(seed: u64) -> Scene {
+    let mut random = Random(seed);
+    let mut scene = seen_from(dvec3(0.0, 0.0, 6.0));
+    for index in 0..400 {
+        let cone = |bottom: f64| CanonicalShape::Cone {
+            bottom,
+            top: 1.0,
+            capped: index % 8 < 4,
+        };
+        let width = random.between(0.01, 0.1);
+        let length = if index % 16 < 12 { 2.0 } else { width };
+        let (canonical, size) = match index % 4 {
+            0 => (cone(1.0), dvec3(width, length, width)),
+            1 => (cone(random.between(0.0, 1.0)), dvec3(width, length, width)),
+            2 => (CanonicalShape::Box, dvec3(width, width, length)),
+            _ => (CanonicalShape::Rectangle, dvec3(length, 1.0, width)),
+        };
+        let turn = match index % 32 < 16 {
+            true => DQuat::from_axis_angle(random.within(1.0).normalize(), 1.0),
+            false => DQuat::IDENTITY,
+        };
+        let place = DAffine3::from_scale_rotation_translation(size, turn, random.within(2.0));
+        add_placed(&mut scene, canonical, place);
+    }
+    scene
+}
+
+fn add_placed(scene: &mut Scene, canonical: CanonicalShape, world_from_canonical: DAffine3) {
+    scene.shapes.push(Shape {
+        geometry: Geometry::Placed {
+            canonical,
+            world_from_canonical,
+        },
+        material: 0,
+        node: None,
+    });
+}
+
+/// Points on a packed cone, box or rectangle, in its canonical space.
+fn canonical_points(shape: &PackedShape) -> Vec<DVec3> {
+    let steps = |count: u32| (0..=count).map(move |i| f64::from(i) / f64::from(count));
+    let grid = steps(40).flat_map(|a| steps(8).map(move |b| (a, b)));
+    let across = |a: f64, b: f64| (2.0 * a - 1.0, 2.0 * b - 1.0);
+    match shape.kind {
+        SHAPE_CONE => {
+            let [bottom, top] = [shape.size0, shape.size1].map(f64::from);
+            let round = |(y, turn): (f64, f64)| {
+                let (sin, cos) = (TAU * turn).sin_cos();
+                let radius = bottom + (top - bottom) * y;
+                dvec3(radius * cos, y, radius * sin)
+            };
+            grid.map(round).collect()
+        }
+        SHAPE_RECTANGLE => {
+            let flat = |(a, b)| dvec3(across(a, b).0, 0.0, across(a, b).1);
+            grid.map(flat).collect()
+        }
+        SHAPE_BOX => {
+            let sides = |(a, b)| {
+                let (a, b) = across(a, b);
+                let faces = [dvec3(b, a, 1.0), dvec3(1.0, a, b), dvec3(a, 1.0, b)];
+                faces.into_iter().flat_map(|point| [point, -point])
+            };
+            grid.flat_map(sides).collect()
+        }
+        kind => panic!("a shape of kind {kind}"),
+    }
+}
+
+#[test]
+fn every_point_of_a_shape_in_several_leaves_is_found() {
+    let packed = pack::scene(&beams(5)).expect("packed");
+    let leaves = leaves_of(&packed, packed.shapes.len(), shapes_of);
+    assert!(leaves.iter().all(|&count| count > 0), "one is left out");
+    assert_none((0..packed.shapes.len()).map(|index| {
+        let shape = &packed.shapes[index];
+        let rows = [shape.row_x, shape.row_y, shape.row_z].map(|row| Vec3::from(row).as_dvec3());
+        let render_from_canonical = DMat3::from_cols_array_2d(&rows.map(Into::into))
+            .transpose()
+            .inverse();
+        let origin = Vec3::from(shape.position).as_dvec3();
+        let is_its_leaf = |reference| shapes_of(reference).contains(&index);
+        for canonical in canonical_points(shape) {
+            let point = origin + render_from_canonical * canonical;
+            if !is_found(&packed, 0, point, &is_its_leaf) {
+                return Err(format!("shape {index} is not found at {canonical}"));
+            }
+        }
+        Ok(())
+    }));
+}
+
+#[test]
+fn only_long_oblique_shapes_are_in_several_leaves() {
+    let radius = 1.0 / 15.0;
+    let cylinder = CanonicalShape::Cone {
+        bottom: 1.0,
+        top: 1.0,
+        capped: true,
+    };
+    assert_none(
+        [
+            ("long and oblique", DVec3::ONE, 1.0, 2..=8),
+            ("long, at 45 degrees", dvec3(1.0, 0.0, 1.0), 1.0, 2..=8),
+            ("along an axis", DVec3::Z, 1.0, 1..=1),
+            ("short", DVec3::ONE, radius, 1..=1),
+        ]
+        .map(|(name, axis, length, expected)| {
+            let turn = DQuat::from_rotation_arc(DVec3::Y, axis.normalize());
+            let size = dvec3(radius, length, radius);
+            let mut scene = seen_from(dvec3(0.0, 0.0, 6.0));
+            for x in 0..50 {
+                let at = dvec3(f64::from(x), 0.0, 0.0);
+                let place = DAffine3::from_scale_rotation_translation(size, turn, at);
+                add_placed(&mut scene, cylinder, place);
+            }
+            let packed = pack::scene(&scene).expect("packed");
+            let leaves = leaves_of(&packed, packed.shapes.len(), shapes_of);
+            match leaves.iter().all(|count| expected.contains(count)) {
+                true => Ok(()),
+                false => Err(format!("{name}: {leaves:?}")),
+            }
+        }),
+    );
 }
 
 fn lone_triangles(corners: impl IntoIterator<Item = [DVec3; 3]>) -> Mesh {
@@ -619,9 +767,10 @@ fn odd_sized() -> RenderSettings {
 #[test]
 fn the_tree_finds_what_brute_force_finds() {
     type Kind = (&'static str, fn(u64) -> Scene);
-    let kinds: [Kind; 6] = [
+    let kinds: [Kind; 7] = [
         ("soup", |seed| soup(seed, 600)),
         ("slivers", |seed| slivers(1000 * seed as usize)),
+        ("beams", beams),
         ("bubbles", bubbles),
         ("walls", walls),
         ("ties", ties),

@@ -1,0 +1,74 @@
+//! The boxes of primitives for a BVH, with large primitives in several pieces. A primitive is stored once; each piece is a
+//! leaf that refers to it.
+
+use crate::bvh::Aabb;
+
+/// The boxes of primitives, some of which are divided into pieces of a type that names its primitive.
+pub struct Divided<P> {
+    /// Those of primitives that are not divided, then those of the pieces.
+    pub boxes: Vec<Aabb>,
+    /// Their primitives are places in [`Self::order`].
+    pub pieces: Vec<P>,
+    /// The primitives that are not divided, and those that are, in ascending order.
+    whole: Vec<u32>,
+    divided: Vec<u32>,
+}
+
+impl<P> Divided<P> {
+    /// No boxes.
+    pub const NONE: Self = Self {
+        boxes: Vec::new(),
+        pieces: Vec::new(),
+        whole: Vec::new(),
+        divided: Vec::new(),
+    };
+
+    /// `boxes` are those of the primitives, `pieces` all those of one primitive after the other, in ascending order, each in
+    /// the box `aabb` and of the primitive `primitive`.
+    pub fn new(
+        mut boxes: Vec<Aabb>,
+        mut pieces: Vec<P>,
+        aabb: impl Fn(&P) -> Aabb,
+        primitive: impl Fn(&mut P) -> &mut u32,
+    ) -> Self {
+        let mut divided: Vec<_> = pieces.iter_mut().map(|piece| *primitive(piece)).collect();
+        divided.dedup();
+        let mut next = divided.iter().peekable();
+        let is_whole = |index: &u32| next.next_if_eq(&index).is_none();
+        let whole: Vec<_> = (0..boxes.len() as u32).filter(is_whole).collect();
+        // The boxes before the first that is divided are in their places.
+        let first = divided.first().map_or(whole.len(), |it| *it as usize);
+        for (place, &index) in whole.iter().enumerate().skip(first) {
+            boxes[place] = boxes[index as usize];
+        }
+        boxes.truncate(whole.len());
+        for piece in &mut pieces {
+            boxes.push(aabb(piece));
+            let own = primitive(piece);
+            let place = divided.partition_point(|index| index < own);
+            *own = (whole.len() + place) as u32;
+        }
+        Self {
+            boxes,
+            pieces,
+            whole,
+            divided,
+        }
+    }
+
+    /// The number of primitives that are not divided.
+    pub fn whole_count(&self) -> usize {
+        self.whole.len()
+    }
+
+    /// All primitives: those that are not divided in this order of their boxes, then the others.
+    pub fn order(&self, boxes: impl IntoIterator<Item = u32>) -> Vec<u32> {
+        let whole = (boxes.into_iter()).map(|place| self.whole[place as usize]);
+        whole.chain(self.divided.iter().copied()).collect()
+    }
+
+    /// The piece of a box.
+    pub fn piece(&self, place: usize) -> usize {
+        place - self.whole.len()
+    }
+}
