@@ -15,6 +15,7 @@ mod frame;
 mod geometry;
 mod glow;
 mod instance;
+mod joint;
 mod layers;
 mod light;
 mod light_cluster;
@@ -61,7 +62,7 @@ use instance::{Instance, InstancedBlas, Plan, TransformSource};
 use mesh::CachedMesh;
 use object::Origins;
 use picture::PackedPicture;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use surfaces::AnimatedMaterials;
 use tlas::TlasSource;
 use trees::Trees;
@@ -296,11 +297,12 @@ fn pack(
     let table = environment.as_ref().and_then(Environment::table);
     let table = table.map(|table| table.words.clone());
     let words = packed_pictures.iter().map(|packed| packed.words.clone());
-    let albedos = [albedo_words()];
+    let albedos = [albedo::shared_words()];
     let texels: Segments<u32> = words.chain(albedos).chain(table).collect();
     let bounded = joint.shapes.iter().chain(&*instanced_shapes);
     let features = Features {
         shape_kinds: bounded.fold(0, |kinds, shape| kinds | 1 << shape.kind),
+        triangles_apart: trees.joint.triangles_apart,
         mixed_materials: trees.meshes().any(|mesh| mesh.mixes_materials),
         second_uvs: scene.meshes.iter().any(|mesh| !mesh.second_uvs.is_empty()),
         contact: media::may_touch(scene, &meshes),
@@ -354,12 +356,6 @@ fn pack(
     };
     packed.emissive = packed.emissive(&emits, &glows);
     Ok(packed)
-}
-
-/// The tables of albedos, which all scenes share.
-fn albedo_words() -> Arc<[u32]> {
-    static WORDS: OnceLock<Arc<[u32]>> = OnceLock::new();
-    WORDS.get_or_init(|| albedo::words().into()).clone()
 }
 
 /// Moving shapes, each with its own BLAS. Their indices start at `first`.

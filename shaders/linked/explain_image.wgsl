@@ -173,6 +173,8 @@ override bindings__TRIANGLE_TEST: u32 = types__TRIANGLE_TEST_WATERTIGHT;
 
 override bindings__HAS_TRIANGLES: bool = true;
 
+override bindings__TRIANGLES_APART: u32 = 0u;
+
 override bindings__HAS_SHAPES: bool = true;
 
 override bindings__HAS_PLANES: bool = true;
@@ -1906,6 +1908,9 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 	if (bindings__HAS_PLANES) {
 		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
+	if (bindings__TRIANGLES_APART > 0u) {
+		walk.hit = exhaustive__hit_triangles_apart(walk.at, walk.hit);
+	}
 	if (bindings__BRUTE_FORCE) {
 		walk.hit = exhaustive__hit_everything(ray, shear, walk.hit);
 		return walk;
@@ -2094,11 +2099,12 @@ fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: boo
 }
 
 fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> tracing__Candidate {
+	let has_triangles = bindings__HAS_TRIANGLES && bindings__TRIANGLES_APART == 0u;
 	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
-	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
+	if (has_triangles && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
 		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
 	}
-	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
+	if (bindings__HAS_SHAPES && (!has_triangles || (primitive & types__SHAPE) != 0u)) {
 		candidate = shape__test_shape(at.ray, fetch__load_shape(primitive & ~types__SHAPE));
 	}
 	return candidate;
@@ -3017,10 +3023,24 @@ fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hi
 	return hit;
 }
 
+fn exhaustive__hit_triangles_apart(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
+	var hit = start;
+	var index = 0u;
+	loop {
+		hit = primitive__closer_of(at, hit, primitive__test_triangle(at.ray, fetch__load_triangle(index), at.shear), index);
+		continuing {
+			index += 1u;
+			break if index >= bindings__TRIANGLES_APART;
+		}
+	}
+	loops__cut_off |= index < bindings__TRIANGLES_APART;
+	return hit;
+}
+
 fn exhaustive__hit_everything(ray: tracing__Ray, shear: triangle_watertight__Shear, start: tracing__Hit) -> tracing__Hit {
 	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
 	var hit = start;
-	if (bindings__HAS_TRIANGLES) {
+	if (bindings__HAS_TRIANGLES && bindings__TRIANGLES_APART == 0u) {
 		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
 	}
 	if (bindings__HAS_SHAPES) {

@@ -1069,6 +1069,8 @@ override bindings__TRIANGLE_TEST: u32 = types__TRIANGLE_TEST_WATERTIGHT;
 
 override bindings__HAS_TRIANGLES: bool = true;
 
+override bindings__TRIANGLES_APART: u32 = 0u;
+
 override bindings__HAS_SHAPES: bool = true;
 
 override bindings__HAS_PLANES: bool = true;
@@ -2146,11 +2148,14 @@ fn walk__packet_hits(rays: rays__Rays, any: bool) -> rays__Hits {
 	return rays__Hits(wide__Floats(found.h0.hit.t, found.h1.hit.t, found.h2.hit.t, found.h3.hit.t), wide__Words(found.h0.hit.primitive, found.h1.hit.primitive, found.h2.hit.primitive, found.h3.hit.primitive), wide__Floats(found.h0.hit.b1, found.h1.hit.b1, found.h2.hit.b1, found.h3.hit.b1), wide__Floats(found.h0.hit.b2, found.h1.hit.b2, found.h2.hit.b2, found.h3.hit.b2), wide__Words(found.h0.hit.instance, found.h1.hit.instance, found.h2.hit.instance, found.h3.hit.instance));
 }
 
-fn walk__first_hit(ray: tracing__Ray) -> lanes__TwoHits {
-	var hit = tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+fn walk__first_hit(at: primitive__TraversalRay) -> lanes__TwoHits {
+	var hit = tracing__Hit(at.ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	if (bindings__HAS_PLANES) {
-		hit = exhaustive__hit_planes(ray, hit);
+		hit = exhaustive__hit_planes(at.ray, hit);
+	}
+	if (bindings__TRIANGLES_APART > 0u) {
+		hit = exhaustive__hit_triangles_apart(at, hit);
 	}
 	return lanes__TwoHits(hit, primitive__runner_up);
 }
@@ -2164,11 +2169,11 @@ fn walk__placed_ray(ray: tracing__Ray, instance: u32) -> primitive__TraversalRay
 }
 
 fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: tracing__Ray, any: bool) -> lanes__FourHits {
-	var hits = lanes__FourHits(walk__first_hit(ray0), walk__first_hit(ray1), walk__first_hit(ray2), walk__first_hit(ray3));
+	var rays = lanes__FourRays(walk__world_ray(ray0), walk__world_ray(ray1), walk__world_ray(ray2), walk__world_ray(ray3));
+	var hits = lanes__FourHits(walk__first_hit(rays.r0), walk__first_hit(rays.r1), walk__first_hit(rays.r2), walk__first_hit(rays.r3));
 	if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES)) {
 		return hits;
 	}
-	var rays = lanes__FourRays(walk__world_ray(ray0), walk__world_ray(ray1), walk__world_ray(ray2), walk__world_ray(ray3));
 	var stack = stack__Stack(stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY);
 	var current = 0u;
 	if (bindings__HAS_INSTANCES) {
@@ -2232,7 +2237,7 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 				break if (current == stack__EMPTY) | leaf__is_rare(current);
 			}
 		}
-		if (bindings__HAS_SHAPES && bindings__HAS_TRIANGLES) {
+		if (bindings__HAS_SHAPES && bindings__HAS_TRIANGLES && bindings__TRIANGLES_APART == 0u) {
 			let next = leaf__after(current, stack__top_of(stack));
 			if (leaf__is_rare(current)) {
 				hits = leaf__meet_rare(rays, hits, current);
@@ -2314,38 +2319,6 @@ fn primitive__test_triangle(ray: tracing__Ray, corners: types__PackedTriangle, s
 		return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
 	}
 	return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
-}
-
-fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
-	var hit = start;
-	var index = fetch__first_plane;
-	loop {
-		let shape = fetch__load_shape(index);
-		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
-		let primitive = types__SHAPE | index;
-		let counts = candidate.hit & (primitive != ray.leaving);
-		let wins = counts & (candidate.t < hit.t);
-		let found = tracing__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
-		if (bindings__HAS_CONTACT) {
-			primitive__keep_runner_up(hit, found, counts, wins);
-		}
-		if (wins) {
-			hit = found;
-		}
-		continuing {
-			index += 1u;
-			break if index >= fetch__end_plane;
-		}
-	}
-	loops__cut_off |= index < fetch__end_plane;
-	return hit;
-}
-
-fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing__Candidate {
-	let slope = dot(n, ray.direction);
-	let steep = abs(slope) > 1e-12;
-	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
 struct triangle_watertight__Shear {
@@ -2480,6 +2453,83 @@ fn numeric__is_finite(v: vec3f) -> bool {
 
 fn numeric__max_component(v: vec3f) -> f32 {
 	return max_f32(v.x, max_f32(v.y, v.z));
+}
+
+fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
+	var hit = start;
+	var index = fetch__first_plane;
+	loop {
+		let shape = fetch__load_shape(index);
+		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
+		let primitive = types__SHAPE | index;
+		let counts = candidate.hit & (primitive != ray.leaving);
+		let wins = counts & (candidate.t < hit.t);
+		let found = tracing__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+		if (bindings__HAS_CONTACT) {
+			primitive__keep_runner_up(hit, found, counts, wins);
+		}
+		if (wins) {
+			hit = found;
+		}
+		continuing {
+			index += 1u;
+			break if index >= fetch__end_plane;
+		}
+	}
+	loops__cut_off |= index < fetch__end_plane;
+	return hit;
+}
+
+fn exhaustive__hit_triangles_apart(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
+	var hit = start;
+	var index = 0u;
+	loop {
+		hit = primitive__closer_of(at, hit, primitive__test_triangle(at.ray, fetch__load_triangle(index), at.shear), index);
+		continuing {
+			index += 1u;
+			break if index >= bindings__TRIANGLES_APART;
+		}
+	}
+	loops__cut_off |= index < bindings__TRIANGLES_APART;
+	return hit;
+}
+
+fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing__Candidate {
+	let slope = dot(n, ray.direction);
+	let steep = abs(slope) > 1e-12;
+	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
+	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+}
+
+fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let n = cross(e1, e2);
+	let slope = dot(n, ray.direction);
+	let area = dot(n, n);
+	let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
+	let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
+	let w = ray.origin + t * ray.direction - v0;
+	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
+	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+}
+
+fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let p = cross(ray.direction, e2);
+	let det = dot(e1, p);
+	let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let s = ray.origin - v0;
+	let b1 = inv_det * dot(s, p);
+	let q = cross(s, e1);
+	let b2 = inv_det * dot(ray.direction, q);
+	let t = inv_det * dot(e2, q);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
 const stack__POP: u32 = 4294967295u;
@@ -3252,37 +3302,6 @@ fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
 fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
 	let n = numeric__normalize_or(p, vec3f(0.0, 1.0, 0.0));
 	return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
-}
-
-fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
-	let e1 = v1 - v0;
-	let e2 = v2 - v0;
-	let n = cross(e1, e2);
-	let slope = dot(n, ray.direction);
-	let area = dot(n, n);
-	let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
-	let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
-	let w = ray.origin + t * ray.direction - v0;
-	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
-	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
-	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
-}
-
-fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
-	let e1 = v1 - v0;
-	let e2 = v2 - v0;
-	let p = cross(ray.direction, e2);
-	let det = dot(e1, p);
-	let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
-	let inv_det = 1.0 / select(1.0, det, usable);
-	let s = ray.origin - v0;
-	let b1 = inv_det * dot(s, p);
-	let q = cross(s, e1);
-	let b2 = inv_det * dot(ray.direction, q);
-	let t = inv_det * dot(e2, q);
-	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
 struct direct__Receiver {

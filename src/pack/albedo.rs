@@ -1,5 +1,7 @@
 //! The tables of directional albedos that the path tracer reads: `lib/albedo.wesl`.
 
+use std::sync::{Arc, OnceLock};
+
 /// The tables, one after the other: 32 × 32 words of microfacets, as many of sheen, 36 × 24 × 32 of rough glass, and 5 × 14 × 20 × 24 of
 /// stretched microfacets. A word has two half floats, the first in its lower half.
 ///
@@ -17,4 +19,10 @@
 pub fn words() -> &'static [u32] {
     static WORDS: [u32; 63296] = include!(concat!(env!("OUT_DIR"), "/albedo.txt"));
     &WORDS
+}
+
+/// The same words for all scenes.
+pub fn shared_words() -> Arc<[u32]> {
+    static WORDS: OnceLock<Arc<[u32]>> = OnceLock::new();
+    WORDS.get_or_init(|| words().into()).clone()
 }

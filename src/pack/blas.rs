@@ -2,6 +2,7 @@
 //! refitted to the position at which the mesh is baked.
 
 use super::{
+    divided::Divided,
     geometry::{self, Flat, PlacedMesh},
     nodes::{self, Children, Offsets},
     shape_pieces,
@@ -98,11 +99,14 @@ impl Blas {
         blas
     }
 
-    /// One BLAS over several meshes and shapes.
-    pub fn joint(flat: Flat, stack_size: usize, offsets: Offsets) -> Self {
+    /// One BLAS over several meshes and shapes, or over the shapes only if the triangles are apart.
+    pub fn joint(flat: Flat, triangles_apart: bool, stack_size: usize, offsets: Offsets) -> Self {
         let corners = |triangle: u32| geometry::corners(&flat.triangles[triangle as usize]);
         let boxes = flat.triangles.iter().map(geometry::triangle_box);
-        let triangles = triangle_pieces::divided(boxes.collect(), corners);
+        let triangles = match triangles_apart {
+            true => Divided::NONE,
+            false => triangle_pieces::divided(boxes.collect(), corners),
+        };
         let boxes = flat.bounded.iter().map(|(_, bounds)| *bounds);
         let shapes = shape_pieces::divided(boxes.collect(), flat.pieces);
         let bvh = build(&triangles, &shapes, stack_size);
@@ -136,7 +140,10 @@ impl Blas {
             nodes: (0..bvh.nodes.len())
                 .map(|index| nodes::quantize(children_of(index).as_slice()))
                 .collect(),
-            triangles: (triangle_order.iter().map(|&i| flat.triangles[i as usize])).collect(),
+            triangles: match triangles_apart {
+                true => flat.triangles.into(),
+                false => (triangle_order.iter().map(|&i| flat.triangles[i as usize])).collect(),
+            },
             shapes: (shape_order.iter().map(|&i| flat.bounded[i as usize].0)).collect(),
             vertices: flat.vertices.into(),
             tangents: flat.tangents.into(),

@@ -5,6 +5,8 @@
 pub struct Features {
     /// Bit k is set if there is a bounded shape of kind k.
     pub shape_kinds: u32,
+    /// Number of triangles that are in no BVH, because they are few and all else is shapes: all triangles, or 0.
+    pub triangles_apart: u32,
     /// The corners of some triangle differ in material.
     pub mixed_materials: bool,
     /// Some material reflects, possibly only by total internal reflection, or has partly weighted local

@@ -4,9 +4,9 @@
 use super::{
     PackError,
     blas::{Blas, MAX_PARTS, opened},
-    geometry::{Flat, PlacedMesh},
+    geometry::PlacedMesh,
     instance::{InstancedBlas, Plan},
-    light,
+    joint::{Joint, JointInput},
     mesh::CachedMesh,
     nodes::{self, Children, Offsets},
     segments::Segments,
@@ -14,8 +14,8 @@ use super::{
 };
 use crate::{
     bvh::{self, Aabb, Child},
-    layout::{PackedNode, PackedShape, PackedTangent, PackedTriangle, PackedVertex, STACK_SIZE},
-    scene::{Frame, Geometry, Scene},
+    layout::{PackedNode, PackedTangent, PackedTriangle, PackedVertex, STACK_SIZE},
+    scene::{Frame, Scene},
 };
 use glam::{DAffine3, DVec3};
 use std::{collections::HashMap, sync::Arc};
@@ -74,36 +74,6 @@ pub struct Trees {
     pub top: Arc<Top>,
     pub work: TreeWork,
     origin: DVec3,
-}
-
-/// The joint BLAS of static shapes and small static meshes; and planes, which are in no BVH.
-#[derive(Debug)]
-pub struct Joint {
-    input: JointInput,
-    pub blas: Arc<Blas>,
-    pub planes: Arc<[PackedShape]>,
-}
-
-#[derive(Debug)]
-struct JointInput {
-    meshes: Vec<(Arc<CachedMesh>, DAffine3)>,
-    /// Shapes with their materials and ids.
-    shapes: Vec<(Geometry, usize, usize)>,
-    stack_size: usize,
-    origin: DVec3,
-}
-
-impl PartialEq for JointInput {
-    fn eq(&self, other: &Self) -> bool {
-        let is_same = |((a, placed_a), (b, placed_b)): (&(_, _), &(_, _))| {
-            Arc::ptr_eq(a, b) && placed_a == placed_b
-        };
-        self.meshes.len() == other.meshes.len()
-            && self.meshes.iter().zip(&other.meshes).all(is_same)
-            && self.shapes == other.shapes
-            && self.stack_size == other.stack_size
-            && self.origin == other.origin
-    }
 }
 
 /// The tree above the baked BLASes, if nothing is instanced.
@@ -180,12 +150,7 @@ impl Trees {
         let input = JointInput::new(scene, (rest, origin), plan, meshes, stack_size);
         let before = previous.map(|previous| &previous.joint);
         let joint = match before.filter(|before| before.input == input) {
-            Some(before) if before.blas.offsets == offsets => before.clone(),
-            Some(before) => Arc::new(Joint {
-                input,
-                blas: before.blas.moved_to(offsets),
-                planes: before.planes.clone(),
-            }),
+            Some(before) => before.moved_to(offsets),
             None => {
                 work.joint = 1;
                 Arc::new(Joint::build(input, offsets)?)
@@ -317,59 +282,6 @@ impl<'a> ExistingTrees<'a> {
 fn key(mesh: &Arc<CachedMesh>, world_from_object: Option<DAffine3>) -> Key {
     let bits = |transform: DAffine3| transform.to_cols_array().map(f64::to_bits);
     (Arc::as_ptr(mesh) as usize, world_from_object.map(bits))
-}
-
-impl JointInput {
-    fn new(
-        scene: &Scene,
-        (rest, origin): (&Frame, DVec3),
-        plan: &Plan,
-        meshes: &[Arc<CachedMesh>],
-        stack_size: usize,
-    ) -> Self {
-        let mesh = |&(index, world_from_object): &(usize, DAffine3)| {
-            (
-                meshes[scene.instances[index].mesh].clone(),
-                world_from_object,
-            )
-        };
-        let shapes = plan.joint_shapes.iter().map(|&id| {
-            let shape = &scene.shapes[id];
-            let geometry = match shape.node {
-                None => shape.geometry,
-                Some(node) => shape.geometry.placed(rest.nodes[node].world_from_node),
-            };
-            (geometry, shape.material, id)
-        });
-        let lamps = plan.joint_lamps.iter().filter_map(|&index| {
-            let (material, id) = light::material_and_id(scene, index);
-            let surface = light::surface(&rest.lights[index].kind)?;
-            Some((surface, material, id))
-        });
-        Self {
-            meshes: plan.joint.iter().map(mesh).collect(),
-            shapes: shapes.chain(lamps).collect(),
-            stack_size,
-            origin,
-        }
-    }
-}
-
-impl Joint {
-    fn build(input: JointInput, offsets: Offsets) -> Result<Self, PackError> {
-        let mut flat = Flat::default();
-        for (mesh, world_from_object) in &input.meshes {
-            flat.add_mesh(&mesh.mesh, *world_from_object, input.origin, offsets.vertex)?;
-        }
-        for (geometry, material, id) in &input.shapes {
-            flat.add_shape(geometry, *material, *id, Some(input.origin))?;
-        }
-        Ok(Self {
-            planes: std::mem::take(&mut flat.planes).into(),
-            blas: Arc::new(Blas::joint(flat, input.stack_size, offsets)),
-            input,
-        })
-    }
 }
 
 impl Top {

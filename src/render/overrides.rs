@@ -19,9 +19,10 @@ use crate::{
     scene::{Antialias, Backdrop, Filter},
 };
 
-/// Whether there are more shapes than triangles.
+/// Whether there are more shapes than triangles in BVHs.
 pub fn has_mostly_shapes(scene: &PackedScene) -> bool {
-    scene.bounded_shape_count() as usize > scene.triangles.len()
+    let triangles = scene.triangles.len() - scene.features.triangles_apart as usize;
+    scene.bounded_shape_count() as usize > triangles
 }
 
 /// Features that the scene, the frame and the settings need; all others are compiled out.
@@ -243,10 +244,11 @@ fn rows_of_film(settings: &RenderSettings) -> [(&'static str, f64); 3] {
 }
 
 /// The overrides for the contents of the trees.
-fn geometry(scene: &PackedScene, view: &PackedView, stack: Stack) -> [(&'static str, f64); 10] {
+fn geometry(scene: &PackedScene, view: &PackedView, stack: Stack) -> [(&'static str, f64); 11] {
     let features = scene.features;
     [
         ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
+        ("TRIANGLES_APART", f64::from(features.triangles_apart)),
         ("HAS_SHAPES", flag(scene.bounded_shape_count() > 0)),
         ("HAS_PLANES", flag(scene.plane_count > 0)),
         ("MOSTLY_SHAPES", flag(has_mostly_shapes(scene))),

@@ -7,7 +7,7 @@ use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, dvec3};
 use glimray::pack;
 use glimray::render::{Coherence, ExecutionPolicy, Fetch, QueryHit, QueryRay, RayQuery, RayTest};
-use glimray::scene::{Geometry, ObjectRef, Scene};
+use glimray::scene::{Geometry, Mesh, ObjectRef, Scene};
 use std::sync::Arc;
 
 /// Overlapping meshes and spheres, more than the joint tree holds, in a corner of the world.
@@ -43,6 +43,25 @@ fn instanced() -> Scene {
         let place = DAffine3::from_translation(instance.placement.translation);
         instance.placement = place * turn * DAffine3::from_scale(scale);
     }
+    scene
+}
+
+/// Spheres among so many triangles.
+fn few_triangles(count: usize) -> Scene {
+    let mut scene = scenes::empty();
+    let mut random = Random::new(4);
+    for _ in 0..40 {
+        scene.add_sphere(2.0 * random.in_cube(), random.between(0.05, 0.4), 0);
+    }
+    let mut mesh = Mesh::default();
+    for first in (0..3 * count as u32).step_by(3) {
+        let corners = [(); 3].map(|()| (2.0 * random.in_cube()).as_vec3());
+        mesh.positions.extend(corners);
+        mesh.triangles.push([first, first + 1, first + 2]);
+    }
+    mesh.materials = vec![0; mesh.positions.len()];
+    mesh.repair();
+    scene.add_mesh(mesh, DAffine3::IDENTITY);
     scene
 }
 
@@ -145,6 +164,8 @@ fn queries_find_what_a_search_through_all_primitives_finds() {
     for (name, scene, most_baked) in [
         ("baked", mixed(), usize::MAX),
         ("instanced", instanced(), 0),
+        ("few triangles", few_triangles(8), usize::MAX),
+        ("one triangle", few_triangles(1), usize::MAX),
     ] {
         let expected: Vec<_> = rays.iter().map(|ray| reference(&scene, ray)).collect();
         let hit_count = expected.iter().flatten().count();
@@ -152,7 +173,7 @@ fn queries_find_what_a_search_through_all_primitives_finds() {
             (1000..4500).contains(&hit_count),
             "{name}: {hit_count} hits"
         );
-        for fetch in [Fetch::Image, Fetch::Buffer] {
+        for fetch in [Fetch::Image, Fetch::Buffer, Fetch::Packet] {
             let (query, packed, view) = query(&scene, most_baked, fetch);
             assert_eq!(packed.instance_count() > 0, most_baked == 0);
             let closest = query.closest_hits(&rays).expect("hits");
@@ -183,6 +204,25 @@ fn queries_find_what_a_search_through_all_primitives_finds() {
         }
     }
     verdict.close();
+}
+
+#[test]
+fn few_triangles_among_shapes_are_in_no_tree() {
+    let apart = |scene: &Scene, most_baked| {
+        let packed = pack::scene_with(scene, most_baked).expect("packed");
+        packed.features.triangles_apart
+    };
+    assert_eq!(apart(&few_triangles(1), usize::MAX), 1);
+    assert_eq!(apart(&few_triangles(8), usize::MAX), 8);
+    assert_eq!(apart(&few_triangles(9), usize::MAX), 0);
+    let mut only_triangles = few_triangles(8);
+    only_triangles.shapes.clear();
+    assert_eq!(apart(&only_triangles, usize::MAX), 0);
+    // With a mesh that has a tree of its own.
+    let mut beside_mesh = few_triangles(8);
+    let ball = scenes::ball(glam::UVec2::new(100, 50), 0);
+    beside_mesh.add_mesh(ball, DAffine3::IDENTITY);
+    assert_eq!(apart(&beside_mesh, usize::MAX), 0);
 }
 
 #[test]
