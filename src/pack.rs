@@ -36,7 +36,7 @@ mod topology;
 mod trees;
 mod triangle_pieces;
 
-pub use features::Features;
+pub use features::{Apart, Features};
 pub use frame::PackedView;
 pub use instance::MAX_BAKED;
 pub use mesh::DRAFT_FROM;
@@ -302,7 +302,7 @@ fn pack(
     let bounded = joint.shapes.iter().chain(&*instanced_shapes);
     let features = Features {
         shape_kinds: bounded.fold(0, |kinds, shape| kinds | 1 << shape.kind),
-        triangles_apart: trees.joint.triangles_apart,
+        apart: trees.joint.apart,
         mixed_materials: trees.meshes().any(|mesh| mesh.mixes_materials),
         second_uvs: scene.meshes.iter().any(|mesh| !mesh.second_uvs.is_empty()),
         contact: media::may_touch(scene, &meshes),

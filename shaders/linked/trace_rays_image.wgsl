@@ -154,6 +154,8 @@ override bindings__HAS_TRIANGLES: bool = true;
 
 override bindings__TRIANGLES_APART: u32 = 0u;
 
+override bindings__SHAPES_APART: bool = false;
+
 override bindings__HAS_SHAPES: bool = true;
 
 override bindings__HAS_PLANES: bool = true;
@@ -781,8 +783,9 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 	if (bindings__HAS_PLANES) {
 		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
-	if (bindings__TRIANGLES_APART > 0u) {
-		walk.hit = exhaustive__hit_triangles_apart(walk.at, walk.hit);
+	walk.hit = exhaustive__hit_apart(walk.at, walk.hit);
+	if (bindings__COUNT_STEPS) {
+		loops__primitives_tested += exhaustive__apart_count();
 	}
 	if (bindings__BRUTE_FORCE) {
 		walk.hit = exhaustive__hit_everything(ray, shear, walk.hit);
@@ -973,11 +976,12 @@ fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: boo
 
 fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> tracing__Candidate {
 	let has_triangles = bindings__HAS_TRIANGLES && bindings__TRIANGLES_APART == 0u;
+	let has_shapes = bindings__HAS_SHAPES && !bindings__SHAPES_APART;
 	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
-	if (has_triangles && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
+	if (has_triangles && (!has_shapes || (primitive & types__SHAPE) == 0u)) {
 		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
 	}
-	if (bindings__HAS_SHAPES && (!has_triangles || (primitive & types__SHAPE) != 0u)) {
+	if (has_shapes && (!has_triangles || (primitive & types__SHAPE) != 0u)) {
 		candidate = shape__test_shape(at.ray, fetch__load_shape(primitive & ~types__SHAPE));
 	}
 	return candidate;
@@ -1528,7 +1532,21 @@ fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hi
 	return hit;
 }
 
-fn exhaustive__hit_triangles_apart(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
+fn exhaustive__hit_apart(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
+	if (bindings__TRIANGLES_APART > 0u) {
+		return exhaustive__hit_triangles(at, start);
+	}
+	if (bindings__SHAPES_APART) {
+		return exhaustive__hit_shapes(at, start);
+	}
+	return start;
+}
+
+fn exhaustive__apart_count() -> u32 {
+	return bindings__TRIANGLES_APART + select(0u, fetch__first_plane, bindings__SHAPES_APART);
+}
+
+fn exhaustive__hit_triangles(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
 	var hit = start;
 	var index = 0u;
 	loop {
@@ -1542,13 +1560,27 @@ fn exhaustive__hit_triangles_apart(at: primitive__TraversalRay, start: tracing__
 	return hit;
 }
 
+fn exhaustive__hit_shapes(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
+	var hit = start;
+	var index = 0u;
+	loop {
+		hit = primitive__closer_of(at, hit, shape__test_shape(at.ray, fetch__load_shape(index)), types__SHAPE | index);
+		continuing {
+			index += 1u;
+			break if index >= fetch__first_plane;
+		}
+	}
+	loops__cut_off |= index < fetch__first_plane;
+	return hit;
+}
+
 fn exhaustive__hit_everything(ray: tracing__Ray, shear: triangle_watertight__Shear, start: tracing__Hit) -> tracing__Hit {
 	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
 	var hit = start;
 	if (bindings__HAS_TRIANGLES && bindings__TRIANGLES_APART == 0u) {
 		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
 	}
-	if (bindings__HAS_SHAPES) {
+	if (bindings__HAS_SHAPES && !bindings__SHAPES_APART) {
 		hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
 	}
 	if (bindings__HAS_INSTANCES) {

@@ -188,6 +188,8 @@ override bindings__HAS_TRIANGLES: bool = true;
 
 override bindings__TRIANGLES_APART: u32 = 0u;
 
+override bindings__SHAPES_APART: bool = false;
+
 override bindings__HAS_SHAPES: bool = true;
 
 override bindings__HAS_PLANES: bool = true;
@@ -581,9 +583,7 @@ fn walk__first_hit(at: primitive__TraversalRay) -> lanes__TwoHits {
 	if (bindings__HAS_PLANES) {
 		hit = exhaustive__hit_planes(at.ray, hit);
 	}
-	if (bindings__TRIANGLES_APART > 0u) {
-		hit = exhaustive__hit_triangles_apart(at, hit);
-	}
+	hit = exhaustive__hit_apart(at, hit);
 	return lanes__TwoHits(hit, primitive__runner_up);
 }
 
@@ -598,6 +598,9 @@ fn walk__placed_ray(ray: tracing__Ray, instance: u32) -> primitive__TraversalRay
 fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: tracing__Ray, any: bool) -> lanes__FourHits {
 	var rays = lanes__FourRays(walk__world_ray(ray0), walk__world_ray(ray1), walk__world_ray(ray2), walk__world_ray(ray3));
 	var hits = lanes__FourHits(walk__first_hit(rays.r0), walk__first_hit(rays.r1), walk__first_hit(rays.r2), walk__first_hit(rays.r3));
+	if (bindings__COUNT_STEPS) {
+		loops__primitives_tested += exhaustive__apart_count();
+	}
 	if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES)) {
 		return hits;
 	}
@@ -664,7 +667,7 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 				break if (current == stack__EMPTY) | leaf__is_rare(current);
 			}
 		}
-		if (bindings__HAS_SHAPES && bindings__HAS_TRIANGLES && bindings__TRIANGLES_APART == 0u) {
+		if (bindings__HAS_SHAPES && bindings__HAS_TRIANGLES && bindings__TRIANGLES_APART == 0u && !bindings__SHAPES_APART) {
 			let next = leaf__after(current, stack__top_of(stack));
 			if (leaf__is_rare(current)) {
 				hits = leaf__meet_rare(rays, hits, current);
@@ -832,7 +835,21 @@ fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hi
 	return hit;
 }
 
-fn exhaustive__hit_triangles_apart(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
+fn exhaustive__hit_apart(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
+	if (bindings__TRIANGLES_APART > 0u) {
+		return exhaustive__hit_triangles(at, start);
+	}
+	if (bindings__SHAPES_APART) {
+		return exhaustive__hit_shapes(at, start);
+	}
+	return start;
+}
+
+fn exhaustive__apart_count() -> u32 {
+	return bindings__TRIANGLES_APART + select(0u, fetch__first_plane, bindings__SHAPES_APART);
+}
+
+fn exhaustive__hit_triangles(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
 	var hit = start;
 	var index = 0u;
 	loop {
@@ -843,6 +860,20 @@ fn exhaustive__hit_triangles_apart(at: primitive__TraversalRay, start: tracing__
 		}
 	}
 	loops__cut_off |= index < bindings__TRIANGLES_APART;
+	return hit;
+}
+
+fn exhaustive__hit_shapes(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
+	var hit = start;
+	var index = 0u;
+	loop {
+		hit = primitive__closer_of(at, hit, shape__test_shape(at.ray, fetch__load_shape(index)), types__SHAPE | index);
+		continuing {
+			index += 1u;
+			break if index >= fetch__first_plane;
+		}
+	}
+	loops__cut_off |= index < fetch__first_plane;
 	return hit;
 }
 
@@ -882,325 +913,6 @@ fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: tracing__Ra
 	let t = inv_det * dot(e2, q);
 	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
 	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
-}
-
-const stack__POP: u32 = 4294967295u;
-
-var<private> stack__is_full: bool = false;
-
-struct stack__Stack {
-	s0: u32,
-	s1: u32,
-	s2: u32,
-	s3: u32,
-	s4: u32,
-	s5: u32
-}
-
-fn stack__top_of(stack: stack__Stack) -> u32 {
-	return subgroupShuffle(stack.s0, 0u);
-}
-
-fn stack__pushed(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
-	if (bindings__PACKET_LANES == 16u) {
-		return stack__pushed16(stack, reference, count);
-	}
-	return stack__pushed8(stack, reference, count);
-}
-
-fn stack__pushed16(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
-	let is_pop = count == stack__POP;
-	let moves_one = !is_pop & ((count & 1u) != 0u);
-	let moves_two = !is_pop & (count >= 2u);
-	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 16u) & (stack.s2 != stack__EMPTY);
-	let one_up = (lanes__packet_lane - 1u) & 15u;
-	let u0 = subgroupShuffle(stack.s0, one_up);
-	let u1 = subgroupShuffle(stack.s1, one_up);
-	let u2 = subgroupShuffle(stack.s2, one_up);
-	let one_down = (lanes__packet_lane + 1u) & 15u;
-	let d0 = subgroupShuffle(stack.s0, one_down);
-	let d1 = subgroupShuffle(stack.s1, one_down);
-	let d2 = subgroupShuffle(stack.s2, one_down);
-	let is_first = lanes__packet_lane == 0u;
-	let is_last = lanes__packet_lane == 15u;
-	let m0 = select(select(stack.s0, u0, moves_one), select(d0, d1, is_last), is_pop);
-	let m1 = select(select(stack.s1, select(u1, u0, is_first), moves_one), select(d1, d2, is_last), is_pop);
-	let m2 = select(select(stack.s2, select(u2, u1, is_first), moves_one), select(d2, stack__EMPTY, is_last), is_pop);
-	let two_up = (lanes__packet_lane - 2u) & 15u;
-	let w0 = subgroupShuffle(m0, two_up);
-	let w1 = subgroupShuffle(m1, two_up);
-	let w2 = subgroupShuffle(m2, two_up);
-	let is_low = lanes__packet_lane < 2u;
-	return stack__Stack(select(select(m0, w0, moves_two), reference, !is_pop & (lanes__packet_lane < count)), select(m1, select(w1, w0, is_low), moves_two), select(m2, select(w2, w1, is_low), moves_two), stack__EMPTY, stack__EMPTY, stack__EMPTY);
-}
-
-fn stack__pushed8(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
-	let source = (lanes__packet_lane - count) & 7u;
-	let is_pop = count == stack__POP;
-	let is_new = !is_pop & (lanes__packet_lane < count);
-	let is_last = is_pop & (lanes__packet_lane == 7u);
-	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 8u) & (stack.s5 != stack__EMPTY);
-	let m0 = subgroupShuffle(stack.s0, source);
-	let m1 = subgroupShuffle(stack.s1, source);
-	let m2 = subgroupShuffle(stack.s2, source);
-	let m3 = subgroupShuffle(stack.s3, source);
-	let m4 = subgroupShuffle(stack.s4, source);
-	let m5 = subgroupShuffle(stack.s5, source);
-	return stack__Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), m4, is_last), select(select(m4, m3, is_new), m5, is_last), select(select(m5, m4, is_new), stack__EMPTY, is_last));
-}
-
-fn stack__popped(stack: stack__Stack) -> stack__Stack {
-	return stack__pushed(stack, stack__EMPTY, stack__POP);
-}
-
-const stack__EMPTY: u32 = 4294967295u;
-
-const traverse__RETURN: u32 = 4294967294u;
-
-const traverse__CONTACT_RANGE: f32 = 0.0001;
-
-fn traverse__search_limit(ray: tracing__Ray, hit: tracing__Hit) -> f32 {
-	if (bindings__HAS_CONTACT) {
-		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
-	}
-	return hit.t;
-}
-
-fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
-	if (bindings__HAS_MOTION) {
-		if (instance.key_count > 1u) {
-			let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
-			let key = instance.first_key + moment.key;
-			return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
-		}
-	}
-	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
-}
-
-fn instance__object_ray(ray: tracing__Ray, space: motion__Space) -> tracing__Ray {
-	return tracing__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
-}
-
-struct motion__Moment {
-	key: u32,
-	fraction: f32
-}
-
-fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
-	let intervals = max(key_count, 2u) - 1u;
-	let at = time * f32(intervals);
-	let key = min(u32(at), intervals - 1u);
-	return motion__Moment(key, at - f32(key));
-}
-
-struct motion__Space {
-	translation: vec3f,
-	linear: mat3x3f,
-	inverse: mat3x3f
-}
-
-fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
-	let q = mix(a.rotation, b.rotation, vec4f(fraction));
-	let rotation = motion__rotation_matrix(q * inverseSqrt(max_f32(dot(q, q), 1e-30)));
-	let d = mix(a.stretch, b.stretch, vec3f(fraction));
-	let s = mix(a.shear, b.shear, vec3f(fraction));
-	let size = max_f32(max_f32(abs(d.x), abs(d.y)), max_f32(abs(d.z), 1e-30));
-	let e = d / size;
-	let f = s / size;
-	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
-	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
-	let usable = abs(determinant) > 1e-30;
-	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
-	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
-	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
-}
-
-fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
-	let d = 2.0 * q.xyz * q.xyz;
-	let xy = 2.0 * q.x * q.y;
-	let xz = 2.0 * q.x * q.z;
-	let yz = 2.0 * q.y * q.z;
-	let w = 2.0 * q.w * q.xyz;
-	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
-}
-
-const node__WIDENING: i32 = 8;
-
-const node__MISS: u32 = 2147483644u;
-
-struct node__SharedNode {
-	lo: vec3f,
-	scale: vec3f,
-	plane: vec3f,
-	reference: u32
-}
-
-fn node__load_shared_node(index: u32) -> node__SharedNode {
-	let child = lanes__packet_lane & 3u;
-	let is_max = (lanes__packet_lane & 4u) != 0u;
-	let row = fetch__node_row(4u * index + child);
-	let words = vec3u(select(subgroupShuffle(row.z, 1u), subgroupShuffle(row.w, 1u), is_max), select(subgroupShuffle(row.x, 2u), subgroupShuffle(row.y, 2u), is_max), select(subgroupShuffle(row.z, 2u), subgroupShuffle(row.w, 2u), is_max));
-	let is_even = (child & 1u) == 0u;
-	let c01 = select(subgroupShuffle(row.y, 3u), subgroupShuffle(row.x, 3u), is_even);
-	let c23 = select(subgroupShuffle(row.w, 3u), subgroupShuffle(row.z, 3u), is_even);
-	return node__SharedNode(bitcast<vec3f>(vec3u(subgroupShuffle(row.x, 0u), subgroupShuffle(row.y, 0u), subgroupShuffle(row.z, 0u))), bitcast<vec3f>(vec3u(subgroupShuffle(row.w, 0u), subgroupShuffle(row.x, 1u), subgroupShuffle(row.y, 1u))), vec3f((words >> vec3u(8u * child)) & vec3u(255u)), select(c23, c01, child < 2u));
-}
-
-struct node__Children {
-	reference: u32,
-	count: u32
-}
-
-fn node__order_children(node: node__SharedNode, rays: lanes__FourRays, limits: vec4i) -> node__Children {
-	let lane = lanes__packet_lane;
-	let is_even = (lane & 1u) == 0u;
-	let is_low = (lane & 2u) == 0u;
-	let v0 = node__closest_entry(node, rays, limits, 0u);
-	let v1 = node__closest_entry(node, rays, limits, 1u);
-	let v2 = node__closest_entry(node, rays, limits, 2u);
-	let v3 = node__closest_entry(node, rays, limits, 3u);
-	let a = min(select(v1, v0, is_even), subgroupShuffle(select(v0, v1, is_even), lane ^ 1u));
-	let b = min(select(v3, v2, is_even), subgroupShuffle(select(v2, v3, is_even), lane ^ 1u));
-	let c = min(select(b, a, is_low), subgroupShuffle(select(a, b, is_low), lane ^ 2u));
-	var closest = min(c, subgroupShuffle(c, lane ^ 4u));
-	if (bindings__PACKET_LANES == 16u) {
-		closest = min(closest, subgroupShuffle(closest, lane ^ 8u));
-	}
-	var key = (select(closest, node__MISS, node.reference == 0u) & 4294967292u) | (lane & 3u);
-	var sorted = node__Entry(key, node.reference);
-	sorted = node__exchanged(sorted, 1u, is_even == is_low);
-	sorted = node__exchanged(sorted, 2u, is_low);
-	sorted = node__exchanged(sorted, 1u, is_even);
-	key = sorted.key;
-	var count = select(0u, 1u, key < node__MISS);
-	count += subgroupShuffle(count, lane ^ 1u);
-	count += subgroupShuffle(count, lane ^ 2u);
-	return node__Children(sorted.reference, count);
-}
-
-struct node__Entry {
-	key: u32,
-	reference: u32
-}
-
-fn node__exchanged(own: node__Entry, distance: u32, takes_lower: bool) -> node__Entry {
-	let key = subgroupShuffle(own.key, lanes__packet_lane ^ distance);
-	let reference = subgroupShuffle(own.reference, lanes__packet_lane ^ distance);
-	let is_own = (own.key < key) == takes_lower;
-	return node__Entry(select(key, own.key, is_own), select(reference, own.reference, is_own));
-}
-
-fn node__closest_entry(node: node__SharedNode, rays: lanes__FourRays, limits: vec4i, child: u32) -> u32 {
-	let low = vec3f(subgroupShuffle(node.plane.x, child), subgroupShuffle(node.plane.y, child), subgroupShuffle(node.plane.z, child));
-	let high = vec3f(subgroupShuffle(node.plane.x, child + 4u), subgroupShuffle(node.plane.y, child + 4u), subgroupShuffle(node.plane.z, child + 4u));
-	return min(min(node__entry(node, low, high, rays.r0, limits.x), node__entry(node, low, high, rays.r1, limits.y)), min(node__entry(node, low, high, rays.r2, limits.z), node__entry(node, low, high, rays.r3, limits.w)));
-}
-
-fn node__entry(node: node__SharedNode, low: vec3f, high: vec3f, at: primitive__TraversalRay, limit: i32) -> u32 {
-	let base = (node.lo - at.ray.origin) * at.inv;
-	let step = node.scale * at.inv;
-	let t0 = bitcast<vec3i>(low * step + base);
-	let t1 = bitcast<vec3i>(high * step + base);
-	let first = min(t0, t1);
-	let last = max(t0, t1);
-	let near = max(max(first.x, first.y), max(first.z, 0));
-	let far = min(min(last.x, last.y), last.z);
-	return select(node__MISS, bitcast<u32>(near), near <= min(far + node__WIDENING, limit));
-}
-
-fn leaf__is_common(reference: u32) -> bool {
-	return ((reference & types__LEAF) != 0u) & (reference < types__INSTANCE) & (leaf__has_shapes(reference) == bindings__MOSTLY_SHAPES);
-}
-
-fn leaf__is_rare(reference: u32) -> bool {
-	return ((reference & types__LEAF) != 0u) & (reference < types__INSTANCE) & (leaf__has_shapes(reference) != bindings__MOSTLY_SHAPES);
-}
-
-fn leaf__has_shapes(reference: u32) -> bool {
-	return (reference & types__SHAPE) != 0u;
-}
-
-struct leaf__Next {
-	reference: u32,
-	is_last: bool
-}
-
-fn leaf__after(reference: u32, top: u32) -> leaf__Next {
-	let left = (reference & types__LEAF_COUNT_MASK) / types__LEAF_COUNT_ONE;
-	let tested = select(leaf__tested_triangles(reference), 1u, leaf__has_shapes(reference));
-	let is_last = left < tested;
-	return leaf__Next(select(reference - tested * (types__LEAF_COUNT_ONE - 1u), top, is_last), is_last);
-}
-
-fn leaf__tested_triangles(reference: u32) -> u32 {
-	return min((reference & types__LEAF_COUNT_MASK) / types__LEAF_COUNT_ONE + 1u, 2u);
-}
-
-fn leaf__meet_common(rays: lanes__FourRays, hits: lanes__FourHits, reference: u32) -> lanes__FourHits {
-	if (bindings__MOSTLY_SHAPES) {
-		return leaf__meet_shape(rays, hits, reference);
-	}
-	return leaf__meet_triangles(rays, hits, reference);
-}
-
-fn leaf__meet_rare(rays: lanes__FourRays, hits: lanes__FourHits, reference: u32) -> lanes__FourHits {
-	if (bindings__MOSTLY_SHAPES) {
-		return leaf__meet_triangles(rays, hits, reference);
-	}
-	return leaf__meet_shape(rays, hits, reference);
-}
-
-fn leaf__meet_triangles(rays: lanes__FourRays, before: lanes__FourHits, reference: u32) -> lanes__FourHits {
-	let count = leaf__tested_triangles(reference);
-	let first = select(reference & types__LEAF_FIRST_MASK, 0u, leaf__has_shapes(reference));
-	var row = fetch__triangle_row(3u * first + lanes__packet_lane);
-	if (bindings__COUNT_STEPS) {
-		loops__primitives_tested += count;
-	}
-	var hits = before;
-	var index = 0u;
-	loop {
-		hits = leaf__meet_triangle(rays, hits, leaf__triangle_of(row), first + index);
-		continuing {
-			index += 1u;
-			row = leaf__three_lanes_down(row);
-			break if index >= count;
-		}
-	}
-	loops__cut_off |= index < count;
-	return hits;
-}
-
-fn leaf__triangle_of(row: vec4u) -> types__PackedTriangle {
-	return types__PackedTriangle(leaf__corner_of(row, 0u), 0u, leaf__corner_of(row, 1u), 0u, leaf__corner_of(row, 2u), 0u);
-}
-
-fn leaf__three_lanes_down(row: vec4u) -> vec4u {
-	let lane = (lanes__packet_lane + 3u) & (bindings__PACKET_LANES - 1u);
-	return vec4u(subgroupShuffle(row.x, lane), subgroupShuffle(row.y, lane), subgroupShuffle(row.z, lane), 0u);
-}
-
-fn leaf__row_of(row: vec4u, lane: u32) -> vec4u {
-	return vec4u(subgroupShuffle(row.x, lane), subgroupShuffle(row.y, lane), subgroupShuffle(row.z, lane), subgroupShuffle(row.w, lane));
-}
-
-fn leaf__corner_of(row: vec4u, lane: u32) -> vec3f {
-	return bitcast<vec3f>(vec3u(subgroupShuffle(row.x, lane), subgroupShuffle(row.y, lane), subgroupShuffle(row.z, lane)));
-}
-
-fn leaf__meet_triangle(rays: lanes__FourRays, before: lanes__FourHits, triangle: types__PackedTriangle, primitive: u32) -> lanes__FourHits {
-	return lanes__FourHits(lanes__closer_two(rays.r0, before.h0, primitive__test_triangle(rays.r0.ray, triangle, rays.r0.shear), primitive), lanes__closer_two(rays.r1, before.h1, primitive__test_triangle(rays.r1.ray, triangle, rays.r1.shear), primitive), lanes__closer_two(rays.r2, before.h2, primitive__test_triangle(rays.r2.ray, triangle, rays.r2.shear), primitive), lanes__closer_two(rays.r3, before.h3, primitive__test_triangle(rays.r3.ray, triangle, rays.r3.shear), primitive));
-}
-
-fn leaf__meet_shape(rays: lanes__FourRays, before: lanes__FourHits, reference: u32) -> lanes__FourHits {
-	let index = select(0u, reference & types__LEAF_FIRST_MASK, leaf__has_shapes(reference));
-	let primitive = types__SHAPE | index;
-	let row = fetch__triangle_row(fetch__shape_row + types__SHAPE_ROWS * index + lanes__packet_lane);
-	if (bindings__COUNT_STEPS) {
-		loops__primitives_tested += 1u;
-	}
-	let shape = fetch__shape_of(leaf__row_of(row, 0u), leaf__row_of(row, 1u), leaf__row_of(row, 2u), leaf__row_of(row, 3u), leaf__row_of(row, 4u));
-	return lanes__FourHits(lanes__closer_two(rays.r0, before.h0, shape__test_shape(rays.r0.ray, shape), primitive), lanes__closer_two(rays.r1, before.h1, shape__test_shape(rays.r1.ray, shape), primitive), lanes__closer_two(rays.r2, before.h2, shape__test_shape(rays.r2.ray, shape), primitive), lanes__closer_two(rays.r3, before.h3, shape__test_shape(rays.r3.ray, shape), primitive));
 }
 
 const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
@@ -1521,6 +1233,325 @@ fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
 	let near = canonical__approach(ray, vec3f(0.0), 1.5);
 	let found = sphere__intersect_sphere(tracing__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
 	return tracing__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
+}
+
+const stack__POP: u32 = 4294967295u;
+
+var<private> stack__is_full: bool = false;
+
+struct stack__Stack {
+	s0: u32,
+	s1: u32,
+	s2: u32,
+	s3: u32,
+	s4: u32,
+	s5: u32
+}
+
+fn stack__top_of(stack: stack__Stack) -> u32 {
+	return subgroupShuffle(stack.s0, 0u);
+}
+
+fn stack__pushed(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
+	if (bindings__PACKET_LANES == 16u) {
+		return stack__pushed16(stack, reference, count);
+	}
+	return stack__pushed8(stack, reference, count);
+}
+
+fn stack__pushed16(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
+	let is_pop = count == stack__POP;
+	let moves_one = !is_pop & ((count & 1u) != 0u);
+	let moves_two = !is_pop & (count >= 2u);
+	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 16u) & (stack.s2 != stack__EMPTY);
+	let one_up = (lanes__packet_lane - 1u) & 15u;
+	let u0 = subgroupShuffle(stack.s0, one_up);
+	let u1 = subgroupShuffle(stack.s1, one_up);
+	let u2 = subgroupShuffle(stack.s2, one_up);
+	let one_down = (lanes__packet_lane + 1u) & 15u;
+	let d0 = subgroupShuffle(stack.s0, one_down);
+	let d1 = subgroupShuffle(stack.s1, one_down);
+	let d2 = subgroupShuffle(stack.s2, one_down);
+	let is_first = lanes__packet_lane == 0u;
+	let is_last = lanes__packet_lane == 15u;
+	let m0 = select(select(stack.s0, u0, moves_one), select(d0, d1, is_last), is_pop);
+	let m1 = select(select(stack.s1, select(u1, u0, is_first), moves_one), select(d1, d2, is_last), is_pop);
+	let m2 = select(select(stack.s2, select(u2, u1, is_first), moves_one), select(d2, stack__EMPTY, is_last), is_pop);
+	let two_up = (lanes__packet_lane - 2u) & 15u;
+	let w0 = subgroupShuffle(m0, two_up);
+	let w1 = subgroupShuffle(m1, two_up);
+	let w2 = subgroupShuffle(m2, two_up);
+	let is_low = lanes__packet_lane < 2u;
+	return stack__Stack(select(select(m0, w0, moves_two), reference, !is_pop & (lanes__packet_lane < count)), select(m1, select(w1, w0, is_low), moves_two), select(m2, select(w2, w1, is_low), moves_two), stack__EMPTY, stack__EMPTY, stack__EMPTY);
+}
+
+fn stack__pushed8(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
+	let source = (lanes__packet_lane - count) & 7u;
+	let is_pop = count == stack__POP;
+	let is_new = !is_pop & (lanes__packet_lane < count);
+	let is_last = is_pop & (lanes__packet_lane == 7u);
+	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 8u) & (stack.s5 != stack__EMPTY);
+	let m0 = subgroupShuffle(stack.s0, source);
+	let m1 = subgroupShuffle(stack.s1, source);
+	let m2 = subgroupShuffle(stack.s2, source);
+	let m3 = subgroupShuffle(stack.s3, source);
+	let m4 = subgroupShuffle(stack.s4, source);
+	let m5 = subgroupShuffle(stack.s5, source);
+	return stack__Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), m4, is_last), select(select(m4, m3, is_new), m5, is_last), select(select(m5, m4, is_new), stack__EMPTY, is_last));
+}
+
+fn stack__popped(stack: stack__Stack) -> stack__Stack {
+	return stack__pushed(stack, stack__EMPTY, stack__POP);
+}
+
+const stack__EMPTY: u32 = 4294967295u;
+
+const traverse__RETURN: u32 = 4294967294u;
+
+const traverse__CONTACT_RANGE: f32 = 0.0001;
+
+fn traverse__search_limit(ray: tracing__Ray, hit: tracing__Hit) -> f32 {
+	if (bindings__HAS_CONTACT) {
+		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
+	}
+	return hit.t;
+}
+
+fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
+	if (bindings__HAS_MOTION) {
+		if (instance.key_count > 1u) {
+			let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
+			let key = instance.first_key + moment.key;
+			return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
+		}
+	}
+	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
+}
+
+fn instance__object_ray(ray: tracing__Ray, space: motion__Space) -> tracing__Ray {
+	return tracing__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+}
+
+struct motion__Moment {
+	key: u32,
+	fraction: f32
+}
+
+fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
+	let intervals = max(key_count, 2u) - 1u;
+	let at = time * f32(intervals);
+	let key = min(u32(at), intervals - 1u);
+	return motion__Moment(key, at - f32(key));
+}
+
+struct motion__Space {
+	translation: vec3f,
+	linear: mat3x3f,
+	inverse: mat3x3f
+}
+
+fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
+	let q = mix(a.rotation, b.rotation, vec4f(fraction));
+	let rotation = motion__rotation_matrix(q * inverseSqrt(max_f32(dot(q, q), 1e-30)));
+	let d = mix(a.stretch, b.stretch, vec3f(fraction));
+	let s = mix(a.shear, b.shear, vec3f(fraction));
+	let size = max_f32(max_f32(abs(d.x), abs(d.y)), max_f32(abs(d.z), 1e-30));
+	let e = d / size;
+	let f = s / size;
+	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
+	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
+	let usable = abs(determinant) > 1e-30;
+	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
+	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
+	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+}
+
+fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
+	let d = 2.0 * q.xyz * q.xyz;
+	let xy = 2.0 * q.x * q.y;
+	let xz = 2.0 * q.x * q.z;
+	let yz = 2.0 * q.y * q.z;
+	let w = 2.0 * q.w * q.xyz;
+	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
+}
+
+const node__WIDENING: i32 = 8;
+
+const node__MISS: u32 = 2147483644u;
+
+struct node__SharedNode {
+	lo: vec3f,
+	scale: vec3f,
+	plane: vec3f,
+	reference: u32
+}
+
+fn node__load_shared_node(index: u32) -> node__SharedNode {
+	let child = lanes__packet_lane & 3u;
+	let is_max = (lanes__packet_lane & 4u) != 0u;
+	let row = fetch__node_row(4u * index + child);
+	let words = vec3u(select(subgroupShuffle(row.z, 1u), subgroupShuffle(row.w, 1u), is_max), select(subgroupShuffle(row.x, 2u), subgroupShuffle(row.y, 2u), is_max), select(subgroupShuffle(row.z, 2u), subgroupShuffle(row.w, 2u), is_max));
+	let is_even = (child & 1u) == 0u;
+	let c01 = select(subgroupShuffle(row.y, 3u), subgroupShuffle(row.x, 3u), is_even);
+	let c23 = select(subgroupShuffle(row.w, 3u), subgroupShuffle(row.z, 3u), is_even);
+	return node__SharedNode(bitcast<vec3f>(vec3u(subgroupShuffle(row.x, 0u), subgroupShuffle(row.y, 0u), subgroupShuffle(row.z, 0u))), bitcast<vec3f>(vec3u(subgroupShuffle(row.w, 0u), subgroupShuffle(row.x, 1u), subgroupShuffle(row.y, 1u))), vec3f((words >> vec3u(8u * child)) & vec3u(255u)), select(c23, c01, child < 2u));
+}
+
+struct node__Children {
+	reference: u32,
+	count: u32
+}
+
+fn node__order_children(node: node__SharedNode, rays: lanes__FourRays, limits: vec4i) -> node__Children {
+	let lane = lanes__packet_lane;
+	let is_even = (lane & 1u) == 0u;
+	let is_low = (lane & 2u) == 0u;
+	let v0 = node__closest_entry(node, rays, limits, 0u);
+	let v1 = node__closest_entry(node, rays, limits, 1u);
+	let v2 = node__closest_entry(node, rays, limits, 2u);
+	let v3 = node__closest_entry(node, rays, limits, 3u);
+	let a = min(select(v1, v0, is_even), subgroupShuffle(select(v0, v1, is_even), lane ^ 1u));
+	let b = min(select(v3, v2, is_even), subgroupShuffle(select(v2, v3, is_even), lane ^ 1u));
+	let c = min(select(b, a, is_low), subgroupShuffle(select(a, b, is_low), lane ^ 2u));
+	var closest = min(c, subgroupShuffle(c, lane ^ 4u));
+	if (bindings__PACKET_LANES == 16u) {
+		closest = min(closest, subgroupShuffle(closest, lane ^ 8u));
+	}
+	var key = (select(closest, node__MISS, node.reference == 0u) & 4294967292u) | (lane & 3u);
+	var sorted = node__Entry(key, node.reference);
+	sorted = node__exchanged(sorted, 1u, is_even == is_low);
+	sorted = node__exchanged(sorted, 2u, is_low);
+	sorted = node__exchanged(sorted, 1u, is_even);
+	key = sorted.key;
+	var count = select(0u, 1u, key < node__MISS);
+	count += subgroupShuffle(count, lane ^ 1u);
+	count += subgroupShuffle(count, lane ^ 2u);
+	return node__Children(sorted.reference, count);
+}
+
+struct node__Entry {
+	key: u32,
+	reference: u32
+}
+
+fn node__exchanged(own: node__Entry, distance: u32, takes_lower: bool) -> node__Entry {
+	let key = subgroupShuffle(own.key, lanes__packet_lane ^ distance);
+	let reference = subgroupShuffle(own.reference, lanes__packet_lane ^ distance);
+	let is_own = (own.key < key) == takes_lower;
+	return node__Entry(select(key, own.key, is_own), select(reference, own.reference, is_own));
+}
+
+fn node__closest_entry(node: node__SharedNode, rays: lanes__FourRays, limits: vec4i, child: u32) -> u32 {
+	let low = vec3f(subgroupShuffle(node.plane.x, child), subgroupShuffle(node.plane.y, child), subgroupShuffle(node.plane.z, child));
+	let high = vec3f(subgroupShuffle(node.plane.x, child + 4u), subgroupShuffle(node.plane.y, child + 4u), subgroupShuffle(node.plane.z, child + 4u));
+	return min(min(node__entry(node, low, high, rays.r0, limits.x), node__entry(node, low, high, rays.r1, limits.y)), min(node__entry(node, low, high, rays.r2, limits.z), node__entry(node, low, high, rays.r3, limits.w)));
+}
+
+fn node__entry(node: node__SharedNode, low: vec3f, high: vec3f, at: primitive__TraversalRay, limit: i32) -> u32 {
+	let base = (node.lo - at.ray.origin) * at.inv;
+	let step = node.scale * at.inv;
+	let t0 = bitcast<vec3i>(low * step + base);
+	let t1 = bitcast<vec3i>(high * step + base);
+	let first = min(t0, t1);
+	let last = max(t0, t1);
+	let near = max(max(first.x, first.y), max(first.z, 0));
+	let far = min(min(last.x, last.y), last.z);
+	return select(node__MISS, bitcast<u32>(near), near <= min(far + node__WIDENING, limit));
+}
+
+fn leaf__is_common(reference: u32) -> bool {
+	return ((reference & types__LEAF) != 0u) & (reference < types__INSTANCE) & (leaf__has_shapes(reference) == bindings__MOSTLY_SHAPES);
+}
+
+fn leaf__is_rare(reference: u32) -> bool {
+	return ((reference & types__LEAF) != 0u) & (reference < types__INSTANCE) & (leaf__has_shapes(reference) != bindings__MOSTLY_SHAPES);
+}
+
+fn leaf__has_shapes(reference: u32) -> bool {
+	return (reference & types__SHAPE) != 0u;
+}
+
+struct leaf__Next {
+	reference: u32,
+	is_last: bool
+}
+
+fn leaf__after(reference: u32, top: u32) -> leaf__Next {
+	let left = (reference & types__LEAF_COUNT_MASK) / types__LEAF_COUNT_ONE;
+	let tested = select(leaf__tested_triangles(reference), 1u, leaf__has_shapes(reference));
+	let is_last = left < tested;
+	return leaf__Next(select(reference - tested * (types__LEAF_COUNT_ONE - 1u), top, is_last), is_last);
+}
+
+fn leaf__tested_triangles(reference: u32) -> u32 {
+	return min((reference & types__LEAF_COUNT_MASK) / types__LEAF_COUNT_ONE + 1u, 2u);
+}
+
+fn leaf__meet_common(rays: lanes__FourRays, hits: lanes__FourHits, reference: u32) -> lanes__FourHits {
+	if (bindings__MOSTLY_SHAPES) {
+		return leaf__meet_shape(rays, hits, reference);
+	}
+	return leaf__meet_triangles(rays, hits, reference);
+}
+
+fn leaf__meet_rare(rays: lanes__FourRays, hits: lanes__FourHits, reference: u32) -> lanes__FourHits {
+	if (bindings__MOSTLY_SHAPES) {
+		return leaf__meet_triangles(rays, hits, reference);
+	}
+	return leaf__meet_shape(rays, hits, reference);
+}
+
+fn leaf__meet_triangles(rays: lanes__FourRays, before: lanes__FourHits, reference: u32) -> lanes__FourHits {
+	let count = leaf__tested_triangles(reference);
+	let first = select(reference & types__LEAF_FIRST_MASK, 0u, leaf__has_shapes(reference));
+	var row = fetch__triangle_row(3u * first + lanes__packet_lane);
+	if (bindings__COUNT_STEPS) {
+		loops__primitives_tested += count;
+	}
+	var hits = before;
+	var index = 0u;
+	loop {
+		hits = leaf__meet_triangle(rays, hits, leaf__triangle_of(row), first + index);
+		continuing {
+			index += 1u;
+			row = leaf__three_lanes_down(row);
+			break if index >= count;
+		}
+	}
+	loops__cut_off |= index < count;
+	return hits;
+}
+
+fn leaf__triangle_of(row: vec4u) -> types__PackedTriangle {
+	return types__PackedTriangle(leaf__corner_of(row, 0u), 0u, leaf__corner_of(row, 1u), 0u, leaf__corner_of(row, 2u), 0u);
+}
+
+fn leaf__three_lanes_down(row: vec4u) -> vec4u {
+	let lane = (lanes__packet_lane + 3u) & (bindings__PACKET_LANES - 1u);
+	return vec4u(subgroupShuffle(row.x, lane), subgroupShuffle(row.y, lane), subgroupShuffle(row.z, lane), 0u);
+}
+
+fn leaf__row_of(row: vec4u, lane: u32) -> vec4u {
+	return vec4u(subgroupShuffle(row.x, lane), subgroupShuffle(row.y, lane), subgroupShuffle(row.z, lane), subgroupShuffle(row.w, lane));
+}
+
+fn leaf__corner_of(row: vec4u, lane: u32) -> vec3f {
+	return bitcast<vec3f>(vec3u(subgroupShuffle(row.x, lane), subgroupShuffle(row.y, lane), subgroupShuffle(row.z, lane)));
+}
+
+fn leaf__meet_triangle(rays: lanes__FourRays, before: lanes__FourHits, triangle: types__PackedTriangle, primitive: u32) -> lanes__FourHits {
+	return lanes__FourHits(lanes__closer_two(rays.r0, before.h0, primitive__test_triangle(rays.r0.ray, triangle, rays.r0.shear), primitive), lanes__closer_two(rays.r1, before.h1, primitive__test_triangle(rays.r1.ray, triangle, rays.r1.shear), primitive), lanes__closer_two(rays.r2, before.h2, primitive__test_triangle(rays.r2.ray, triangle, rays.r2.shear), primitive), lanes__closer_two(rays.r3, before.h3, primitive__test_triangle(rays.r3.ray, triangle, rays.r3.shear), primitive));
+}
+
+fn leaf__meet_shape(rays: lanes__FourRays, before: lanes__FourHits, reference: u32) -> lanes__FourHits {
+	let index = select(0u, reference & types__LEAF_FIRST_MASK, leaf__has_shapes(reference));
+	let primitive = types__SHAPE | index;
+	let row = fetch__triangle_row(fetch__shape_row + types__SHAPE_ROWS * index + lanes__packet_lane);
+	if (bindings__COUNT_STEPS) {
+		loops__primitives_tested += 1u;
+	}
+	let shape = fetch__shape_of(leaf__row_of(row, 0u), leaf__row_of(row, 1u), leaf__row_of(row, 2u), leaf__row_of(row, 3u), leaf__row_of(row, 4u));
+	return lanes__FourHits(lanes__closer_two(rays.r0, before.h0, shape__test_shape(rays.r0.ray, shape), primitive), lanes__closer_two(rays.r1, before.h1, shape__test_shape(rays.r1.ray, shape), primitive), lanes__closer_two(rays.r2, before.h2, shape__test_shape(rays.r2.ray, shape), primitive), lanes__closer_two(rays.r3, before.h3, shape__test_shape(rays.r3.ray, shape), primitive));
 }
 
 fn dispatch__report_cut_off() {

@@ -3,6 +3,7 @@
 
 use super::{
     divided::Divided,
+    features::Apart,
     geometry::{self, Flat, PlacedMesh},
     nodes::{self, Children, Offsets},
     shape_pieces,
@@ -99,16 +100,19 @@ impl Blas {
         blas
     }
 
-    /// One BLAS over several meshes and shapes, or over the shapes only if the triangles are apart.
-    pub fn joint(flat: Flat, triangles_apart: bool, stack_size: usize, offsets: Offsets) -> Self {
+    /// One BLAS over several meshes and shapes, but what is apart.
+    pub fn joint(flat: Flat, apart: Apart, stack_size: usize, offsets: Offsets) -> Self {
         let corners = |triangle: u32| geometry::corners(&flat.triangles[triangle as usize]);
         let boxes = flat.triangles.iter().map(geometry::triangle_box);
-        let triangles = match triangles_apart {
-            true => Divided::NONE,
-            false => triangle_pieces::divided(boxes.collect(), corners),
+        let triangles = match apart {
+            Apart::Triangles => Divided::apart(flat.triangles.len()),
+            _ => triangle_pieces::divided(boxes.collect(), corners),
         };
         let boxes = flat.bounded.iter().map(|(_, bounds)| *bounds);
-        let shapes = shape_pieces::divided(boxes.collect(), flat.pieces);
+        let shapes = match apart {
+            Apart::Shapes => Divided::apart(flat.bounded.len()),
+            _ => shape_pieces::divided(boxes.collect(), flat.pieces),
+        };
         let bvh = build(&triangles, &shapes, stack_size);
         let pieces = &bvh.order[usize::from(PIECES)];
         let reference = |child: &Child| match *child {
@@ -140,10 +144,7 @@ impl Blas {
             nodes: (0..bvh.nodes.len())
                 .map(|index| nodes::quantize(children_of(index).as_slice()))
                 .collect(),
-            triangles: match triangles_apart {
-                true => flat.triangles.into(),
-                false => (triangle_order.iter().map(|&i| flat.triangles[i as usize])).collect(),
-            },
+            triangles: (triangle_order.iter().map(|&i| flat.triangles[i as usize])).collect(),
             shapes: (shape_order.iter().map(|&i| flat.bounded[i as usize].0)).collect(),
             vertices: flat.vertices.into(),
             tangents: flat.tangents.into(),
@@ -198,9 +199,9 @@ impl Blas {
         }
     }
 
-    /// Whether it has no primitives.
+    /// Whether its BVH has no primitives.
     pub fn is_empty(&self) -> bool {
-        self.triangles.is_empty() && self.shapes.is_empty()
+        self.top[0].1.as_slice().is_empty()
     }
 
     /// Child reference to its root.

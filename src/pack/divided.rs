@@ -23,6 +23,14 @@ impl<P> Divided<P> {
         divided: Vec::new(),
     };
 
+    /// So many primitives that have no boxes.
+    pub fn apart(count: usize) -> Self {
+        Self {
+            divided: (0..count as u32).collect(),
+            ..Self::NONE
+        }
+    }
+
     /// `boxes` are those of the primitives, `pieces` all those of one primitive after the other, in ascending order, each in
     /// the box `aabb` and of the primitive `primitive`.
     pub fn new(

@@ -1,12 +1,24 @@
 //! What a scene needs of a kernel; all else is compiled out.
 
+/// Bounded primitives that are in no BVH: all of a kind, of which there are a few among many of the other kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Apart {
+    /// None.
+    #[default]
+    Nothing,
+    /// All triangles.
+    Triangles,
+    /// All bounded shapes.
+    Shapes,
+}
+
 /// The features of a scene that a kernel needs code for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Features {
     /// Bit k is set if there is a bounded shape of kind k.
     pub shape_kinds: u32,
-    /// Number of triangles that are in no BVH, because they are few and all else is shapes: all triangles, or 0.
-    pub triangles_apart: u32,
+    /// What is in no BVH.
+    pub apart: Apart,
     /// The corners of some triangle differ in material.
     pub mixed_materials: bool,
     /// Some material reflects, possibly only by total internal reflection, or has partly weighted local

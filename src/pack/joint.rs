@@ -1,26 +1,28 @@
 //! What static shapes and small static meshes have in common: one BLAS, and primitives that are in none.
 
 use super::{
-    PackError, blas::Blas, geometry::Flat, instance::Plan, light, mesh::CachedMesh, nodes::Offsets,
+    PackError, blas::Blas, features::Apart, geometry::Flat, instance::Plan, light,
+    mesh::CachedMesh, nodes::Offsets,
 };
 use crate::{
-    layout::PackedShape,
+    layout::{PackedShape, SHAPE_TORUS},
     scene::{Frame, Geometry, Scene},
 };
 use glam::{DAffine3, DVec3};
 use std::sync::Arc;
 
-/// The most triangles that are in no BVH. With more of them, on lavapipe, rays are faster with all in a BVH.
-const MOST_APART: usize = 8;
+/// The most triangles and the most shapes that are in no BVH. With more of them, on lavapipe, rays are faster with all in a
+/// BVH.
+const MOST_TRIANGLES: usize = 8;
+const MOST_SHAPES: usize = 4;
 
-/// The joint BLAS of static shapes and small static meshes; and planes, which are in no BVH.
+/// The joint BLAS of static shapes and small static meshes; planes, which are in no BVH; and what else is in none.
 #[derive(Clone, Debug)]
 pub struct Joint {
     pub input: JointInput,
     pub blas: Arc<Blas>,
     pub planes: Arc<[PackedShape]>,
-    /// The number of triangles that are in no BVH either: all that there are, or 0.
-    pub triangles_apart: u32,
+    pub apart: Apart,
 }
 
 /// What it is made of.
@@ -29,8 +31,9 @@ pub struct JointInput {
     pub meshes: Vec<(Arc<CachedMesh>, DAffine3)>,
     /// Shapes with their materials and ids.
     shapes: Vec<(Geometry, usize, usize)>,
-    /// Whether no other BLAS has meshes.
-    has_all_meshes: bool,
+    /// Whether no other BLAS has triangles, or shapes.
+    has_all_triangles: bool,
+    has_all_shapes: bool,
     stack_size: usize,
     origin: DVec3,
 }
@@ -43,7 +46,8 @@ impl PartialEq for JointInput {
         self.meshes.len() == other.meshes.len()
             && self.meshes.iter().zip(&other.meshes).all(is_same)
             && self.shapes == other.shapes
-            && self.has_all_meshes == other.has_all_meshes
+            && self.has_all_triangles == other.has_all_triangles
+            && self.has_all_shapes == other.has_all_shapes
             && self.stack_size == other.stack_size
             && self.origin == other.origin
     }
@@ -80,9 +84,25 @@ impl JointInput {
         Self {
             meshes: plan.joint.iter().map(mesh).collect(),
             shapes: shapes.chain(lamps).collect(),
-            has_all_meshes: plan.baked.is_empty() && plan.instanced_meshes.is_empty(),
+            has_all_triangles: plan.baked.is_empty() && plan.instanced_meshes.is_empty(),
+            has_all_shapes: plan.shapes.is_empty() && plan.lamps.is_empty(),
             stack_size,
             origin,
+        }
+    }
+
+    /// What is in no BVH, of what it becomes.
+    fn apart(&self, flat: &Flat) -> Apart {
+        let (triangles, shapes) = (flat.triangles.len(), flat.bounded.len());
+        let few_triangles = self.has_all_triangles && triangles <= MOST_TRIANGLES;
+        // Tori take too long to test each ray against.
+        let is_quick = |(shape, _): &(PackedShape, _)| shape.kind != SHAPE_TORUS;
+        let few_shapes =
+            self.has_all_shapes && shapes <= MOST_SHAPES && flat.bounded.iter().all(is_quick);
+        match (few_triangles, few_shapes) {
+            (true, _) if triangles > 0 && shapes > 0 => Apart::Triangles,
+            (false, true) if shapes > 0 => Apart::Shapes,
+            _ => Apart::Nothing,
         }
     }
 }
@@ -97,15 +117,15 @@ impl Joint {
         for (geometry, material, id) in &input.shapes {
             flat.add_shape(geometry, *material, *id, Some(input.origin))?;
         }
-        let count = flat.triangles.len();
-        let are_apart = input.has_all_meshes && count <= MOST_APART && !flat.bounded.is_empty();
+        let apart = input.apart(&flat);
         Ok(Self {
             planes: std::mem::take(&mut flat.planes).into(),
-            triangles_apart: if are_apart { count as u32 } else { 0 },
-            blas: Arc::new(Blas::joint(flat, are_apart, input.stack_size, offsets)),
+            blas: Arc::new(Blas::joint(flat, apart, input.stack_size, offsets)),
+            apart,
             input,
         })
     }
+
     /// The same with its BLAS at other offsets.
     pub fn moved_to(self: &Arc<Self>, offsets: Offsets) -> Arc<Self> {
         match self.blas.offsets == offsets {

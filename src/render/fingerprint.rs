@@ -14,8 +14,8 @@ impl Fingerprint {
     pub fn of_scene(scene: &PackedScene) -> Self {
         let Features {
             shape_kinds,
-            // This follows from the numbers of triangles and shapes.
-            triangles_apart: _,
+            // This follows from the triangles and shapes.
+            apart: _,
             mixed_materials,
             reflection,
             refraction,

@@ -15,14 +15,17 @@ use crate::{
         PackedTone, SHORT_STACK_SIZE, TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE,
         TRIANGLE_TEST_WATERTIGHT,
     },
-    pack::{PackedScene, PackedView},
+    pack::{Apart, PackedScene, PackedView},
     scene::{Antialias, Backdrop, Filter},
 };
 
 /// Whether there are more shapes than triangles in BVHs.
 pub fn has_mostly_shapes(scene: &PackedScene) -> bool {
-    let triangles = scene.triangles.len() - scene.features.triangles_apart as usize;
-    scene.bounded_shape_count() as usize > triangles
+    match scene.features.apart {
+        Apart::Triangles => true,
+        Apart::Shapes => false,
+        Apart::Nothing => scene.bounded_shape_count() as usize > scene.triangles.len(),
+    }
 }
 
 /// Features that the scene, the frame and the settings need; all others are compiled out.
@@ -244,11 +247,16 @@ fn rows_of_film(settings: &RenderSettings) -> [(&'static str, f64); 3] {
 }
 
 /// The overrides for the contents of the trees.
-fn geometry(scene: &PackedScene, view: &PackedView, stack: Stack) -> [(&'static str, f64); 11] {
+fn geometry(scene: &PackedScene, view: &PackedView, stack: Stack) -> [(&'static str, f64); 12] {
     let features = scene.features;
+    let triangles_apart = match features.apart {
+        Apart::Triangles => scene.triangles.len(),
+        _ => 0,
+    };
     [
         ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
-        ("TRIANGLES_APART", f64::from(features.triangles_apart)),
+        ("TRIANGLES_APART", triangles_apart as f64),
+        ("SHAPES_APART", flag(features.apart == Apart::Shapes)),
         ("HAS_SHAPES", flag(scene.bounded_shape_count() > 0)),
         ("HAS_PLANES", flag(scene.plane_count > 0)),
         ("MOSTLY_SHAPES", flag(has_mostly_shapes(scene))),

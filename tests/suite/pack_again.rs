@@ -142,10 +142,14 @@ const ONE_MESH: TreeWork = TreeWork {
     ..ONE_REFIT
 };
 const JOINT: TreeWork = TreeWork { joint: 1, ..TOP };
+const ONLY_JOINT: TreeWork = TreeWork {
+    joint: 1,
+    ..NOTHING
+};
 const NOTHING: TreeWork = TreeWork { top: 0, ..TOP };
 
 /// Edits of a gallery, and the trees that each rebuilds.
-const EDITS: [(&str, TreeWork, Edit); 12] = [
+const EDITS: [(&str, TreeWork, Edit); 13] = [
     ("the camera", NOTHING, |s| {
         s.cameras[0].look_from += dvec3(1.0, 2.0, 3.0);
     }),
@@ -177,7 +181,12 @@ const EDITS: [(&str, TreeWork, Edit); 12] = [
         };
         s.instances.push(copy);
     }),
-    ("a shape", JOINT, |s| s.add_sphere(DVec3::Y, 0.1, 1)),
+    ("a shape of few, which are in no tree", ONLY_JOINT, |s| {
+        s.add_sphere(DVec3::Y, 0.1, 1);
+    }),
+    ("more shapes", JOINT, |s| {
+        (0..5).for_each(|i| s.add_sphere(f64::from(i) * DVec3::Y, 0.1, 1));
+    }),
     ("a small mesh", JOINT, |s| {
         let last = s.instances.len() - 1;
         s.instances[last].placement.translation.x -= 1.0;

@@ -5,7 +5,7 @@ use crate::reference::scenes::{self, Build};
 use crate::support::random::Random;
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, dvec3};
-use glimray::pack;
+use glimray::pack::{self, Apart};
 use glimray::render::{Coherence, ExecutionPolicy, Fetch, QueryHit, QueryRay, RayQuery, RayTest};
 use glimray::scene::{Geometry, Mesh, ObjectRef, Scene};
 use std::sync::Arc;
@@ -46,15 +46,15 @@ fn instanced() -> Scene {
     scene
 }
 
-/// Spheres among so many triangles.
-fn few_triangles(count: usize) -> Scene {
+/// So many spheres among so many triangles.
+fn few(spheres: usize, triangles: usize) -> Scene {
     let mut scene = scenes::empty();
     let mut random = Random::new(4);
-    for _ in 0..40 {
+    for _ in 0..spheres {
         scene.add_sphere(2.0 * random.in_cube(), random.between(0.05, 0.4), 0);
     }
     let mut mesh = Mesh::default();
-    for first in (0..3 * count as u32).step_by(3) {
+    for first in (0..3 * triangles as u32).step_by(3) {
         let corners = [(); 3].map(|()| (2.0 * random.in_cube()).as_vec3());
         mesh.positions.extend(corners);
         mesh.triangles.push([first, first + 1, first + 2]);
@@ -62,6 +62,13 @@ fn few_triangles(count: usize) -> Scene {
     mesh.materials = vec![0; mesh.positions.len()];
     mesh.repair();
     scene.add_mesh(mesh, DAffine3::IDENTITY);
+    scene
+}
+
+/// Four spheres among instances of a mesh: nothing that is baked is in a tree.
+fn few_and_instanced() -> Scene {
+    let mut scene = instanced();
+    scene.shapes.truncate(4);
     scene
 }
 
@@ -164,8 +171,10 @@ fn queries_find_what_a_search_through_all_primitives_finds() {
     for (name, scene, most_baked) in [
         ("baked", mixed(), usize::MAX),
         ("instanced", instanced(), 0),
-        ("few triangles", few_triangles(8), usize::MAX),
-        ("one triangle", few_triangles(1), usize::MAX),
+        ("few triangles", few(40, 8), usize::MAX),
+        ("one triangle", few(40, 1), usize::MAX),
+        ("few spheres", few(4, 60), usize::MAX),
+        ("few spheres and instances", few_and_instanced(), 0),
     ] {
         let expected: Vec<_> = rays.iter().map(|ray| reference(&scene, ray)).collect();
         let hit_count = expected.iter().flatten().count();
@@ -207,22 +216,35 @@ fn queries_find_what_a_search_through_all_primitives_finds() {
 }
 
 #[test]
-fn few_triangles_among_shapes_are_in_no_tree() {
+fn a_few_primitives_among_many_of_another_kind_are_in_no_tree() {
     let apart = |scene: &Scene, most_baked| {
         let packed = pack::scene_with(scene, most_baked).expect("packed");
-        packed.features.triangles_apart
+        packed.features.apart
     };
-    assert_eq!(apart(&few_triangles(1), usize::MAX), 1);
-    assert_eq!(apart(&few_triangles(8), usize::MAX), 8);
-    assert_eq!(apart(&few_triangles(9), usize::MAX), 0);
-    let mut only_triangles = few_triangles(8);
-    only_triangles.shapes.clear();
-    assert_eq!(apart(&only_triangles, usize::MAX), 0);
-    // With a mesh that has a tree of its own.
-    let mut beside_mesh = few_triangles(8);
+    let mut verdict = Verdict::on("what is apart");
+    for (spheres, triangles, expected) in [
+        (40, 1, Apart::Triangles),
+        (40, 8, Apart::Triangles),
+        (2, 2, Apart::Triangles),
+        (40, 9, Apart::Nothing),
+        (0, 8, Apart::Nothing),
+        (0, 60, Apart::Nothing),
+        (40, 0, Apart::Nothing),
+        (1, 60, Apart::Shapes),
+        (4, 60, Apart::Shapes),
+        (5, 60, Apart::Nothing),
+    ] {
+        let found = apart(&few(spheres, triangles), usize::MAX);
+        let name = format!("{spheres} spheres and {triangles} triangles");
+        verdict.that(name, found == expected, || format!("{found:?}"));
+    }
+    verdict.close();
+    // With a mesh that has a tree of its own, baked or not.
+    let mut beside_mesh = few(40, 8);
     let ball = scenes::ball(glam::UVec2::new(100, 50), 0);
     beside_mesh.add_mesh(ball, DAffine3::IDENTITY);
-    assert_eq!(apart(&beside_mesh, usize::MAX), 0);
+    assert_eq!(apart(&beside_mesh, usize::MAX), Apart::Nothing);
+    assert_eq!(apart(&few_and_instanced(), 0), Apart::Shapes);
 }
 
 #[test]
