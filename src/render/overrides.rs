@@ -286,8 +286,11 @@ fn stack_registers(scene: &PackedScene, view: &PackedView, stack: Stack) -> u32 
     };
     let usual = match scene.features.instances || bound > DEEP {
         true => FEW + 1,
-        // Rays that need two thirds of the bound are rare, as they miss most boxes.
-        false => bound.div_ceil(6).clamp(1, FEW),
+        // Rays miss most boxes, the more of them the deeper the tree: they need two thirds of a bound of 12 at most, and half
+        // of one of 30.
+        false => (bound.div_ceil(6))
+            .min((bound + 8).div_ceil(10))
+            .clamp(1, FEW),
     };
     match stack {
         Stack::Usual => usual.min(all) as u32,
