@@ -376,7 +376,7 @@ packed! {
         ambient: [f32; 3],
         /// Number of triangles that are not instanced.
         triangle_count: u32,
-        /// Number of shapes in the BVH, which come first among the shapes.
+        /// Number of bounded shapes that are not instanced, which come first among the shapes.
         shape_count: u32,
         /// Number of planes, which follow those shapes.
         plane_count: u32,

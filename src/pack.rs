@@ -77,13 +77,13 @@ pub struct PackedScene {
     /// 4-wide nodes with 8-bit box planes. Node 0 is the root of all baked geometry if nothing is instanced;
     /// the nodes between it and the baked BLASes follow the nodes of all BLASes.
     pub nodes: Segments<PackedNode>,
-    /// In leaf order, BLAS by BLAS. Triangles of hidden baked meshes are all 0.
+    /// BLAS by BLAS, in leaf order, then those in several leaves or in none. Triangles of hidden baked meshes are all 0.
     pub triangles: Segments<PackedTriangle>,
     /// The first triangle in render space; those before it are in the space of an instanced BLAS.
     pub first_baked_triangle: u32,
     /// Number of triangles in render space.
     pub baked_triangle_count: u32,
-    /// Baked bounded shapes in leaf order, then `plane_count` planes, then instanced shapes.
+    /// Baked bounded shapes in the same order, then `plane_count` planes, then instanced shapes.
     pub shapes: Segments<PackedShape>,
     /// Number of baked bounded shapes.
     pub baked_shape_count: u32,
@@ -428,7 +428,7 @@ impl PackedScene {
         self.trees.has_drafts()
     }
 
-    /// Number of shapes in all BVHs.
+    /// Number of bounded shapes.
     pub fn bounded_shape_count(&self) -> u32 {
         self.shapes.len() as u32 - self.plane_count
     }

@@ -27,9 +27,9 @@ pub const MAX_PARTS: usize = 64;
 pub struct Blas {
     pub offsets: Offsets,
     pub nodes: Arc<[PackedNode]>,
-    /// In leaf order.
+    /// In leaf order, then those in several leaves or in none.
     pub triangles: Arc<[PackedTriangle]>,
-    /// In leaf order.
+    /// Likewise.
     pub shapes: Arc<[PackedShape]>,
     /// In mesh order.
     pub vertices: Arc<[PackedVertex]>,
@@ -106,12 +106,12 @@ impl Blas {
         let boxes = flat.triangles.iter().map(geometry::triangle_box);
         let triangles = match apart {
             Apart::Triangles => Divided::apart(flat.triangles.len()),
-            _ => triangle_pieces::divided(boxes.collect(), corners),
+            _ => triangle_pieces::divide_all(boxes.collect(), corners),
         };
         let boxes = flat.bounded.iter().map(|(_, bounds)| *bounds);
         let shapes = match apart {
             Apart::Shapes => Divided::apart(flat.bounded.len()),
-            _ => shape_pieces::divided(boxes.collect(), flat.pieces),
+            _ => shape_pieces::divide_all(boxes.collect(), flat.pieces),
         };
         let bvh = build(&triangles, &shapes, stack_size);
         let pieces = &bvh.order[usize::from(PIECES)];

@@ -5,13 +5,13 @@ use crate::bvh::Aabb;
 
 /// The boxes of primitives, some of which are divided into pieces of a type that names its primitive.
 pub struct Divided<P> {
-    /// Those of primitives that are not divided, then those of the pieces.
+    /// Those of primitives that are not divided, then those of pieces.
     pub boxes: Vec<Aabb>,
     /// Their primitives are places in [`Self::order`].
     pub pieces: Vec<P>,
-    /// The primitives that are not divided, and those that are, in ascending order.
+    /// The primitives that have a box of their own, and the others, in ascending order.
     whole: Vec<u32>,
-    divided: Vec<u32>,
+    others: Vec<u32>,
 }
 
 impl<P> Divided<P> {
@@ -20,13 +20,13 @@ impl<P> Divided<P> {
         boxes: Vec::new(),
         pieces: Vec::new(),
         whole: Vec::new(),
-        divided: Vec::new(),
+        others: Vec::new(),
     };
 
     /// So many primitives that have no boxes.
     pub fn apart(count: usize) -> Self {
         Self {
-            divided: (0..count as u32).collect(),
+            others: (0..count as u32).collect(),
             ..Self::NONE
         }
     }
@@ -39,13 +39,13 @@ impl<P> Divided<P> {
         aabb: impl Fn(&P) -> Aabb,
         primitive: impl Fn(&mut P) -> &mut u32,
     ) -> Self {
-        let mut divided: Vec<_> = pieces.iter_mut().map(|piece| *primitive(piece)).collect();
-        divided.dedup();
-        let mut next = divided.iter().peekable();
+        let mut others: Vec<_> = pieces.iter_mut().map(|piece| *primitive(piece)).collect();
+        others.dedup();
+        let mut next = others.iter().peekable();
         let is_whole = |index: &u32| next.next_if_eq(&index).is_none();
         let whole: Vec<_> = (0..boxes.len() as u32).filter(is_whole).collect();
         // The boxes before the first that is divided are in their places.
-        let first = divided.first().map_or(whole.len(), |it| *it as usize);
+        let first = others.first().map_or(whole.len(), |it| *it as usize);
         for (place, &index) in whole.iter().enumerate().skip(first) {
             boxes[place] = boxes[index as usize];
         }
@@ -53,26 +53,26 @@ impl<P> Divided<P> {
         for piece in &mut pieces {
             boxes.push(aabb(piece));
             let own = primitive(piece);
-            let place = divided.partition_point(|index| index < own);
+            let place = others.partition_point(|index| index < own);
             *own = (whole.len() + place) as u32;
         }
         Self {
             boxes,
             pieces,
             whole,
-            divided,
+            others,
         }
     }
 
-    /// The number of primitives that are not divided.
+    /// The number of primitives that have a box of their own.
     pub fn whole_count(&self) -> usize {
         self.whole.len()
     }
 
-    /// All primitives: those that are not divided in this order of their boxes, then the others.
+    /// All primitives: those that have a box of their own in this order of the boxes, then the others.
     pub fn order(&self, boxes: impl IntoIterator<Item = u32>) -> Vec<u32> {
         let whole = (boxes.into_iter()).map(|place| self.whole[place as usize]);
-        whole.chain(self.divided.iter().copied()).collect()
+        whole.chain(self.others.iter().copied()).collect()
     }
 
     /// The piece of a box.

@@ -33,7 +33,7 @@ pub struct Flat {
     /// Bounded shapes with their boxes, and unbounded ones.
     pub bounded: Vec<(PackedShape, Aabb)>,
     pub planes: Vec<PackedShape>,
-    /// Of bounded shapes, by index, for the BVH.
+    /// Pieces of bounded shapes, in their order.
     pub pieces: Vec<ShapePiece>,
 }
 

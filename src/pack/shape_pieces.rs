@@ -14,7 +14,10 @@ const GAIN: f64 = 1.2;
 const SHARE: f64 = 0.75;
 
 /// Pieces of one shape.
-const MOST: u32 = 8;
+const MOST_PIECES: u32 = 8;
+
+/// Pieces of all shapes.
+const MOST_IN_ALL: usize = 1 << 16;
 
 /// A piece of a shape, in its box.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +26,14 @@ pub struct ShapePiece {
     pub aabb: Aabb,
 }
 
-/// The boxes of shapes, divided into these pieces.
-pub fn divided(boxes: Vec<Aabb>, pieces: Vec<ShapePiece>) -> Divided<ShapePiece> {
+/// The boxes of shapes, divided into these pieces. If they are too many, those of the smaller shapes are left out.
+pub fn divide_all(boxes: Vec<Aabb>, mut pieces: Vec<ShapePiece>) -> Divided<ShapePiece> {
+    if pieces.len() > MOST_IN_ALL {
+        let area = |piece: &ShapePiece| boxes[piece.shape as usize].half_area();
+        let mut areas: Vec<_> = pieces.iter().map(area).collect();
+        let (_, &mut least, _) = areas.select_nth_unstable_by(MOST_IN_ALL, |a, b| b.total_cmp(a));
+        pieces.retain(|piece| area(piece) > least);
+    }
     Divided::new(boxes, pieces, |piece| piece.aabb, |piece| &mut piece.shape)
 }
 
@@ -38,7 +47,7 @@ pub fn pieces(geometry: &Geometry) -> Vec<Geometry> {
     // All together have the area n A(length / n + rest), which is least where n² A(rest) = A(length).
     let area = |count: f64| count * half_area(length / count + rest);
     let best = (half_area(length) / half_area(rest).max(f64::MIN_POSITIVE)).sqrt();
-    let count = (SHARE * best).floor().min(f64::from(MOST));
+    let count = (SHARE * best).floor().min(f64::from(MOST_PIECES));
     if count < 2.0 || area(count) * GAIN > area(1.0) {
         return Vec::new();
     }

@@ -48,7 +48,7 @@ pub struct Topology {
 impl Topology {
     pub fn build(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
         let corners = scaled(positions, triangles);
-        let divided = triangle_pieces::divided(boxes(triangles.len(), &corners), &corners);
+        let divided = triangle_pieces::divide_all(boxes(triangles.len(), &corners), &corners);
         let bvh = build(&divided, &Divided::NONE, STACK_BELOW);
         let offsets = Offsets::default();
         let reference = |child: &Child| match *child {

@@ -69,7 +69,7 @@ impl TrianglePiece {
 }
 
 /// The boxes of triangles, given with the corners of each, long ones in pieces.
-pub fn divided(
+pub fn divide_all(
     boxes: Vec<Aabb>,
     corners: impl Fn(u32) -> [Vec3; 3] + Sync,
 ) -> Divided<TrianglePiece> {

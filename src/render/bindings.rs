@@ -191,7 +191,7 @@ fn film(gpu: &Gpu, rows: usize) -> Result<(Buffer, Buffer), GpuError> {
         bytes + (size_of::<PackedCounters>() + Timer::BYTES) as u64,
         BufferUsages::MAP_READ | BufferUsages::COPY_DST,
     )?;
-    // Systems hand out memory when it is first written to, which software adapters do while the kernel is compiled.
+    // The first write to memory takes long. Software adapters do it now, while the kernel is compiled.
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     encoder.clear_buffer(&film, 0, None);
     encoder.clear_buffer(&staging, 0, None);

@@ -8,14 +8,13 @@ use super::{
 };
 use crate::layout::{PackedCounters, PackedDispatch};
 
-/// Workgroups of the first submission, so that it stays short even if the work is heavier than expected.
-const FIRST_GROUPS: f64 = 32.0;
-/// Number of shadow rays per point above which the first submission has fewer workgroups.
-const FEW_SHADOW_RAYS: f64 = 256.0;
-/// Maximum growth from one submission to the next: each is spread over the picture, so the next one takes as long for the
-/// same work, or each renders another part of it.
-const GROWTH_OF_SPREAD: f64 = 16.0;
-const GROWTH_OF_PARTS: f64 = 4.0;
+/// Workgroups of the first submission, so that it stays short even if the work is heavier than expected, and maximum growth
+/// from one submission to the next. Where each is spread over the picture, the next one takes as long for the same work;
+/// otherwise it renders another part.
+const SPREAD: (f64, f64) = (32.0, 16.0);
+const PARTS: (f64, f64) = (8.0, 4.0);
+/// Workgroups of the first submission times shadow rays per point, at most.
+const FIRST_SHADOW_RAYS: f64 = 2048.0;
 /// If twice the work takes at most this factor longer, the time is spent on overhead: on the submission itself,
 /// or on other work of the adapter and the machine. Smaller submissions would only add overhead.
 const TWICE: f64 = 2.0;
@@ -155,14 +154,14 @@ pub struct Planner {
 impl Planner {
     /// A planner for a picture with this many shadow rays per point, whose workgroups are visited in this order.
     pub fn new(slicing: Slicing, order: GroupOrder, shadow_rays: u64) -> Self {
-        let fraction = FEW_SHADOW_RAYS / (shadow_rays as f64).max(FEW_SHADOW_RAYS);
-        let first = (FIRST_GROUPS * fraction).max(1.0);
+        let (groups, growth) = match order {
+            GroupOrder::Spread => SPREAD,
+            GroupOrder::Diagonal => PARTS,
+        };
+        let first = groups.min(FIRST_SHADOW_RAYS / shadow_rays as f64).max(1.0);
         Self {
             slicing,
-            growth: match order {
-                GroupOrder::Spread => GROWTH_OF_SPREAD,
-                GroupOrder::Diagonal => GROWTH_OF_PARTS,
-            },
+            growth,
             first,
             budget: first,
             floor: 1.0,
@@ -243,6 +242,7 @@ impl Planner {
     /// Reacts to a slice that the driver cut short: smaller slices from now on.
     pub fn shrink(&mut self) {
         self.budget = (self.budget / 2.0).max(1.0);
+        self.first = self.first.min(self.budget);
         self.floor = 1.0;
     }
 }
@@ -269,7 +269,7 @@ mod tests {
     #[test]
     fn light_pictures_take_few_submissions() {
         assert_eq!(submissions(GroupOrder::Spread, 2e-6).len(), 3);
-        assert!(submissions(GroupOrder::Diagonal, 2e-6).len() <= 5);
+        assert!(submissions(GroupOrder::Diagonal, 2e-6).len() <= 6);
     }
 
     #[test]
@@ -288,6 +288,21 @@ mod tests {
                     sizes.len()
                 );
             }
+        }
+    }
+
+    /// A driver cut submissions short.
+    #[test]
+    fn submissions_grow_slowly_again_after_one_was_cut_short() {
+        for order in [GroupOrder::Spread, GroupOrder::Diagonal] {
+            let mut planner = Planner::new(Slicing::default(), order, 1);
+            let first = planner.next_slice(4096, 0, 0, 1);
+            (0..5).for_each(|_| planner.shrink());
+            let slice = planner.next_slice(4096, 0, 0, 1);
+            assert_eq!(slice.end_group, 1, "{order:?}");
+            planner.learn(&slice, 1e-6);
+            let next = planner.next_slice(4096, 1, 0, 1);
+            assert!(next.end_group - 1 < first.end_group, "{order:?}: {next:?}");
         }
     }
 }

@@ -10,9 +10,9 @@ use glimray::layout::{
     LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, PackedShape, SHAPE, SHAPE_BOX,
     SHAPE_CONE, SHAPE_RECTANGLE, STACK_SIZE,
 };
-use glimray::pack::{self, PackedScene};
+use glimray::pack::{self, Apart, PackedScene};
 use glimray::render::{Integrator, RenderSettings, TriangleTest};
-use glimray::scene::{CanonicalShape, Geometry, Mesh, Scene, Shape};
+use glimray::scene::{Background, CanonicalShape, Fresnel, Geometry, Material, Mesh, Scene, Shape};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -566,6 +566,8 @@ fn every_point_of_a_shape_in_several_leaves_is_found() {
     let packed = pack::scene(&beams(5)).expect("packed");
     let leaves = leaves_of(&packed, packed.shapes.len(), shapes_of);
     assert!(leaves.iter().all(|&count| count > 0), "one is left out");
+    let divided = leaves.iter().filter(|&&count| count > 1).count();
+    assert!(divided > 50, "{divided} are divided");
     assert_none((0..packed.shapes.len()).map(|index| {
         let shape = &packed.shapes[index];
         let rows = [shape.row_x, shape.row_y, shape.row_z].map(|row| Vec3::from(row).as_dvec3());
@@ -780,6 +782,71 @@ fn the_tree_finds_what_brute_force_finds() {
         (1..=4).map(move |seed| {
             let name = format!("{name} {seed}");
             check_tree_against_brute_force(&name, &scene(seed), &odd_sized())
+        })
+    }));
+}
+
+/// A few cylinders, boxes, discs and glass spheres that touch among many triangles; and a few triangles among spheres; both
+/// with planes.
+fn few_of_a_kind() -> [Scene; 2] {
+    let mut triangles = soup(11, 300);
+    triangles.background = Background::Gradient {
+        bottom: Vec3::X,
+        top: Vec3::Y,
+    };
+    let glass = triangles.add_material(Material {
+        reflect: Vec3::ONE,
+        transmit: Vec3::ONE,
+        opacity: 0.0,
+        ior: 1.5,
+        fresnel: Fresnel::Exact,
+        ..Material::default()
+    });
+    triangles.add_plane(dvec3(0.0, -1.0, 0.0), DVec3::Y, 0);
+    triangles.add_sphere(dvec3(-0.5, 0.21, 1.0), 0.5, glass);
+    triangles.add_sphere(dvec3(0.5, 0.21, 1.0), 0.5, glass);
+    let turn = DAffine3::from_rotation_z(0.5) * DAffine3::from_scale(dvec3(0.1, 2.0, 0.1));
+    let cylinder = CanonicalShape::Cone {
+        bottom: 1.0,
+        top: 0.5,
+        capped: true,
+    };
+    add_placed(&mut triangles, cylinder, turn);
+    add_placed(
+        &mut triangles,
+        CanonicalShape::Box,
+        turn * DAffine3::from_translation(DVec3::X),
+    );
+    let mut shapes = bubbles(12);
+    shapes.add_plane(dvec3(0.0, -1.0, 0.0), DVec3::Y, 0);
+    shapes.meshes = soup(13, 8).meshes;
+    shapes.instances = soup(13, 8).instances;
+    [triangles, shapes]
+}
+
+/// One primitive more, which no ray meets, and all are in the tree.
+#[test]
+fn what_is_in_no_tree_looks_as_what_is_in_one() {
+    let far = dvec3(0.0, 0.0, 500.0);
+    assert_none(few_of_a_kind().into_iter().flat_map(|few| {
+        let mut more = few.clone();
+        more.add_sphere(far, 0.01, 0);
+        let corners = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| far + 0.01 * axis);
+        more.add_mesh(lone_triangles([corners]), DAffine3::IDENTITY);
+        let apart = |scene| pack::scene(scene).expect("packed").features.apart;
+        assert_ne!(apart(&few), Apart::Nothing);
+        assert_eq!(apart(&more), Apart::Nothing);
+        let integrators = [Integrator::Depth, Integrator::Normals, Integrator::Whitted];
+        integrators.map(|integrator| {
+            let of = |scene| {
+                let settings = RenderSettings {
+                    integrator,
+                    ..odd_sized()
+                };
+                render(scene, &settings).0
+            };
+            let name = format!("{:?} apart, {integrator:?}", apart(&few));
+            check_same_bits(&name, &of(&more), &of(&few))
         })
     }));
 }

@@ -140,8 +140,14 @@ fn a_lost_device_does_not_change_the_ray_tree() {
     let workspace = Workspace::new();
     let line = "explain a.scene --size 9x9 --samples 4 --pixel 4,4 --json";
     let expected = workspace.run(line).expect(0);
-    // The first submission warms up the pipeline; two more count and record the rays.
-    for fault in ["device@2", "device@3", "device@2,4", "device@1,3,5"] {
+    // The first submission clears the film, the second one warms up the pipeline; two more count and record the rays.
+    for fault in [
+        "device@2",
+        "device@3",
+        "device@4",
+        "device@3,6",
+        "device@1,4,7",
+    ] {
         let mut command = workspace.command(line);
         let run = Run::from(
             command
