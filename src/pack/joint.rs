@@ -25,7 +25,7 @@ pub struct Joint {
     pub apart: Apart,
 }
 
-/// What it is made of.
+/// What a [`Joint`] is built from.
 #[derive(Clone, Debug)]
 pub struct JointInput {
     pub meshes: Vec<(Arc<CachedMesh>, DAffine3)>,
@@ -91,7 +91,7 @@ impl JointInput {
         }
     }
 
-    /// What is in no BVH, of what it becomes.
+    /// Which kind of the packed primitives is in no BVH.
     fn apart(&self, flat: &Flat) -> Apart {
         let (triangles, shapes) = (flat.triangles.len(), flat.bounded.len());
         let few_triangles = self.has_all_triangles && triangles <= MOST_TRIANGLES;
