@@ -9,6 +9,7 @@ mod buffer;
 mod error;
 mod fault;
 mod guard;
+mod inline;
 mod readback;
 mod shader;
 mod specialize;
@@ -19,6 +20,7 @@ pub use adapter::{AdapterChoice, AdapterReport, Backend, adapter_identity, adapt
 pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
 pub use error::GpuError;
 pub use guard::{is_guarded, surviving_loss};
+pub use inline::inline_functions;
 pub(crate) use readback::{Reading, Source};
 pub(crate) use shader::Compiled;
 pub use shader::{Kernel, Overrides, Variant};
@@ -75,8 +77,8 @@ pub struct Needs {
 }
 
 impl Gpu {
-    /// Opens the adapter that `choice` names, or the fastest kind available. The device requires only the
-    /// default limits of WebGPU, and a fifth storage image where the adapter has it. It has subgroups where [`Gpu::traces_packets`].
+    /// Opens the adapter that `choice` names, or the fastest kind available. The device requires only the default limits of
+    /// WebGPU, and a fifth storage image where the adapter has it. It has subgroups where [`Gpu::traces_packets`].
     pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
         Self::open(choice, Needs::default())
     }
@@ -128,7 +130,7 @@ impl Gpu {
             ..Default::default()
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
-            .map_err(|error| no_device(&report.name, &error.to_string()))?;
+            .map_err(|error| error::no_device(&report.name, &error.to_string()))?;
         let lost = Arc::new(AtomicBool::new(false));
         let on_loss = lost.clone();
         // The callback may run while locks are held, so it only sets a flag.
@@ -155,10 +157,10 @@ impl Gpu {
         })
     }
 
-    /// Wraps a device that another program opened, with its instance, adapter and queue. It needs at least the
-    /// default limits of WebGPU; with five storage images in a shader, kernels can read the scene from images. The
-    /// program keeps control of it: its limits decide which scenes can be rendered, its callbacks are not touched, and if it is lost the program has to open another one
-    /// ([`GpuError::Lost`]).
+    /// Wraps a device that another program opened, with its instance, adapter and queue. It needs at least the default
+    /// limits of WebGPU; with five storage images in a shader, kernels can read the scene from images. The program keeps
+    /// control of it: its limits decide which scenes can be rendered, its callbacks are not touched, and if it is lost the
+    /// program has to open another one ([`GpuError::Lost`]).
     pub fn from_wgpu(
         instance: wgpu::Instance,
         adapter: wgpu::Adapter,
@@ -387,19 +389,6 @@ impl Gpu {
             });
         }
         made.map_err(|_| GpuError::Lost)
-    }
-}
-
-/// The error of a driver that fails to open the adapter. wgpu reports a lack of memory only in the text.
-fn no_device(adapter: &str, why: &str) -> GpuError {
-    match why.contains("Not enough memory") {
-        true => GpuError::OutOfMemory {
-            what: format!("opening {adapter}"),
-        },
-        false => GpuError::NoDevice {
-            adapter: adapter.into(),
-            why: why.trim_end_matches('.').into(),
-        },
     }
 }
 

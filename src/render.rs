@@ -68,6 +68,7 @@ pub use work::Status;
 use crate::{
     gpu::{AdapterReport, Gpu, GpuError},
     pack::{PackedScene, PackedView},
+    threads,
 };
 use denoise::Denoiser;
 use device::Device;
@@ -128,7 +129,7 @@ impl Renderer {
         effort::check(view, &settings)?;
         let view = view.with_aspect(settings.size.0, settings.size.1);
         let order = GroupOrder::of(&gpu);
-        let tiles = FilmTiles::new(&settings, policy.slicing.tile_side, order);
+        let mut tiles = FilmTiles::new(&settings, policy.slicing.tile_side, order);
         let fetch = bindings::choose_fetch(&policy, &gpu, &scene, &view);
         let shown = (&*scene, &view, fetch);
         let mut stats = Stats {
@@ -145,7 +146,10 @@ impl Renderer {
         };
         let gpu = gpu.with_limits_for(bindings::needs(&scene, &view, fetch, task.film_rows))?;
         let (choice, is_own) = (gpu.choice().clone(), gpu.is_own());
-        let device = Device::new(gpu, fetch, task, &mut stats);
+        let device = threads::join(
+            || Device::new(gpu, fetch, task, &mut stats),
+            || tiles.touch_memory(),
+        );
         let device = match device {
             // Other code draws with this device and cannot switch to another one.
             Err(GpuError::Lost) if !policy.host_copy || !is_own => {

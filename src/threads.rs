@@ -59,6 +59,18 @@ pub fn for_each<J: Send>(jobs: impl IntoIterator<Item = J>, work: impl Fn(J) + S
     });
 }
 
+/// Does both, `aside` on a thread of its own if there are several.
+pub fn join<R>(work: impl FnOnce() -> R, aside: impl FnOnce() + Send) -> R {
+    if count() == 1 {
+        aside();
+        return work();
+    }
+    thread::scope(|scope| {
+        scope.spawn(aside);
+        work()
+    })
+}
+
 /// The results of `work` for all jobs, in their order. Threads take the next job as soon as they are done with one, so
 /// that jobs may differ in length.
 pub fn map<J: Send, R: Send>(jobs: Vec<J>, work: impl Fn(J) -> R + Sync) -> Vec<R> {

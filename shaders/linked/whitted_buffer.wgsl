@@ -1951,20 +1951,14 @@ fn sampling__owen_scramble(fraction: u32, seed: u32) -> u32 {
 }
 
 fn sampling__sobol_34(index: u32) -> vec2u {
-	var z = vec2u(2147483648u, 3221225472u);
-	var w = vec3u(2147483648u, 3221225472u, 536870912u);
-	var point = vec2u(0u);
-	var bit = 0u;
-	loop {
-		point ^= select(vec2u(0u), vec2u(z.x, w.x), ((index >> bit) & 1u) != 0u);
-		z = vec2u(z.y, z.y ^ z.x ^ (z.x >> 2u));
-		w = vec3u(w.yz, w.y ^ w.x ^ (w.x >> 3u));
-		continuing {
-			bit += 1u;
-			break if bit >= 32u;
-		}
-	}
-	return point;
+	return sampling__columns(index, vec4u(2147483648u, 3221225472u, 1610612736u, 2415919104u), vec4u(2147483648u, 3221225472u, 536870912u, 1342177280u)) ^ sampling__columns(index >> 4u, vec4u(3892314112u, 1543503872u, 2382364672u, 3305111552u), vec4u(4160749568u, 1946157056u, 2717908992u, 2466250752u)) ^ sampling__columns(index >> 8u, vec4u(1753219072u, 2629828608u, 3999268864u, 1435500544u), vec4u(3632267264u, 624951296u, 1507852288u, 3872391168u)) ^ sampling__columns(index >> 12u, vec4u(2154299392u, 3231449088u, 1626210304u, 2421489664u), vec4u(2013790208u, 3020685312u, 2181169152u, 3271884800u)) ^ sampling__columns(index >> 16u, vec4u(3900735488u, 1556135936u, 2388680704u, 3314585600u), vec4u(546275328u, 1363623936u, 4226424832u, 1977167872u)) ^ sampling__columns(index >> 20u, vec4u(1751705600u, 2627492864u, 4008611328u, 1431684352u), vec4u(2693105664u, 2437829632u, 3689389568u, 635137280u)) ^ sampling__columns(index >> 24u, vec4u(2147543168u, 3221249216u, 1610649184u, 2415969680u), vec4u(1484783744u, 3846176960u, 2044723232u, 3067084880u)) ^ sampling__columns(index >> 28u, vec4u(3892340840u, 1543543964u, 2382425838u, 3305133397u), vec4u(2148008184u, 3222012020u, 537002146u, 1342505107u));
+}
+
+fn sampling__columns(index: u32, third: vec4u, fourth: vec4u) -> vec2u {
+	let is_chosen = (vec4u(index) & vec4u(1u, 2u, 4u, 8u)) != vec4u(0u);
+	let z = select(vec4u(0u), third, is_chosen);
+	let w = select(vec4u(0u), fourth, is_chosen);
+	return vec2u(z.x ^ z.y ^ z.z ^ z.w, w.x ^ w.y ^ w.z ^ w.w);
 }
 
 fn sampling__stratified_2d(index: u32, key: u32) -> vec2f {
@@ -3823,11 +3817,10 @@ fn contact__merge(contact: contact__Contact, second: shading__Surface, is_same_v
 	let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
 	var both = contact;
 	if (together && contact__is_transparent(second)) {
-		if (contact__is_thin(second)) {
-			return both;
+		if (!contact__is_thin(second)) {
+			both.touching = second.material;
+			both.enters_touching = second.outside;
 		}
-		both.touching = second.material;
-		both.enters_touching = second.outside;
 	}
 	else if (together) {
 		both.surface = second;

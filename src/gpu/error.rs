@@ -94,3 +94,16 @@ impl GpuError {
         "Install a Vulkan driver, or Mesa's software one."
     };
 }
+
+/// The error of a driver that fails to open the adapter. wgpu reports a lack of memory only in the text.
+pub fn no_device(adapter: &str, why: &str) -> GpuError {
+    match why.contains("Not enough memory") {
+        true => GpuError::OutOfMemory {
+            what: format!("opening {adapter}"),
+        },
+        false => GpuError::NoDevice {
+            adapter: adapter.into(),
+            why: why.trim_end_matches('.').into(),
+        },
+    }
+}

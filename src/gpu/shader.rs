@@ -1,6 +1,6 @@
 //! The linked kernels, and the cache of their pipelines.
 
-use super::{Gpu, GpuError, specialize::specialize};
+use super::{Gpu, GpuError, inline::inline_functions, specialize::specialize};
 use std::{borrow::Cow, collections::VecDeque};
 
 /// Maximum number of cached pipelines of a device: each may be a megabyte of machine code.
@@ -182,7 +182,10 @@ impl Gpu {
         };
         let by_select = ("EXTREMES_BY_SELECT", f64::from(self.is_cpu()));
         let overrides = [overrides, &[by_select]].concat();
-        let module = kernel.specialized(variant, &overrides).map_err(refused)?;
+        let mut module = kernel.specialized(variant, &overrides).map_err(refused)?;
+        if self.is_cpu() {
+            inline_functions(&mut module);
+        }
         let made = self.scoped(name, || {
             let layout = self
                 .device

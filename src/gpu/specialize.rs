@@ -28,6 +28,12 @@ pub fn specialize(source: &str, overrides: &[(&str, f64)]) -> Result<Module, Str
     let source = with_constants(source, overrides);
     let mut module =
         naga::front::wgsl::parse_str(&source).map_err(|error| error.emit_to_string(&source))?;
+    simplify(&mut module);
+    Ok(module)
+}
+
+/// Folds branches on constants, and removes what is not used.
+pub fn simplify(module: &mut Module) {
     for (_, function) in module.functions.iter_mut() {
         fold_function(function, &module.constants, &module.global_expressions);
     }
@@ -38,8 +44,7 @@ pub fn specialize(source: &str, overrides: &[(&str, f64)]) -> Result<Module, Str
             &module.global_expressions,
         );
     }
-    compact(&mut module, KeepUnused::No);
-    Ok(module)
+    compact(module, KeepUnused::No);
 }
 
 /// The source with each `override NAME: TYPE = DEFAULT;` replaced by a `const`. The front end folds constant
@@ -196,13 +201,11 @@ impl Fold<'_> {
         values.into_iter().filter_map(constant).collect()
     }
 
-    /// The variable that a pointer points to, if it is a temporary of the front end: the result of `&&` or
-    /// `||`, which is stored before it is read.
+    /// The variable that a pointer points to, if it is a temporary.
     fn temporary(&self, pointer: Handle<Expression>) -> Option<Handle<LocalVariable>> {
         match self.function.expressions[pointer] {
             Expression::LocalVariable(variable) => {
-                let LocalVariable { name, init, .. } = &self.function.local_variables[variable];
-                (name.is_none() && init.is_none()).then_some(variable)
+                is_temporary(&self.function.local_variables[variable]).then_some(variable)
             }
             _ => None,
         }
@@ -236,29 +239,33 @@ impl Fold<'_> {
     }
 }
 
+/// Whether a variable is a temporary of the front end: the result of `&&` or `||`, which is stored before it is read.
+pub fn is_temporary(variable: &LocalVariable) -> bool {
+    variable.name.is_none() && variable.init.is_none()
+}
+
 /// All stores in a block and its nested blocks: (pointer, value).
 fn stores(block: &Block, found: &mut Vec<(Handle<Expression>, Handle<Expression>)>) {
     for statement in block {
-        match statement {
-            Statement::Store { pointer, value } => found.push((*pointer, *value)),
-            Statement::If { accept, reject, .. } => {
-                stores(accept, found);
-                stores(reject, found);
-            }
-            Statement::Block(inner) => stores(inner, found),
-            Statement::Loop {
-                body, continuing, ..
-            } => {
-                stores(body, found);
-                stores(continuing, found);
-            }
-            Statement::Switch { cases, .. } => {
-                for case in cases {
-                    stores(&case.body, found);
-                }
-            }
-            _ => {}
+        if let Statement::Store { pointer, value } = statement {
+            found.push((*pointer, *value));
         }
+        for inner in inner_blocks(statement) {
+            stores(inner, found);
+        }
+    }
+}
+
+/// The blocks of a statement.
+pub fn inner_blocks(statement: &Statement) -> Vec<&Block> {
+    match statement {
+        Statement::Block(inner) => vec![inner],
+        Statement::If { accept, reject, .. } => vec![accept, reject],
+        Statement::Switch { cases, .. } => cases.iter().map(|case| &case.body).collect(),
+        Statement::Loop {
+            body, continuing, ..
+        } => vec![body, continuing],
+        _ => Vec::new(),
     }
 }
 
@@ -312,18 +319,10 @@ fn jumps(block: &Block) -> bool {
 
 /// Whether any statement of a block of a loop is such, without those of inner loops.
 fn any_of_loop(block: &Block, is_such: &impl Fn(&Statement) -> bool) -> bool {
+    let is_inner = |block: &Block| any_of_loop(block, is_such);
     block.iter().any(|statement| {
-        is_such(statement)
-            || match statement {
-                Statement::If { accept, reject, .. } => {
-                    any_of_loop(accept, is_such) || any_of_loop(reject, is_such)
-                }
-                Statement::Block(inner) => any_of_loop(inner, is_such),
-                Statement::Switch { cases, .. } => {
-                    cases.iter().any(|case| any_of_loop(&case.body, is_such))
-                }
-                _ => false,
-            }
+        let is_loop = matches!(statement, Statement::Loop { .. });
+        is_such(statement) || (!is_loop && inner_blocks(statement).into_iter().any(is_inner))
     })
 }
 

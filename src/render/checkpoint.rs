@@ -128,9 +128,12 @@ impl Position {
         }
     }
 
-    /// Whether a part of the current block of samples may be there.
+    /// Whether some samples of the current block have been taken.
     fn needs_sums(&self) -> bool {
-        self.cursor.group > 0 || self.unfinished.is_some()
+        let is_begun = |(slice, parts): &(Slice, Vec<Slice>)| {
+            parts.iter().map(Slice::work).sum::<f64>() < slice.work()
+        };
+        self.cursor.group > 0 || self.unfinished.as_ref().is_some_and(is_begun)
     }
 
     fn write<W: Write>(&self, out: &mut Writer<W>) -> io::Result<()> {
@@ -198,7 +201,7 @@ impl Position {
         } = self.cursor;
         let Some(current) = tiles.list.get(tile) else {
             let is_end = (tiles.list.last()).is_none_or(|last| last.samples.end == sample);
-            return tile == tiles.list.len() && is_end && !self.needs_sums();
+            return tile == tiles.list.len() && is_end && group == 0 && self.unfinished.is_none();
         };
         let groups = current.group_count();
         if group >= groups || !current.samples.contains(&sample) {

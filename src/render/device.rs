@@ -18,7 +18,7 @@ use crate::{
     gpu::{AdapterChoice, Compiled, Gpu, GpuError, Reading, Source},
     layout::{PackedCounters, PackedDispatch},
 };
-use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_read_unaligned};
+use bytemuck::{bytes_of, cast_slice, pod_read_unaligned};
 use std::ops::Range;
 
 const ROW_BYTES: u64 = 16;
@@ -41,6 +41,8 @@ pub struct Device {
     pub lane_samples: u32,
     /// Index of the film tile whose sums are in the film buffer.
     pub loaded_tile: Option<usize>,
+    /// Whether the film buffer still has its first zeros.
+    is_film_clear: bool,
 }
 
 impl Device {
@@ -64,6 +66,7 @@ impl Device {
             denoiser: None,
             lane_samples,
             loaded_tile: None,
+            is_film_clear: true,
         })
     }
 
@@ -74,6 +77,7 @@ impl Device {
         let (gpu, layouts) = (&self.gpu, &self.layouts);
         if self.buffers.make_room(gpu, layouts, task.film_rows)? {
             self.developer = None;
+            self.is_film_clear = true;
         }
         let shown = (task.scene, task.view);
         (self.buffers).set(gpu, layouts, shown, spare, &mut stats.uploads)?;
@@ -87,6 +91,7 @@ impl Device {
     /// Writes film rows to the film buffer: those of the film tile with this index, if they are its sums.
     pub fn load_film(&mut self, tile: Option<usize>, rows: &[[f32; 4]]) -> Result<(), GpuError> {
         self.loaded_tile = None;
+        self.is_film_clear = false;
         self.gpu.write(&self.buffers.film, 0, cast_slice(rows))?;
         self.loaded_tile = tile;
         Ok(())
@@ -103,8 +108,7 @@ impl Device {
         let staging = &self.buffers.staging;
         self.gpu
             .submit_and_read(encoder, &[rows], staging, |bytes| {
-                tile.sums.clear();
-                tile.sums.extend_from_slice(cast_slice(bytes));
+                tile.replace_rows(0, cast_slice(bytes));
             })
     }
 
@@ -119,15 +123,16 @@ impl Device {
     ) -> Result<Reading, GpuError> {
         let (gpu, buffers) = (&self.gpu, &self.buffers);
         let is_loaded = self.loaded_tile == Some(index);
-        let is_blank = !is_loaded && tile.has_no_sums();
+        let is_blank = !is_loaded && tile.sums.is_empty();
         if !is_loaded && !is_blank {
             gpu.write(&buffers.film, 0, cast_slice(&tile.sums))?;
         }
         self.loaded_tile = Some(index);
+        let is_clear = std::mem::take(&mut self.is_film_clear);
         let packed = slice.packed(tile, settings, self.lane_samples);
         gpu.write(&buffers.dispatch, 0, bytes_of(&packed))?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        if is_blank {
+        if is_blank && !is_clear {
             let bytes = tile.row_count() as u64 * ROW_BYTES;
             encoder.clear_buffer(&buffers.film, 0, Some(bytes));
         }
@@ -159,7 +164,7 @@ impl Device {
             let (counters, sums) = bytes.split_at(size_of::<PackedCounters>());
             let counters = pod_read_unaligned(counters);
             if slice.is_complete(&counters, self.lane_samples) {
-                cast_slice_mut(&mut tile.sums[rows]).copy_from_slice(sums);
+                tile.replace_rows(rows.start, cast_slice(sums));
             }
             counters
         })

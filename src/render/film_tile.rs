@@ -54,7 +54,8 @@ pub struct FilmTile {
     /// Rows of a pixel, and the row that holds the pixel position in a list.
     rows: PixelRows,
     place_row: usize,
-    /// Film rows of the current block, layer by layer for each pixel; empty before the block starts.
+    /// Film rows of the current block, layer by layer for each pixel. Empty before the block starts, and in a rectangle
+    /// until rows are read back.
     pub sums: Vec<[f32; 4]>,
     /// The sums of all finished blocks.
     pub closed: Option<Sums>,
@@ -163,14 +164,22 @@ impl FilmTile {
         self.pixel_count() * self.rows_per_pixel()
     }
 
-    /// Sets all sums to zero.
-    pub fn reset_sums(&mut self) {
-        self.sums.clear();
-        match self.sums.capacity() {
-            // Zeros from the system, which all threads touch.
-            0 => self.sums = vec![[0.0; 4]; self.row_count()],
-            _ => self.sums.resize(self.row_count(), [0.0; 4]),
+    /// Allocates the rows, if there are none, and writes to them.
+    pub fn touch_memory(&mut self) {
+        if self.sums.capacity() == 0 {
+            self.sums = vec![[1.0; 4]; self.row_count()];
+            self.sums.clear();
         }
+    }
+
+    /// Begins a block. The rows of a list hold the positions of its pixels; those of a rectangle are zeros, which need
+    /// no memory before they are replaced.
+    pub fn begin_block(&mut self) {
+        self.sums.clear();
+        if self.places.is_empty() {
+            return;
+        }
+        self.fill_with_zeros();
         let len = threads::chunk_len(self.places.len());
         let sums = self.sums.chunks_mut(self.rows.count * len);
         threads::for_each(sums.zip(self.places.chunks(len)), |(sums, places)| {
@@ -180,10 +189,25 @@ impl FilmTile {
         });
     }
 
-    /// Whether all film rows are zeros, as before the first sample of a rectangle.
-    pub fn has_no_sums(&self) -> bool {
-        let rows: &[[u32; 4]] = bytemuck::cast_slice(&self.sums);
-        rows.iter().all(|row| *row == [0; 4])
+    /// Replaces rows of the current block, from `first` on.
+    pub fn replace_rows(&mut self, first: usize, rows: &[[f32; 4]]) {
+        if rows.len() == self.row_count() {
+            self.sums.clear();
+            self.sums.extend_from_slice(rows);
+            return;
+        }
+        if self.sums.is_empty() {
+            self.fill_with_zeros();
+        }
+        self.sums[first..first + rows.len()].copy_from_slice(rows);
+    }
+
+    fn fill_with_zeros(&mut self) {
+        match self.sums.capacity() {
+            // Zeros from the system, which all threads touch.
+            0 => self.sums = vec![[0.0; 4]; self.row_count()],
+            _ => self.sums.resize(self.row_count(), [0.0; 4]),
+        }
     }
 
     /// The positions in the picture of the pixels of a rectangle, in film order; `None` for padding. The order is that

@@ -54,6 +54,13 @@ impl FilmTiles {
         tiles
     }
 
+    /// Allocates the rows of the first tile and writes to them: the first write to memory takes long.
+    pub fn touch_memory(&mut self) {
+        if let Some(first) = self.list.first_mut() {
+            first.touch_memory();
+        }
+    }
+
     /// Overall progress when `fraction` of the tiles of this round are done, in 0..=1.
     pub fn progress(&self, fraction: f64) -> f64 {
         match &self.adaptive {

@@ -94,7 +94,7 @@ impl Slice {
     }
 
     /// Workgroups times samples, the measure of work.
-    fn work(&self) -> f64 {
+    pub fn work(&self) -> f64 {
         f64::from(self.end_group - self.first_group)
             * f64::from(self.end_sample - self.first_sample)
     }

@@ -134,7 +134,7 @@ impl Renderer {
     fn plan_slice(&mut self) -> Work {
         let tile = &mut self.tiles.list[self.cursor.tile];
         if tile.sums.is_empty() {
-            tile.reset_sums();
+            tile.begin_block();
         }
         let group_count = tile.group_count();
         if self.cursor.group == 0 {

@@ -1,7 +1,7 @@
 //! Every kernel is valid WGSL within the minimum limits of WebGPU.
 
 use crate::support::{harness::gpu, verdict::Verdict};
-use glimray::gpu::{Kernel, Variant};
+use glimray::gpu::{Kernel, Variant, inline_functions};
 use naga::{
     Expression, MathFunction, ScalarKind,
     valid::{Capabilities, ValidationFlags, Validator},
@@ -186,16 +186,23 @@ fn specialised_kernels_are_valid_and_branch_on_no_constant() {
         for (seed, variant) in (0..12).zip(variants.iter().cycle()) {
             let overrides = random_overrides(seed);
             let overrides: Vec<_> = overrides.iter().map(|(name, v)| (&**name, *v)).collect();
-            let module = kernel
+            let mut module = kernel
                 .specialized(*variant, &overrides)
                 .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
+            let what = format!("{} with the choices of seed {seed}", kernel.name);
             let mut validator = Validator::new(ValidationFlags::all(), capabilities(*variant));
             let checked = validator.validate(&module);
-            let what = format!("{} with the choices of seed {seed}", kernel.name);
             verdict.that(&what, checked.is_ok(), || format!("{checked:?}"));
             let branches =
                 functions(&module).any(|function| branches_on_a_literal(function, &function.body));
             verdict.that(&what, !branches, || "branches on a constant");
+
+            inline_functions(&mut module);
+            let checked = validator.validate(&module);
+            verdict.that(&what, checked.is_ok(), || format!("inlined: {checked:?}"));
+            let left = module.functions.iter().map(|(_, function)| &function.name);
+            let left: Vec<_> = left.collect();
+            verdict.that(&what, left.is_empty(), || format!("not inlined: {left:?}"));
         }
     }
     verdict.close();

@@ -33,6 +33,7 @@ mod fuzz;
 mod golden;
 mod import;
 mod imports;
+mod inlining;
 mod inputs;
 mod instances;
 mod kernels;

@@ -71,6 +71,40 @@ fn the_third_and_fourth_dimension_begin_with_the_published_points() {
     verdict.close();
 }
 
+/// The columns of the generator matrices by the direction numbers of Joe and Kuo (2008), file new-joe-kuo-6.21201:
+/// d = 3: s = 2, a = 1, m = 1, 3; d = 4: s = 3, a = 1, m = 1, 3, 1.
+#[test]
+fn the_third_and_fourth_dimension_follow_the_direction_numbers() {
+    let mut third = vec![1u64, 3];
+    let mut fourth = vec![1u64, 3, 1];
+    for k in 2..32 {
+        third.push(third[k - 1] << 1 ^ third[k - 2] << 2 ^ third[k - 2]);
+    }
+    for k in 3..32 {
+        fourth.push(fourth[k - 2] << 2 ^ fourth[k - 3] << 3 ^ fourth[k - 3]);
+    }
+    let expected = |index: u32, numbers: &[u64]| {
+        let columns = numbers.iter().enumerate();
+        let chosen = columns.filter(|(bit, _)| index >> bit & 1 != 0);
+        chosen.fold(0, |sum, (bit, number)| sum ^ (number << (31 - bit)) as u32)
+    };
+    let mut random = Random::new(34);
+    let single = (0..32).map(|bit| 1 << bit);
+    let indices: Vec<u32> = single.chain((0..1000).map(|_| random.word())).collect();
+    let points: Vec<[u32; 2]> = gpu().map("lib::sampling::sobol_34", &indices);
+    let mut verdict = Verdict::on("sobol_34");
+    for (&index, point) in indices.iter().zip(&points) {
+        let expected = [&third, &fourth].map(|numbers| expected(index, numbers));
+        verdict.near(
+            format!("point {index:#x}"),
+            point,
+            &expected,
+            Tolerance::Exact,
+        );
+    }
+    verdict.close();
+}
+
 /// Sobol's property A for both pairs of dimensions together: each of the 16 sub-cubes that halve the
 /// four-dimensional cube along each axis contains one of 16 points.
 #[test]

@@ -126,7 +126,7 @@ fn render(tile: &mut FilmTile, plain: &mut Plain, seed: u64) {
         if first > tile.samples.start {
             tile.close_block();
         }
-        tile.reset_sums();
+        tile.begin_block();
         let end = tile.samples.end.min(first + SAMPLE_BLOCK);
         for ([x, y], rows) in places.iter().zip(tile.sums.chunks_exact_mut(2)) {
             let samples = (first..end).map(|index| sample([*x, *y], index, seed));

@@ -9,7 +9,8 @@ use super::{
     words::{Input, Output},
 };
 use crate::kernels::link::FEATURES;
-use std::sync::OnceLock;
+use glimray::gpu::inline_functions;
+use std::{borrow::Cow, sync::OnceLock};
 use wesl::{FileResolver, Router, VirtualResolver, Wesl};
 use wgpu::{BufferUsages, util::DeviceExt};
 
@@ -251,7 +252,7 @@ impl Harness {
             .device
             .create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(name),
-                source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+                source: self.source(wgsl),
             });
         let layout = self
             .device
@@ -274,6 +275,17 @@ impl Harness {
             panic!("{name}: {error}\n{wgsl}");
         }
         pipeline
+    }
+
+    /// The module as kernels are handed to this kind of adapter.
+    fn source(&self, wgsl: &str) -> wgpu::ShaderSource<'static> {
+        match naga::front::wgsl::parse_str(wgsl) {
+            Ok(mut module) if self.is_cpu => {
+                inline_functions(&mut module);
+                wgpu::ShaderSource::Naga(Cow::Owned(module))
+            }
+            _ => wgpu::ShaderSource::Wgsl(wgsl.to_owned().into()),
+        }
     }
 
     fn read(&self, staging: &wgpu::Buffer) -> Vec<u32> {
