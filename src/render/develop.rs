@@ -43,6 +43,18 @@ impl Tone {
         Ok(developed)
     }
 
+    /// Compiles the kernel with which [`Renderer::develop`] develops pictures of this integrator, so that it need not wait
+    /// for that.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn prepare(&self, gpu: &Gpu, integrator: Integrator) -> Result<(), RenderError> {
+        let layouts = Layouts::new(gpu, Fetch::Buffer);
+        let overrides = overrides::of_tone(&self.packed(integrator, None, 1));
+        pipelines::developing(gpu, &layouts, Kernel::DEVELOP, &layouts.develop, overrides)?;
+        Ok(())
+    }
+
     /// The packed tone, with a range for a quantity if there is one, for a film with this many rows per pixel.
     pub(super) fn packed(
         &self,
