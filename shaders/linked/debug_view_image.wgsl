@@ -56,11 +56,11 @@ struct dispatch__RayCounts {
 
 var<private> dispatch__counts: dispatch__RayCounts;
 
-var<private> dispatch__cut_throughput: f32 = 0.0;
+var<private> dispatch__cut_throughput: f32;
 
-var<private> dispatch__clamped_light: f32 = 0.0;
+var<private> dispatch__clamped_light: f32;
 
-var<private> dispatch__kept_light: f32 = 0.0;
+var<private> dispatch__kept_light: f32;
 
 struct dispatch__Batch {
 	camera: types__PackedCamera,
@@ -1092,13 +1092,13 @@ struct tracing__Cone {
 	spread: f32
 }
 
-var<private> loops__nodes_visited: u32 = 0u;
+var<private> loops__nodes_visited: u32;
 
-var<private> loops__primitives_tested: u32 = 0u;
+var<private> loops__primitives_tested: u32;
 
-var<private> loops__cut_off: bool = false;
+var<private> loops__cut_off: bool;
 
-var<private> loops__is_stack_full: bool = false;
+var<private> loops__is_stack_full: bool;
 
 const traverse__RETURN: u32 = 4294967294u;
 
@@ -1532,7 +1532,7 @@ fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fracti
 	return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
 }
 
-var<private> shutter__shutter_time: f32 = 0.0;
+var<private> shutter__shutter_time: f32;
 
 fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
 	if (bindings__CAMERA_MOTION) {
@@ -3049,7 +3049,7 @@ fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
-var<private> ray_stack__cut_off_trees: u32 = 0u;
+var<private> ray_stack__cut_off_trees: u32;
 
 override bindings__EXTREMES_BY_SELECT: bool = false;
 

@@ -970,11 +970,11 @@ struct dispatch__RayCounts {
 
 var<private> dispatch__counts: dispatch__RayCounts;
 
-var<private> dispatch__cut_throughput: f32 = 0.0;
+var<private> dispatch__cut_throughput: f32;
 
-var<private> dispatch__clamped_light: f32 = 0.0;
+var<private> dispatch__clamped_light: f32;
 
-var<private> dispatch__kept_light: f32 = 0.0;
+var<private> dispatch__kept_light: f32;
 
 struct dispatch__Batch {
 	camera: types__PackedCamera,
@@ -1629,7 +1629,7 @@ fn features__see_light(light: vec3f, scatterings: u32) {
 	}
 }
 
-var<private> shutter__shutter_time: f32 = 0.0;
+var<private> shutter__shutter_time: f32;
 
 fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
 	if (bindings__CAMERA_MOTION) {
@@ -2290,13 +2290,13 @@ fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
 	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
 }
 
-var<private> loops__nodes_visited: u32 = 0u;
+var<private> loops__nodes_visited: u32;
 
-var<private> loops__primitives_tested: u32 = 0u;
+var<private> loops__primitives_tested: u32;
 
-var<private> loops__cut_off: bool = false;
+var<private> loops__cut_off: bool;
 
-var<private> loops__is_stack_full: bool = false;
+var<private> loops__is_stack_full: bool;
 
 fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
@@ -3170,7 +3170,7 @@ var<private> ray_stack__current_tree: u32;
 
 var<private> ray_stack__trees_cut_off: wide__Words;
 
-var<private> ray_stack__cut_off_trees: u32 = 0u;
+var<private> ray_stack__cut_off_trees: u32;
 
 fn ray_stack__camera_states(batch: dispatch__Batch, rays: rays__Rays) -> ray_states__RayStates {
 	let media = batch.camera_media;

@@ -888,11 +888,11 @@ struct dispatch__RayCounts {
 
 var<private> dispatch__counts: dispatch__RayCounts;
 
-var<private> dispatch__cut_throughput: f32 = 0.0;
+var<private> dispatch__cut_throughput: f32;
 
-var<private> dispatch__clamped_light: f32 = 0.0;
+var<private> dispatch__clamped_light: f32;
 
-var<private> dispatch__kept_light: f32 = 0.0;
+var<private> dispatch__kept_light: f32;
 
 struct dispatch__Batch {
 	camera: types__PackedCamera,
@@ -1801,7 +1801,7 @@ fn features__see_light(light: vec3f, scatterings: u32) {
 	}
 }
 
-var<private> shutter__shutter_time: f32 = 0.0;
+var<private> shutter__shutter_time: f32;
 
 fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
 	if (bindings__CAMERA_MOTION) {
@@ -2495,13 +2495,13 @@ fn numeric__max_component(v: vec3f) -> f32 {
 	return max_f32(v.x, max_f32(v.y, v.z));
 }
 
-var<private> loops__nodes_visited: u32 = 0u;
+var<private> loops__nodes_visited: u32;
 
-var<private> loops__primitives_tested: u32 = 0u;
+var<private> loops__primitives_tested: u32;
 
-var<private> loops__cut_off: bool = false;
+var<private> loops__cut_off: bool;
 
-var<private> loops__is_stack_full: bool = false;
+var<private> loops__is_stack_full: bool;
 
 fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
 	if (bindings__HAS_MOTION) {
@@ -4586,7 +4586,7 @@ var<private> ray_stack__current_tree: u32;
 
 var<private> ray_stack__trees_cut_off: wide__Words;
 
-var<private> ray_stack__cut_off_trees: u32 = 0u;
+var<private> ray_stack__cut_off_trees: u32;
 
 fn ray_stack__cut_tree() {
 	ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);

@@ -59,11 +59,11 @@ struct dispatch__RayCounts {
 
 var<private> dispatch__counts: dispatch__RayCounts;
 
-var<private> dispatch__cut_throughput: f32 = 0.0;
+var<private> dispatch__cut_throughput: f32;
 
-var<private> dispatch__clamped_light: f32 = 0.0;
+var<private> dispatch__clamped_light: f32;
 
-var<private> dispatch__kept_light: f32 = 0.0;
+var<private> dispatch__kept_light: f32;
 
 struct dispatch__Batch {
 	camera: types__PackedCamera,
@@ -1364,13 +1364,13 @@ fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__
 	return next;
 }
 
-var<private> loops__nodes_visited: u32 = 0u;
+var<private> loops__nodes_visited: u32;
 
-var<private> loops__primitives_tested: u32 = 0u;
+var<private> loops__primitives_tested: u32;
 
-var<private> loops__cut_off: bool = false;
+var<private> loops__cut_off: bool;
 
-var<private> loops__is_stack_full: bool = false;
+var<private> loops__is_stack_full: bool;
 
 const path__MAX_PASSES: u32 = 64u;
 
@@ -2021,7 +2021,7 @@ fn filter__inverse_erf(y: vec2f) -> vec2f {
 	return y * select(far, near, w < vec2f(5.0));
 }
 
-var<private> shutter__shutter_time: f32 = 0.0;
+var<private> shutter__shutter_time: f32;
 
 fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
 	if (bindings__CAMERA_MOTION) {
@@ -4507,7 +4507,7 @@ var<private> ray_stack__current_tree: u32;
 
 var<private> ray_stack__trees_cut_off: wide__Words;
 
-var<private> ray_stack__cut_off_trees: u32 = 0u;
+var<private> ray_stack__cut_off_trees: u32;
 
 fn ray_stack__cut_tree() {
 	ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);

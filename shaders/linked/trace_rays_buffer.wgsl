@@ -622,15 +622,15 @@ fn block__place_of(lane: u32, k: u32) -> u32 {
 	}
 }
 
-var<private> shutter__shutter_time: f32 = 0.0;
+var<private> shutter__shutter_time: f32;
 
-var<private> loops__nodes_visited: u32 = 0u;
+var<private> loops__nodes_visited: u32;
 
-var<private> loops__primitives_tested: u32 = 0u;
+var<private> loops__primitives_tested: u32;
 
-var<private> loops__cut_off: bool = false;
+var<private> loops__cut_off: bool;
 
-var<private> loops__is_stack_full: bool = false;
+var<private> loops__is_stack_full: bool;
 
 const traverse__RETURN: u32 = 4294967294u;
 

@@ -559,15 +559,15 @@ fn block__place_of(lane: u32, k: u32) -> u32 {
 	}
 }
 
-var<private> shutter__shutter_time: f32 = 0.0;
+var<private> shutter__shutter_time: f32;
 
-var<private> loops__nodes_visited: u32 = 0u;
+var<private> loops__nodes_visited: u32;
 
-var<private> loops__primitives_tested: u32 = 0u;
+var<private> loops__primitives_tested: u32;
 
-var<private> loops__cut_off: bool = false;
+var<private> loops__cut_off: bool;
 
-var<private> loops__is_stack_full: bool = false;
+var<private> loops__is_stack_full: bool;
 
 var<private> walk__seconds: lanes__FourHits;
 
@@ -1237,7 +1237,7 @@ fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
 
 const stack__POP: u32 = 4294967295u;
 
-var<private> stack__is_full: bool = false;
+var<private> stack__is_full: bool;
 
 struct stack__Stack {
 	s0: u32,

@@ -220,7 +220,7 @@ var<private> ray_stack__current_tree: u32;
 
 var<private> ray_stack__trees_cut_off: wide__Words;
 
-var<private> ray_stack__cut_off_trees: u32 = 0u;
+var<private> ray_stack__cut_off_trees: u32;
 
 fn ray_stack__camera_states(batch: dispatch__Batch, rays: rays__Rays) -> ray_states__RayStates {
 	let media = batch.camera_media;
@@ -351,11 +351,11 @@ struct dispatch__RayCounts {
 
 var<private> dispatch__counts: dispatch__RayCounts;
 
-var<private> dispatch__cut_throughput: f32 = 0.0;
+var<private> dispatch__cut_throughput: f32;
 
-var<private> dispatch__clamped_light: f32 = 0.0;
+var<private> dispatch__clamped_light: f32;
 
-var<private> dispatch__kept_light: f32 = 0.0;
+var<private> dispatch__kept_light: f32;
 
 struct dispatch__Batch {
 	camera: types__PackedCamera,
@@ -1476,13 +1476,13 @@ fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__
 	return next;
 }
 
-var<private> loops__nodes_visited: u32 = 0u;
+var<private> loops__nodes_visited: u32;
 
-var<private> loops__primitives_tested: u32 = 0u;
+var<private> loops__primitives_tested: u32;
 
-var<private> loops__cut_off: bool = false;
+var<private> loops__cut_off: bool;
 
-var<private> loops__is_stack_full: bool = false;
+var<private> loops__is_stack_full: bool;
 
 const ray_states__KIND_PRIMARY: u32 = 0u;
 
@@ -1959,7 +1959,7 @@ fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
 	return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
 }
 
-var<private> shutter__shutter_time: f32 = 0.0;
+var<private> shutter__shutter_time: f32;
 
 fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
 	if (bindings__CAMERA_MOTION) {
@@ -3037,7 +3037,7 @@ fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
 
 const stack__POP: u32 = 4294967295u;
 
-var<private> stack__is_full: bool = false;
+var<private> stack__is_full: bool;
 
 struct stack__Stack {
 	s0: u32,

@@ -7,7 +7,7 @@ use crate::cli::args::DeviceFlags;
 use crate::cli::memory;
 use crate::gpu::{AdapterChoice, AdapterReport, Backend, Gpu};
 use crate::pack::{self, PackedScene, PackedView};
-use crate::render::{self, ExecutionPolicy, RenderSettings, Renderer};
+use crate::render::{self, ExecutionPolicy, RenderSettings, Renderer, Tone};
 use crate::scene::Scene;
 use std::panic::resume_unwind;
 use std::sync::Arc;
@@ -77,6 +77,7 @@ pub fn prepared(
     (packed, view): (Arc<PackedScene>, PackedView),
     settings: RenderSettings,
     policy: ExecutionPolicy,
+    tone: Option<Tone>,
 ) -> Result<Prepared, AppError> {
     let rays = render::least_rays(&view, &settings, policy.picture_count);
     let tuning = tuning::tuned(&gpu, rays)?;
@@ -84,10 +85,15 @@ pub fn prepared(
         storage: Some(tuning.storage),
         ..policy
     };
-    Ok(Prepared {
-        renderer: Renderer::new(gpu, packed, &view, settings, policy)?,
-        tuning,
-    })
+    let renderer = thread::scope(|scope| {
+        if let Some(tone) = tone {
+            let (gpu, integrator) = (gpu.clone(), settings.integrator);
+            // Developing meets the same error, if there is one.
+            scope.spawn(move || tone.prepare(&gpu, integrator));
+        }
+        Renderer::new(gpu, packed, &view, settings, policy)
+    })?;
+    Ok(Prepared { renderer, tuning })
 }
 
 /// A renderer of a few pixels of `scene`: the adapter is not measured.

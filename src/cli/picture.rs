@@ -67,15 +67,9 @@ pub fn run(
     })?;
     draft.seconds.bvh = packed.0.build_seconds;
     draft.seconds.gpu = (started.elapsed().as_secs_f64() - draft.seconds.bvh).max(0.0);
-    let prepared = thread::scope(|scope| {
-        if !destination.is_film() {
-            let (tone, gpu) = (job.tone(&settings, destination.is_linear()), gpu.clone());
-            let integrator = settings.integrator;
-            // Developing meets the same error, if there is one.
-            scope.spawn(move || tone.prepare(&gpu, integrator));
-        }
-        device::prepared(gpu, packed, settings.clone(), job.policy())
-    })?;
+    let tone = job.tone(&settings, destination.is_linear());
+    let tone = (!destination.is_film()).then_some(tone);
+    let prepared = device::prepared(gpu, packed, settings.clone(), job.policy(), tone)?;
     let mut renderer = prepared.renderer;
     device::warn_of_storage(&renderer, &prepared.tuning);
     draft.fetch = Some(FetchReport::new(&renderer, &prepared.tuning));

@@ -2,8 +2,8 @@
 //!
 //! Mesa clones the body of a function into each of its callers, with all that was inlined into it before, and only then
 //! simplifies it: what is called at depth 8 is cloned 8 times. It stores and loads each member of a structure wherever
-//! that is a parameter or a result, and simplifies code with private variables twice. Here each statement is copied once,
-//! values stay values, and private variables become local.
+//! that is a parameter or a result, and simplifies code with private variables twice. Here each statement is copied once
+//! for each call, values stay values, and private variables become local.
 
 mod copy;
 mod operands;
@@ -28,11 +28,12 @@ struct Callee<'a> {
     function: &'a Function,
     /// Its statements. It returns at the end only, of each branch.
     body: Block,
-    /// The variables that are stored as a whole before anything else is done with them.
+    /// Variables that are stored as a whole before anything else is done with them; not all such.
     stored_first: HashSet<Handle<LocalVariable>>,
 }
 
-/// Inlines all functions but those that return inside a loop.
+/// Inlines all functions but those that return inside a loop or a `switch`, or that go on after an `if` that may have returned
+/// in one of its branches only.
 pub fn inline_functions(module: &mut Module) {
     let Module {
         functions,

@@ -183,7 +183,8 @@ impl Gpu {
         let by_select = ("EXTREMES_BY_SELECT", f64::from(self.is_cpu()));
         let overrides = [overrides, &[by_select]].concat();
         let mut module = kernel.specialized(variant, &overrides).map_err(refused)?;
-        if self.is_cpu() {
+        // For Mesa's lavapipe. Other drivers have not been measured.
+        if self.is_cpu() && self.report.backend == "vulkan" {
             inline_functions(&mut module);
         }
         let made = self.scoped(name, || {

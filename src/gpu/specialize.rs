@@ -239,7 +239,7 @@ impl Fold<'_> {
     }
 }
 
-/// Whether a variable is a temporary of the front end: the result of `&&` or `||`, which is stored before it is read.
+/// Whether a variable is a temporary, which is stored before it is read: the result of `&&` or `||`, or of an inlined function.
 pub fn is_temporary(variable: &LocalVariable) -> bool {
     variable.name.is_none() && variable.init.is_none()
 }

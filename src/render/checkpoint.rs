@@ -14,6 +14,7 @@ pub use error::CheckpointError;
 use super::{
     Cursor, RenderError, Renderer,
     binary::{ReadError, Reader, Writer},
+    film_tile::FilmTile,
     film_tiles::FilmTiles,
     slice::Slice,
     sums::SAMPLE_BLOCK,
@@ -73,7 +74,8 @@ impl Renderer {
         let position = Position::read(&mut input, &tiles)?;
         let Cursor { tile, sample, .. } = position.cursor;
         tiles.read_sums(&mut input, tile, sample)?;
-        if position.needs_sums() && tiles.list[tile].sums.is_empty() {
+        let current = tiles.list.get(tile);
+        if current.is_some_and(|tile| tile.sums.is_empty() && position.needs_sums(tile)) {
             return Err(damaged("it lacks sums").into());
         }
         input.finish()?;
@@ -128,12 +130,15 @@ impl Position {
         }
     }
 
-    /// Whether some samples of the current block have been taken.
-    fn needs_sums(&self) -> bool {
+    /// Whether some samples of the current block of this tile have been taken, or may have been. A list has positions, too.
+    fn needs_sums(&self, tile: &FilmTile) -> bool {
+        let Cursor { group, sample, .. } = self.cursor;
+        let block = tile.samples.start.max(sample - sample % SAMPLE_BLOCK);
         let is_begun = |(slice, parts): &(Slice, Vec<Slice>)| {
             parts.iter().map(Slice::work).sum::<f64>() < slice.work()
         };
-        self.cursor.group > 0 || self.unfinished.as_ref().is_some_and(is_begun)
+        let is_in_slice = |unfinished| !tile.places().is_empty() || is_begun(unfinished);
+        group > 0 || sample > block || self.unfinished.as_ref().is_some_and(is_in_slice)
     }
 
     fn write<W: Write>(&self, out: &mut Writer<W>) -> io::Result<()> {

@@ -43,8 +43,8 @@ impl Tone {
         Ok(developed)
     }
 
-    /// Compiles the kernel with which [`Renderer::develop`] develops pictures of this integrator, so that it need not wait
-    /// for that.
+    /// Creates the pipeline with which [`Renderer::develop`] develops pictures of this integrator on this device, so that
+    /// it waits less.
     ///
     /// # Errors
     /// The device failed.

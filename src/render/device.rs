@@ -124,11 +124,12 @@ impl Device {
         let (gpu, buffers) = (&self.gpu, &self.buffers);
         let is_loaded = self.loaded_tile == Some(index);
         let is_blank = !is_loaded && tile.sums.is_empty();
+        // If something fails, the film may hold anything.
+        self.loaded_tile = None;
+        let is_clear = std::mem::take(&mut self.is_film_clear);
         if !is_loaded && !is_blank {
             gpu.write(&buffers.film, 0, cast_slice(&tile.sums))?;
         }
-        self.loaded_tile = Some(index);
-        let is_clear = std::mem::take(&mut self.is_film_clear);
         let packed = slice.packed(tile, settings, self.lane_samples);
         gpu.write(&buffers.dispatch, 0, bytes_of(&packed))?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -147,7 +148,9 @@ impl Device {
             bytes: rows.len() as u64 * ROW_BYTES,
         };
         let sources = &[counters, sums][..1 + usize::from(!rows.is_empty())];
-        gpu.submit_reading(encoder, sources, &buffers.staging)
+        let reading = gpu.submit_reading(encoder, sources, &buffers.staging)?;
+        self.loaded_tile = Some(index);
+        Ok(reading)
     }
 
     /// Waits for a launched slice and returns its counters. The sums that were read back are stored in the tile

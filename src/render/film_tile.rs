@@ -167,6 +167,7 @@ impl FilmTile {
     /// Allocates the rows, if there are none, and writes to them.
     pub fn touch_memory(&mut self) {
         if self.sums.capacity() == 0 {
+            // Zeros would not be written.
             self.sums = vec![[1.0; 4]; self.row_count()];
             self.sums.clear();
         }
@@ -191,6 +192,9 @@ impl FilmTile {
 
     /// Replaces rows of the current block, from `first` on.
     pub fn replace_rows(&mut self, first: usize, rows: &[[f32; 4]]) {
+        if rows.is_empty() {
+            return;
+        }
         if rows.len() == self.row_count() {
             self.sums.clear();
             self.sums.extend_from_slice(rows);
@@ -204,7 +208,7 @@ impl FilmTile {
 
     fn fill_with_zeros(&mut self) {
         match self.sums.capacity() {
-            // Zeros from the system, which all threads touch.
+            // Zeros from the system, which are in no memory before they are replaced.
             0 => self.sums = vec![[0.0; 4]; self.row_count()],
             _ => self.sums.resize(self.row_count(), [0.0; 4]),
         }

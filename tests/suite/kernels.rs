@@ -178,6 +178,17 @@ fn loops_of_specialised_kernels_end_with_their_bodies() {
     verdict.close();
 }
 
+/// The private variables that entry points use.
+fn private_variables(module: &naga::Module) -> impl Iterator<Item = &naga::GlobalVariable> {
+    let entries = module.entry_points.iter();
+    let expressions = entries.flat_map(|entry| entry.function.expressions.iter());
+    let variables = expressions.filter_map(|(_, expression)| match *expression {
+        Expression::GlobalVariable(global) => Some(&module.global_variables[global]),
+        _ => None,
+    });
+    variables.filter(|variable| variable.space == naga::AddressSpace::Private)
+}
+
 #[test]
 fn specialised_kernels_are_valid_and_branch_on_no_constant() {
     let mut verdict = Verdict::on("specialised kernels");
@@ -203,6 +214,8 @@ fn specialised_kernels_are_valid_and_branch_on_no_constant() {
             let left = module.functions.iter().map(|(_, function)| &function.name);
             let left: Vec<_> = left.collect();
             verdict.that(&what, left.is_empty(), || format!("not inlined: {left:?}"));
+            let private: Vec<_> = private_variables(&module).collect();
+            verdict.that(&what, private.is_empty(), || format!("{private:?}"));
         }
     }
     verdict.close();

@@ -1,42 +1,34 @@
 //! Private variables.
 
-use naga::{
-    AddressSpace, Expression, Function, GlobalVariable, Handle, LocalVariable, Module, Span,
-};
+use naga::{AddressSpace, Expression, LocalVariable, Module, Span};
+use std::collections::HashMap;
 
-/// Makes private variables local to the entry point, where no other function uses them and they start as zeros.
+/// Makes private variables that start as zeros local to the entry point, if there is no other function.
 pub fn private_variables_to_local(module: &mut Module) {
     let [entry] = &mut module.entry_points[..] else {
         return;
     };
+    if !module.functions.is_empty() {
+        return;
+    }
     let function = &mut entry.function;
+    let mut locals = HashMap::new();
     for (global, variable) in module.global_variables.iter() {
-        let is_private = variable.space == AddressSpace::Private && variable.init.is_none();
-        let mut others = module.functions.iter().map(|(_, other)| other);
-        if !is_private || others.any(|other| uses(other, global)) {
-            continue;
-        }
-        let local = LocalVariable {
-            name: variable.name.clone(),
-            ty: variable.ty,
-            init: None,
-        };
-        let local = function.local_variables.append(local, Span::UNDEFINED);
-        for (_, expression) in function.expressions.iter_mut() {
-            if is(expression, global) {
-                *expression = Expression::LocalVariable(local);
-            }
+        if variable.space == AddressSpace::Private && variable.init.is_none() {
+            let local = LocalVariable {
+                name: variable.name.clone(),
+                ty: variable.ty,
+                init: None,
+            };
+            let local = function.local_variables.append(local, Span::UNDEFINED);
+            locals.insert(global, local);
         }
     }
-}
-
-fn uses(function: &Function, global: Handle<GlobalVariable>) -> bool {
-    function
-        .expressions
-        .iter()
-        .any(|(_, expression)| is(expression, global))
-}
-
-fn is(expression: &Expression, global: Handle<GlobalVariable>) -> bool {
-    matches!(expression, Expression::GlobalVariable(found) if *found == global)
+    for (_, expression) in function.expressions.iter_mut() {
+        if let Expression::GlobalVariable(global) = expression
+            && let Some(local) = locals.get(global)
+        {
+            *expression = Expression::LocalVariable(*local);
+        }
+    }
 }

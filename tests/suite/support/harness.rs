@@ -277,15 +277,14 @@ impl Harness {
         pipeline
     }
 
-    /// The module as kernels are handed to this kind of adapter.
+    /// The source, with functions inlined where they are in kernels.
     fn source(&self, wgsl: &str) -> wgpu::ShaderSource<'static> {
-        match naga::front::wgsl::parse_str(wgsl) {
-            Ok(mut module) if self.is_cpu => {
-                inline_functions(&mut module);
-                wgpu::ShaderSource::Naga(Cow::Owned(module))
-            }
-            _ => wgpu::ShaderSource::Wgsl(wgsl.to_owned().into()),
+        let module = self.is_cpu.then(|| naga::front::wgsl::parse_str(wgsl));
+        if let Some(Ok(mut module)) = module {
+            inline_functions(&mut module);
+            return wgpu::ShaderSource::Naga(Cow::Owned(module));
         }
+        wgpu::ShaderSource::Wgsl(wgsl.to_owned().into())
     }
 
     fn read(&self, staging: &wgpu::Buffer) -> Vec<u32> {
