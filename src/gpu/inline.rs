@@ -33,8 +33,12 @@ struct Callee<'a> {
 }
 
 /// Inlines all functions but those that return inside a loop or a `switch`, or that go on after an `if` that may have returned
-/// in one of its branches only.
+/// in one of its branches only. A module with overrides stays as it is.
 pub fn inline_functions(module: &mut Module) {
+    // naga rejects some of these, inlined, when a pipeline sets the overrides.
+    if !module.overrides.is_empty() {
+        return;
+    }
     let Module {
         functions,
         entry_points,
