@@ -148,7 +148,12 @@ impl Renderer {
         let (choice, is_own) = (gpu.choice().clone(), gpu.is_own());
         let device = threads::join(
             || Device::new(gpu, fetch, task, &mut stats),
-            || tiles.touch_memory(),
+            || {
+                // Otherwise nothing is read back before the end of a block.
+                if policy.host_copy {
+                    tiles.touch_memory();
+                }
+            },
         );
         let device = match device {
             // Other code draws with this device and cannot switch to another one.
