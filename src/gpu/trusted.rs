@@ -5,13 +5,14 @@
 use super::Gpu;
 
 impl Gpu {
-    /// A shader module. On GPUs its loops have no bound of wgpu's, a counter in each loop of which drivers make code that
-    /// takes up to 1.8 times as long (benches/LOG.md, 2026-11-26). All other checks remain.
+    /// A shader module. Its loops have no bound of wgpu's unless [`super::AdapterChoice::bounds_loops`]: a counter in each
+    /// loop, of which drivers of GPUs make code that takes up to 1.8 times as long, and lavapipe up to 1.07 times
+    /// (benches/LOG.md, 2026-11-26 and 2026-11-28). All other checks remain.
     pub(super) fn shader_module(
         &self,
         descriptor: wgpu::ShaderModuleDescriptor,
     ) -> wgpu::ShaderModule {
-        if self.is_cpu() {
+        if self.choice.bounds_loops {
             return self.device.create_shader_module(descriptor);
         }
         let checks = wgpu::ShaderRuntimeChecks {

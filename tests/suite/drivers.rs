@@ -1,44 +1,27 @@
 //! The same pictures through a second driver, the OpenGL backend of wgpu if available, and in vectors of another width.
 
 use crate::golden;
-use crate::reference::compare::{assert_none, check_alike, render};
+use crate::path::lobes;
+use crate::reference::compare::{assert_none, check_alike, render, render_on, sized};
+use crate::reference::scenes;
 use crate::support::devices::Devices;
 use crate::support::skip::{Need, skip};
 use glimray::gpu::{AdapterChoice, Backend, Gpu};
 use glimray::import;
-use glimray::render::{Antialias, ExecutionPolicy, RenderSettings, Renderer, Tone};
+use glimray::render::{Antialias, ExecutionPolicy, Integrator, RenderSettings};
 use glimray::scene::{Scene, Shadows};
-use glimray::{image::Image, pack};
-use std::{path::Path, process::Command, sync::Arc};
+use std::{path::Path, process::Command};
 
 /// The adapter of the OpenGL backend, if available.
 const GL: AdapterChoice = AdapterChoice {
     backend: Some(Backend::Gl),
     adapter: None,
+    bounds_loops: false,
 };
-
-/// Renders the scene with OpenGL, in linear radiance.
-fn through_gl(scene: &Scene, settings: &RenderSettings) -> Image {
-    static DEVICES: Devices = Devices::new(|| Gpu::new(&GL));
-    let gpu = DEVICES.lease();
-    let packed = Arc::new(pack::scene(scene).expect("a packed scene"));
-    let view = packed.frame(&scene.frame(0.0)).expect("a packed frame");
-    let mut renderer = Renderer::new(
-        gpu,
-        packed,
-        &view,
-        settings.clone(),
-        ExecutionPolicy::default(),
-    )
-    .expect("a renderer");
-    while !renderer.is_done() {
-        renderer.step().expect("a step");
-    }
-    renderer.develop(&Tone::LINEAR).expect("a picture")
-}
 
 #[test]
 fn scenes_look_the_same_through_opengl() {
+    static DEVICES: Devices = Devices::new(|| Gpu::new(&GL));
     if let Err(error) = Gpu::new(&GL) {
         return skip(Need::Gl, error);
     }
@@ -52,16 +35,12 @@ fn scenes_look_the_same_through_opengl() {
         .collect();
     scenes.sort();
     assert!(!scenes.is_empty());
-    let settings = RenderSettings {
-        size: (240, 160),
-        samples: 4,
-        antialias: Antialias::Stratified,
-        ..RenderSettings::default()
-    };
+    let settings = antialiased(240, 160);
     // Each scene has kernels of its own, which take both drivers seconds to compile.
     assert_none(scenes.iter().step_by(3).map(|path| {
         let scene = import::load(path).expect("a scene");
-        let actual = through_gl(&scene, &settings);
+        let default = (settings.clone(), ExecutionPolicy::default());
+        let (actual, _) = render_on(DEVICES.lease(), &scene, &default);
         let (expected, _) = render(&scene, &settings);
         // Light at grazing incidence on many boundaries may be transmitted or totally reflected, depending on
         // rounding.
@@ -77,6 +56,36 @@ fn scenes_look_the_same_through_opengl() {
             fraction,
         )
     }));
+}
+
+/// Users' devices do not bound loops, those of other tests do.
+#[test]
+fn pictures_are_the_same_with_and_without_bounds_of_loops() {
+    static DEVICES: Devices = Devices::new(|| Gpu::new(&AdapterChoice::default()));
+    let compare = |name: &str, scene: Scene, settings: RenderSettings, fraction| {
+        let (expected, _) = render(&scene, &settings);
+        let (actual, _) = render_on(DEVICES.lease(), &scene, &settings);
+        check_alike(name, &expected, &actual, 1.0, fraction)
+    };
+    let whitted = antialiased(96, 64);
+    let paths = RenderSettings {
+        integrator: Integrator::Path,
+        ..whitted.clone()
+    };
+    assert_none([
+        compare("spheres", scenes::spheres(), whitted.clone(), 0.001),
+        compare("meshes", scenes::meshes(), whitted.clone(), 0.001),
+        compare(
+            "mirrors",
+            scenes::mirrors_and_glass(),
+            whitted.clone(),
+            0.001,
+        ),
+        compare("everything", scenes::everything(), whitted, 0.001),
+        // Rounding decides which way some paths go.
+        compare("paths", scenes::everything(), paths.clone(), 0.01),
+        compare("lobes", lobes::scene(), paths, 0.05),
+    ]);
 }
 
 /// lavapipe has subgroups of 8 lanes in vectors of 256 bits, and of 16 in those of 512. It chooses when it is loaded, so
@@ -108,4 +117,12 @@ fn packets_of_8_and_of_16_lanes_pass_the_same_tests() {
         output.status.success() && text.contains(&passed),
         "{other} bits: {text}"
     );
+}
+
+fn antialiased(width: u32, height: u32) -> RenderSettings {
+    RenderSettings {
+        samples: 4,
+        antialias: Antialias::Stratified,
+        ..sized(width, height)
+    }
 }

@@ -423,6 +423,7 @@ impl DeviceFlags {
         AdapterChoice {
             backend: self.backend,
             adapter: self.adapter.clone(),
+            bounds_loops: false,
         }
     }
 

@@ -11,9 +11,15 @@ use glimray::scene::Scene;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The device that all tests use: the default one.
+/// The device that all tests use: the default one, with a bound on all loops. Programs and windows in tests have loops
+/// without it, as users do.
 pub fn open_gpu() -> Gpu {
-    static DEVICES: Devices = Devices::new(|| Gpu::new(&AdapterChoice::default()));
+    static DEVICES: Devices = Devices::new(|| {
+        Gpu::new(&AdapterChoice {
+            bounds_loops: true,
+            ..AdapterChoice::default()
+        })
+    });
     DEVICES.lease()
 }
 
@@ -68,12 +74,16 @@ pub fn fetched(settings: &RenderSettings, fetch: Fetch) -> (RenderSettings, Exec
 
 /// A renderer before its first step.
 pub fn start(scene: &Scene, wanted: &impl Wanted) -> Result<Renderer, RenderError> {
+    start_on(open_gpu(), scene, wanted)
+}
+
+fn start_on(gpu: Gpu, scene: &Scene, wanted: &impl Wanted) -> Result<Renderer, RenderError> {
     let packed = Arc::new(pack::scene(scene).expect("a scene that can be packed"));
     let view = packed
         .frame(&scene.frame(0.0))
         .expect("a frame that can be packed");
     let (settings, policy) = wanted.parts();
-    Renderer::new(open_gpu(), packed, &view, settings, policy)
+    Renderer::new(gpu, packed, &view, settings, policy)
 }
 
 /// A renderer of a packed scene.
@@ -86,7 +96,15 @@ pub fn start_packed(packed: Arc<PackedScene>, view: &PackedView, wanted: &impl W
 
 /// Renders to the end; the picture is linear radiance.
 pub fn try_render(scene: &Scene, wanted: &impl Wanted) -> Result<(Image, Stats), RenderError> {
-    let mut renderer = start(scene, wanted)?;
+    try_render_on(open_gpu(), scene, wanted)
+}
+
+fn try_render_on(
+    gpu: Gpu,
+    scene: &Scene,
+    wanted: &impl Wanted,
+) -> Result<(Image, Stats), RenderError> {
+    let mut renderer = start_on(gpu, scene, wanted)?;
     while !renderer.is_done() {
         renderer.step()?;
     }
@@ -97,7 +115,13 @@ pub fn try_render(scene: &Scene, wanted: &impl Wanted) -> Result<(Image, Stats),
 /// As [`try_render`], panicking on errors.
 #[track_caller]
 pub fn render(scene: &Scene, wanted: &impl Wanted) -> (Image, Stats) {
-    try_render(scene, wanted).unwrap_or_else(|error| panic!("{error}"))
+    render_on(open_gpu(), scene, wanted)
+}
+
+/// As [`render`], on another device.
+#[track_caller]
+pub fn render_on(gpu: Gpu, scene: &Scene, wanted: &impl Wanted) -> (Image, Stats) {
+    try_render_on(gpu, scene, wanted).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Default settings for a picture of this size.
