@@ -420,8 +420,7 @@ packed! {
         emitter_row: u32,
         /// Number of emitters.
         emitter_count: u32,
-        /// Without a light tree, radiance divided by this is the chance per area with which a path samples a point of an
-        /// emitter.
+        /// Without a light tree, a path samples a point of an emitter with the chance per area of its radiance by this.
         emitter_power: f32,
         /// The first word of the table from which paths sample a picture in the background, among the texels.
         environment_first: u32,
@@ -488,13 +487,13 @@ packed! {
         footprint: f32,
         /// Film blocks of 8x8 pixels that a workgroup renders one after the other, at least 1.
         blocks: u32,
+        /// Padding.
+        _pad0: u32,
         /// Counts of what the dispatch did; zero before it.
         counters: PackedCounters,
     }
     /// What a dispatch counted.
     PackedCounters {
-        /// Workgroups that ran to their end.
-        groups_done: u32,
         /// Samples that were dropped: with them a sum would be infinite or not a number.
         nonfinite_samples: u32,
         /// Why paths were cut off: [`CUT_OFF_LOOP`] and [`CUT_OFF_STACK`], or 0 if none was.
@@ -528,6 +527,8 @@ packed! {
         refraction: u32,
         /// Refracted rays that hit something.
         refraction_hits: u32,
+        /// Workgroups that ran to their end, in the first of each 16 words: see `count_group` in `scene/groups.wesl`.
+        groups_done: [[u32; 16]; 8],
     }
     /// How film sums become an image: [`crate::render::Tone`].
     PackedTone {

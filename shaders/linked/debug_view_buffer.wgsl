@@ -18,7 +18,7 @@ fn debug_view(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 		loops__cut_off |= sample < batch.end_sample;
 		film__store_sum(work.film_index, sum);
 	}
-	dispatch__add_counts(lane);
+	dispatch__add_counts(group, lane);
 }
 
 fn view(batch: dispatch__Batch, ray: tracing__Ray) -> vec3f {
@@ -142,7 +142,7 @@ fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
 	return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, key));
 }
 
-fn dispatch__add_counts(lane: u32) {
+fn dispatch__add_counts(group: vec3u, lane: u32) {
 	if (bindings__COUNT_RAYS) {
 		atomicAdd(&bindings__dispatch.counters.primary, dispatch__counts.primary);
 		atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
@@ -172,18 +172,17 @@ fn dispatch__add_counts(lane: u32) {
 			atomicAdd(&bindings__dispatch.counters.kept_light_high, 1u);
 		}
 	}
-	dispatch__report_cut_off();
-	if (lane == 0u) {
-		atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
+	if (loops__nonfinite_samples > 0u) {
+		atomicAdd(&bindings__dispatch.counters.nonfinite_samples, loops__nonfinite_samples);
 	}
+	dispatch__report_cut_off();
+	groups__count_group(group, lane);
 }
 
 fn dispatch__report_cut_off() {
-	if (loops__cut_off) {
-		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_LOOP);
-	}
-	if (loops__is_stack_full) {
-		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_STACK);
+	let reasons = select(0u, types__CUT_OFF_LOOP, loops__cut_off) | select(0u, types__CUT_OFF_STACK, loops__is_stack_full);
+	if (reasons != 0u) {
+		atomicOr(&bindings__dispatch.counters.cut_off, reasons);
 	}
 }
 
@@ -499,11 +498,11 @@ struct types__PackedDispatch {
 	light_samples: f32,
 	footprint: f32,
 	blocks: u32,
+	_pad0: u32,
 	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
-	groups_done: atomic<u32>,
 	nonfinite_samples: atomic<u32>,
 	cut_off: atomic<u32>,
 	cut_off_trees: atomic<u32>,
@@ -519,7 +518,8 @@ struct types__PackedCounters {
 	reflection: atomic<u32>,
 	reflection_hits: atomic<u32>,
 	refraction: atomic<u32>,
-	refraction_hits: atomic<u32>
+	refraction_hits: atomic<u32>,
+	groups_done: array<array<atomic<u32>, 16>, 8>
 }
 
 var<private> fetch__root: u32;
@@ -872,8 +872,15 @@ fn block__work_of(block: block__Block, place: u32) -> block__Work {
 
 const tile__GROUP_SIDE: u32 = 8u;
 
+fn tile__divided(dividend: u32, divisor: u32) -> vec2u {
+	let quotient = u32(f32(dividend) / f32(divisor));
+	let rest = bitcast<i32>(dividend - quotient * divisor);
+	let correction = select(0, 1, rest >= i32(divisor)) - select(0, 1, rest < 0);
+	return vec2u(quotient + bitcast<u32>(correction), bitcast<u32>(rest - correction * i32(divisor)));
+}
+
 fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
-	return (index * stride) % group_count;
+	return tile__divided(index * stride, group_count).y;
 }
 
 fn tile__morton_8x8(lane: u32) -> vec2u {
@@ -883,7 +890,7 @@ fn tile__morton_8x8(lane: u32) -> vec2u {
 }
 
 fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
-	return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
+	return tile__GROUP_SIDE * tile__divided(group, group_columns).yx;
 }
 
 fn rng__hash(x: u32) -> u32 {
@@ -936,7 +943,7 @@ fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__
 	next.radiance += weight * vec4f(sample.radiance, 1.0);
 	next.squares += luminance * luminance;
 	if (!numeric__is_finite(next.radiance.xyz) || ((bindings__ADAPTIVE || bindings__HAS_FEATURES) && !numeric__is_finite(vec3f(next.squares)))) {
-		atomicAdd(&bindings__dispatch.counters.nonfinite_samples, 1u);
+		loops__nonfinite_samples += 1u;
 		return sum;
 	}
 	return next;
@@ -989,6 +996,8 @@ var<private> loops__primitives_tested: u32;
 var<private> loops__cut_off: bool;
 
 var<private> loops__is_stack_full: bool;
+
+var<private> loops__nonfinite_samples: u32;
 
 const traverse__RETURN: u32 = 4294967294u;
 
@@ -2972,6 +2981,14 @@ fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 var<private> ray_stack__cut_off_trees: u32;
+
+fn groups__count_group(group: vec3u, lane: u32) {
+	let run = 8u * group.y + (group.x >> 5u);
+	let counter = (run * 2654435761u) >> 29u;
+	if (lane == 0u) {
+		atomicAdd(&bindings__dispatch.counters.groups_done[counter][0], 1u);
+	}
+}
 
 override bindings__EXTREMES_BY_SELECT: bool = false;
 

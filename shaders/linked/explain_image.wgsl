@@ -15,7 +15,7 @@ fn explain(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 		probe.cut_off = ray_stack__cut_off_trees;
 		record__store_probe(index, probe);
 	}
-	dispatch__add_counts(lane);
+	dispatch__add_counts(group, lane);
 }
 
 struct Trees {
@@ -256,6 +256,8 @@ override bindings__HAS_EMISSION: bool = true;
 override bindings__HAS_LAYERS: bool = false;
 
 override bindings__CLAMP_INDIRECT: f32 = 0.0;
+
+override bindings__HAS_GLOSS: bool = true;
 
 override bindings__HAS_METALLIC_ROUGHNESS: bool = true;
 
@@ -692,11 +694,11 @@ struct types__PackedDispatch {
 	light_samples: f32,
 	footprint: f32,
 	blocks: u32,
+	_pad0: u32,
 	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
-	groups_done: atomic<u32>,
 	nonfinite_samples: atomic<u32>,
 	cut_off: atomic<u32>,
 	cut_off_trees: atomic<u32>,
@@ -712,7 +714,8 @@ struct types__PackedCounters {
 	reflection: atomic<u32>,
 	reflection_hits: atomic<u32>,
 	refraction: atomic<u32>,
-	refraction_hits: atomic<u32>
+	refraction_hits: atomic<u32>,
+	groups_done: array<array<atomic<u32>, 16>, 8>
 }
 
 struct types__PackedProbe {
@@ -1070,7 +1073,7 @@ fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
 	}
 }
 
-fn dispatch__add_counts(lane: u32) {
+fn dispatch__add_counts(group: vec3u, lane: u32) {
 	if (bindings__COUNT_RAYS) {
 		atomicAdd(&bindings__dispatch.counters.primary, dispatch__counts.primary);
 		atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
@@ -1100,18 +1103,17 @@ fn dispatch__add_counts(lane: u32) {
 			atomicAdd(&bindings__dispatch.counters.kept_light_high, 1u);
 		}
 	}
-	dispatch__report_cut_off();
-	if (lane == 0u) {
-		atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
+	if (loops__nonfinite_samples > 0u) {
+		atomicAdd(&bindings__dispatch.counters.nonfinite_samples, loops__nonfinite_samples);
 	}
+	dispatch__report_cut_off();
+	groups__count_group(group, lane);
 }
 
 fn dispatch__report_cut_off() {
-	if (loops__cut_off) {
-		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_LOOP);
-	}
-	if (loops__is_stack_full) {
-		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_STACK);
+	let reasons = select(0u, types__CUT_OFF_LOOP, loops__cut_off) | select(0u, types__CUT_OFF_STACK, loops__is_stack_full);
+	if (reasons != 0u) {
+		atomicOr(&bindings__dispatch.counters.cut_off, reasons);
 	}
 }
 
@@ -2406,6 +2408,8 @@ var<private> loops__cut_off: bool;
 
 var<private> loops__is_stack_full: bool;
 
+var<private> loops__nonfinite_samples: u32;
+
 fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
 	if (bindings__HAS_MOTION) {
 		if (instance.key_count > 1u) {
@@ -3142,8 +3146,10 @@ fn direct__receiver_at(all: direct__Receivers, k: u32) -> direct__Receiver {
 	surface.leaving = wide__word_at(all.leaving, k);
 	surface.instance = wide__word_at(all.instance, k);
 	surface.phong.diffuse = wide__vector_at(all.diffuse, k);
-	surface.phong.specular = wide__vector_at(all.specular, k);
-	surface.phong.shininess = wide__float_at(all.shininess, k);
+	if (bindings__HAS_GLOSS) {
+		surface.phong.specular = wide__vector_at(all.specular, k);
+		surface.phong.shininess = wide__float_at(all.shininess, k);
+	}
 	return direct__Receiver(surface, wide__vector_at(all.v, k), shading__SampleKey(wide__word_at(all.hash, k), 0u, wide__float_at(all.weight, k)));
 }
 
@@ -5097,6 +5103,14 @@ fn dispersion__anisotropy_tangent(rotation: f32, texel: vec2f) -> vec2f {
 }
 
 const bsdf_ggx__SMOOTH: f32 = 0.0001;
+
+fn groups__count_group(group: vec3u, lane: u32) {
+	let run = 8u * group.y + (group.x >> 5u);
+	let counter = (run * 2654435761u) >> 29u;
+	if (lane == 0u) {
+		atomicAdd(&bindings__dispatch.counters.groups_done[counter][0], 1u);
+	}
+}
 
 override bindings__EXTREMES_BY_SELECT: bool = false;
 

@@ -30,7 +30,7 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 		probe.cut_off = ray_stack__cut_off_trees;
 		record__store_probe(index, probe);
 	}
-	dispatch__add_counts(lane);
+	dispatch__add_counts(group, lane);
 }
 
 @group(0) @binding(0)
@@ -666,11 +666,11 @@ struct types__PackedDispatch {
 	light_samples: f32,
 	footprint: f32,
 	blocks: u32,
+	_pad0: u32,
 	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
-	groups_done: atomic<u32>,
 	nonfinite_samples: atomic<u32>,
 	cut_off: atomic<u32>,
 	cut_off_trees: atomic<u32>,
@@ -686,7 +686,8 @@ struct types__PackedCounters {
 	reflection: atomic<u32>,
 	reflection_hits: atomic<u32>,
 	refraction: atomic<u32>,
-	refraction_hits: atomic<u32>
+	refraction_hits: atomic<u32>,
+	groups_done: array<array<atomic<u32>, 16>, 8>
 }
 
 struct types__PackedProbe {
@@ -996,7 +997,7 @@ fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
 	}
 }
 
-fn dispatch__add_counts(lane: u32) {
+fn dispatch__add_counts(group: vec3u, lane: u32) {
 	if (bindings__COUNT_RAYS) {
 		atomicAdd(&bindings__dispatch.counters.primary, dispatch__counts.primary);
 		atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
@@ -1026,18 +1027,17 @@ fn dispatch__add_counts(lane: u32) {
 			atomicAdd(&bindings__dispatch.counters.kept_light_high, 1u);
 		}
 	}
-	dispatch__report_cut_off();
-	if (lane == 0u) {
-		atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
+	if (loops__nonfinite_samples > 0u) {
+		atomicAdd(&bindings__dispatch.counters.nonfinite_samples, loops__nonfinite_samples);
 	}
+	dispatch__report_cut_off();
+	groups__count_group(group, lane);
 }
 
 fn dispatch__report_cut_off() {
-	if (loops__cut_off) {
-		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_LOOP);
-	}
-	if (loops__is_stack_full) {
-		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_STACK);
+	let reasons = select(0u, types__CUT_OFF_LOOP, loops__cut_off) | select(0u, types__CUT_OFF_STACK, loops__is_stack_full);
+	if (reasons != 0u) {
+		atomicOr(&bindings__dispatch.counters.cut_off, reasons);
 	}
 }
 
@@ -2394,6 +2394,8 @@ var<private> loops__primitives_tested: u32;
 var<private> loops__cut_off: bool;
 
 var<private> loops__is_stack_full: bool;
+
+var<private> loops__nonfinite_samples: u32;
 
 fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
@@ -6611,6 +6613,14 @@ fn bsdf_ggx_transmission__ggx_transmission(wo: vec3f, wi: vec3f, alpha: vec2f, e
 	let refracted_density = abs(dot(wo, h) * dot(wi, h)) / (max_f32(wo.z, 1e-6) * max_f32(dot(sum, sum), 1e-12));
 	let pdf = bsdf_ggx__ggx_distribution(h, alpha) * refracted_density / seen;
 	return select(vec2f(0.0), vec2f(pdf / lit, pdf), wo.z > 0.0 && wi.z < 0.0);
+}
+
+fn groups__count_group(group: vec3u, lane: u32) {
+	let run = 8u * group.y + (group.x >> 5u);
+	let counter = (run * 2654435761u) >> 29u;
+	if (lane == 0u) {
+		atomicAdd(&bindings__dispatch.counters.groups_done[counter][0], 1u);
+	}
 }
 
 override bindings__EXTREMES_BY_SELECT: bool = false;

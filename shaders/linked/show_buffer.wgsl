@@ -86,8 +86,15 @@ override bindings__SQUARES_ROW: u32 = 1u;
 
 const tile__GROUP_SIDE: u32 = 8u;
 
+fn tile__divided(dividend: u32, divisor: u32) -> vec2u {
+	let quotient = u32(f32(dividend) / f32(divisor));
+	let rest = bitcast<i32>(dividend - quotient * divisor);
+	let correction = select(0, 1, rest >= i32(divisor)) - select(0, 1, rest < 0);
+	return vec2u(quotient + bitcast<u32>(correction), bitcast<u32>(rest - correction * i32(divisor)));
+}
+
 fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
-	return (index * stride) % group_count;
+	return tile__divided(index * stride, group_count).y;
 }
 
 fn tile__morton_8x8(lane: u32) -> vec2u {
@@ -97,7 +104,7 @@ fn tile__morton_8x8(lane: u32) -> vec2u {
 }
 
 fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
-	return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
+	return tile__GROUP_SIDE * tile__divided(group, group_columns).yx;
 }
 
 const types__VIEW_NORMALS: u32 = 0u;
@@ -138,11 +145,11 @@ struct types__PackedDispatch {
 	light_samples: f32,
 	footprint: f32,
 	blocks: u32,
+	_pad0: u32,
 	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
-	groups_done: atomic<u32>,
 	nonfinite_samples: atomic<u32>,
 	cut_off: atomic<u32>,
 	cut_off_trees: atomic<u32>,
@@ -158,7 +165,8 @@ struct types__PackedCounters {
 	reflection: atomic<u32>,
 	reflection_hits: atomic<u32>,
 	refraction: atomic<u32>,
-	refraction_hits: atomic<u32>
+	refraction_hits: atomic<u32>,
+	groups_done: array<array<atomic<u32>, 16>, 8>
 }
 
 struct types__PackedTone {

@@ -30,9 +30,7 @@ fn answer(group: vec3u, lane: u32) {
 	}
 	loops__cut_off |= k < wide__RAYS_PER_LANE;
 	dispatch__report_cut_off();
-	if (lane == 0u) {
-		atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
-	}
+	groups__count_group(group, lane);
 }
 
 fn trace(rays: rays__Rays) -> rays__Hits {
@@ -366,11 +364,11 @@ struct types__PackedDispatch {
 	light_samples: f32,
 	footprint: f32,
 	blocks: u32,
+	_pad0: u32,
 	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
-	groups_done: atomic<u32>,
 	nonfinite_samples: atomic<u32>,
 	cut_off: atomic<u32>,
 	cut_off_trees: atomic<u32>,
@@ -386,7 +384,8 @@ struct types__PackedCounters {
 	reflection: atomic<u32>,
 	reflection_hits: atomic<u32>,
 	refraction: atomic<u32>,
-	refraction_hits: atomic<u32>
+	refraction_hits: atomic<u32>,
+	groups_done: array<array<atomic<u32>, 16>, 8>
 }
 
 const stack__EMPTY: u32 = 4294967295u;
@@ -463,8 +462,15 @@ fn stack__popped() -> u32 {
 	return reference;
 }
 
+fn tile__divided(dividend: u32, divisor: u32) -> vec2u {
+	let quotient = u32(f32(dividend) / f32(divisor));
+	let rest = bitcast<i32>(dividend - quotient * divisor);
+	let correction = select(0, 1, rest >= i32(divisor)) - select(0, 1, rest < 0);
+	return vec2u(quotient + bitcast<u32>(correction), bitcast<u32>(rest - correction * i32(divisor)));
+}
+
 fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
-	return (index * stride) % group_count;
+	return tile__divided(index * stride, group_count).y;
 }
 
 struct rays__Rays {
@@ -1534,11 +1540,17 @@ fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing_
 }
 
 fn dispatch__report_cut_off() {
-	if (loops__cut_off) {
-		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_LOOP);
+	let reasons = select(0u, types__CUT_OFF_LOOP, loops__cut_off) | select(0u, types__CUT_OFF_STACK, loops__is_stack_full);
+	if (reasons != 0u) {
+		atomicOr(&bindings__dispatch.counters.cut_off, reasons);
 	}
-	if (loops__is_stack_full) {
-		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_STACK);
+}
+
+fn groups__count_group(group: vec3u, lane: u32) {
+	let run = 8u * group.y + (group.x >> 5u);
+	let counter = (run * 2654435761u) >> 29u;
+	if (lane == 0u) {
+		atomicAdd(&bindings__dispatch.counters.groups_done[counter][0], 1u);
 	}
 }
 

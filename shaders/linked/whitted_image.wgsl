@@ -32,7 +32,7 @@ fn render(group: vec3u, lane: u32) {
 	}
 	loops__cut_off |= sample < batch.end_sample;
 	pixels__store_pixels(pixels);
-	dispatch__add_counts(lane);
+	dispatch__add_counts(group, lane);
 }
 
 struct Trees {
@@ -272,7 +272,7 @@ fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
 	}
 }
 
-fn dispatch__add_counts(lane: u32) {
+fn dispatch__add_counts(group: vec3u, lane: u32) {
 	if (bindings__COUNT_RAYS) {
 		atomicAdd(&bindings__dispatch.counters.primary, dispatch__counts.primary);
 		atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
@@ -302,18 +302,17 @@ fn dispatch__add_counts(lane: u32) {
 			atomicAdd(&bindings__dispatch.counters.kept_light_high, 1u);
 		}
 	}
-	dispatch__report_cut_off();
-	if (lane == 0u) {
-		atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
+	if (loops__nonfinite_samples > 0u) {
+		atomicAdd(&bindings__dispatch.counters.nonfinite_samples, loops__nonfinite_samples);
 	}
+	dispatch__report_cut_off();
+	groups__count_group(group, lane);
 }
 
 fn dispatch__report_cut_off() {
-	if (loops__cut_off) {
-		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_LOOP);
-	}
-	if (loops__is_stack_full) {
-		atomicOr(&bindings__dispatch.counters.cut_off, types__CUT_OFF_STACK);
+	let reasons = select(0u, types__CUT_OFF_LOOP, loops__cut_off) | select(0u, types__CUT_OFF_STACK, loops__is_stack_full);
+	if (reasons != 0u) {
+		atomicOr(&bindings__dispatch.counters.cut_off, reasons);
 	}
 }
 
@@ -716,11 +715,11 @@ struct types__PackedDispatch {
 	light_samples: f32,
 	footprint: f32,
 	blocks: u32,
+	_pad0: u32,
 	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
-	groups_done: atomic<u32>,
 	nonfinite_samples: atomic<u32>,
 	cut_off: atomic<u32>,
 	cut_off_trees: atomic<u32>,
@@ -736,7 +735,8 @@ struct types__PackedCounters {
 	reflection: atomic<u32>,
 	reflection_hits: atomic<u32>,
 	refraction: atomic<u32>,
-	refraction_hits: atomic<u32>
+	refraction_hits: atomic<u32>,
+	groups_done: array<array<atomic<u32>, 16>, 8>
 }
 
 var<private> fetch__root: u32;
@@ -987,6 +987,8 @@ override bindings__HAS_EMISSION: bool = true;
 override bindings__HAS_LAYERS: bool = false;
 
 override bindings__CLAMP_INDIRECT: f32 = 0.0;
+
+override bindings__HAS_GLOSS: bool = true;
 
 override bindings__HAS_METALLIC_ROUGHNESS: bool = true;
 
@@ -1269,8 +1271,15 @@ fn block__work_of(block: block__Block, place: u32) -> block__Work {
 
 const tile__GROUP_SIDE: u32 = 8u;
 
+fn tile__divided(dividend: u32, divisor: u32) -> vec2u {
+	let quotient = u32(f32(dividend) / f32(divisor));
+	let rest = bitcast<i32>(dividend - quotient * divisor);
+	let correction = select(0, 1, rest >= i32(divisor)) - select(0, 1, rest < 0);
+	return vec2u(quotient + bitcast<u32>(correction), bitcast<u32>(rest - correction * i32(divisor)));
+}
+
 fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
-	return (index * stride) % group_count;
+	return tile__divided(index * stride, group_count).y;
 }
 
 fn tile__morton_8x8(lane: u32) -> vec2u {
@@ -1280,7 +1289,7 @@ fn tile__morton_8x8(lane: u32) -> vec2u {
 }
 
 fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
-	return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
+	return tile__GROUP_SIDE * tile__divided(group, group_columns).yx;
 }
 
 fn tile__next_corner(corner: vec2u, step: vec2u, size: vec2u) -> vec2u {
@@ -1310,6 +1319,8 @@ fn pixels__load_pixels(batch: dispatch__Batch, block: block__Block, lane: u32) -
 		pixels.keys = wide__word_set(pixels.keys, k, rng__pixel_key(batch.seed, work.pixel));
 		if (work.inside) {
 			pixels.film_index = wide__word_set(pixels.film_index, k, work.film_index);
+		}
+		if (work.inside && batch.first_sample > 0u) {
 			pixels = pixels__with_sum(pixels, k, film__load_sum(work.film_index));
 		}
 		continuing {
@@ -1490,7 +1501,7 @@ fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__
 	next.radiance += weight * vec4f(sample.radiance, 1.0);
 	next.squares += luminance * luminance;
 	if (!numeric__is_finite(next.radiance.xyz) || ((bindings__ADAPTIVE || bindings__HAS_FEATURES) && !numeric__is_finite(vec3f(next.squares)))) {
-		atomicAdd(&bindings__dispatch.counters.nonfinite_samples, 1u);
+		loops__nonfinite_samples += 1u;
 		return sum;
 	}
 	return next;
@@ -1503,6 +1514,8 @@ var<private> loops__primitives_tested: u32;
 var<private> loops__cut_off: bool;
 
 var<private> loops__is_stack_full: bool;
+
+var<private> loops__nonfinite_samples: u32;
 
 const ray_states__KIND_PRIMARY: u32 = 0u;
 
@@ -3344,8 +3357,10 @@ fn direct__receiver_at(all: direct__Receivers, k: u32) -> direct__Receiver {
 	surface.leaving = wide__word_at(all.leaving, k);
 	surface.instance = wide__word_at(all.instance, k);
 	surface.phong.diffuse = wide__vector_at(all.diffuse, k);
-	surface.phong.specular = wide__vector_at(all.specular, k);
-	surface.phong.shininess = wide__float_at(all.shininess, k);
+	if (bindings__HAS_GLOSS) {
+		surface.phong.specular = wide__vector_at(all.specular, k);
+		surface.phong.shininess = wide__float_at(all.shininess, k);
+	}
 	return direct__Receiver(surface, wide__vector_at(all.v, k), shading__SampleKey(wide__word_at(all.hash, k), 0u, wide__float_at(all.weight, k)));
 }
 
@@ -5130,6 +5145,14 @@ fn opacity__add_opacity(first_row: u32, weight: f32, radiance: vec3f) {
 		let squares = vec3f(nothing * (nothing + 2.0 * luminance), seen * (luminance + nothing), seen * seen);
 		features__add_mean(row + 2u, vec3f(light * light, light * unshadowed, unshadowed * unshadowed), weight);
 		features__add_mean(row + 3u, squares, weight);
+	}
+}
+
+fn groups__count_group(group: vec3u, lane: u32) {
+	let run = 8u * group.y + (group.x >> 5u);
+	let counter = (run * 2654435761u) >> 29u;
+	if (lane == 0u) {
+		atomicAdd(&bindings__dispatch.counters.groups_done[counter][0], 1u);
 	}
 }
 

@@ -34,7 +34,7 @@ pub struct Features {
     pub filtered_shadows: bool,
     /// Some transparent material is a thin wall.
     pub thin_walls: bool,
-    /// Some material reflects by microfacets.
+    /// Some material has highlights.
     pub gloss: bool,
     /// Some material is described by metal and roughness.
     pub metallic_roughness: bool,

@@ -116,7 +116,7 @@ pub fn of(task: Task) -> Overrides {
             "CLAMP_INDIRECT",
             f64::from(settings.clamp_indirect.unwrap_or_default()),
         ),
-        ("HAS_GLOSS", flag(is_path && features.gloss)),
+        ("HAS_GLOSS", flag(features.gloss)),
         (
             "HAS_METALLIC_ROUGHNESS",
             flag(is_path && features.metallic_roughness),

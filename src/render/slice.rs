@@ -33,6 +33,13 @@ pub struct Slice {
     pub end_sample: u32,
 }
 
+impl PackedCounters {
+    /// Workgroups that ran to their end.
+    pub fn groups_done(&self) -> u32 {
+        self.groups_done.iter().map(|line| line[0]).sum()
+    }
+}
+
 impl Slice {
     /// Blocks of 8x8 pixels that each workgroup renders one after the other, for lanes that take this many samples if they can.
     fn blocks(&self, lane_samples: u32) -> u32 {
@@ -50,7 +57,7 @@ impl Slice {
     /// Whether every workgroup of the dispatch finished.
     pub fn is_done(&self, counters: &PackedCounters, lane_samples: u32) -> bool {
         let (columns, rows) = self.grid(lane_samples);
-        counters.groups_done == columns * rows
+        counters.groups_done() == columns * rows
     }
 
     /// Whether every workgroup finished and no path was cut off.

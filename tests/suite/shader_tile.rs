@@ -7,6 +7,32 @@ use crate::support::{
 use std::collections::HashSet;
 
 #[test]
+fn quotients_and_remainders_are_exact() {
+    let divisors = [
+        1, 2, 3, 7, 64, 255, 4_095, 40_503, 65_521, 65_535, 65_536u32,
+    ];
+    let mut inputs = Vec::new();
+    for divisor in divisors {
+        for quotient in (0..65_536).step_by(97).chain([1, 65_535]) {
+            let multiple = quotient * divisor;
+            let around = [multiple, multiple + divisor / 2, multiple + (divisor - 1)];
+            inputs.extend(around.map(|dividend| (dividend, divisor)));
+        }
+    }
+    let found: Vec<[u32; 2]> = gpu().map("lib::tile::divided", &inputs);
+    let mut verdict = Verdict::on("divided");
+    for ((a, b), found) in inputs.iter().zip(&found) {
+        verdict.near(
+            format!("{a} by {b}"),
+            found,
+            &[a / b, a % b],
+            Tolerance::Exact,
+        );
+    }
+    verdict.close();
+}
+
+#[test]
 fn strides_without_common_factor_visit_every_workgroup_once() {
     let mut verdict = Verdict::on("permuted_group");
     for (count, stride) in [
