@@ -6,6 +6,7 @@
 
 mod adapter;
 mod buffer;
+mod early;
 mod error;
 mod fault;
 mod guard;
@@ -18,6 +19,7 @@ mod trusted;
 
 pub use adapter::{AdapterChoice, AdapterReport, Backend, adapter_identity, adapters};
 pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
+pub use early::EarlyModule;
 pub use error::GpuError;
 pub use guard::{is_guarded, surviving_loss};
 pub use inline::inline_functions;
@@ -60,6 +62,7 @@ pub struct Gpu {
     stray_error: Arc<Mutex<Option<String>>>,
     /// Compiled pipelines, kept because the next renderer on this device may need the same ones.
     pipelines: Arc<Mutex<shader::Pipelines>>,
+    early: Arc<Mutex<Option<EarlyModule>>>,
     /// Called before a pipeline is compiled.
     on_compilation: Option<Arc<dyn Fn() + Send + Sync>>,
 }
@@ -153,6 +156,7 @@ impl Gpu {
             lost,
             stray_error,
             pipelines: Arc::default(),
+            early: Arc::default(),
             on_compilation: None,
         })
     }
@@ -178,6 +182,7 @@ impl Gpu {
             lost: Arc::default(),
             stray_error: Arc::default(),
             pipelines: Arc::default(),
+            early: Arc::default(),
             on_compilation: None,
         }
     }

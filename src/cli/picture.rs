@@ -12,7 +12,7 @@ use crate::cli::job::{Job, Outcome};
 use crate::cli::layers::Finished;
 use crate::cli::progress::Progress;
 use crate::cli::report::{Draft, FetchReport};
-use crate::render::{FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK};
+use crate::render::{self, FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK};
 use std::ops::Range;
 use std::panic::resume_unwind;
 use std::thread;
@@ -56,14 +56,18 @@ pub fn run(
     job.check_memory(size, draft)?;
     let started = Instant::now();
     let (gpu, packed) = thread::scope(|scope| {
-        let packing = scope.spawn(|| device::packed(&job.scene, shutter));
+        let packing = scope.spawn(|| {
+            let packed = device::packed(&job.scene, shutter)?;
+            let module = render::early_module(&packed.0, &packed.1, &settings, &job.policy());
+            Ok::<_, AppError>((packed, module))
+        });
         let gpu = opening.wait()?;
         draft.adapter = Some(gpu.adapter().into());
         job.announce("", &settings, gpu.adapter());
-        let packed = packing
+        let (packed, module) = packing
             .join()
             .unwrap_or_else(|panic| resume_unwind(panic))?;
-        Ok::<_, AppError>((gpu, packed))
+        Ok::<_, AppError>((gpu.with_early_module(module), packed))
     })?;
     draft.seconds.bvh = packed.0.build_seconds;
     draft.seconds.gpu = (started.elapsed().as_secs_f64() - draft.seconds.bvh).max(0.0);

@@ -8,11 +8,11 @@ const MAX_PIPELINES: usize = 64;
 
 /// Pipelines by their key, the last used first.
 #[derive(Default)]
-pub(super) struct Pipelines(VecDeque<(PipelineKey, wgpu::ComputePipeline)>);
+pub(super) struct Pipelines(VecDeque<(ModuleKey, wgpu::ComputePipeline)>);
 
 impl Pipelines {
     /// The pipeline with this key, which becomes the last used.
-    fn get(&mut self, key: &PipelineKey) -> Option<wgpu::ComputePipeline> {
+    fn get(&mut self, key: &ModuleKey) -> Option<wgpu::ComputePipeline> {
         let place = self.0.iter().position(|(known, _)| known == key)?;
         let (key, pipeline) = self.0.remove(place)?;
         self.0.push_front((key, pipeline.clone()));
@@ -20,19 +20,29 @@ impl Pipelines {
     }
 
     /// Adds a pipeline, and drops the one that was not used for longest if there are too many.
-    fn add(&mut self, key: PipelineKey, pipeline: wgpu::ComputePipeline) {
+    fn add(&mut self, key: ModuleKey, pipeline: wgpu::ComputePipeline) {
         self.0.truncate(MAX_PIPELINES - 1);
         self.0.push_front((key, pipeline));
     }
 }
 
-/// The key of a pipeline. It does not include the bind group layouts, which follow from the kernel, its
-/// variant and its overrides.
+/// What a module is made from. It is the key of a pipeline too, whose bind group layouts follow from it.
 #[derive(PartialEq)]
-struct PipelineKey {
-    kernel: &'static str,
-    variant: Variant,
-    overrides: Overrides,
+pub(super) struct ModuleKey {
+    pub kernel: &'static str,
+    pub variant: Variant,
+    pub overrides: Overrides,
+}
+
+/// The kinds of adapters for which modules differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Target {
+    /// Mesa's software adapter for Vulkan.
+    Lavapipe,
+    /// Another software adapter.
+    Cpu,
+    /// A GPU.
+    Gpu,
 }
 
 /// Values for overrides of `bindings.wesl`, by their names.
@@ -118,6 +128,22 @@ impl Kernel {
         }
     }
 
+    /// The module of a variant for a kind of adapter. The error is that of [`Self::specialized`].
+    pub(super) fn module(
+        &self,
+        variant: Variant,
+        overrides: &[(&str, f64)],
+        target: Target,
+    ) -> Result<naga::Module, String> {
+        let by_select = ("EXTREMES_BY_SELECT", f64::from(target != Target::Gpu));
+        let mut module = self.specialized(variant, &[overrides, &[by_select]].concat())?;
+        // Other drivers have not been measured.
+        if target == Target::Lavapipe {
+            inline_functions(&mut module);
+        }
+        Ok(module)
+    }
+
     /// Whether it has this variant.
     pub fn has(&self, variant: Variant) -> bool {
         self.variants().any(|known| known == variant)
@@ -137,6 +163,14 @@ impl Kernel {
 }
 
 impl Gpu {
+    pub(super) fn target(&self) -> Target {
+        match (self.is_cpu(), self.report.backend.as_str()) {
+            (true, "vulkan") => Target::Lavapipe,
+            (true, _) => Target::Cpu,
+            (false, _) => Target::Gpu,
+        }
+    }
+
     /// A pipeline of a kernel, specialised by `overrides`, for these bind group layouts; compiled unless it is
     /// cached. A shader that the driver rejects is an internal error: it contains the driver's message, and the
     /// linked source is written to the folder for temporary files.
@@ -147,7 +181,7 @@ impl Gpu {
         groups: &[Option<&wgpu::BindGroupLayout>],
         overrides: Overrides,
     ) -> Result<Compiled, GpuError> {
-        let wanted = PipelineKey {
+        let wanted = ModuleKey {
             kernel: kernel.name,
             variant,
             overrides,
@@ -161,7 +195,7 @@ impl Gpu {
         if let Some(report) = &self.on_compilation {
             report();
         }
-        let pipeline = self.compile(kernel, variant, groups, &wanted.overrides)?;
+        let pipeline = self.compile(kernel, groups, &wanted)?;
         if let Ok(mut kept) = self.pipelines.lock() {
             kept.add(wanted, pipeline.clone());
         }
@@ -172,21 +206,18 @@ impl Gpu {
     fn compile(
         &self,
         kernel: &Kernel,
-        variant: Variant,
         groups: &[Option<&wgpu::BindGroupLayout>],
-        overrides: &[(&str, f64)],
+        wanted: &ModuleKey,
     ) -> Result<wgpu::ComputePipeline, GpuError> {
-        let name = kernel.name;
+        let (name, variant) = (kernel.name, wanted.variant);
         let refused = |what: String| GpuError::Internal {
             what: with_dump(name, &kernel.source(variant).unwrap_or_default(), &what),
         };
-        let by_select = ("EXTREMES_BY_SELECT", f64::from(self.is_cpu()));
-        let overrides = [overrides, &[by_select]].concat();
-        let mut module = kernel.specialized(variant, &overrides).map_err(refused)?;
-        // For Mesa's lavapipe. Other drivers have not been measured.
-        if self.is_cpu() && self.report.backend == "vulkan" {
-            inline_functions(&mut module);
-        }
+        let module = match self.early_module(wanted) {
+            Some(module) => module,
+            None => kernel.module(variant, &wanted.overrides, self.target()),
+        };
+        let module = module.map_err(refused)?;
         let made = self.scoped(name, || {
             let layout = self
                 .device

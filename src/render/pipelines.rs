@@ -4,13 +4,15 @@ use super::{
     Integrator, effort,
     layouts::Layouts,
     overrides,
-    policy::{Fetch, Stack},
+    policy::{ExecutionPolicy, Fetch, Stack},
+    settings::RenderSettings,
     task::Task,
 };
 use crate::{
-    gpu::{Compiled, Gpu, GpuError, Kernel, Overrides, Variant},
-    pack::PackedView,
+    gpu::{Compiled, EarlyModule, Gpu, GpuError, Kernel, Overrides, Variant},
+    pack::{PackedScene, PackedView},
 };
+use std::sync::Arc;
 use wgpu::{BindGroupLayout, ComputePipeline};
 
 /// The number of materials from which on packet kernels cannot store their indices in 16 bits.
@@ -25,6 +27,44 @@ const MIN_PACKET_RAYS_OF_SHAPES: u64 = 10_000_000;
 /// rays each.
 const TREES_PER_LANE: u32 = 4;
 
+/// How the pipeline of a task is made.
+struct Choice {
+    kernel: Kernel,
+    variant: Variant,
+    overrides: Overrides,
+    /// The samples that its lanes should take one after the other.
+    lane_samples: u32,
+}
+
+impl Choice {
+    /// `packets` gives the variant for rays that are worth packets.
+    fn new(task: Task, fetch: Fetch, packets: impl FnOnce() -> Variant) -> Self {
+        let kernel = task.settings.integrator.entry().kernel;
+        let as_packets = match task.policy.fetch {
+            Fetch::Auto => least_rays(task) >= min_packet_rays(task) && !waits_for_few_lanes(task),
+            fetch => fetch.allows_packets(),
+        };
+        let as_packets = as_packets
+            && !task.settings.brute_force
+            && !task.settings.has_features()
+            && task.scene.materials.len() < MAX_PACKET_MATERIALS;
+        let variant = match as_packets && kernel.has(Variant::Packet) {
+            true => packets(),
+            false => portable(fetch),
+        };
+        // Lanes of a vector wait for the largest of their trees, unless each has several. GPUs have not been measured.
+        let refills = variant == Variant::Image && effort::has_uneven_trees(task);
+        let mut overrides = overrides::of(task);
+        overrides.push(("REFILLS_LANES", f64::from(u8::from(refills))));
+        Self {
+            kernel,
+            variant,
+            overrides,
+            lane_samples: if refills { TREES_PER_LANE } else { 1 },
+        }
+    }
+}
+
 /// A pipeline for bind groups 0 to 2 of the kernel of the task's integrator, and the samples that its lanes should take one after
 /// the other.
 pub fn rendering(
@@ -33,48 +73,61 @@ pub fn rendering(
     layouts: &Layouts,
     task: Task,
 ) -> Result<(Compiled, u32), GpuError> {
-    let kernel = task.settings.integrator.entry().kernel;
-    let as_packets = match task.policy.fetch {
-        Fetch::Auto => least_rays(task) >= min_packet_rays(task) && !waits_for_few_lanes(task),
-        fetch => fetch.allows_packets(),
-    };
-    let as_packets = as_packets
-        && !task.settings.brute_force
-        && !task.settings.has_features()
-        && task.scene.materials.len() < MAX_PACKET_MATERIALS;
-    let variant = match as_packets && kernel.has(Variant::Packet) {
-        true => tracing_variant(gpu, fetch, task.view),
-        false => portable(fetch),
-    };
-    // Lanes of a vector wait for the largest of their trees, unless each has several. GPUs have not been measured.
-    let refills = variant == Variant::Image && effort::has_uneven_trees(task);
-    let mut overrides = overrides::of(task);
-    overrides.push(("REFILLS_LANES", f64::from(u8::from(refills))));
-    let compiled = tracing(
-        gpu,
+    let packets = || tracing_variant(gpu, fetch, task.view);
+    let Choice {
+        kernel,
         variant,
-        layouts,
-        (kernel, task.policy.stack),
         overrides,
-    )?;
-    Ok((compiled, if refills { TREES_PER_LANE } else { 1 }))
+        lane_samples,
+    } = Choice::new(task, fetch, packets);
+    let kernel = (kernel, task.policy.stack);
+    let compiled = tracing(gpu, variant, layouts, kernel, overrides)?;
+    Ok((compiled, lane_samples))
 }
 
-/// A pipeline for bind groups 0 to 2 of a kernel with a stack of this size, specialised by these overrides.
+/// Starts to make the module of the kernel for a picture, as lavapipe needs it, while the device is being opened; for
+/// [`Gpu::with_early_module`]. `None` if rays will be traced in packets, whose kernel depends on the adapter.
+pub fn early_module(
+    scene: &Arc<PackedScene>,
+    view: &PackedView,
+    settings: &RenderSettings,
+    policy: &ExecutionPolicy,
+) -> Option<EarlyModule> {
+    let task = Task {
+        scene,
+        view,
+        settings,
+        policy,
+        film_rows: 0,
+    };
+    let choice = Choice::new(task, Fetch::Image, || Variant::Packet);
+    if choice.variant == Variant::Packet {
+        return None;
+    }
+    let overrides = with_stack(choice.overrides, policy.stack == Stack::Usual);
+    EarlyModule::start(choice.kernel, choice.variant, overrides)
+}
+
+/// A pipeline of a kernel with a stack of this size, specialised by these overrides.
 pub fn tracing(
     gpu: &Gpu,
     variant: Variant,
     layouts: &Layouts,
     (kernel, stack): (Kernel, Stack),
-    mut overrides: Overrides,
+    overrides: Overrides,
 ) -> Result<Compiled, GpuError> {
     let shares_stack = stack == Stack::Usual && is_shared_stack_faster(gpu, kernel);
-    overrides.push(("SHARED_STACK", f64::from(u8::from(shares_stack))));
+    let mut overrides = with_stack(overrides, shares_stack);
     if let (Variant::Packet, Some(lanes)) = (variant, gpu.packet_lanes()) {
         overrides.push(("PACKET_LANES", f64::from(lanes)));
     }
     let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
     gpu.pipeline(&kernel, variant, &groups, overrides)
+}
+
+fn with_stack(mut overrides: Overrides, is_shared: bool) -> Overrides {
+    overrides.push(("SHARED_STACK", f64::from(u8::from(is_shared))));
+    overrides
 }
 
 /// A pipeline of a kernel that reads the film, with the layout of its target as bind group 3.

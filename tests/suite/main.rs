@@ -17,6 +17,7 @@ mod difference;
 mod distribution;
 mod drafts;
 mod drivers;
+mod early_module;
 mod embed;
 mod endings;
 mod environment;

@@ -1,0 +1,57 @@
+//! Modules that are made before a device is open.
+
+use super::{
+    Gpu, Kernel, Overrides, Variant,
+    shader::{ModuleKey, Target},
+};
+use naga::Module;
+use std::{
+    sync::PoisonError,
+    thread::{self, JoinHandle},
+};
+
+/// The module of a pipeline that will be needed, made by a thread while the device is being opened.
+pub struct EarlyModule {
+    key: ModuleKey,
+    thread: JoinHandle<Result<Module, String>>,
+}
+
+impl EarlyModule {
+    /// Starts to make a module for lavapipe; opening a GPU takes longer than what this would save there. `None` if the system
+    /// has no thread left.
+    pub(crate) fn start(kernel: Kernel, variant: Variant, overrides: Overrides) -> Option<Self> {
+        let key = ModuleKey {
+            kernel: kernel.name,
+            variant,
+            overrides: overrides.clone(),
+        };
+        let make = move || kernel.module(variant, &overrides, Target::Lavapipe);
+        let thread = thread::Builder::new().spawn(make).ok()?;
+        Some(Self { key, thread })
+    }
+}
+
+impl Gpu {
+    /// The same device, which uses this module if a pipeline needs just that.
+    pub fn with_early_module(self, module: Option<EarlyModule>) -> Self {
+        *self.early.lock().unwrap_or_else(PoisonError::into_inner) = module;
+        self
+    }
+
+    /// Whether a module that was made early has not been used.
+    pub fn has_early_module(&self) -> bool {
+        let early = self.early.lock().unwrap_or_else(PoisonError::into_inner);
+        early.is_some()
+    }
+
+    /// The module with this key, if it was made early. Waits for it.
+    pub(super) fn early_module(&self, key: &ModuleKey) -> Option<Result<Module, String>> {
+        if self.target() != Target::Lavapipe {
+            return None;
+        }
+        let mut early = self.early.lock().unwrap_or_else(PoisonError::into_inner);
+        let module = early.take_if(|module| module.key == *key)?;
+        drop(early);
+        module.thread.join().ok()
+    }
+}
