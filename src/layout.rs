@@ -420,7 +420,7 @@ packed! {
         emitter_row: u32,
         /// Number of emitters.
         emitter_count: u32,
-        /// Without a light tree, a path samples a point of an emitter with the chance per area of its radiance by this.
+        /// Without a light tree, radiance divided by this is the chance per area with which a path samples a point.
         emitter_power: f32,
         /// The first word of the table from which paths sample a picture in the background, among the texels.
         environment_first: u32,

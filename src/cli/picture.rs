@@ -10,6 +10,7 @@ use crate::cli::device::{self, Opening};
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job::{Job, Outcome};
 use crate::cli::layers::Finished;
+use crate::cli::memory;
 use crate::cli::progress::Progress;
 use crate::cli::report::{Draft, FetchReport};
 use crate::render::{self, FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK};
@@ -58,8 +59,10 @@ pub fn run(
     let (gpu, packed) = thread::scope(|scope| {
         let packing = scope.spawn(|| {
             let packed = device::packed(&job.scene, shutter)?;
-            let module = render::early_module(&packed.0, &packed.1, &settings, &job.policy());
-            Ok::<_, AppError>((packed, module))
+            let policy = job.policy();
+            let module = (!memory::is_limited())
+                .then(|| render::early_module(&packed.0, &packed.1, &settings, &policy));
+            Ok::<_, AppError>((packed, module.flatten()))
         });
         let gpu = opening.wait()?;
         draft.adapter = Some(gpu.adapter().into());

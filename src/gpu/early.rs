@@ -1,7 +1,7 @@
 //! Modules that are made before a device is open.
 
 use super::{
-    Gpu, Kernel, Overrides, Variant,
+    Gpu, Kernel, Overrides, Variant, guard,
     shader::{ModuleKey, Target},
 };
 use naga::Module;
@@ -13,7 +13,7 @@ use std::{
 /// The module of a pipeline that will be needed, made by a thread while the device is being opened.
 pub struct EarlyModule {
     key: ModuleKey,
-    thread: JoinHandle<Result<Module, String>>,
+    thread: JoinHandle<Result<Result<Module, String>, ()>>,
 }
 
 impl EarlyModule {
@@ -25,15 +25,17 @@ impl EarlyModule {
             variant,
             overrides: overrides.clone(),
         };
-        let make = move || kernel.module(variant, &overrides, Target::Lavapipe);
+        // A panic must not end the program: the adapter may turn out to be another.
+        let make = move || guard::catch(|| kernel.module(variant, &overrides, Target::Lavapipe));
         let thread = thread::Builder::new().spawn(make).ok()?;
         Some(Self { key, thread })
     }
 }
 
 impl Gpu {
-    /// The same device, which uses this module if a pipeline needs just that.
+    /// The same device, which uses this module if a pipeline needs just that; only lavapipe keeps it.
     pub fn with_early_module(self, module: Option<EarlyModule>) -> Self {
+        let module = module.filter(|_| self.target() == Target::Lavapipe);
         *self.early.lock().unwrap_or_else(PoisonError::into_inner) = module;
         self
     }
@@ -44,14 +46,11 @@ impl Gpu {
         early.is_some()
     }
 
-    /// The module with this key, if it was made early. Waits for it.
-    pub(super) fn early_module(&self, key: &ModuleKey) -> Option<Result<Module, String>> {
-        if self.target() != Target::Lavapipe {
-            return None;
-        }
+    /// Takes the module with this key, if it is made early. Waits for it.
+    pub(super) fn take_early_module(&self, key: &ModuleKey) -> Option<Result<Module, String>> {
         let mut early = self.early.lock().unwrap_or_else(PoisonError::into_inner);
         let module = early.take_if(|module| module.key == *key)?;
         drop(early);
-        module.thread.join().ok()
+        module.thread.join().ok()?.ok()
     }
 }

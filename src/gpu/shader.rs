@@ -37,7 +37,7 @@ pub(super) struct ModuleKey {
 /// The kinds of adapters for which modules differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Target {
-    /// Mesa's software adapter for Vulkan.
+    /// A software adapter for Vulkan, which is taken for Mesa's.
     Lavapipe,
     /// Another software adapter.
     Cpu,
@@ -213,7 +213,7 @@ impl Gpu {
         let refused = |what: String| GpuError::Internal {
             what: with_dump(name, &kernel.source(variant).unwrap_or_default(), &what),
         };
-        let module = match self.early_module(wanted) {
+        let module = match self.take_early_module(wanted) {
             Some(module) => module,
             None => kernel.module(variant, &wanted.overrides, self.target()),
         };

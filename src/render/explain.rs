@@ -262,7 +262,7 @@ impl Renderer {
             }
         })?;
         // A driver that stops a dispatch of a thousand samples is treated as lost.
-        match records.counters.groups_done() == groups {
+        match records.counters.finished_groups() == groups {
             true => Ok(records),
             false => Err(GpuError::Lost),
         }

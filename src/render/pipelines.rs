@@ -27,8 +27,8 @@ const MIN_PACKET_RAYS_OF_SHAPES: u64 = 10_000_000;
 /// rays each.
 const TREES_PER_LANE: u32 = 4;
 
-/// How the pipeline of a task is made.
-struct Choice {
+/// The kernel of a task, and how it is specialised.
+struct TaskKernel {
     kernel: Kernel,
     variant: Variant,
     overrides: Overrides,
@@ -36,7 +36,7 @@ struct Choice {
     lane_samples: u32,
 }
 
-impl Choice {
+impl TaskKernel {
     /// `packets` gives the variant for rays that are worth packets.
     fn new(task: Task, fetch: Fetch, packets: impl FnOnce() -> Variant) -> Self {
         let kernel = task.settings.integrator.entry().kernel;
@@ -74,12 +74,12 @@ pub fn rendering(
     task: Task,
 ) -> Result<(Compiled, u32), GpuError> {
     let packets = || tracing_variant(gpu, fetch, task.view);
-    let Choice {
+    let TaskKernel {
         kernel,
         variant,
         overrides,
         lane_samples,
-    } = Choice::new(task, fetch, packets);
+    } = TaskKernel::new(task, fetch, packets);
     let kernel = (kernel, task.policy.stack);
     let compiled = tracing(gpu, variant, layouts, kernel, overrides)?;
     Ok((compiled, lane_samples))
@@ -100,12 +100,12 @@ pub fn early_module(
         policy,
         film_rows: 0,
     };
-    let choice = Choice::new(task, Fetch::Image, || Variant::Packet);
-    if choice.variant == Variant::Packet {
+    let wanted = TaskKernel::new(task, Fetch::Image, || Variant::Packet);
+    if wanted.variant == Variant::Packet {
         return None;
     }
-    let overrides = with_stack(choice.overrides, policy.stack == Stack::Usual);
-    EarlyModule::start(choice.kernel, choice.variant, overrides)
+    let overrides = with_stack(wanted.overrides, policy.stack == Stack::Usual);
+    EarlyModule::start(wanted.kernel, wanted.variant, overrides)
 }
 
 /// A pipeline of a kernel with a stack of this size, specialised by these overrides.

@@ -367,7 +367,7 @@ impl RayQuery {
             )
         })?;
         // A driver that stops a dispatch is treated as lost.
-        if counters.groups_done() != groups * passes {
+        if counters.finished_groups() != groups * passes {
             return Err(GpuError::Lost.into());
         }
         match counters.cut_off {

@@ -35,8 +35,9 @@ pub struct Slice {
 
 impl PackedCounters {
     /// Workgroups that ran to their end.
-    pub fn groups_done(&self) -> u32 {
-        self.groups_done.iter().map(|line| line[0]).sum()
+    pub fn finished_groups(&self) -> u32 {
+        let counts = self.groups_done.iter().map(|line| line[0]);
+        counts.fold(0, u32::wrapping_add)
     }
 }
 
@@ -57,7 +58,7 @@ impl Slice {
     /// Whether every workgroup of the dispatch finished.
     pub fn is_done(&self, counters: &PackedCounters, lane_samples: u32) -> bool {
         let (columns, rows) = self.grid(lane_samples);
-        counters.groups_done() == columns * rows
+        counters.finished_groups() == columns * rows
     }
 
     /// Whether every workgroup finished and no path was cut off.

@@ -2,7 +2,7 @@
 
 use crate::golden;
 use crate::path::lobes;
-use crate::reference::compare::{assert_none, check_alike, render, render_on, sized};
+use crate::reference::compare::{assert_none, check_alike, render, render_on, sized, users_gpu};
 use crate::reference::scenes;
 use crate::support::devices::Devices;
 use crate::support::skip::{Need, skip};
@@ -61,10 +61,9 @@ fn scenes_look_the_same_through_opengl() {
 /// Users' devices do not bound loops, those of other tests do.
 #[test]
 fn pictures_are_the_same_with_and_without_bounds_of_loops() {
-    static DEVICES: Devices = Devices::new(|| Gpu::new(&AdapterChoice::default()));
     let compare = |name: &str, scene: Scene, settings: RenderSettings, fraction| {
         let (expected, _) = render(&scene, &settings);
-        let (actual, _) = render_on(DEVICES.lease(), &scene, &settings);
+        let (actual, _) = render_on(users_gpu(), &scene, &settings);
         check_alike(name, &expected, &actual, 1.0, fraction)
     };
     let whitted = antialiased(96, 64);

@@ -11,8 +11,8 @@ use glimray::scene::Scene;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The device that all tests use: the default one, with a bound on all loops. Programs and windows in tests have loops
-/// without it, as users do.
+/// The default device, with a bound on the loops of its kernels: that of most tests. Programs and windows in tests have a
+/// [`users_gpu`].
 pub fn open_gpu() -> Gpu {
     static DEVICES: Devices = Devices::new(|| {
         Gpu::new(&AdapterChoice {
@@ -20,6 +20,12 @@ pub fn open_gpu() -> Gpu {
             ..AdapterChoice::default()
         })
     });
+    DEVICES.lease()
+}
+
+/// The default device as users have it, without bounds of loops.
+pub fn users_gpu() -> Gpu {
+    static DEVICES: Devices = Devices::new(|| Gpu::new(&AdapterChoice::default()));
     DEVICES.lease()
 }
 
@@ -99,7 +105,8 @@ pub fn try_render(scene: &Scene, wanted: &impl Wanted) -> Result<(Image, Stats),
     try_render_on(open_gpu(), scene, wanted)
 }
 
-fn try_render_on(
+/// As [`try_render`], on another device.
+pub fn try_render_on(
     gpu: Gpu,
     scene: &Scene,
     wanted: &impl Wanted,
