@@ -8,7 +8,10 @@ use naga::{
     UnaryOperator,
     compact::{KeepUnused, compact},
 };
-use std::collections::HashMap;
+use std::{
+    collections::{HashMap, HashSet},
+    sync::OnceLock,
+};
 
 /// Declares the overrides as `override NAME: TYPE = DEFAULT;`. Linked kernels lack those that they do not use.
 const BINDINGS: &str = include_str!("../../shaders/bindings.wesl");
@@ -21,8 +24,8 @@ const PREFIX: &str = "bindings__";
 /// # Errors
 /// An override does not exist, or naga rejects the source; its message shows the lines.
 pub fn specialize(source: &str, overrides: &[(&str, f64)]) -> Result<Module, String> {
-    let is_declared = |name: &str| BINDINGS.contains(&format!("\noverride {name}: "));
-    if let Some((name, _)) = overrides.iter().find(|(name, _)| !is_declared(name)) {
+    let declared = declared();
+    if let Some((name, _)) = (overrides.iter()).find(|(name, _)| !declared.contains(name)) {
         return Err(format!("there is no override {name}"));
     }
     let source = with_constants(source, overrides);
@@ -30,6 +33,15 @@ pub fn specialize(source: &str, overrides: &[(&str, f64)]) -> Result<Module, Str
         naga::front::wgsl::parse_str(&source).map_err(|error| error.emit_to_string(&source))?;
     simplify(&mut module);
     Ok(module)
+}
+
+/// The names of all overrides.
+fn declared() -> &'static HashSet<&'static str> {
+    static NAMES: OnceLock<HashSet<&str>> = OnceLock::new();
+    NAMES.get_or_init(|| {
+        let declarations = BINDINGS.lines().filter_map(Override::parse);
+        declarations.map(|declared| declared.name).collect()
+    })
 }
 
 /// Folds branches on constants, and removes what is not used.
