@@ -5,7 +5,7 @@ fn debug_view(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 	let work = block__work_of(block__load_block(group), lane);
 	let key = rng__pixel_key(batch.seed, work.pixel);
 	if (work.inside) {
-		var sum = film__load_sum(work.film_index);
+		var sum = film__load_sum(work.film_index, batch.first_sample);
 		var sample = batch.first_sample;
 		loop {
 			let color = view(batch, dispatch__sample_ray(batch, work.pixel, key, sample));
@@ -920,11 +920,14 @@ struct film__Sum {
 	squares: f32
 }
 
-fn film__load_sum(film_index: u32) -> film__Sum {
+fn film__load_sum(film_index: u32, sample: u32) -> film__Sum {
 	let row = bindings__FILM_ROWS * film_index;
-	var sum = film__Sum(bindings__film[row], 0.0);
-	if (bindings__ADAPTIVE || bindings__HAS_FEATURES) {
-		sum.squares = bindings__film[row + bindings__SQUARES_ROW].x;
+	var sum: film__Sum;
+	if (sample > 0u) {
+		sum.radiance = bindings__film[row];
+		if (bindings__ADAPTIVE || bindings__HAS_FEATURES) {
+			sum.squares = bindings__film[row + bindings__SQUARES_ROW].x;
+		}
 	}
 	return sum;
 }

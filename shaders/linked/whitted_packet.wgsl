@@ -1299,9 +1299,7 @@ fn pixels__load_pixels(batch: dispatch__Batch, block: block__Block, lane: u32) -
 		pixels.keys = wide__word_set(pixels.keys, k, rng__pixel_key(batch.seed, work.pixel));
 		if (work.inside) {
 			pixels.film_index = wide__word_set(pixels.film_index, k, work.film_index);
-		}
-		if (work.inside && batch.first_sample > 0u) {
-			pixels = pixels__with_sum(pixels, k, film__load_sum(work.film_index));
+			pixels = pixels__with_sum(pixels, k, film__load_sum(work.film_index, batch.first_sample));
 		}
 		continuing {
 			k += 1u;
@@ -1458,11 +1456,14 @@ struct film__Sum {
 	squares: f32
 }
 
-fn film__load_sum(film_index: u32) -> film__Sum {
+fn film__load_sum(film_index: u32, sample: u32) -> film__Sum {
 	let row = bindings__FILM_ROWS * film_index;
-	var sum = film__Sum(bindings__film[row], 0.0);
-	if (bindings__ADAPTIVE || bindings__HAS_FEATURES) {
-		sum.squares = bindings__film[row + bindings__SQUARES_ROW].x;
+	var sum: film__Sum;
+	if (sample > 0u) {
+		sum.radiance = bindings__film[row];
+		if (bindings__ADAPTIVE || bindings__HAS_FEATURES) {
+			sum.squares = bindings__film[row + bindings__SQUARES_ROW].x;
+		}
 	}
 	return sum;
 }

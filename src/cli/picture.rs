@@ -60,9 +60,11 @@ pub fn run(
         let packing = scope.spawn(|| {
             let packed = device::packed(&job.scene, shutter)?;
             let policy = job.policy();
-            let module = (!memory::is_limited())
-                .then(|| render::early_module(&packed.0, &packed.1, &settings, &policy));
-            Ok::<_, AppError>((packed, module.flatten()))
+            let module = match memory::is_limited() {
+                true => None,
+                false => render::early_module(&packed.0, &packed.1, &settings, &policy),
+            };
+            Ok::<_, AppError>((packed, module))
         });
         let gpu = opening.wait()?;
         draft.adapter = Some(gpu.adapter().into());

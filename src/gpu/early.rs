@@ -13,7 +13,8 @@ use std::{
 /// The module of a pipeline that will be needed, made by a thread while the device is being opened.
 pub struct EarlyModule {
     key: ModuleKey,
-    thread: JoinHandle<Result<Result<Module, String>, ()>>,
+    /// `None` if it panicked.
+    thread: JoinHandle<Option<Result<Module, String>>>,
 }
 
 impl EarlyModule {
@@ -26,7 +27,8 @@ impl EarlyModule {
             overrides: overrides.clone(),
         };
         // A panic must not end the program: the adapter may turn out to be another.
-        let make = move || guard::catch(|| kernel.module(variant, &overrides, Target::Lavapipe));
+        let make =
+            move || guard::catch(|| kernel.module(variant, &overrides, Target::Lavapipe)).ok();
         let thread = thread::Builder::new().spawn(make).ok()?;
         Some(Self { key, thread })
     }
@@ -51,6 +53,6 @@ impl Gpu {
         let mut early = self.early.lock().unwrap_or_else(PoisonError::into_inner);
         let module = early.take_if(|module| module.key == *key)?;
         drop(early);
-        module.thread.join().ok()?.ok()
+        module.thread.join().ok().flatten()
     }
 }

@@ -104,7 +104,8 @@ pub fn early_module(
     if wanted.variant == Variant::Packet {
         return None;
     }
-    let overrides = with_stack(wanted.overrides, policy.stack == Stack::Usual);
+    let kernel = (wanted.kernel, policy.stack);
+    let overrides = with_stack(wanted.overrides, kernel, true);
     EarlyModule::start(wanted.kernel, wanted.variant, overrides)
 }
 
@@ -116,8 +117,7 @@ pub fn tracing(
     (kernel, stack): (Kernel, Stack),
     overrides: Overrides,
 ) -> Result<Compiled, GpuError> {
-    let shares_stack = stack == Stack::Usual && is_shared_stack_faster(gpu, kernel);
-    let mut overrides = with_stack(overrides, shares_stack);
+    let mut overrides = with_stack(overrides, (kernel, stack), gpu.is_cpu());
     if let (Variant::Packet, Some(lanes)) = (variant, gpu.packet_lanes()) {
         overrides.push(("PACKET_LANES", f64::from(lanes)));
     }
@@ -125,7 +125,16 @@ pub fn tracing(
     gpu.pipeline(&kernel, variant, &groups, overrides)
 }
 
-fn with_stack(mut overrides: Overrides, is_shared: bool) -> Overrides {
+/// The overrides with the place of the stack. In workgroup memory it is faster than in an array, where scenes are in buffers:
+/// software adapters store elements of arrays lane by lane. On an H200 ray queries are up to 1.2 times as fast with an array,
+/// but renders up to 2.5 times as fast with workgroup memory.
+fn with_stack(
+    mut overrides: Overrides,
+    (kernel, stack): (Kernel, Stack),
+    is_cpu: bool,
+) -> Overrides {
+    let is_faster = is_cpu || kernel.name != Kernel::TRACE_RAYS.name;
+    let is_shared = stack == Stack::Usual && is_faster;
     overrides.push(("SHARED_STACK", f64::from(u8::from(is_shared))));
     overrides
 }
@@ -166,13 +175,6 @@ pub fn portable(fetch: Fetch) -> Variant {
         Fetch::Image => Variant::Image,
         _ => Variant::Buffer,
     }
-}
-
-/// Whether a stack in workgroup memory is faster than one in an array, where scenes are in buffers. Software adapters store
-/// elements of arrays lane by lane. On an H200 ray queries are up to 1.2 times as fast with an array, but renders up to 2.5
-/// times as fast with workgroup memory.
-fn is_shared_stack_faster(gpu: &Gpu, kernel: Kernel) -> bool {
-    gpu.is_cpu() || kernel.name != Kernel::TRACE_RAYS.name
 }
 
 /// Packets if the adapter traces them, the data are in images, and nothing moves while the shutter is open: then

@@ -1,4 +1,5 @@
-//! The same pictures through a second driver, the OpenGL backend of wgpu if available, and in vectors of another width.
+//! The same pictures through a second driver, the OpenGL backend of wgpu if available, without bounds of loops, and in vectors
+//! of another width.
 
 use crate::golden;
 use crate::path::lobes;

@@ -1,13 +1,11 @@
 //! Modules that are made while the device is being opened.
 
-use crate::reference::compare::{assert_none, check_same_bits, sized};
+use crate::reference::compare::{assert_none, check_same_bits, render_on, sized};
 use crate::reference::scenes;
 use glimray::gpu::{AdapterChoice, Gpu};
 use glimray::image::Image;
 use glimray::pack;
-use glimray::render::{
-    Antialias, ExecutionPolicy, Integrator, RenderSettings, Renderer, Tone, early_module,
-};
+use glimray::render::{Antialias, ExecutionPolicy, Integrator, RenderSettings, early_module};
 use glimray::scene::Scene;
 use std::sync::Arc;
 
@@ -25,12 +23,7 @@ fn rendered(
     });
     let gpu = Gpu::new(&AdapterChoice::default()).expect("a device");
     let gpu = gpu.with_early_module(module);
-    let mut renderer =
-        Renderer::new(gpu.clone(), packed, &view, settings.clone(), policy).expect("a renderer");
-    while !renderer.is_done() {
-        renderer.step().expect("a step");
-    }
-    let image = renderer.develop(&Tone::LINEAR).expect("a picture");
+    let (image, _) = render_on(gpu.clone(), scene, &(settings.clone(), policy));
     (image, gpu.has_early_module())
 }
 
