@@ -5,12 +5,14 @@
 //! Allocation and pipeline creation run inside error scopes.
 
 mod adapter;
+mod bound;
 mod buffer;
 mod early;
 mod error;
 mod fault;
 mod guard;
 mod inline;
+mod lanes;
 mod readback;
 mod shader;
 mod specialize;
@@ -18,6 +20,7 @@ mod timer;
 mod trusted;
 
 pub use adapter::{AdapterChoice, AdapterReport, Backend, adapter_identity, adapters};
+pub use bound::bound_loops;
 pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
 pub use early::EarlyModule;
 pub use error::GpuError;
@@ -63,6 +66,8 @@ pub struct Gpu {
     /// Compiled pipelines, kept because the next renderer on this device may need the same ones.
     pipelines: Arc<Mutex<shader::Pipelines>>,
     early: Arc<Mutex<Option<EarlyModule>>>,
+    /// Whether its lanes have been tried: see `lanes.rs`.
+    lanes_proved: Arc<AtomicBool>,
     /// Called before a pipeline is compiled.
     on_compilation: Option<Arc<dyn Fn() + Send + Sync>>,
 }
@@ -157,6 +162,7 @@ impl Gpu {
             stray_error,
             pipelines: Arc::default(),
             early: Arc::default(),
+            lanes_proved: Arc::default(),
             on_compilation: None,
         })
     }
@@ -164,7 +170,7 @@ impl Gpu {
     /// Wraps a device that another program opened, with its instance, adapter and queue. It needs at least the default
     /// limits of WebGPU; with five storage images in a shader, kernels can read the scene from images. The program keeps
     /// control of it: its limits decide which scenes can be rendered, its callbacks are not touched, and if it is lost the
-    /// program has to open another one ([`GpuError::Lost`]). Kernels' loops are not bounded.
+    /// program has to open another one ([`GpuError::Lost`]).
     pub fn from_wgpu(
         instance: wgpu::Instance,
         adapter: wgpu::Adapter,
@@ -183,6 +189,7 @@ impl Gpu {
             stray_error: Arc::default(),
             pipelines: Arc::default(),
             early: Arc::default(),
+            lanes_proved: Arc::default(),
             on_compilation: None,
         }
     }

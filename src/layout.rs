@@ -494,7 +494,7 @@ packed! {
     }
     /// What a dispatch counted.
     PackedCounters {
-        /// Samples that were dropped: with them a sum would be infinite or not a number.
+        /// Samples that were dropped: not numbers, or beyond [`LARGEST_RADIANCE_BITS`].
         nonfinite_samples: u32,
         /// Why paths were cut off: [`CUT_OFF_LOOP`] and [`CUT_OFF_STACK`], or 0 if none was.
         cut_off: u32,

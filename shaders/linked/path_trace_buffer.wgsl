@@ -299,6 +299,8 @@ const types__MIXED_LIGHTS: u32 = 4294967295u;
 
 const types__ATTENUATION_INVERSE_SQUARE: u32 = 1u;
 
+const types__LARGEST_RADIANCE_BITS: u32 = 1400897536u;
+
 const types__MATERIAL_TWO_SIDED: u32 = 1u;
 
 const types__MATERIAL_FRESNEL: u32 = 2u;
@@ -1363,14 +1365,14 @@ fn film__store_sum(film_index: u32, sum: film__Sum) {
 }
 
 fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__Sum {
+	if (!numeric__is_within(sample.radiance, types__LARGEST_RADIANCE_BITS)) {
+		loops__nonfinite_samples += 1u;
+		return sum;
+	}
 	let luminance = dot(sample.radiance, tone__LUMINANCE_REC709);
 	var next = sum;
 	next.radiance += weight * vec4f(sample.radiance, 1.0);
 	next.squares += luminance * luminance;
-	if (!numeric__is_finite(next.radiance.xyz) || ((bindings__ADAPTIVE || bindings__HAS_FEATURES) && !numeric__is_finite(vec3f(next.squares)))) {
-		loops__nonfinite_samples += 1u;
-		return sum;
-	}
 	return next;
 }
 
@@ -2510,6 +2512,10 @@ fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
 fn numeric__is_finite(v: vec3f) -> bool {
 	let exponents = bitcast<vec3u>(v) & vec3u(2139095040u);
 	return all(exponents != vec3u(2139095040u));
+}
+
+fn numeric__is_within(v: vec3f, limit: u32) -> bool {
+	return all((bitcast<vec3u>(v) & vec3u(2147483647u)) <= vec3u(limit));
 }
 
 fn numeric__max_component(v: vec3f) -> f32 {

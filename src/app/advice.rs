@@ -30,9 +30,10 @@ pub fn gpu(error: &GpuError) -> String {
         GpuError::Internal { .. } => {
             format!("{error} Please report it with the output of `glimray doctor`.")
         }
-        GpuError::NoAdapter { .. } | GpuError::Lost | GpuError::OutOfMemory { .. } => {
-            error.to_string()
-        }
+        GpuError::NoAdapter { .. }
+        | GpuError::Lost
+        | GpuError::OutOfMemory { .. }
+        | GpuError::WrongLanes { .. } => error.to_string(),
     }
 }
 

@@ -127,7 +127,8 @@ fn gpu_exit_code(error: &GpuError) -> u8 {
         GpuError::NoAdapter { .. }
         | GpuError::NoBackend { .. }
         | GpuError::NoSuchAdapter { .. }
-        | GpuError::NoDevice { .. } => 5,
+        | GpuError::NoDevice { .. }
+        | GpuError::WrongLanes { .. } => 5,
         GpuError::Lost | GpuError::KeptFailing { .. } => 6,
         GpuError::Limit { .. } | GpuError::Budget { .. } | GpuError::OutOfMemory { .. } => 7,
         GpuError::Internal { .. } => 1,

@@ -222,7 +222,7 @@ impl Job<'_> {
         }
         if stats.nonfinite_samples > 0 {
             console::warning(format_args!(
-                "{} samples were not finite and were dropped.",
+                "{} samples were not finite, or brighter than 10^12, and were dropped.",
                 stats.nonfinite_samples
             ));
         }

@@ -8,29 +8,29 @@
 //! - `LP_NATIVE_VECTOR_WIDTH` is the width in bits of the vectors in which lavapipe executes shaders. It takes 256
 //!   unless told otherwise, also where the processor has 512 (AVX-512). With 512, Mesa 22.3 crashes as soon as it
 //!   draws: so compute kernels have 512, and the window 256.
-//! - `MESA_SHADER_CACHE_DIR` names a folder of their own for kernels of 512 bits. Mesa's cache does not distinguish the
-//!   widths, so a kernel that the window has compiled would stay at 256.
+//! - `MESA_SHADER_CACHE_DIR` names the folder of compiled kernels: one for each width and processor. Mesa's cache does not
+//!   distinguish widths, and would execute code of 256 bits as if it had 512. It distinguishes its own builds.
 
 #[cfg(target_os = "linux")]
 use crate::app::folders;
 #[cfg(target_os = "linux")]
-use std::ffi::OsString;
+use std::{
+    ffi::OsString,
+    path::{Path, PathBuf},
+};
 
 /// Replaces this process by one with the variables that are missing. Returns if there are none, or if the program
 /// cannot be executed again. Variables that are set stay as they are, but for a width with which the window would
-/// crash.
+/// crash, and a folder of kernels, in which those of this width get one of their own.
 #[cfg(target_os = "linux")]
 pub fn set_environment(opens_window: bool) {
     use std::os::unix::process::CommandExt as _;
-    let value = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
+    let value = |name| std::env::var_os(name).filter(|value| !value.is_empty());
     let has_no_session = value("XDG_RUNTIME_DIR").is_none() && value("NODEVICE_SELECT").is_none();
-    let width = match value("LP_NATIVE_VECTOR_WIDTH").as_deref() {
+    let given = value("LP_NATIVE_VECTOR_WIDTH").and_then(|width| width.into_string().ok());
+    let width = match given.as_deref() {
         None if !opens_window && has_wide_vectors() => Some("512"),
         Some("512") if opens_window => Some("256"),
-        _ => None,
-    };
-    let cache = match value("MESA_SHADER_CACHE_DIR") {
-        None if width == Some("512") => wide_cache(),
         _ => None,
     };
     let wanted = [
@@ -39,7 +39,13 @@ pub fn set_environment(opens_window: bool) {
             has_no_session.then(|| OsString::from("1")),
         ),
         ("LP_NATIVE_VECTOR_WIDTH", width.map(OsString::from)),
-        ("MESA_SHADER_CACHE_DIR", cache),
+        (
+            "MESA_SHADER_CACHE_DIR",
+            kernel_folder(
+                width.or(given.as_deref()),
+                value("MESA_SHADER_CACHE_DIR").map(PathBuf::from),
+            ),
+        ),
     ];
     let missing: Vec<_> = (wanted.into_iter())
         .filter_map(|(name, value)| Some((name, value?)))
@@ -59,13 +65,38 @@ pub fn set_environment(opens_window: bool) {
     let _ = again.args(arguments).envs(missing).exec();
 }
 
-/// The folder of kernels for vectors of 512 bits. Mesa would print a message if it could not be created; without it the
-/// widths share Mesa's own folder.
+/// The folder of kernels for vectors of this width on this processor, inside the one that is set, or else in the cache of the
+/// program. `None` if it is set, or cannot be created: Mesa would print a message.
 #[cfg(target_os = "linux")]
-fn wide_cache() -> Option<OsString> {
-    let folder = folders::platform_cache()?.join("mesa-512-bits");
+fn kernel_folder(width: Option<&str>, set: Option<PathBuf>) -> Option<OsString> {
+    let width = width.filter(|width| width.bytes().all(|byte| byte.is_ascii_digit()));
+    let name = format!("{}-bits-{}", width.unwrap_or("256"), processor());
+    if set.as_deref().and_then(Path::file_name) == Some(name.as_ref()) {
+        return None;
+    }
+    let folder = match set {
+        Some(set) => set.join(name),
+        None => folders::platform_cache()?.join("mesa").join(name),
+    };
     std::fs::create_dir_all(&folder).ok()?;
     Some(folder.into())
+}
+
+/// A name for the kind of this processor, from its model and its instruction sets.
+#[cfg(target_os = "linux")]
+fn processor() -> String {
+    use std::io::Read as _;
+    let mut text = Vec::new();
+    if let Ok(file) = std::fs::File::open("/proc/cpuinfo") {
+        // The first of its processors.
+        let _ = file.take(8192).read_to_end(&mut text);
+    }
+    let text = String::from_utf8_lossy(&text);
+    let kinds = ["model name", "flags", "CPU part", "Features"];
+    let lines = text.lines().take_while(|line| !line.is_empty());
+    let lines = lines.filter(|line| kinds.iter().any(|kind| line.starts_with(kind)));
+    let sum = xxhash_rust::xxh3::xxh3_64(lines.collect::<String>().as_bytes());
+    format!("{sum:016x}")
 }
 
 /// Other systems have no such layer, and no lavapipe.

@@ -42,15 +42,13 @@ impl Backend {
     }
 }
 
-/// The choice of an adapter, and of checks in its kernels; the default chooses automatically.
+/// The choice of an adapter; the default chooses automatically.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AdapterChoice {
     /// The backend to use; all if `None`.
     pub backend: Option<Backend>,
     /// An index into [`adapters`], or part of a name, case-insensitive.
     pub adapter: Option<String>,
-    /// Whether wgpu adds a bound to each loop in a kernel, as in a browser. Kernels are slower with it. Tests use it.
-    pub bounds_loops: bool,
 }
 
 /// An adapter and its capabilities.

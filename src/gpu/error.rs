@@ -75,6 +75,16 @@ pub enum GpuError {
         /// The allocation or operation that failed.
         what: String,
     },
+    /// A software adapter executes kernels with another number of lanes than it reports.
+    #[error(
+        "the adapter mixes kernels for vectors of different widths ({adapter}): its shader cache has some that were \
+         compiled with another LP_NATIVE_VECTOR_WIDTH, and pictures would be wrong. Set MESA_SHADER_CACHE_DIR to a \
+         folder of its own for this width."
+    )]
+    WrongLanes {
+        /// The adapter's name.
+        adapter: String,
+    },
     /// The driver reports an API error, rejects a shader or leaves work undone.
     #[error("internal fault (GPU): {what}.")]
     Internal {

@@ -1,6 +1,6 @@
 //! The linked kernels, and the cache of their pipelines.
 
-use super::{Gpu, GpuError, inline::inline_functions, specialize::specialize};
+use super::{Gpu, GpuError, bound::bound_loops, inline::inline_functions, specialize::specialize};
 use std::{borrow::Cow, collections::VecDeque};
 
 /// Maximum number of cached pipelines of a device: each may be a megabyte of machine code.
@@ -39,10 +39,10 @@ pub(super) struct ModuleKey {
 pub(super) enum Target {
     /// A software adapter for Vulkan, which is taken for Mesa's.
     Lavapipe,
-    /// Another software adapter.
-    Cpu,
     /// A GPU.
     Gpu,
+    /// Another software adapter, or a virtual one, behind which there may be lavapipe.
+    Other,
 }
 
 /// Values for overrides of `bindings.wesl`, by their names.
@@ -141,6 +141,9 @@ impl Kernel {
         if target == Target::Lavapipe {
             inline_functions(&mut module);
         }
+        if target != Target::Gpu {
+            bound_loops(&mut module);
+        }
         Ok(module)
     }
 
@@ -164,10 +167,13 @@ impl Kernel {
 
 impl Gpu {
     pub(super) fn target(&self) -> Target {
-        match (self.is_cpu(), self.report.backend.as_str()) {
-            (true, "vulkan") => Target::Lavapipe,
-            (true, _) => Target::Cpu,
-            (false, _) => Target::Gpu,
+        match (
+            self.report.device_type.as_str(),
+            self.report.backend.as_str(),
+        ) {
+            ("discrete_gpu" | "integrated_gpu", _) => Target::Gpu,
+            ("cpu", "vulkan") => Target::Lavapipe,
+            _ => Target::Other,
         }
     }
 
@@ -213,6 +219,9 @@ impl Gpu {
         let refused = |what: String| GpuError::Internal {
             what: with_dump(name, &kernel.source(variant).unwrap_or_default(), &what),
         };
+        if variant != Variant::Buffer {
+            self.prove_lanes()?;
+        }
         let module = match self.take_early_module(wanted) {
             Some(module) => module,
             None => kernel.module(variant, &wanted.overrides, self.target()),

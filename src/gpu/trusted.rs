@@ -5,16 +5,12 @@
 use super::Gpu;
 
 impl Gpu {
-    /// A shader module. Its loops have no bound of wgpu's unless [`super::AdapterChoice::bounds_loops`]: a counter in each
-    /// loop, of which drivers of GPUs make code that takes up to 1.8 times as long, and lavapipe up to 1.07 times
-    /// (benches/LOG.md, 2026-11-26 and 2026-11-28). All other checks remain.
+    /// A shader module. Its loops have no bound of wgpu's: drivers of GPUs make code of it that takes up to 1.8 times as long
+    /// (benches/LOG.md, 2026-11-26), and other adapters get one of our own ([`super::bound_loops`]). All other checks remain.
     pub(super) fn shader_module(
         &self,
         descriptor: wgpu::ShaderModuleDescriptor,
     ) -> wgpu::ShaderModule {
-        if self.choice.bounds_loops {
-            return self.device.create_shader_module(descriptor);
-        }
         let checks = wgpu::ShaderRuntimeChecks {
             force_loop_bounding: false,
             ..wgpu::ShaderRuntimeChecks::checked()

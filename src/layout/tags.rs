@@ -103,6 +103,9 @@ pub const ATTENUATION_NONE: u32 = 0;
 /// [`super::PackedLight::attenuation`]: 1/r² at distance r.
 pub const ATTENUATION_INVERSE_SQUARE: u32 = 1;
 
+/// The bits of 2^40 as an f32. Samples with larger components are dropped: no light that makes sense is so bright.
+pub const LARGEST_RADIANCE_BITS: u32 = 0x5380_0000;
+
 /// Bit of [`super::PackedMaterial::flags`]: the shading normal is flipped to face the ray.
 pub const MATERIAL_TWO_SIDED: u32 = 1;
 /// Bit of [`super::PackedMaterial::flags`]: Fresnel's equations split reflected and transmitted light.

@@ -24,7 +24,7 @@ pub struct Stats {
     pub submissions: u64,
     /// The duration of the longest one, in milliseconds.
     pub longest_submission_ms: f64,
-    /// Samples that were dropped because they would make a sum infinite or NaN.
+    /// Samples that were dropped because a channel is NaN or has a magnitude above 2^40.
     pub nonfinite_samples: u64,
     /// Samples whose ray tree exceeded its stack or its maximum number of rays, or in which a ray entered more
     /// nested volumes than its list of media holds. Cut-off rays are missing in the picture, and the media

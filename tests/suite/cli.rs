@@ -15,6 +15,7 @@ mod farm_faults;
 mod farm_runs;
 mod help;
 mod inspect;
+mod library;
 mod merge;
 #[cfg(unix)]
 mod parts;

@@ -89,7 +89,7 @@ const FAR: DVec3 = dvec3(1000.0, 200.0, -500.0);
 
 /// A tube whose upper half bends and twists, a sheet on a moving node that waves, a still mesh with texture
 /// coordinates and a sphere.
-fn party() -> Scene {
+pub fn party() -> Scene {
     let mut scene = scenes::empty();
     scene.render_origin = Some(FAR);
     let foot = node(&mut scene, FAR, None);

@@ -1,23 +1,19 @@
-//! The same pictures through a second driver, the OpenGL backend of wgpu if available, without bounds of loops, and in vectors
-//! of another width.
+//! Pictures through a second driver, the OpenGL backend of wgpu if available, and in vectors of another width.
 
 use crate::golden;
-use crate::path::lobes;
-use crate::reference::compare::{assert_none, check_alike, render, render_on, sized, users_gpu};
-use crate::reference::scenes;
+use crate::reference::compare::{assert_none, check_alike, render, render_on, sized};
 use crate::support::devices::Devices;
 use crate::support::skip::{Need, skip};
 use glimray::gpu::{AdapterChoice, Backend, Gpu};
 use glimray::import;
-use glimray::render::{Antialias, ExecutionPolicy, Integrator, RenderSettings};
-use glimray::scene::{Scene, Shadows};
+use glimray::render::{Antialias, ExecutionPolicy, RenderSettings};
+use glimray::scene::Shadows;
 use std::{path::Path, process::Command};
 
 /// The adapter of the OpenGL backend, if available.
 const GL: AdapterChoice = AdapterChoice {
     backend: Some(Backend::Gl),
     adapter: None,
-    bounds_loops: false,
 };
 
 #[test]
@@ -59,35 +55,6 @@ fn scenes_look_the_same_through_opengl() {
     }));
 }
 
-/// Users' devices do not bound loops, those of other tests do.
-#[test]
-fn pictures_are_the_same_with_and_without_bounds_of_loops() {
-    let compare = |name: &str, scene: Scene, settings: RenderSettings, fraction| {
-        let (expected, _) = render(&scene, &settings);
-        let (actual, _) = render_on(users_gpu(), &scene, &settings);
-        check_alike(name, &expected, &actual, 1.0, fraction)
-    };
-    let whitted = antialiased(96, 64);
-    let paths = RenderSettings {
-        integrator: Integrator::Path,
-        ..whitted.clone()
-    };
-    assert_none([
-        compare("spheres", scenes::spheres(), whitted.clone(), 0.001),
-        compare("meshes", scenes::meshes(), whitted.clone(), 0.001),
-        compare(
-            "mirrors",
-            scenes::mirrors_and_glass(),
-            whitted.clone(),
-            0.001,
-        ),
-        compare("everything", scenes::everything(), whitted, 0.001),
-        // Rounding decides which way some paths go.
-        compare("paths", scenes::everything(), paths.clone(), 0.01),
-        compare("lobes", lobes::scene(), paths, 0.05),
-    ]);
-}
-
 /// lavapipe has subgroups of 8 lanes in vectors of 256 bits, and of 16 in those of 512. It chooses when it is loaded, so
 /// the other width has a process of its own.
 #[test]
@@ -98,6 +65,8 @@ fn packets_of_8_and_of_16_lanes_pass_the_same_tests() {
         "bench::packets::nodes_and_primitives_per_packet_do_not_grow",
         "ray_query::packets_and_single_rays_find_the_same_in_a_deep_tree",
         "golden::golden_pictures_are_as_they_were",
+        "lanes::crops_of_generated_scenes_are_the_pixels_of_the_whole",
+        "lanes::a_value_leaves_a_loop_lane_by_lane",
     ];
     let other = match std::env::var(WIDTH).as_deref() {
         Ok("512") => "256",

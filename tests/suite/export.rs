@@ -1,7 +1,7 @@
 //! Round trips of scenes through the native format: nothing that is rendered is lost.
 
 mod physical;
-mod random;
+pub mod random;
 mod text;
 
 use crate::support::skip::{Need, skip};

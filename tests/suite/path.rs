@@ -1,10 +1,11 @@
 //! The path tracer against closed forms and against the classical integrator.
 
 mod backdrop;
+mod densities;
 mod emission_maps;
 mod emissive_solids;
 mod emitter_sides;
-mod emitter_tree;
+pub mod emitter_tree;
 mod emitters;
 mod explained;
 mod layers;

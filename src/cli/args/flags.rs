@@ -423,7 +423,6 @@ impl DeviceFlags {
         AdapterChoice {
             backend: self.backend,
             adapter: self.adapter.clone(),
-            bounds_loops: false,
         }
     }
 

@@ -3,8 +3,9 @@
 use super::path::{LightSample, LightSource, Lobe, PathStep, Sharing, StepOutcome};
 use crate::{
     layout::{
-        MATERIAL_FRESNEL, NONE, PackedProbe, PackedRay, RAY_BOUNDARY, RAY_OUTSIDE, RAY_PRIMARY,
-        RAY_REFLECTION, RAY_REFRACTION, RAY_TOTAL, RAY_TRANSPARENT, SHAPE,
+        LARGEST_RADIANCE_BITS, MATERIAL_FRESNEL, NONE, PackedProbe, PackedRay, RAY_BOUNDARY,
+        RAY_OUTSIDE, RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_TOTAL, RAY_TRANSPARENT,
+        SHAPE,
     },
     pack::{PackedScene, PackedView},
     render::Integrator,
@@ -42,7 +43,7 @@ pub struct SampleTree {
     pub time: f32,
     /// Linear radiance: the sum of the contributions of all its rays.
     pub color: [f32; 3],
-    /// Whether the sample was dropped because its colour is not finite.
+    /// Whether the sample was dropped because its colour is not finite, or beyond 2^40.
     pub dropped: bool,
     /// Whether rays are missing in the picture because the tree exceeded a limit.
     pub cut_off: bool,
@@ -260,7 +261,10 @@ impl<'a> Reader<'a> {
             weight: probe.weight,
             time: probe.time,
             color: probe.color,
-            dropped: !Vec3::from(probe.color).is_finite(),
+            dropped: !Vec3::from(probe.color)
+                .abs()
+                .cmple(Vec3::splat(f32::from_bits(LARGEST_RADIANCE_BITS)))
+                .all(),
             cut_off: probe.cut_off > 0,
             ray_count: probe.ray_count as usize,
             rays,

@@ -513,7 +513,7 @@ fn track(random: &mut Random, scene: &Scene) -> Track {
     }
 }
 
-fn scene(random: &mut Random) -> Scene {
+pub fn scene(random: &mut Random) -> Scene {
     let pictures: Vec<_> = (0..2).map(|_| Arc::new(picture(random))).collect();
     let mut textures: Vec<_> = (0..4).map(|_| texture(random, pictures.len())).collect();
     while !matches!(textures[3].pattern, Pattern::Picture { .. }) {

@@ -48,7 +48,7 @@ fn sides() -> Vec<Mesh> {
 }
 
 /// Shapes, and meshes of them.
-fn solids() -> Vec<(&'static str, CanonicalShape, Vec<Mesh>)> {
+pub fn solids() -> Vec<(&'static str, CanonicalShape, Vec<Mesh>)> {
     let cone = |bottom, top, capped| CanonicalShape::Cone {
         bottom,
         top,

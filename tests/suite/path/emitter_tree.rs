@@ -37,7 +37,7 @@ fn glowing(radiance: f32, two_sided: bool) -> Material {
 
 /// A floor under lamps of all kinds, a globe that shines outwards, copies of a cloud of triangles of which each fourth
 /// shines to both sides, and shapes.
-fn mixed(lamps: usize) -> Scene {
+pub fn mixed(lamps: usize) -> Scene {
     let glossy = Material {
         specular: Vec3::splat(2.0),
         shininess: 20.0,

@@ -103,7 +103,11 @@ fn lamp(visible: bool) -> Light {
     }
 }
 
-fn explained(scene: &Scene, settings: &RenderSettings, count: usize) -> (Vec<RayTree>, Vec<Vec3>) {
+pub fn explained(
+    scene: &Scene,
+    settings: &RenderSettings,
+    count: usize,
+) -> (Vec<RayTree>, Vec<Vec3>) {
     let mut renderer = renderer(scene, settings);
     finish(&mut renderer);
     let image = renderer.develop(&Tone::LINEAR).expect("a picture");

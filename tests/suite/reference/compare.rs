@@ -11,20 +11,8 @@ use glimray::scene::Scene;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The default device, with a bound on the loops of its kernels: that of most tests. Programs and windows in tests have a
-/// [`users_gpu`].
+/// The default device, as users have it.
 pub fn open_gpu() -> Gpu {
-    static DEVICES: Devices = Devices::new(|| {
-        Gpu::new(&AdapterChoice {
-            bounds_loops: true,
-            ..AdapterChoice::default()
-        })
-    });
-    DEVICES.lease()
-}
-
-/// The default device as users have it, without bounds of loops.
-pub fn users_gpu() -> Gpu {
     static DEVICES: Devices = Devices::new(|| Gpu::new(&AdapterChoice::default()));
     DEVICES.lease()
 }

@@ -9,7 +9,7 @@ use super::{
     words::{Input, Output},
 };
 use crate::kernels::link::FEATURES;
-use glimray::gpu::inline_functions;
+use glimray::gpu::{bound_loops, inline_functions};
 use std::{borrow::Cow, sync::OnceLock};
 use wesl::{FileResolver, Router, VirtualResolver, Wesl};
 use wgpu::{BufferUsages, util::DeviceExt};
@@ -248,12 +248,16 @@ impl Harness {
         group_layout: &wgpu::BindGroupLayout,
     ) -> wgpu::ComputePipeline {
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let module = self
-            .device
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(name),
-                source: self.source(wgsl),
-            });
+        let descriptor = wgpu::ShaderModuleDescriptor {
+            label: Some(name),
+            source: self.source(wgsl),
+        };
+        let checks = wgpu::ShaderRuntimeChecks {
+            force_loop_bounding: false,
+            ..wgpu::ShaderRuntimeChecks::checked()
+        };
+        // SAFETY: all loops of functions under test end. Kernels have the same checks.
+        let module = unsafe { self.device.create_shader_module_trusted(descriptor, checks) };
         let layout = self
             .device
             .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -277,11 +281,12 @@ impl Harness {
         pipeline
     }
 
-    /// The source, with functions inlined where they are in kernels.
+    /// The source, with functions inlined and loops bounded where they are in kernels.
     fn source(&self, wgsl: &str) -> wgpu::ShaderSource<'static> {
         let module = self.is_cpu.then(|| naga::front::wgsl::parse_str(wgsl));
         if let Some(Ok(mut module)) = module {
             inline_functions(&mut module);
+            bound_loops(&mut module);
             return wgpu::ShaderSource::Naga(Cow::Owned(module));
         }
         wgpu::ShaderSource::Wgsl(wgsl.to_owned().into())

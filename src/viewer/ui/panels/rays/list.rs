@@ -102,7 +102,7 @@ fn heading(ui: &mut egui::Ui, session: &Session, sample: usize) {
         _ => format!("{count} rays"),
     });
     if tree.dropped {
-        ui.weak("dropped: not finite");
+        ui.weak("dropped: not finite, or brighter than 10^12");
     }
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.add_space(SCROLL_BAR);

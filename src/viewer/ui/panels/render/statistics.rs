@@ -133,7 +133,7 @@ fn rows(shown: &Shown) -> Vec<(&'static str, &'static str, String)> {
     if stats.nonfinite_samples > 0 {
         rows.push((
             "Dropped",
-            "Samples that were not finite and are left out",
+            "Samples that were not finite, or brighter than 10^12, and are left out",
             format!("{} samples", stats.nonfinite_samples),
         ));
     }
