@@ -29,7 +29,7 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test farm-test bench peers docs gallery strips man size hand-in fuzz build shaders linker compiler display driver opengl lint features headless wasm
+.PHONY: help demo test farm-test bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint features headless wasm
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
@@ -112,12 +112,6 @@ strips: build driver
 		$(GLIMRAY) $$arguments --quiet </dev/null || exit; \
 	done
 	$(CARGO) run --release --locked --example strips -- target/strips assets/gallery
-
-# In bytes, of the program that users install.
-MOST_BYTES := 30000000
-size: build
-	@bytes=$$(wc -c < $(GLIMRAY)); echo "$(GLIMRAY): $$bytes bytes, $(MOST_BYTES) allowed"; \
-		[ "$$bytes" -le $(MOST_BYTES) ]
 
 # All files of the working tree that Git does not ignore; the frames and the video again, on top.
 HAND_IN_FOLDER ?= .

@@ -1,6 +1,6 @@
 //! Proves on a software adapter that lanes read what is theirs, and that a subgroup has as many of them as the adapter says.
 //!
-//! Mesa's shader cache does not know the width of vectors: from Mesa 24 on it returns functions that were compiled for 8 lanes
+//! Mesa's shader cache does not know the width of vectors: Mesa 25.0 gives functions that were compiled for 8 lanes
 //! to kernels of 16, whose pictures are then wrong. The cache of the program has a folder for each width, but
 //! other programs that use the library may not.
 
