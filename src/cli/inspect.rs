@@ -158,6 +158,7 @@ fn material_json(material: &Material) -> Value {
         "ambient": material.ambient.to_array(),
         "two_sided": material.two_sided,
         "emission": material.emission.to_array(),
+        "two_sided_emission": material.two_sided_emission,
         "reflect": material.reflect.to_array(),
         "transmit": material.transmit.to_array(),
         "ior": material.ior,

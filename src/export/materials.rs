@@ -37,6 +37,8 @@ impl Writer<'_> {
                 || material.textures.emission != plain.textures.emission;
             table.put_if(shines, "emission", emission);
             table.put_if(!material.two_sided, "two_sided", "false");
+            let is_from_front = !material.two_sided_emission;
+            table.put_if(is_from_front, "two_sided_emission", "false");
             let coverage = self.coverage(material);
             table.put_if(!coverage.is_empty(), "coverage", coverage.inline());
             table.put_if(material.thin && !plain.thin, "thin", "true".to_owned());

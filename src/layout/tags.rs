@@ -126,6 +126,8 @@ pub const MATERIAL_THIN: u32 = 128;
 pub const MATERIAL_METALLIC_ROUGHNESS: u32 = 256;
 /// Bit of [`super::PackedMaterial::flags`]: [`crate::scene::Material::shadow_catcher`].
 pub const MATERIAL_SHADOW_CATCHER: u32 = 512;
+/// Bit of [`super::PackedMaterial::flags`]: the back emits as the front does.
+pub const MATERIAL_TWO_SIDED_EMISSION: u32 = 1024;
 /// Rows of 16 bytes of a [`super::PackedMaterial`].
 pub const MATERIAL_ROWS: u32 = 20;
 /// The first of these rows that belongs to [`super::PackedMaterial::layers`].

@@ -12,8 +12,8 @@ use super::{
     tlas::Tlas,
 };
 use crate::layout::{
-    MATERIAL_TWO_SIDED, NO_INSTANCE, PackedEmitter, PackedMaterial, PackedShape, PackedTriangle,
-    PackedVertex, SHAPE, SHAPE_DISC, SHAPE_RECTANGLE,
+    MATERIAL_TWO_SIDED_EMISSION, NO_INSTANCE, PackedEmitter, PackedMaterial, PackedShape,
+    PackedTriangle, PackedVertex, SHAPE, SHAPE_DISC, SHAPE_RECTANGLE,
 };
 use glam::{DVec3, Mat3, Vec3};
 use std::{array::from_fn, collections::HashMap, f32::consts::PI};
@@ -277,7 +277,7 @@ impl PackedScene {
                 if weight > 0.0 && weight.is_finite() {
                     let power = weight / std::f64::consts::PI;
                     let mut cluster = one.cluster(power, places, &later());
-                    cluster.two_sided = material.flags & MATERIAL_TWO_SIDED != 0;
+                    cluster.two_sided = material.flags & MATERIAL_TWO_SIDED_EMISSION != 0;
                     all.clusters.push(cluster);
                     all.rows.push(PackedEmitter {
                         primitive: one.primitive,

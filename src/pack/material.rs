@@ -5,11 +5,11 @@ use crate::{
     layout::{
         MATERIAL_BLEND, MATERIAL_COVERAGE, MATERIAL_FRESNEL, MATERIAL_MASK,
         MATERIAL_METALLIC_ROUGHNESS, MATERIAL_SCHLICK, MATERIAL_SHADOW_CATCHER, MATERIAL_SUM,
-        MATERIAL_THIN, MATERIAL_TWO_SIDED, NO_TEXTURE, PATTERN_CHECKER, PATTERN_GRADIENT,
-        PATTERN_NOISE, PATTERN_PICTURE, PATTERN_STRIPES, PackedMaterial, PackedTexture,
-        TEXTURE_BETWEEN_LEVELS, TEXTURE_LEVELS, TEXTURE_MINIFY_NEAREST, TEXTURE_NEAREST,
-        TEXTURE_SECOND_UV, TEXTURE_UV, TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP,
-        WRAP_MIRROR, WRAP_REPEAT,
+        MATERIAL_THIN, MATERIAL_TWO_SIDED, MATERIAL_TWO_SIDED_EMISSION, NO_TEXTURE,
+        PATTERN_CHECKER, PATTERN_GRADIENT, PATTERN_NOISE, PATTERN_PICTURE, PATTERN_STRIPES,
+        PackedMaterial, PackedTexture, TEXTURE_BETWEEN_LEVELS, TEXTURE_LEVELS,
+        TEXTURE_MINIFY_NEAREST, TEXTURE_NEAREST, TEXTURE_SECOND_UV, TEXTURE_UV,
+        TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT,
     },
     scene::{
         Coverage, Fresnel, LayerProperty, Material, MaterialProperty, MetallicRoughness, Mixing,
@@ -41,10 +41,10 @@ pub fn material(material: &Material, lamp: Option<usize>) -> PackedMaterial {
         Coverage::Opaque | Coverage::Mask(_) => (0, 1.0),
         Coverage::Blend => (MATERIAL_COVERAGE, material.alpha),
     };
-    let sides = if material.two_sided {
-        MATERIAL_TWO_SIDED
-    } else {
-        0
+    let sides = match (material.two_sided, material.two_sided_emission) {
+        (true, true) => MATERIAL_TWO_SIDED | MATERIAL_TWO_SIDED_EMISSION,
+        (true, false) => MATERIAL_TWO_SIDED,
+        (false, _) => 0,
     };
     let pair = |low: Option<usize>, high: Option<usize>| {
         let index = |texture: Option<usize>| texture.map_or(NO_TEXTURE, |index| index as u32);

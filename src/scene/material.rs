@@ -22,8 +22,12 @@ pub struct Material {
     /// Whether the shading normal is flipped to face the ray. Off in the course's format: a surface lit
     /// from behind gets the ambient term only.
     pub two_sided: bool,
-    /// Radiance that the surface emits, 0 or more; from its back only if `two_sided`.
+    /// Radiance that the surface emits, 0 or more; from its back only if `two_sided` and
+    /// `two_sided_emission`.
     pub emission: Vec3,
+    /// Whether the back emits too if the surface is `two_sided`. Off where back faces are not rendered, as those of
+    /// single-sided materials in glTF: they stay visible here, and send no light.
+    pub two_sided_emission: bool,
     /// Fraction of the light that is reflected, 0 or more; with `fresnel` its value at grazing angles.
     pub reflect: Vec3,
     /// Fraction of the light that is transmitted, 0 or more; with `fresnel` before reflection is
@@ -336,6 +340,7 @@ impl Default for Material {
             ambient: Vec3::splat(0.8),
             two_sided: true,
             emission: Vec3::ZERO,
+            two_sided_emission: true,
             reflect: Vec3::ZERO,
             transmit: Vec3::ZERO,
             opacity: 1.0,

@@ -3,8 +3,8 @@
 use crate::reference::scenes::{self, Build};
 use glam::{DAffine3, DVec3, UVec2, Vec2, Vec3, dvec3, vec3};
 use glimray::layout::{
-    LIGHT_POINT, LIGHT_SPOT, MATERIAL_TWO_SIDED, PackedLight, SHAPE_DISC, SHAPE_PLANE,
-    SHAPE_RECTANGLE, SHAPE_SPHERE,
+    LIGHT_POINT, LIGHT_SPOT, MATERIAL_TWO_SIDED, MATERIAL_TWO_SIDED_EMISSION, PackedLight,
+    SHAPE_DISC, SHAPE_PLANE, SHAPE_RECTANGLE, SHAPE_SPHERE,
 };
 use glimray::pack::{self, PackError, PackedScene};
 use glimray::scene::{
@@ -160,6 +160,19 @@ fn normals_go_by_the_inverse_transpose() {
             assert!(normal.dot(p) > 0.0, "{name}: a normal points inwards");
         }
     }
+}
+
+/// Backs emit if their material is two-sided and its emission too.
+#[test]
+fn backs_emit_where_two_keys_say_so() {
+    let emits = |two_sided: bool, two_sided_emission: bool| {
+        let mut scene = scenes::empty();
+        scene.materials[0].two_sided = two_sided;
+        scene.materials[0].two_sided_emission = two_sided_emission;
+        packed(&scene).materials[0].flags & MATERIAL_TWO_SIDED_EMISSION != 0
+    };
+    let all = [(true, true), (true, false), (false, true), (false, false)];
+    assert_eq!(all.map(|(a, b)| emits(a, b)), [true, false, false, false]);
 }
 
 #[test]

@@ -47,6 +47,7 @@ pub(super) fn material(
     }
     name.clone_into(&mut material.name);
     material.two_sided = table.two_sided;
+    material.two_sided_emission = table.two_sided_emission;
     material.thin |= table.thin;
     material.shadow_catcher = table.shadow_catcher;
     (material.coverage, material.alpha) = (coverage, alpha);

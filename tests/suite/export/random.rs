@@ -97,6 +97,7 @@ fn material(random: &mut Random, textures: usize) -> Material {
         shininess: random.between(0.0, 200.0) as f32,
         ambient: color(random),
         two_sided: random.below(2) == 0,
+        two_sided_emission: random.below(2) == 0,
         ..Material::default()
     };
     if random.below(3) == 0 {
@@ -239,6 +240,7 @@ fn physical(random: &mut Random, material: &mut Material, textures: usize) {
         // As importers without further colours make it.
         0 => Material {
             two_sided: material.two_sided,
+            two_sided_emission: material.two_sided_emission,
             coverage: material.coverage,
             alpha: material.alpha,
             priority: material.priority,

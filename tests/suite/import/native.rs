@@ -74,6 +74,7 @@ fn every_key_is_heard() {
         [materials.m]
         phong = { diffuse = [1, 0, 0], specular = [0, 1, 0], shininess = 7.5, ambient = [0, 0, 1] }
         two_sided = false
+        two_sided_emission = false
         [[objects]]
         plane = { point = [0, -1, 0] }
         material = "m"
@@ -113,6 +114,7 @@ fn every_key_is_heard() {
         shininess: 7.5,
         ambient: Vec3::Z,
         two_sided: false,
+        two_sided_emission: false,
         ..Material::default()
     };
     assert_eq!(scene.materials[0], named);

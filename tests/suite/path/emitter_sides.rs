@@ -4,16 +4,18 @@
 use super::emitter_tree::{lambert, mean_irradiance};
 use super::light_chances::{chances, mean_from};
 use super::{clear, glowing_square, lit_floor, looking, matte, mean, near, paths};
+use crate::import::gltf::model::Model;
 use crate::motion_blur::track;
 use crate::reference::scenes::{Build, quad};
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, Vec3, dvec3};
 use glimray::pack;
-use glimray::render::RenderSettings;
+use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{
-    CanonicalShape, Deformation, Geometry, Light, Material, MorphTarget, Scene, Shape, Target,
-    Values,
+    Background, Camera, CanonicalShape, Deformation, Geometry, Light, Material, MorphTarget, Scene,
+    Shape, Target, Values,
 };
+use serde_json::{Value, json};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -219,6 +221,170 @@ fn emitters_that_touch_glass_are_hit_with_their_own_chance() {
         });
         let name = if is_shape { "shape" } else { "mesh" };
         check(&mut verdict, name, &scene, expected);
+    }
+    verdict.close();
+}
+
+/// Half the side of [`lamp_model`], and the place of its middle beside the axis y.
+const HALF: f64 = 0.3;
+const ASIDE: DVec3 = dvec3(0.4, 0.0, -0.3);
+
+/// A glTF model: a square whose corners run counter-clockwise as seen from below, at this height and with this scale and
+/// material. Its normals are those of its winding, in the file or not.
+fn lamp_model(height: f64, scale: [f64; 3], has_normals: bool, material: Value) -> Scene {
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let corners = corners.map(|(x, z)| [x * HALF as f32, 0.0, z * HALF as f32]);
+    let mut model = Model::new();
+    let position = model.vectors(&[0, 1, 2, 0, 2, 3].map(|i: usize| corners[i]));
+    let mut attributes = json!({});
+    if has_normals {
+        attributes["NORMAL"] = json!(model.vectors(&[[0.0, -1.0, 0.0]; 6]));
+    }
+    model.primitive(position, json!({ "attributes": attributes, "material": 0 }));
+    model.push("materials", material);
+    let translation = ASIDE + height * DVec3::Y;
+    model.json["nodes"][0]["translation"] = json!(translation.to_array());
+    model.json["nodes"][0]["scale"] = json!(scale);
+    let mut scene = model.scene();
+    scene.shapes.clear();
+    scene.lights.clear();
+    scene.background = Background::Color(Vec3::ZERO);
+    scene.ambient = Vec3::ZERO;
+    scene
+}
+
+/// A black surface that emits 1.
+fn emissive(double_sided: bool) -> Value {
+    json!({
+        "emissiveFactor": [1, 1, 1], "doubleSided": double_sided,
+        "pbrMetallicRoughness": { "baseColorFactor": [0, 0, 0, 1] },
+    })
+}
+
+/// Glass around the lamp, behind which paths alone find it.
+fn add_glass(scene: &mut Scene, height: f64) {
+    let material = scene.add_material(clear());
+    let around = DAffine3::from_translation(ASIDE + height * DVec3::Y);
+    scene.shapes.push(Shape {
+        geometry: Geometry::Placed {
+            canonical: CanonicalShape::Box,
+            world_from_canonical: around * DAffine3::from_scale(dvec3(0.35, 0.02, 0.35)),
+        },
+        material,
+        node: None,
+    });
+}
+
+/// A camera below lamps that sees a part of the floor.
+fn below_lamps() -> Camera {
+    looking(dvec3(0.1, 0.5, 1.0), dvec3(0.3, 0.0, -0.2), 0.3)
+}
+
+/// The irradiance at a point of the plane y = 0 from a lamp at this height.
+fn from_lamp(height: f64, p: DVec3) -> f64 {
+    let placed = DAffine3::from_translation(ASIDE + height * DVec3::Y)
+        * DAffine3::from_scale(dvec3(HALF, 1.0, HALF));
+    let corners: Vec<_> = (square(placed).iter()).map(|corner| corner - p).collect();
+    lambert(&corners).abs()
+}
+
+/// glTF renders no back faces of single-sided materials: a lamp below a ceiling lights the floor, and the ceiling above it
+/// only if it is double-sided. Light samples, paths that hit the lamp, and both together find this.
+#[test]
+fn single_sided_lamps_of_gltf_do_not_light_the_ceiling_above_them() {
+    let mut verdict = Verdict::on("a glTF lamp below a ceiling");
+    let floor = below_lamps();
+    let ceiling = looking(dvec3(-0.1, -0.15, -0.3), dvec3(0.4, 0.0, -0.3), 0.2);
+    for (name, double_sided, camera, height, is_lit) in [
+        ("floor, single-sided", false, floor.clone(), 0.7, true),
+        ("floor, double-sided", true, floor, 0.7, true),
+        ("ceiling, single-sided", false, ceiling.clone(), -0.3, false),
+        ("ceiling, double-sided", true, ceiling, -0.3, true),
+    ] {
+        let mut scene = lamp_model(height, [1.0; 3], false, emissive(double_sided));
+        let seen = scene.add_material(matte(ALBEDO as f32));
+        let black = scene.add_material(matte(0.0));
+        scene.add_plane(DVec3::ZERO, DVec3::Y, seen);
+        let opposite = camera.look_from.y.signum() * DVec3::Y;
+        scene.add_plane(opposite, DVec3::Y, black);
+        scene.cameras = vec![camera];
+        let lit = mean_irradiance(&scene, |p| from_lamp(height, p));
+        let expected = if is_lit { lit } else { 0.0 };
+        let mut measure = |how: &str, scene: &Scene, (samples, depth), from, tolerance: f64| {
+            let settings = paths(samples, (24, 16), depth);
+            let found = mean_from(scene, &settings, from) * PI / ALBEDO;
+            let what = format!("{name}, {how}");
+            near(&mut verdict, what, found, expected, tolerance * expected);
+        };
+        measure("table", &scene, (512, 0), usize::MAX, 0.005);
+        let mut behind_glass = scene.clone();
+        add_glass(&mut behind_glass, height);
+        measure("behind glass", &behind_glass, (1024, 1), usize::MAX, 0.01);
+        // A single patch has a table. The other light does not reach what is seen.
+        scene.add_point_light(5.0 * opposite, 0.1);
+        measure("tree", &scene, (512, 0), 1, 0.005);
+    }
+    verdict.close();
+}
+
+/// The front of a triangle is where its corners run counter-clockwise, or clockwise below a node with a negative
+/// determinant: a reflection turns a lamp around only if it is along the normal.
+#[test]
+fn mirrored_lamps_of_gltf_shine_from_their_fronts() {
+    let mut verdict = Verdict::on("mirrored glTF lamps over a floor");
+    let height = 0.7;
+    for has_normals in [false, true] {
+        for (scale, is_lit) in [
+            ([1.0, 1.0, 1.0], true),
+            ([-1.0, 1.0, 1.0], true),
+            ([1.0, 1.0, -1.0], true),
+            ([1.0, -1.0, 1.0], false),
+            ([-1.0, -1.0, -1.0], false),
+        ] {
+            let mut scene = lamp_model(height, scale, has_normals, emissive(false));
+            let seen = scene.add_material(matte(ALBEDO as f32));
+            scene.add_plane(DVec3::ZERO, DVec3::Y, seen);
+            scene.cameras = vec![below_lamps()];
+            let lit = mean_irradiance(&scene, |p| from_lamp(height, p));
+            let found = mean(&scene, &paths(256, (24, 16), 0)) * PI / ALBEDO;
+            let expected = if is_lit { lit } else { 0.0 };
+            let name = format!("{scale:?}, normals {has_normals}");
+            near(&mut verdict, name, found, expected, 0.01 * expected);
+        }
+    }
+    verdict.close();
+}
+
+/// A surface stays visible from behind. Without light, it shows what it emits there: nothing if it is single-sided, but an
+/// unlit one shows its colour.
+#[test]
+fn both_integrators_show_what_the_back_of_a_gltf_surface_emits() {
+    let mut verdict = Verdict::on("glTF surfaces seen from both sides");
+    let unlit = |double_sided: bool| {
+        json!({
+            "doubleSided": double_sided, "extensions": { "KHR_materials_unlit": {} },
+            "pbrMetallicRoughness": { "baseColorFactor": [1, 1, 1, 1] },
+        })
+    };
+    for (name, material, behind) in [
+        ("single-sided", emissive(false), 0.0),
+        ("double-sided", emissive(true), 1.0),
+        ("unlit, single-sided", unlit(false), 1.0),
+        ("unlit, double-sided", unlit(true), 1.0),
+    ] {
+        let mut scene = lamp_model(0.0, [1.0; 3], false, material);
+        for (side, from, expected) in [("front", -1.0, 1.0), ("back", 1.0, behind)] {
+            scene.cameras = vec![looking(ASIDE + dvec3(0.2, from, 0.1), ASIDE, 0.1)];
+            for integrator in [Integrator::Whitted, Integrator::Path] {
+                let settings = RenderSettings {
+                    integrator,
+                    ..paths(4, (8, 8), 1)
+                };
+                let found = mean(&scene, &settings);
+                let what = format!("{name}, {side}, {integrator:?}");
+                near(&mut verdict, what, found, expected, 1e-6);
+            }
+        }
     }
     verdict.close();
 }

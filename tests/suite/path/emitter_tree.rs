@@ -15,8 +15,8 @@ use crate::support::verdict::Verdict;
 use bytemuck::cast_slice;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Quat, Vec3, dvec3, vec3};
 use glimray::layout::{
-    LIGHT_INDEX_MASK, LIGHT_LEAF, MATERIAL_TWO_SIDED, NO_INSTANCE, PackedCluster, PackedEmitter,
-    PackedInstance, PackedKey, SHAPE, SHAPE_SPHERE,
+    LIGHT_INDEX_MASK, LIGHT_LEAF, MATERIAL_TWO_SIDED_EMISSION, NO_INSTANCE, PackedCluster,
+    PackedEmitter, PackedInstance, PackedKey, SHAPE, SHAPE_SPHERE,
 };
 use glimray::pack::{self, PackedScene, PackedView};
 use glimray::render::{LightSource, Slicing};
@@ -62,7 +62,10 @@ pub fn mixed(lamps: usize) -> Scene {
         ),
         node: None,
     });
-    let shapes = scene.add_material(glowing(5.0, false));
+    let shapes = scene.add_material(Material {
+        two_sided_emission: false,
+        ..glowing(5.0, true)
+    });
     let facing_down = DAffine3 {
         matrix3: DMat3::from_cols(0.1 * DVec3::X, -DVec3::Y, -0.15 * DVec3::Z),
         translation: dvec3(-0.6, 0.8, 0.7),
@@ -125,7 +128,7 @@ impl Placed {
         Self {
             corners: corners.to_vec(),
             front: Some(side * across),
-            two_sided: flags & MATERIAL_TWO_SIDED != 0,
+            two_sided: flags & MATERIAL_TWO_SIDED_EMISSION != 0,
         }
     }
 

@@ -52,6 +52,9 @@ pub(in crate::import::native) struct MaterialTable {
     pub emission: Option<Spanned<ColorOrTexture>>,
     /// Whether both sides are lit alike (the default), or only the side that the normal points to.
     pub two_sided: bool,
+    /// Whether the back of a two-sided surface emits as its front does (the default), or not at all. The front is the
+    /// side that the normal points to.
+    pub two_sided_emission: bool,
 }
 
 impl Default for MaterialTable {
@@ -70,6 +73,7 @@ impl Default for MaterialTable {
             coverage: None,
             emission: None,
             two_sided: true,
+            two_sided_emission: true,
         }
     }
 }

@@ -144,6 +144,25 @@ fn emission_has_its_strength_and_what_is_unlit_shines() {
     assert_eq!((found.diffuse, found.specular), (Vec3::ZERO, Vec3::ZERO));
 }
 
+/// glTF's default is single-sided. Surfaces are seen from both sides, unlit ones with their colour.
+#[test]
+fn the_back_emits_if_the_material_is_double_sided_or_unlit() {
+    let sides = |more: Value| {
+        let mut source = json!({ "emissiveFactor": [1, 1, 1] });
+        source
+            .as_object_mut()
+            .expect("a table")
+            .extend(more.as_object().expect("one").clone());
+        let found = material(source);
+        (found.two_sided, found.two_sided_emission)
+    };
+    assert_eq!(sides(json!({})), (true, false));
+    assert_eq!(sides(json!({ "doubleSided": false })), (true, false));
+    assert_eq!(sides(json!({ "doubleSided": true })), (true, true));
+    let unlit = json!({ "extensions": { "KHR_materials_unlit": {} } });
+    assert_eq!(sides(unlit), (true, true));
+}
+
 #[test]
 fn every_parameter_is_kept() {
     let found = material(json!({

@@ -74,6 +74,10 @@ fn local_shading(fields: &mut Fields, index: usize, material: &Material) {
     let tip = "Shade both sides. Otherwise the back shows ambient light only.";
     let set = with(index, |material, to| material.two_sided = to);
     fields.toggle(("Two-sided", tip), material.two_sided, set);
+    let tip = "Emit on both sides of a two-sided surface. Otherwise its back emits nothing.";
+    let set = with(index, |material, to| material.two_sided_emission = to);
+    let label = ("Two-sided emission", tip);
+    fields.toggle(label, material.two_sided_emission, set);
 }
 
 fn mirror_and_glass(fields: &mut Fields, index: usize, material: &Material) {
