@@ -78,13 +78,17 @@ fn polling_gives_the_picture_that_waiting_gives() {
     let expected = waited_for();
     for host_copy in [true, false] {
         let gpu = Gpu::new(&AdapterChoice::default()).expect("a device");
-        let mut renderer = renderer(gpu, policy(host_copy));
-        let working = poll_to_the_end(&mut renderer);
-        assert!(working > 0, "every submission was done at once");
-        assert_eq!(renderer.poll().expect("a status"), Status::Done);
-        let picture = renderer.develop(&Tone::LINEAR).expect("a picture");
         let name = format!("host copy {host_copy}");
-        check_same_bits(&name, &expected, &picture).expect("the same picture");
+        // Each submission is so short that it may be done when it is first asked for.
+        let was_working = (0..100).any(|_| {
+            let mut renderer = renderer(gpu.clone(), policy(host_copy));
+            let working = poll_to_the_end(&mut renderer);
+            assert_eq!(renderer.poll().expect("a status"), Status::Done);
+            let picture = renderer.develop(&Tone::LINEAR).expect("a picture");
+            check_same_bits(&name, &expected, &picture).expect("the same picture");
+            working > 0
+        });
+        assert!(was_working, "every submission was done at once");
     }
 }
 
