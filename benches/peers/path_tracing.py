@@ -35,7 +35,7 @@ WALLS = [
 ]
 SPHERES = ([0.42, 0.36, 0.3], 0.36), ([-0.42, 0.5, -0.3], 0.5)
 # Reflectance 1 at every angle: Mitsuba's rough metals have no Fresnel's factor of a colour.
-METALS = {"satin": 0.35, "dull": 0.7}
+METALS = {"polished": 0.2, "satin": 0.35, "dull": 0.7}
 ROUGHNESS_OF_GLASS = 0.5
 # Width and height in texels.
 SKY_SIZE = 128, 64
@@ -45,12 +45,35 @@ SKY_SIZE = 128, 64
 class Box:
     """The materials of the two spheres; the bounces after the first hit, None is without a limit; glimray's --bsdf; and
     whether they stand in the box with its lamp, or on its floor under a sky. Mitsuba's microfacets are those of glTF's
-    specification, without compensation; its Fresnel's factor is exact, where that has Schlick's approximation."""
+    specification, without compensation; its Fresnel's factor is exact, where that has Schlick's approximation. Objects that
+    shine stand in the box instead of its lamp, and of the spheres."""
 
     materials: tuple
     bounces: int | None
     bsdf: str = "full"
     has_sky: bool = False
+    objects: tuple = ()
+
+
+@dataclass
+class Object:
+    """A "box" or "rectangle" from -1 to 1, the latter facing z, or a "sphere" of radius 1, scaled, turned about the axis x and then y, and
+    moved. "triangles" are a box."""
+
+    kind: str
+    material: str
+    center: tuple
+    scale: tuple
+    turn: tuple = (0, 0)
+
+
+# The radiance of what shines, from its front.
+GLOWS = {"warm": [9, 6, 3], "cold": [2, 4, 7], "bright": [40, 40, 40]}
+PLATES = (
+    Object("rectangle", "satin", (-0.45, 0.35, 0), (0.4, 0.5, 1), (-50, 0)),
+    Object("rectangle", "dull", (0.45, 0.3, 0.1), (0.4, 0.5, 1), (-65, 0)),
+    Object("rectangle", "polished", (0, 0.05, 0.45), (0.7, 0.3, 1), (-88, 0)),
+)
 
 
 SCENES = {
@@ -59,6 +82,19 @@ SCENES = {
     "metal": Box(("satin", "dull"), None, "spec"),
     "frosted": Box(("frosted", "white"), None, "spec"),
     "sky": Box(("satin", "white"), 4, "spec", True),
+    "glowing_box": Box((), 4, "spec", objects=(*PLATES, Object("box", "warm", (0, 1.3, -0.2), (0.3, 0.1, 0.2), (20, 30)))),
+    "glowing_triangles": Box((), 4, "spec",
+                             objects=(*PLATES, Object("triangles", "warm", (0.2, 1.2, 0), (0.25, 0.1, 0.25), (-20, 50)))),
+    "glowing_sphere": Box((), 4, "spec", objects=(*PLATES, Object("sphere", "bright", (-0.1, 1.4, 0), (0.08, 0.08, 0.08)))),
+    # Its back is close to the ceiling, which it does not light.
+    "panel": Box((), 4, "spec", objects=(*PLATES, Object("rectangle", "warm", (0, 1.98, 0), (0.4, 0.35, 1), (90, 0)))),
+    "lamps": Box((), 4, "spec", objects=(
+        *PLATES,
+        Object("box", "cold", (-0.6, 1.3, -0.3), (0.1, 0.3, 0.1), (0, 40)),
+        Object("sphere", "bright", (0.6, 1.5, 0.2), (0.05, 0.05, 0.05)),
+        Object("rectangle", "warm", (0, 1.6, -0.9), (0.3, 0.2, 1)),
+        Object("triangles", "warm", (0.1, 1.0, 0.3), (0.05, 0.05, 0.05), (30, 30)),
+    )),
 }
 
 
@@ -84,7 +120,7 @@ def native(name):
         lines.append('background = { picture = "sky.exr" }')
     lines.append("[camera]")
     lines += [f"{key} = {value}" for key, value in CAMERA.items()]
-    if not scene.has_sky:
+    if not scene.has_sky and not scene.objects:
         lines += [
             "[[lights]]",
             f"rectangle = {{ center = [0, 1.98, 0], edge_u = [{LAMP['edge_u']}, 0, 0], edge_v = [0, 0, {LAMP['edge_v']}], "
@@ -99,6 +135,8 @@ def native(name):
     ]
     lines += [f"{key} = {{ pbr = {{ base_color = [1, 1, 1], metallic = 1, roughness = {roughness} }} }}"
               for key, roughness in METALS.items()]
+    lines += [f"{key} = {{ phong = {{ diffuse = [0, 0, 0] }}, emission = {radiance}, two_sided_emission = false }}"
+              for key, radiance in GLOWS.items()]
     for center, normal, material in WALLS[:1] if scene.has_sky else WALLS:
         lines += [
             "[[objects]]",
@@ -111,7 +149,33 @@ def native(name):
             f"sphere = {{ center = {center}, radius = {radius} }}",
             f'material = "{material}"',
         ]
+    for one in scene.objects:
+        forms = {
+            "box": ["box = { min = [-1, -1, -1], max = [1, 1, 1] }"],
+            "sphere": ["sphere = { center = [0, 0, 0], radius = 1 }"],
+            "rectangle": ["rectangle = { center = [0, 0, 0], normal = [0, 0, 1], size = [2, 2] }"],
+            "triangles": [f"triangle = {{ vertices = {corners} }}" for corners in triangles()],
+        }
+        for form in forms[one.kind]:
+            lines += [
+                "[[objects]]",
+                form,
+                f"transform = {{ translate = {list(one.center)}, rotate_deg = {[*one.turn, 0]}, scale = {list(one.scale)} }}",
+                f'material = "{one.material}"',
+            ]
     return "\n".join(lines) + "\n"
+
+
+def triangles():
+    """The corners of the triangles of a box from -1 to 1, counter-clockwise as seen from outside."""
+    for axis in range(3):
+        for side in (-1, 1):
+            def corner(u, v):
+                point = [0, 0, 0]
+                point[axis], point[(axis + 1) % 3], point[(axis + 2) % 3] = side, side * u, v
+                return point
+            yield [corner(-1, -1), corner(1, -1), corner(1, 1)]
+            yield [corner(-1, -1), corner(1, 1), corner(-1, 1)]
 
 
 def rgb(values):
@@ -129,6 +193,8 @@ def bsdf(material):
     if material in METALS:
         return {"type": "roughconductor", "material": "none", "distribution": "ggx", "alpha": METALS[material] ** 2,
                 "specular_reflectance": rgb([1, 1, 1])}
+    if material in GLOWS:
+        return {"type": "diffuse", "reflectance": rgb([0, 0, 0])}
     return {"type": "diffuse", "reflectance": rgb(MATTE[material])}
 
 
@@ -158,7 +224,7 @@ def peer(name, side):
         texels = panorama(*SKY_SIZE, 0, 1 / (SKY_SIZE[1] - 1))
         turn = mi.ScalarTransform4f().rotate([0, 1, 0], 180)
         scene["sky"] = {"type": "envmap", "bitmap": mi.Bitmap(texels), "to_world": turn}
-    else:
+    elif not box.objects:
         area = 4 * LAMP["edge_u"] * LAMP["edge_v"]
         radiance = [strength * pi / area for strength in LAMP["strength"]]
         # A visible lamp of glimray reflects nothing.
@@ -169,6 +235,16 @@ def peer(name, side):
         scene[f"wall{i}"] = rectangle(center, normal, [1, 1], bsdf(material))
     for i, ((center, radius), material) in enumerate(zip(SPHERES, box.materials)):
         scene[f"sphere{i}"] = {"type": "sphere", "center": center, "radius": radius, "bsdf": bsdf(material)}
+    for i, one in enumerate(box.objects):
+        place = (mi.ScalarTransform4f().translate(one.center) @ mi.ScalarTransform4f().rotate([0, 1, 0], one.turn[1])
+                 @ mi.ScalarTransform4f().rotate([1, 0, 0], one.turn[0]) @ mi.ScalarTransform4f().scale(one.scale))
+        kind = {"box": "cube", "triangles": "cube"}.get(one.kind, one.kind)
+        surface = bsdf(one.material)
+        if one.kind == "rectangle" and one.material in METALS:
+            surface = {"type": "twosided", "bsdf": surface}
+        scene[f"object{i}"] = {"type": kind, "to_world": place, "bsdf": surface}
+        if one.material in GLOWS:
+            scene[f"object{i}"]["emitter"] = {"type": "area", "radiance": rgb(GLOWS[one.material])}
     return mi.load_dict(scene)
 
 

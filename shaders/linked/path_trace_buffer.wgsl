@@ -319,6 +319,8 @@ const types__MATERIAL_METALLIC_ROUGHNESS: u32 = 256u;
 
 const types__MATERIAL_SHADOW_CATCHER: u32 = 512u;
 
+const types__MATERIAL_TWO_SIDED_EMISSION: u32 = 1024u;
+
 const types__MATERIAL_ROWS: u32 = 20u;
 
 const types__LAYERS_ROW: u32 = 9u;
@@ -4916,7 +4918,7 @@ fn emitters__sample_emitter(p: vec3f, source: light_choice__Source, u: vec2f) ->
 		front = instance__placed_normal(instance__space_of(instance), front);
 	}
 	let is_outside = (dot(front, n) < 0.0) == (cosine < 0.0);
-	let shines = is_outside || (material__load_optics(material).flags & types__MATERIAL_TWO_SIDED) != 0u;
+	let shines = is_outside || (material__load_optics(material).flags & types__MATERIAL_TWO_SIDED_EMISSION) != 0u;
 	radiance *= coating__through_coat(surface, abs(cosine));
 	let facing = select(0.0, abs(cosine), shines && source.chance > 0.0);
 	let actual = source.chance / max_f32(0.5 * length(across), 1e-30);
@@ -4934,7 +4936,7 @@ fn emitters__sample_shape(p: vec3f, emitter: types__PackedEmitter, source: light
 		radiance *= texture__texture_color(material__load_texture(glow.texture), found.surface);
 	}
 	let cosine = -dot(found.n, found.direction);
-	let shines = cosine > 0.0 || (material__load_optics(shape.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
+	let shines = cosine > 0.0 || (material__load_optics(shape.material).flags & types__MATERIAL_TWO_SIDED_EMISSION) != 0u;
 	radiance *= select(0.0, coating__through_coat(found.surface, abs(cosine)), shines && source.chance > 0.0);
 	let reach = numeric__max_component(abs(found.surface.p)) + numeric__max_component(abs(p));
 	return emitters__LightSample(shading__Incident(found.direction, area_light__short_of(found.distance, reach, abs(cosine)), radiance / max_f32(source.chance * found.density, 1e-30)), light_weight__emitter_glow(source.index, glow) * source.rate * found.area * found.density);
@@ -4944,7 +4946,7 @@ fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: v
 	if (!bindings__HAS_EMISSION) {
 		return vec3f(0.0);
 	}
-	let shines = surface.outside || (optics.flags & types__MATERIAL_TWO_SIDED) != 0u;
+	let shines = surface.outside || (optics.flags & types__MATERIAL_TWO_SIDED_EMISSION) != 0u;
 	return select(vec3f(0.0), glow * material__load_emission(surface.material), shines);
 }
 

@@ -589,6 +589,8 @@ const types__MATERIAL_THIN: u32 = 128u;
 
 const types__MATERIAL_METALLIC_ROUGHNESS: u32 = 256u;
 
+const types__MATERIAL_TWO_SIDED_EMISSION: u32 = 1024u;
+
 const types__MATERIAL_ROWS: u32 = 20u;
 
 const types__LAYERS_ROW: u32 = 9u;
@@ -4827,7 +4829,7 @@ fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: v
 	if (!bindings__HAS_EMISSION) {
 		return vec3f(0.0);
 	}
-	let shines = surface.outside || (optics.flags & types__MATERIAL_TWO_SIDED) != 0u;
+	let shines = surface.outside || (optics.flags & types__MATERIAL_TWO_SIDED_EMISSION) != 0u;
 	return select(vec3f(0.0), glow * material__load_emission(surface.material), shines);
 }
 

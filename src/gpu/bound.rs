@@ -1,9 +1,9 @@
 //! A bound on each loop, for software adapters.
 //!
-//! Mesa 22.3 computes a value that leaves a loop in the rounds of all lanes, those included that have left the loop, unless
+//! Mesa 22.3 goes on computing a value that leaves a loop for lanes that have left it, as long as other lanes stay, unless
 //! several exits of the loop make it choose between values (docs/src/internals/drivers.md, "Loops with one exit"). The bound is
 //! a second exit in front of all else in the body: each value that leaves the loop is then chosen lane by lane. wgpu's own
-//! bound has the same effect, but its GLSL has none.
+//! bound has the same effect, but GLSL that naga writes has none.
 
 use naga::{
     BinaryOperator, Block, Expression, Function, Handle, Literal, LocalVariable, Module, Range,

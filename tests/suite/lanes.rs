@@ -23,7 +23,7 @@ use std::sync::Arc;
 
 const SIZE: (u32, u32) = (27, 22);
 
-/// Mesa 22.3 gives lanes that leave the loop early the value of the last round, unless the loop has a second exit.
+/// Mesa 22.3 computes the value of lanes that have left once more in each round of the others, unless the loop has a second exit.
 #[test]
 fn a_value_leaves_a_loop_lane_by_lane() {
     const LEAVE_WITH_A_VALUE: &str = "

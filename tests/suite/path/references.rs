@@ -1,6 +1,7 @@
 //! Path-traced scenes against Mitsuba's pictures of them, which `benches/peers/path_tracing.py --references` wrote with
 //! Mitsuba 3.9.1: for each pixel the mean and the variance of that mean. Two spheres stand in a box under a lamp: matte ones,
-//! clear glass and a mirror, rough metals, rough glass; and two stand under a sky with a wide sun.
+//! clear glass and a mirror, rough metals, rough glass; and two stand under a sky with a wide sun. Then boxes, spheres and
+//! rectangles shine on plates of rough metal, one of them from just below the ceiling.
 //!
 //! Mitsuba's rough surfaces have the separable masking of glTF's specification, without compensation, so they are compared
 //! with `BsdfModel::Spec`. That has Schlick's approximation where Mitsuba's glass has Fresnel's equations: metals reflect
@@ -34,6 +35,11 @@ fn pictures_are_those_of_mitsuba_within_the_noise() {
         ("metal", 1000, BsdfModel::Spec),
         ("frosted", 1000, BsdfModel::Spec),
         ("sky", 4, BsdfModel::Spec),
+        ("glowing_box", 4, BsdfModel::Spec),
+        ("glowing_triangles", 4, BsdfModel::Spec),
+        ("glowing_sphere", 4, BsdfModel::Spec),
+        ("panel", 4, BsdfModel::Spec),
+        ("lamps", 4, BsdfModel::Spec),
     ] {
         let path = format!("tests/references/paths/{name}.toml");
         let scene = import::load(Path::new(&path)).unwrap_or_else(|error| panic!("{error}"));
