@@ -131,7 +131,7 @@ fn under_lamps(kind: &LightKind, count: usize, random: &mut Random) -> Scene {
 /// A background whose upper half is brighter than its lower half.
 fn under_the_sky(random: &mut Random) -> Scene {
     let mut scene = dark(random);
-    let texel = |index| Vec3::splat(if index < 64 * 16 { RADIANCE } else { 0.5 });
+    let texel = |index| Vec3::splat(if index < 64 * 16 { RADIANCE } else { 0.2 });
     let picture = Picture::opaque(64, 32, (0..64 * 32).map(texel));
     scene.pictures.push(Arc::new(picture));
     scene.background = Background::Picture {
@@ -210,7 +210,7 @@ fn densities_of_light_samples_are_those_that_hits_take_for_them() {
     let scene = under_the_sky(&mut random);
     check(&mut verdict, "sky", &scene, |[_, y, _]| match y {
         0.15..=1.0 => Some(RADIANCE),
-        -1.0..=-0.15 => Some(0.5),
+        -1.0..=-0.15 => Some(0.2),
         _ => None,
     });
     verdict.close();
