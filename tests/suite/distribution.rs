@@ -203,6 +203,17 @@ fn what_users_install_is_optimised_as_a_whole() {
     assert_eq!(release["strip"].as_bool(), Some(true));
 }
 
+/// What is tested computes as what is installed: only how much it is optimised differs.
+#[test]
+fn the_profile_of_tests_has_the_checks_of_the_program() {
+    let manifest = manifest();
+    let profile = &manifest["profile"]["ci"];
+    for check in ["debug-assertions", "overflow-checks"] {
+        assert_eq!(profile[check].as_bool(), Some(false), "{check}");
+    }
+    assert!(!cfg!(debug_assertions), "run tests with --profile ci");
+}
+
 #[test]
 fn the_changelog_has_the_version_of_the_manifest() {
     let manifest = manifest();
