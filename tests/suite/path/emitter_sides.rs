@@ -314,7 +314,13 @@ fn single_sided_lamps_of_gltf_do_not_light_the_ceiling_above_them() {
             let settings = paths(samples, (24, 16), depth);
             let found = mean_from(scene, &settings, from) * PI / ALBEDO;
             let what = format!("{name}, {how}");
-            near(&mut verdict, what, found, expected, tolerance * expected + 1e-12);
+            near(
+                &mut verdict,
+                what,
+                found,
+                expected,
+                tolerance * expected + 1e-12,
+            );
         };
         measure("table", &scene, (512, 0), usize::MAX, 0.005);
         let mut behind_glass = scene.clone();
