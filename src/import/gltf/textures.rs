@@ -68,7 +68,7 @@ impl Reader<'_> {
             // It shines with its colour, and has no layers.
             material.layer_textures = None;
         }
-        // An unlit surface is seen from both sides.
+        // Unlit surfaces are seen from both sides.
         material.two_sided_emission = source.double_sided || !can_emit;
         if material.has_classical_maps() && !self.traces_paths {
             self.note_means(&layers, here);

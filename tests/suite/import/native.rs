@@ -469,7 +469,7 @@ bad scene (a.toml:2:23): a scale cannot be 0. See `glimray schema` for what is a
 bad scene (a.toml:2:23): a scale cannot be 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:23): invalid type: boolean `true`, expected a number or [x, y, z]. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:12): invalid type: integer `3`, expected the name of a material, or a table. See `glimray schema` for what is allowed.
-bad scene (a.toml:2:14): unknown key `fong`. Allowed here: `phong`, `pbr`, `reflect`, `refract`, `optics`, `normal_map`, `height_map`, `occlusion_map`, `thin`, `shadow_catcher`, `coverage`, `emission`, `two_sided`.
+bad scene (a.toml:2:14): unknown key `fong`. Allowed here: `phong`, `pbr`, `reflect`, `refract`, `optics`, `normal_map`, `height_map`, `occlusion_map`, `thin`, `shadow_catcher`, `coverage`, `emission`, `two_sided`, `two_sided_emission`.
 bad scene (a.toml:2:45): -1 is not 0 or more. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:33): unknown key `colour`, did you mean `color`? Allowed here: `position`, `color`, `intensity`, `attenuation`.
 bad scene (a.toml:2:47): unknown value `linear`. Allowed here: `none`, `inverse-square`.
