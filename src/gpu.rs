@@ -153,17 +153,10 @@ impl Gpu {
         Ok(Self {
             choice: choice.clone(),
             report,
-            instance,
-            adapter,
-            device,
-            queue,
             is_own: true,
             lost,
             stray_error,
-            pipelines: Arc::default(),
-            early: Arc::default(),
-            lanes_proved: Arc::default(),
-            on_compilation: None,
+            ..Self::from_wgpu(instance, adapter, device, queue)
         })
     }
 
