@@ -6,7 +6,7 @@ TARGET := $(or $(CARGO_TARGET_DIR),target)
 FLAGS := --profile ci --locked
 # The program that targets run.
 GLIMRAY = $(TARGET)/release/glimray
-demo test: GLIMRAY = $(TARGET)/ci/glimray
+demo test drivers: GLIMRAY = $(TARGET)/ci/glimray
 
 # Mesa's device-select layer complains on machines without a desktop session (see src/cli/mesa.rs).
 export NODEVICE_SELECT := 1
@@ -29,12 +29,13 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test farm-test bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint features headless wasm
+.PHONY: help demo test farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint features headless wasm
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
 	@echo 'make test      format, lints, documentation, all tests (about 45 minutes the first time)'
 	@echo 'make farm-test render on a Slurm of its own, which it installs (Debian, as root), and compare the bytes'
+	@echo 'make drivers   test on Mesa of Debian 13 and unstable and on SwiftShader, which it fetches (Debian)'
 	@echo 'make bench     measure speed on built-in scenes'
 	@echo 'make peers     measure speed beside POV-Ray, Embree, Mitsuba and obvhs, which it installs'
 	@echo 'make docs      build the manual with mdBook and check its links'
@@ -68,6 +69,12 @@ farm-test: build driver
 		[ "$$(id -u)" -eq 0 ] || { echo 'farm-test: skipped, Slurm needs root here'; exit 0; }; \
 		command -v slurmctld >/dev/null || exit 0; \
 		tests/farm/slurm.sh $(GLIMRAY) assets/scenes
+
+drivers: compiler shaders
+	$(CARGO) test $(FLAGS) --no-run
+	@$(MAKE) --no-print-directory driver GLIMRAY=$(GLIMRAY)
+	@suite=$$($(CARGO) test $(FLAGS) --test suite --no-run 2>&1 | sed -n 's/.*Executable.*(\(.*\))$$/\1/p') && \
+		tests/drivers/run.sh $(TARGET)/drivers $(GLIMRAY) "$$suite"
 
 bench: build driver
 	$(GLIMRAY) bench

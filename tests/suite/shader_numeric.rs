@@ -112,6 +112,21 @@ fn infinities_and_nans_are_found_by_their_bits() {
 }
 
 #[test]
+fn magnitudes_are_compared_with_a_limit_by_their_bits() {
+    let limit = 8f32.to_bits();
+    let above = f32::from_bits(limit + 1);
+    #[rustfmt::skip]
+    gpu().check("lib::numeric::is_within", Tolerance::Exact, &[
+        ("small", ([0.0, -1.0, 7.5f32], limit), true),
+        ("the limit, of either sign", ([8.0, -8.0, 8.0], limit), true),
+        ("just above", ([0.0, above, 0.0], limit), false),
+        ("just above, negative", ([0.0, 0.0, -above], limit), false),
+        ("infinite", ([f32::INFINITY, 0.0, 0.0], limit), false),
+        ("not a number", ([0.0, 0.0, f32::NAN], limit), false),
+    ]);
+}
+
+#[test]
 fn the_largest_component_counts_with_its_sign() {
     #[rustfmt::skip]
     gpu().check("lib::numeric::max_component", Tolerance::Absolute(0.0), &[
