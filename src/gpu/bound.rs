@@ -10,10 +10,7 @@ use naga::{
     Scalar, Span, Statement, Type, TypeInner,
 };
 
-/// Rounds of a loop before it ends. No driver lets a kernel run that long.
-const MOST_ROUNDS: u32 = u32::MAX;
-
-/// Gives each loop of a module a counter that ends it after [`MOST_ROUNDS`].
+/// Gives each loop of a module a counter that ends it after 2^32 - 1 rounds: no driver lets a kernel run that long.
 pub fn bound_loops(module: &mut Module) {
     let ty = module.types.insert(
         Type {
@@ -64,7 +61,7 @@ fn counter(ty: Handle<Type>, function: &mut Function) -> (Statement, Block) {
     let mut add = |expression| expressions.append(expression, Span::UNDEFINED);
     let pointer = add(Expression::LocalVariable(variable));
     let [most, zero, one] =
-        [MOST_ROUNDS, 0, 1].map(|number| add(Expression::Literal(Literal::U32(number))));
+        [u32::MAX, 0, 1].map(|number| add(Expression::Literal(Literal::U32(number))));
     let left = add(Expression::Load { pointer });
     let binary = |op, right| Expression::Binary { op, left, right };
     let is_over = add(binary(BinaryOperator::Equal, zero));
