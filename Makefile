@@ -71,7 +71,7 @@ farm-test: build driver
 		tests/farm/slurm.sh $(GLIMRAY) assets/scenes
 
 drivers: compiler shaders
-	$(CARGO) test $(FLAGS) --no-run
+	$(CARGO) test $(FLAGS) --test suite --no-run
 	@$(MAKE) --no-print-directory driver GLIMRAY=$(GLIMRAY)
 	@suite=$$($(CARGO) test $(FLAGS) --test suite --no-run 2>&1 | sed -n 's/.*Executable.*(\(.*\))$$/\1/p') && \
 		tests/drivers/run.sh $(TARGET)/drivers $(GLIMRAY) "$$suite"

@@ -30,6 +30,7 @@ pub(crate) use readback::{Reading, Source};
 pub(crate) use shader::Compiled;
 pub use shader::{Kernel, Overrides, Variant};
 pub(crate) use timer::Timer;
+pub use trusted::runtime_checks;
 
 use std::{
     sync::{

@@ -86,7 +86,7 @@ SCENES = {
     "glowing_triangles": Box((), 4, "spec",
                              objects=(*PLATES, Object("triangles", "warm", (0.2, 1.2, 0), (0.25, 0.1, 0.25), (-20, 50)))),
     "glowing_sphere": Box((), 4, "spec", objects=(*PLATES, Object("sphere", "bright", (-0.1, 1.4, 0), (0.08, 0.08, 0.08)))),
-    # Its back is close to the ceiling, which it does not light.
+    # The back of the panel is close to the ceiling and must not light it.
     "panel": Box((), 4, "spec", objects=(*PLATES, Object("rectangle", "warm", (0, 1.98, 0), (0.4, 0.35, 1), (90, 0)))),
     "lamps": Box((), 4, "spec", objects=(
         *PLATES,

@@ -5,7 +5,7 @@
 //! other programs that use the library may not.
 
 use super::{Gpu, GpuError, Source};
-use bytemuck::pod_collect_to_vec;
+use bytemuck::{cast_slice, pod_collect_to_vec};
 use std::sync::atomic::Ordering;
 
 /// Invocations, a workgroup of those that trace.
@@ -53,33 +53,18 @@ impl Gpu {
             bytes,
             wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
         )?;
+        let texels: Vec<[u32; 4]> = (0..COUNT).map(|index| [0, texel(index), 0, 0]).collect();
+        let texels: &[u8] = cast_slice(&texels);
+        let format = wgpu::TextureFormat::Rgba32Uint;
+        let image = self.allocate_image(
+            "lanes",
+            texels.len() as u64,
+            (COUNT, None),
+            (format, wgpu::TextureUsages::STORAGE_BINDING),
+        )?;
+        self.write_image(&image, 0, texels)?;
         let encoder = self.scoped("lanes", || {
             let device = &self.device;
-            let texture = device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("lanes"),
-                size: wgpu::Extent3d {
-                    width: COUNT,
-                    height: 1,
-                    depth_or_array_layers: 1,
-                },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: wgpu::TextureFormat::Rgba32Uint,
-                usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_DST,
-                view_formats: &[],
-            });
-            let texels: Vec<[u32; 4]> = (0..COUNT).map(|index| [0, texel(index), 0, 0]).collect();
-            self.queue.write_texture(
-                texture.as_image_copy(),
-                bytemuck::cast_slice(&texels),
-                wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(16 * COUNT),
-                    rows_per_image: None,
-                },
-                texture.size(),
-            );
             let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some("lanes"),
                 source: wgpu::ShaderSource::Wgsl(KERNEL.replace("OTHER", &other).into()),
@@ -92,14 +77,13 @@ impl Gpu {
                 compilation_options: Default::default(),
                 cache: None,
             });
-            let view = texture.create_view(&Default::default());
             let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("lanes"),
                 layout: &pipeline.get_bind_group_layout(0),
                 entries: &[
                     wgpu::BindGroupEntry {
                         binding: 0,
-                        resource: wgpu::BindingResource::TextureView(&view),
+                        resource: wgpu::BindingResource::TextureView(&image),
                     },
                     wgpu::BindGroupEntry {
                         binding: 1,

@@ -203,7 +203,7 @@ fn what_users_install_is_optimised_as_a_whole() {
     assert_eq!(release["strip"].as_bool(), Some(true));
 }
 
-/// What is tested computes as what is installed: only how much it is optimised differs.
+/// Tests run with the checks that the installed program has: the profiles differ only in how much they optimise.
 #[test]
 fn the_profile_of_tests_has_the_checks_of_the_program() {
     let manifest = manifest();

@@ -2,7 +2,7 @@
 //! lanes do. Kernels that let lanes disturb each other fail here, and drivers that do.
 
 use crate::deformation;
-use crate::explain::{finish, random_pixels, renderer};
+use crate::explain::{finish, project_scenes, random_pixels, renderer};
 use crate::export;
 use crate::path::{emitter_tree, lobes};
 use crate::reference::compare::{assert_none, check_same_bits, fetched, open_gpu, try_render};
@@ -93,22 +93,9 @@ fn check_crops(
 
 /// Each scene in `assets/scenes` with its name.
 pub fn assets() -> Vec<(String, Scene)> {
-    let mut paths: Vec<_> = (Path::new("assets/scenes").read_dir().expect("a folder"))
-        .map(|entry| entry.expect("an entry").path())
-        .filter(|path| {
-            let ending = path.extension().and_then(|ending| ending.to_str());
-            ["toml", "scene", "nff", "obj", "glb"]
-                .map(Some)
-                .contains(&ending)
-        })
-        .collect();
-    paths.sort();
-    assert!(paths.len() > 25, "{paths:?}");
-    let load = |path: &std::path::PathBuf| {
-        let scene = import::load(path).unwrap_or_else(|error| panic!("{error}"));
-        (path.display().to_string(), scene)
-    };
-    paths.iter().map(load).collect()
+    let scenes = project_scenes(&["toml", "scene", "nff", "obj", "glb"]);
+    assert!(scenes.len() > 25, "{}", scenes.len());
+    scenes
 }
 
 #[test]

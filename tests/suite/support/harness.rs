@@ -9,7 +9,7 @@ use super::{
     words::{Input, Output},
 };
 use crate::kernels::link::FEATURES;
-use glimray::gpu::{bound_loops, inline_functions};
+use glimray::gpu::{bound_loops, inline_functions, runtime_checks};
 use std::{borrow::Cow, sync::OnceLock};
 use wesl::{FileResolver, Router, VirtualResolver, Wesl};
 use wgpu::{BufferUsages, util::DeviceExt};
@@ -252,12 +252,9 @@ impl Harness {
             label: Some(name),
             source: self.source(wgsl),
         };
-        let checks = wgpu::ShaderRuntimeChecks {
-            force_loop_bounding: false,
-            ..wgpu::ShaderRuntimeChecks::checked()
-        };
-        // SAFETY: all loops of functions under test end. Kernels have the same checks.
-        let module = unsafe { self.device.create_shader_module_trusted(descriptor, checks) };
+        // SAFETY: all loops of functions under test end.
+        let module =
+            unsafe { (self.device).create_shader_module_trusted(descriptor, runtime_checks()) };
         let layout = self
             .device
             .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
