@@ -95,6 +95,8 @@ pub struct PackedScene {
     pub uvs: Segments<[f32; 4]>,
     /// Of each vertex, zeros for meshes without tangents; empty if no mesh has any.
     pub tangents: Segments<PackedTangent>,
+    /// Linear red, green, blue and alpha of each vertex, white for meshes without colours; empty if no mesh has any.
+    pub colors: Segments<[f32; 4]>,
     /// In scene order, then the materials of visible lights.
     pub materials: Arc<[PackedMaterial]>,
     /// In scene order.
@@ -334,6 +336,7 @@ fn pack(
         },
         deforming: deform::meshes(scene, origin, &plan, &trees, !tangents.is_empty()),
         tangents,
+        colors: trees.colors(),
         materials,
         textures: material::textures(&scene.textures, origin, &pictures)?,
         texels,
@@ -417,6 +420,7 @@ impl PackedScene {
             .chain(self.vertices.bytes())
             .chain(self.uvs.bytes())
             .chain(self.tangents.bytes())
+            .chain(self.colors.bytes())
             .collect();
         parts.extend([cast_slice(&self.materials), cast_slice(&self.textures)]);
         parts.extend(self.texels.bytes());

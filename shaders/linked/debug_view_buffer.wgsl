@@ -256,6 +256,8 @@ const types__LARGEST_RADIANCE_BITS: u32 = 1400897536u;
 
 const types__MATERIAL_TWO_SIDED: u32 = 1u;
 
+const types__MATERIAL_COLORED_MIRROR: u32 = 2048u;
+
 const types__MATERIAL_ROWS: u32 = 20u;
 
 const types__LAYERS_ROW: u32 = 9u;
@@ -628,6 +630,11 @@ fn fetch__load_key_tangent(index: u32) -> types__PackedTangent {
 	return fetch__tangent_of(fetch__vertex_row(index + 1u));
 }
 
+fn fetch__load_color(index: u32) -> vec4f {
+	let parts = 1u + select(0u, 1u, bindings__HAS_UVS) + select(0u, 1u, bindings__HAS_TANGENTS);
+	return bitcast<vec4f>(fetch__vertex_row(parts * fetch__uv_row + index));
+}
+
 fn fetch__tangent_of(r0: vec4u) -> types__PackedTangent {
 	return types__PackedTangent(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w));
 }
@@ -751,6 +758,8 @@ override bindings__HAS_UVS: bool = true;
 override bindings__HAS_SECOND_UVS: bool = true;
 
 override bindings__HAS_TANGENTS: bool = true;
+
+override bindings__HAS_COLORS: bool = true;
 
 override bindings__HAS_ANISOTROPY: bool = false;
 
@@ -2257,7 +2266,8 @@ struct shading__Surface {
 	footprint: shading__Footprint,
 	curvature: f32,
 	tangent: vec4f,
-	coat_n: vec3f
+	coat_n: vec3f,
+	color: vec4f
 }
 
 struct shading__Footprint {
@@ -2311,6 +2321,11 @@ fn triangle_surface__triangle_surface(ray: tracing__Ray, hit: tracing__Hit, plac
 	if (bindings__MIXED_MATERIALS) {
 		phong = triangle_surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
 	}
+	var color = vec4f(1.0);
+	if (bindings__HAS_COLORS) {
+		color = vertex_color__interpolated_color(own, weights);
+		phong = vertex_color__colored_phong(phong, color.xyz, material.flags);
+	}
 	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
 	let n = numeric__normalize_or(normals * weights, ng);
 	var shading_normal = n;
@@ -2347,7 +2362,7 @@ fn triangle_surface__triangle_surface(ray: tracing__Ray, hit: tracing__Hit, plac
 		}
 	}
 	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
+	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips), color);
 }
 
 fn triangle_surface__mix_phong(p0: shading__Phong, p1: shading__Phong, p2: shading__Phong, b0: f32, b1: f32, b2: f32) -> shading__Phong {
@@ -2430,6 +2445,15 @@ fn material__load_layers(index: u32) -> types__PackedLayers {
 fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
 	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
 	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
+}
+
+fn vertex_color__interpolated_color(triangle: types__PackedTriangle, weights: vec3f) -> vec4f {
+	return mat3x4f(fetch__load_color(triangle.i0), fetch__load_color(triangle.i1), fetch__load_color(triangle.i2)) * weights;
+}
+
+fn vertex_color__colored_phong(phong: shading__Phong, color: vec3f, flags: u32) -> shading__Phong {
+	let is_mirror = (flags & types__MATERIAL_COLORED_MIRROR) != 0u;
+	return shading__Phong(color * phong.diffuse, select(phong.specular, saturate_vec3f(color * phong.specular), is_mirror), phong.shininess, color * phong.ambient, select(phong.reflect, saturate_vec3f(color * phong.reflect), is_mirror));
 }
 
 const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
@@ -2788,13 +2812,13 @@ fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
 	}
 	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -2803,7 +2827,7 @@ fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
 }
 
 fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {

@@ -416,6 +416,12 @@ const types__MATERIAL_METALLIC_ROUGHNESS: u32 = 256u;
 
 const types__MATERIAL_TWO_SIDED_EMISSION: u32 = 1024u;
 
+const types__MATERIAL_COLORED_MIRROR: u32 = 2048u;
+
+const types__MATERIAL_COLORED_GLASS: u32 = 4096u;
+
+const types__MATERIAL_COLORED_EMISSION: u32 = 8192u;
+
 const types__MATERIAL_ROWS: u32 = 20u;
 
 const types__LAYERS_ROW: u32 = 9u;
@@ -860,6 +866,11 @@ fn fetch__load_key_tangent(index: u32) -> types__PackedTangent {
 	return fetch__tangent_of(fetch__vertex_row(index + 1u));
 }
 
+fn fetch__load_color(index: u32) -> vec4f {
+	let parts = 1u + select(0u, 1u, bindings__HAS_UVS) + select(0u, 1u, bindings__HAS_TANGENTS);
+	return bitcast<vec4f>(fetch__vertex_row(parts * fetch__uv_row + index));
+}
+
 fn fetch__tangent_of(r0: vec4u) -> types__PackedTangent {
 	return types__PackedTangent(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w));
 }
@@ -1019,6 +1030,8 @@ override bindings__HAS_UVS: bool = true;
 override bindings__HAS_SECOND_UVS: bool = true;
 
 override bindings__HAS_TANGENTS: bool = true;
+
+override bindings__HAS_COLORS: bool = true;
 
 override bindings__HAS_ANISOTROPY: bool = false;
 
@@ -3409,7 +3422,7 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 	n = select(ng, n, dot(fresnel__mirrored(direction, n), ng) > 0.0);
 	let boundary = fresnel__boundary_at(optics.flags, clamp_f32(-dot(direction, n), 0.0, 1.0), eta);
 	var reflect = factors[0] * surface.phong.reflect;
-	var transmit = factors[1] * optics.transmit;
+	var transmit = factors[1] * vertex_color__transmit_of(surface, optics);
 	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
 		reflect *= boundary.reflectance;
 		transmit *= 1.0 - boundary.reflectance;
@@ -3553,7 +3566,8 @@ struct shading__Surface {
 	footprint: shading__Footprint,
 	curvature: f32,
 	tangent: vec4f,
-	coat_n: vec3f
+	coat_n: vec3f,
+	color: vec4f
 }
 
 struct shading__Footprint {
@@ -3606,6 +3620,10 @@ fn material__load_optics(index: u32) -> shading__Optics {
 	let r3 = fetch__material_row(row + 3u);
 	let r4 = fetch__material_row(row + 4u);
 	return shading__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
+}
+
+fn material__load_flags(index: u32) -> u32 {
+	return fetch__material_row(types__MATERIAL_ROWS * index + 1u).w;
 }
 
 fn material__load_medium(index: u32) -> shading__Medium {
@@ -3962,6 +3980,11 @@ fn triangle_surface__triangle_surface(ray: tracing__Ray, hit: tracing__Hit, plac
 	if (bindings__MIXED_MATERIALS) {
 		phong = triangle_surface__mix_phong(phong, material__load_material(v1.material).phong, material__load_material(v2.material).phong, b0, b1, b2);
 	}
+	var color = vec4f(1.0);
+	if (bindings__HAS_COLORS) {
+		color = vertex_color__interpolated_color(own, weights);
+		phong = vertex_color__colored_phong(phong, color.xyz, material.flags);
+	}
 	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
 	let n = numeric__normalize_or(normals * weights, ng);
 	var shading_normal = n;
@@ -3998,7 +4021,7 @@ fn triangle_surface__triangle_surface(ray: tracing__Ray, hit: tracing__Hit, plac
 		}
 	}
 	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips));
+	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips), color);
 }
 
 fn triangle_surface__mix_phong(p0: shading__Phong, p1: shading__Phong, p2: shading__Phong, b0: f32, b1: f32, b2: f32) -> shading__Phong {
@@ -4029,6 +4052,30 @@ fn tangent_space__surface_tangent(frame: mat3x3f, n: vec3f, flips: bool) -> vec4
 	let along = numeric__normalize_or(frame[0] - dot(frame[0], n) * n, vec3f(0.0));
 	let hand = select(-1.0, 1.0, (dot(cross(n, along), frame[1]) >= 0.0) != flips);
 	return vec4f(along, select(hand, 0.0, dot(along, along) == 0.0));
+}
+
+fn vertex_color__interpolated_color(triangle: types__PackedTriangle, weights: vec3f) -> vec4f {
+	return mat3x4f(fetch__load_color(triangle.i0), fetch__load_color(triangle.i1), fetch__load_color(triangle.i2)) * weights;
+}
+
+fn vertex_color__colored_phong(phong: shading__Phong, color: vec3f, flags: u32) -> shading__Phong {
+	let is_mirror = (flags & types__MATERIAL_COLORED_MIRROR) != 0u;
+	return shading__Phong(color * phong.diffuse, select(phong.specular, saturate_vec3f(color * phong.specular), is_mirror), phong.shininess, color * phong.ambient, select(phong.reflect, saturate_vec3f(color * phong.reflect), is_mirror));
+}
+
+fn vertex_color__transmit_of(surface: shading__Surface, optics: shading__Optics) -> vec3f {
+	if (bindings__HAS_COLORS && (optics.flags & types__MATERIAL_COLORED_GLASS) != 0u) {
+		return saturate_vec3f(surface.color.xyz * optics.transmit);
+	}
+	return optics.transmit;
+}
+
+fn vertex_color__emission_of(surface: shading__Surface) -> vec3f {
+	var emission = material__load_emission(surface.material);
+	if (bindings__HAS_COLORS && (material__load_flags(surface.material) & types__MATERIAL_COLORED_EMISSION) != 0u) {
+		emission *= surface.color.xyz;
+	}
+	return emission;
 }
 
 const ray_cone__MOST_TAPS: f32 = 8.0;
@@ -4143,7 +4190,7 @@ fn texture__unoccluded(surface: shading__Surface) -> f32 {
 	if (index == types__NO_TEXTURE) {
 		return 1.0;
 	}
-	return 1.0 + bitcast<f32>(map.y) * (texture__texture_color(material__load_texture(index), surface).x - 1.0);
+	return 1.0 + bitcast<f32>(map.y) * (saturate_f32(texture__texture_color(material__load_texture(index), surface).x) - 1.0);
 }
 
 fn texture__texture_optics(surface: shading__Surface) -> mat3x3f {
@@ -4330,29 +4377,30 @@ fn layers__layers_at(surface: shading__Surface, optics: shading__Optics) -> laye
 		loop {
 			let slot = firstTrailingBit(rest | 2147483648u);
 			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
+			let share = saturate_vec4f(value);
 			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
 			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
-			own.roughness *= select(1.0, value.y, is_both || slot == types__SLOT_ROUGHNESS);
-			own.metallic *= select(1.0, value.z, is_both || slot == types__SLOT_METALLIC);
-			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, value.w, slot == types__SLOT_F90);
-			own.f90 *= select(1.0, value.w, slot == types__SLOT_F90);
-			own.transmission *= select(1.0, value.x, slot == types__SLOT_TRANSMISSION);
+			own.roughness *= select(1.0, share.y, is_both || slot == types__SLOT_ROUGHNESS);
+			own.metallic *= select(1.0, share.z, is_both || slot == types__SLOT_METALLIC);
+			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, share.w, slot == types__SLOT_F90);
+			own.f90 *= select(1.0, share.w, slot == types__SLOT_F90);
+			own.transmission *= select(1.0, share.x, slot == types__SLOT_TRANSMISSION);
 			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
 			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
 			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
 			if (bindings__HAS_ANISOTROPY) {
-				own.anisotropy *= select(1.0, value.z, slot == types__SLOT_ANISOTROPY);
+				own.anisotropy *= select(1.0, share.z, slot == types__SLOT_ANISOTROPY);
 				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
 			}
 			if (bindings__HAS_COATINGS) {
-				own.coat *= select(1.0, value.x, slot == types__SLOT_COAT);
-				own.coat_roughness *= select(1.0, value.y, slot == types__SLOT_COAT_ROUGHNESS);
-				own.sheen *= select(vec3f(1.0), value.xyz, slot == types__SLOT_SHEEN);
-				own.sheen_roughness *= select(1.0, value.w, slot == types__SLOT_SHEEN_ROUGHNESS);
-				own.iridescence *= select(1.0, value.x, slot == types__SLOT_IRIDESCENCE);
-				thickness *= select(1.0, value.y, slot == types__SLOT_FILM_THICKNESS);
-				own.diffuse_transmission *= select(1.0, value.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
-				own.diffuse_transmission_color *= select(vec3f(1.0), value.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
+				own.coat *= select(1.0, share.x, slot == types__SLOT_COAT);
+				own.coat_roughness *= select(1.0, share.y, slot == types__SLOT_COAT_ROUGHNESS);
+				own.sheen *= select(vec3f(1.0), share.xyz, slot == types__SLOT_SHEEN);
+				own.sheen_roughness *= select(1.0, share.w, slot == types__SLOT_SHEEN_ROUGHNESS);
+				own.iridescence *= select(1.0, share.x, slot == types__SLOT_IRIDESCENCE);
+				thickness *= select(1.0, share.y, slot == types__SLOT_FILM_THICKNESS);
+				own.diffuse_transmission *= select(1.0, share.w, slot == types__SLOT_DIFFUSE_TRANSMISSION);
+				own.diffuse_transmission_color *= select(vec3f(1.0), share.xyz, slot == types__SLOT_DIFFUSE_TRANSMISSION_COLOR);
 			}
 			rest &= rest - 1u;
 			continuing {
@@ -4364,6 +4412,10 @@ fn layers__layers_at(surface: shading__Surface, optics: shading__Optics) -> laye
 	}
 	var layers: layers__Layers;
 	if (bindings__HAS_METALLIC_ROUGHNESS && (optics.flags & types__MATERIAL_METALLIC_ROUGHNESS) != 0u) {
+		if (bindings__HAS_TEXTURES || bindings__HAS_COLORS) {
+			own.base = saturate_vec3f(own.base);
+			own.f0 = saturate_vec3f(own.f0);
+		}
 		layers = layers__metallic_roughness(own);
 	}
 	else {
@@ -4481,13 +4533,13 @@ fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
 	}
 	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -4496,7 +4548,7 @@ fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f());
+	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
 }
 
 fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
@@ -4717,6 +4769,9 @@ fn coverage__coverage_at(surface: shading__Surface) -> f32 {
 			alpha *= texture__texture_alpha(material__load_texture(index), surface, (material.flags & types__MATERIAL_MASK) != 0u);
 		}
 	}
+	if (bindings__HAS_COLORS) {
+		alpha *= surface.color.w;
+	}
 	let masked = select(0.0, 1.0, alpha >= 0.999999);
 	return select(clamp_f32(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
 }
@@ -4726,7 +4781,7 @@ fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: v
 		return vec3f(0.0);
 	}
 	let shines = surface.outside || (optics.flags & types__MATERIAL_TWO_SIDED_EMISSION) != 0u;
-	return select(vec3f(0.0), glow * material__load_emission(surface.material), shines);
+	return select(vec3f(0.0), glow * vertex_color__emission_of(surface), shines);
 }
 
 const ray_entries__RAY_STACK_SIZE: u32 = 9u;
@@ -4996,7 +5051,7 @@ fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, 
 		here = behind;
 		ior_behind = optics.ior;
 	}
-	var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), distance);
+	var through = texture__texture_optics(surface)[1] * vertex_color__transmit_of(surface, optics) * medium__transmittance(medium__medium_of(here), distance);
 	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
 		let eta = medium__medium_of(here).ior / ior_behind;
 		through *= 1.0 - fresnel__fresnel(cos_i, min_f32(eta, 1.0 / eta)).reflectance;
@@ -5120,4 +5175,26 @@ fn clamp_vec3f(value: vec3f, low: vec3f, high: vec3f) -> vec3f {
 
 fn saturate_vec3f(value: vec3f) -> vec3f {
 	return clamp_vec3f(value, vec3f(0), vec3f(1));
+}
+
+fn min_vec4f(a: vec4f, b: vec4f) -> vec4f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a < b);
+	}
+	return min(a, b);
+}
+
+fn max_vec4f(a: vec4f, b: vec4f) -> vec4f {
+	if (bindings__EXTREMES_BY_SELECT) {
+		return select(b, a, a > b);
+	}
+	return max(a, b);
+}
+
+fn clamp_vec4f(value: vec4f, low: vec4f, high: vec4f) -> vec4f {
+	return min_vec4f(max_vec4f(value, low), high);
+}
+
+fn saturate_vec4f(value: vec4f) -> vec4f {
+	return clamp_vec4f(value, vec4f(0), vec4f(1));
 }

@@ -22,6 +22,10 @@ pub(super) fn mesh(mesh: &Mesh, number_of: impl Fn(u32) -> u32, has_numbers: boo
     if has_tangents {
         names.extend(["tx", "ty", "tz", "tw"]);
     }
+    let has_colors = !mesh.colors.is_empty();
+    if has_colors {
+        names.extend(["linear_red", "linear_green", "linear_blue", "linear_alpha"]);
+    }
     for name in &names {
         header += &format!("property float {name}\n");
     }
@@ -46,6 +50,9 @@ pub(super) fn mesh(mesh: &Mesh, number_of: impl Fn(u32) -> u32, has_numbers: boo
         }
         if has_tangents {
             mesh.tangents[i].to_array().into_iter().for_each(&mut put);
+        }
+        if has_colors {
+            mesh.colors[i].to_array().into_iter().for_each(&mut put);
         }
         if has_numbers {
             bytes.extend(number_of(mesh.materials[i]).to_le_bytes());

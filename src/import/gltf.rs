@@ -97,8 +97,8 @@ struct Reader<'a> {
     primitives_of: OnceCell<HashMap<usize, Vec<&'a Primitive>>>,
     /// Maps whose transform a clip that is played moves, and their textures in the scene: each has one of its own.
     moved_maps: HashMap<*const TextureInfo, Option<usize>>,
-    /// Materials of the scene by their vertex colour.
-    materials: HashMap<(MaterialKey, Option<(u32, u32)>), u32>,
+    /// The indices of materials in the scene.
+    materials: HashMap<MaterialKey, u32>,
     store: Store,
 }
 

@@ -22,7 +22,6 @@ use super::paths::Files;
 use super::picture::Pictures;
 use super::polygon::{self, Cutter, Defect};
 use super::source::{Source, Token, quote};
-use super::tint::Rgb;
 use super::{Axis, Options, number};
 use crate::scene::{Material, Mesh, Scene, Texture};
 use face::Corner;
@@ -136,7 +135,8 @@ struct Reader<'s> {
     replaced: Option<bool>,
     positions: Vec<DVec3>,
     /// Colours of vertices; empty if there are none, and may be shorter than `positions`.
-    colors: Vec<Option<Rgb>>,
+    /// Of vertices in sRGB, from 0 to 1, white where the file gives none; empty if it gives none at all.
+    colors: Vec<Vec3>,
     normals: Vec<Vec3>,
     uvs: Vec<Vec2>,
     /// Normals that are computed, not from the file.
@@ -219,10 +219,9 @@ impl<'s> Reader<'s> {
             count += 1;
         }
         if count >= 3 {
-            let channel = |c: f64| (c * 255.0).round().clamp(0.0, 255.0) as u8;
-            let color = [more[count - 3], more[count - 2], more[count - 1]].map(channel);
-            self.colors.resize(self.positions.len() - 1, None);
-            self.colors.push(Some(color));
+            let color = DVec3::new(more[count - 3], more[count - 2], more[count - 1]);
+            self.colors.resize(self.positions.len() - 1, Vec3::ONE);
+            self.colors.push(color.as_vec3());
         }
         Ok(())
     }
@@ -292,7 +291,7 @@ impl<'s> Reader<'s> {
         self.source.bytes.len() as u64
             + libraries.sum::<u64>()
             + budget::size::<DVec3>(self.positions.len())
-            + self.tint_memory()
+            + self.color_memory()
             + budget::size::<Vec3>(self.normals.len() + self.made_normals.len())
             + budget::size::<Vec2>(self.uvs.len())
             + budget::size::<(Corner, [u8; WELDED])>(self.corners.len())
@@ -304,7 +303,7 @@ impl<'s> Reader<'s> {
 
     fn finish(mut self) -> Result<Model, ImportError> {
         let mut materials = self.materials()?;
-        self.tint(&mut materials);
+        self.whiten(&mut materials);
         self.drop_unwanted_uvs(&materials);
         self.smooth();
         let (vertices, vertex_of_corner) = weld::weld(&self.corners);
@@ -330,6 +329,7 @@ impl<'s> Reader<'s> {
             uvs,
             second_uvs: Vec::new(),
             tangents: Vec::new(),
+            colors: self.vertex_colors(&vertices),
             materials: corners().map(|corner| corner.material).collect(),
             triangles: self.triangles,
         };

@@ -2,11 +2,12 @@
 //!
 //! Vertex properties read: `x y z`, `nx ny nz`, `s t` (also `u v` or `texture_u texture_v`), `red green blue`
 //! (also `diffuse_red …` or `r g b`), `radius` of points, and glimray's own `material` (a number), `s2 t2` (a second set of
-//! u and v) and `tx ty tz tw` (tangents). Face property read: the list `vertex_indices` (also `vertex_index`). Others are skipped. Doubles become floats
+//! u and v), `tx ty tz tw` (tangents) and `linear_red linear_green linear_blue linear_alpha` (colours). Face property read: the list `vertex_indices` (also `vertex_index`). Others are skipped. Doubles become floats
 //! near the mesh's own origin. Source: Greg Turk, The PLY Polygon File Format, 1994.
 
 mod faces;
 mod header;
+mod layout;
 mod points;
 mod reader;
 mod types;
@@ -21,20 +22,14 @@ use super::tangent::tangent;
 use super::tint::{self, Rgb};
 use super::{Axis, Options, uvs};
 use crate::scene::{Material, Mesh, Scene, Shape};
-use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3, Vec4};
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
+use layout::{COLORS, LINEAR_COLORS, Layout};
 use reader::Reader;
 use std::path::Path;
 use types::{Element, Kind};
 
 /// The vertex properties that hold the axes of a copy's transform.
 const AXES: [&str; 9] = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
-
-/// The names of a vertex's colour.
-const COLORS: [[&str; 3]; 3] = [
-    ["red", "green", "blue"],
-    ["diffuse_red", "diffuse_green", "diffuse_blue"],
-    ["r", "g", "b"],
-];
 
 const AGAIN: &str = "Save the file again";
 
@@ -56,8 +51,8 @@ struct Content {
     mesh: Mesh,
     /// World from mesh: the translation to the position in the file.
     offset: DVec3,
-    /// One for each vertex, or empty.
-    colors: Vec<Option<Rgb>>,
+    /// Of each vertex in sRGB, from 0 to 1, or empty.
+    colors: Vec<Vec3>,
     radii: Vec<f32>,
     /// Number of faces of fewer than three corners.
     short_faces: usize,
@@ -94,15 +89,25 @@ pub(super) fn read_scene(
     content.note(&mut notes);
     let mut materials = vec![Material::default()];
     if !content.colors.is_empty() {
-        let bits;
-        let white = [tint::white()];
-        (materials, bits) = tint::tint(&white, &mut content.mesh.materials, &content.colors);
-        content.colors = Vec::new();
-        if bits < 8 {
-            notes.add("colours", || {
-                format!("colours of vertices reduced to {bits} bits a channel: there are too many")
-            });
+        materials = vec![tint::white()];
+        let colors = std::mem::take(&mut content.colors);
+        if content.mesh.triangles.is_empty() {
+            let bits;
+            let colors: Vec<Option<Rgb>> = colors.into_iter().map(tint::rgb).map(Some).collect();
+            let ids = &mut content.mesh.materials;
+            (materials, bits) = tint::tint(&materials, ids, &colors);
+            if bits < 8 {
+                notes.add("colours", || {
+                    format!(
+                        "colours of points reduced to {bits} bits a channel: there are too many"
+                    )
+                });
+            }
+        } else {
+            content.mesh.colors = colors.into_iter().map(tint::linear).collect();
         }
+    } else if !content.mesh.colors.is_empty() {
+        materials = vec![tint::white()];
     }
     let points: Vec<Shape>;
     if content.mesh.triangles.is_empty() {
@@ -191,80 +196,6 @@ pub(super) fn places(path: &Path, bytes: &[u8]) -> Result<Vec<DAffine3>, ImportE
     Err(reader.refuse("it has no vertices", AGAIN))
 }
 
-/// Where the parts of a vertex are among the columns that are read.
-#[derive(Default)]
-struct Layout {
-    columns: Vec<usize>,
-    normal: Option<usize>,
-    uv: Option<usize>,
-    second_uv: Option<usize>,
-    tangent: Option<usize>,
-    color: Option<usize>,
-    material: Option<usize>,
-    radius: Option<usize>,
-}
-
-impl Layout {
-    fn of(reader: &Reader, element: &Element, purpose: Purpose) -> Result<Self, ImportError> {
-        let mut layout = Self::default();
-        let place = reader.columns(element, &["x", "y", "z"])?;
-        layout.columns =
-            place.ok_or_else(|| reader.refuse("its vertices lack x, y or z", AGAIN))?;
-        let mut add = |columns: Option<Vec<usize>>| {
-            let at = layout.columns.len();
-            layout.columns.extend(columns.as_ref()?);
-            Some(at)
-        };
-        layout.normal = add(reader.columns(element, &["nx", "ny", "nz"])?);
-        for names in [["s", "t"], ["u", "v"], ["texture_u", "texture_v"]] {
-            if layout.uv.is_none() {
-                layout.uv = add(reader.columns(element, &names)?);
-            }
-        }
-        if layout.uv.is_some() {
-            layout.second_uv = add(reader.columns(element, &["s2", "t2"])?);
-        }
-        match purpose {
-            Purpose::Mesh(_) => {
-                layout.tangent = add(reader.columns(element, &["tx", "ty", "tz", "tw"])?);
-                layout.material = add(reader.columns(element, &["material"])?);
-            }
-            Purpose::Model => {
-                for names in COLORS {
-                    if layout.color.is_none() {
-                        layout.color = add(reader.columns(element, &names)?);
-                    }
-                }
-                layout.radius = add(reader.columns(element, &["radius"])?);
-            }
-        }
-        Ok(layout)
-    }
-
-    /// Memory in bytes of `count` vertices, including that of later steps.
-    fn memory(&self, count: usize, is_double: bool, is_cloud: bool) -> u64 {
-        // A position, a normal, its accumulator, and a material; see `Mesh::repair`.
-        let mut needed = budget::size::<(Vec3, Vec3, u32)>(count);
-        if self.normal.is_none() {
-            needed += budget::size::<Option<DVec3>>(count);
-        }
-        for uv in [self.uv, self.second_uv] {
-            needed += budget::size::<Vec2>(if uv.is_some() { count } else { 0 });
-        }
-        needed += budget::size::<Vec4>(if self.tangent.is_some() { count } else { 0 });
-        needed += budget::size::<DVec3>(if is_double { count } else { 0 });
-        if self.color.is_some() {
-            needed += budget::size::<Option<Rgb>>(count) + tint::bytes();
-        }
-        needed += budget::size::<f32>(if self.radius.is_some() { count } else { 0 });
-        if is_cloud {
-            needed += budget::size::<DVec3>(count);
-            needed += budget::size::<(Shape, DVec3)>(count.min(points::MOST));
-        }
-        needed
-    }
-}
-
 fn vertices(
     reader: &mut Reader,
     element: &Element,
@@ -278,10 +209,10 @@ fn vertices(
     let is_model = matches!(purpose, Purpose::Model);
     reader.reserve(layout.memory(element.count, is_double, is_cloud && is_model))?;
     // Of 8 bits, or of 16 or a fraction of 1.
-    let color_scale = match layout.color.map(kind) {
-        Some(Kind::Float | Kind::Double) => 255.0,
-        Some(Kind::U16) => 1.0 / 257.0,
-        _ => 1.0,
+    let most_color = match layout.color.map(kind) {
+        Some(Kind::Float | Kind::Double) => 1.0,
+        Some(Kind::U16) => 65535.0,
+        _ => 255.0,
     };
     let mut places = Vec::with_capacity(if is_double { element.count } else { 0 });
     let Content {
@@ -325,9 +256,12 @@ fn vertices(
             let numbers = [row[at], row[at + 1], row[at + 2], row[at + 3]];
             mesh.tangents.push(tangent(numbers));
         }
+        if let Some(at) = layout.linear_color {
+            let color = three(at).extend(row[at + 3]);
+            mesh.colors.push(color.as_vec4());
+        }
         if let Some(at) = layout.color {
-            let channel = |x: f64| (x * color_scale).round().clamp(0.0, 255.0) as u8;
-            colors.push(Some([row[at], row[at + 1], row[at + 2]].map(channel)));
+            colors.push((three(at) / most_color).as_vec3());
         }
         if let Some(at) = layout.radius {
             radii.push(if in_range(row[at]) {
@@ -372,6 +306,7 @@ fn drop_unused(mesh: &mut Mesh) {
     keep(&mut mesh.uvs, &moved);
     keep(&mut mesh.second_uvs, &moved);
     keep(&mut mesh.tangents, &moved);
+    keep(&mut mesh.colors, &moved);
     keep(&mut mesh.materials, &moved);
     let used = moved.iter_mut().filter(|index| **index != UNUSED);
     used.zip(0..).for_each(|(index, new)| *index = new);
@@ -411,7 +346,8 @@ fn note_skipped(reader: &Reader, elements: &[Element], notes: &mut Notes) {
     for element in elements.iter().filter(|element| element.count > 0) {
         let is_read = |name: &str| match element.name.as_str() {
             "vertex" => {
-                let mut known = READ.split(' ').chain(COLORS.into_iter().flatten());
+                let mut known =
+                    (READ.split(' ').chain(LINEAR_COLORS)).chain(COLORS.into_iter().flatten());
                 known.any(|known| known == name)
             }
             _ => faces::CORNERS.contains(&name),

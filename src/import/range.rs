@@ -6,7 +6,8 @@ use crate::scene::{
     Attenuation, Background, Light, LightProperty, Material, MaterialProperty, Pattern, Scene,
     Target, Texture, Values,
 };
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec4};
+use std::sync::Arc;
 
 /// Limit of coefficients, such as diffuse colours, and of pattern colours, which are multiplied with
 /// them.
@@ -38,6 +39,11 @@ pub(super) fn limit(scene: &mut Scene) {
     for material in &mut scene.materials {
         counts.material(material);
     }
+    for mesh in &mut scene.meshes {
+        if !mesh.colors.iter().all(is_color) {
+            counts.colors(&mut Arc::make_mut(mesh).colors);
+        }
+    }
     for texture in &mut scene.textures {
         counts.texture(texture);
     }
@@ -67,9 +73,15 @@ pub(super) fn limit(scene: &mut Scene) {
 #[derive(Default)]
 struct Counts {
     coefficients: usize,
+    colors: usize,
     radiances: usize,
     intensities: usize,
     indices: usize,
+}
+
+/// Whether a colour of a vertex is in range.
+fn is_color(color: &Vec4) -> bool {
+    color.cmpge(Vec4::ZERO).all() && color.cmple(Vec4::splat(COEFFICIENT)).all()
 }
 
 /// Clamps each component of `color` to `most`.
@@ -112,6 +124,14 @@ impl Counts {
         if !(IOR.0..=IOR.1).contains(ior) {
             *ior = ior.clamp(IOR.0, IOR.1);
             self.indices += 1;
+        }
+    }
+
+    /// What is no number becomes 0.
+    fn colors(&mut self, colors: &mut [Vec4]) {
+        for color in colors.iter_mut().filter(|color| !is_color(color)) {
+            *color = color.map(|c| if c > 0.0 { c.min(COEFFICIENT) } else { 0.0 });
+            self.colors += 1;
         }
     }
 
@@ -186,6 +206,10 @@ impl Counts {
             (
                 self.coefficients,
                 format!("coefficients clamped to {COEFFICIENT}"),
+            ),
+            (
+                self.colors,
+                format!("colours of vertices clamped to 0 to {COEFFICIENT}"),
             ),
             (self.radiances, format!("radiances clamped to {RADIANCE:e}")),
             (

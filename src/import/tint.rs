@@ -1,9 +1,9 @@
-//! Colours of vertices and facets. A scene has colours in its materials only, so each distinct colour
-//! becomes a material; the renderer interpolates the coefficients of a triangle's three materials.
+//! Colours of vertices, points and facets. Meshes have colours at their vertices; points are shapes and facets are even,
+//! so each of their distinct colours becomes a material.
 
 use super::budget;
 use crate::scene::{Material, linear_from_srgb};
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 use std::collections::HashMap;
 
 /// Limit of the number of materials. If there are more, colours keep fewer bits.
@@ -85,6 +85,17 @@ fn kept(channel: u8, bits: u32) -> u8 {
     let most = (1 << bits) - 1;
     let level = u32::from(channel) >> (8 - bits);
     ((level * 255 + most / 2) / most) as u8
+}
+
+/// The linear colour of a vertex for one in sRGB.
+pub(super) fn linear(color: Vec3) -> Vec4 {
+    let channel = |c: f32| linear_from_srgb(f64::from(c).clamp(0.0, 1.0)) as f32;
+    color.map(channel).extend(1.0)
+}
+
+/// An sRGB colour from 0 to 1, rounded.
+pub(super) fn rgb(color: Vec3) -> Rgb {
+    color.to_array().map(|c| (c * 255.0).round() as u8)
 }
 
 /// A white material, which shows a colour unchanged.

@@ -128,6 +128,12 @@ pub const MATERIAL_METALLIC_ROUGHNESS: u32 = 256;
 pub const MATERIAL_SHADOW_CATCHER: u32 = 512;
 /// Bit of [`super::PackedMaterial::flags`]: the back emits as the front does.
 pub const MATERIAL_TWO_SIDED_EMISSION: u32 = 1024;
+/// Bit of [`super::PackedMaterial::flags`]: colours of vertices multiply highlights and reflection.
+pub const MATERIAL_COLORED_MIRROR: u32 = 2048;
+/// Bit of [`super::PackedMaterial::flags`]: colours of vertices multiply transmission.
+pub const MATERIAL_COLORED_GLASS: u32 = 4096;
+/// Bit of [`super::PackedMaterial::flags`]: colours of vertices multiply emission.
+pub const MATERIAL_COLORED_EMISSION: u32 = 8192;
 /// Rows of 16 bytes of a [`super::PackedMaterial`].
 pub const MATERIAL_ROWS: u32 = 20;
 /// The first of these rows that belongs to [`super::PackedMaterial::layers`].

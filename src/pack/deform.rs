@@ -130,7 +130,7 @@ impl PackedScene {
         let triangle_rows = TRIANGLE_ROWS * self.triangles.len() + SHAPE_ROWS * self.shapes.len();
         let mut starts = Starts {
             triangle: triangle_rows.div_ceil(TRIANGLE_ROWS),
-            vertex: self.vertices.len() + self.uvs.len() + self.tangents.len(),
+            vertex: self.vertices.len() + self.uvs.len() + self.tangents.len() + self.colors.len(),
         };
         let before = previous.map(|previous| &previous.deformed);
         let mut deformed = Deformed {
@@ -268,7 +268,7 @@ impl Deformed {
         keys.map(|key| &key[..])
     }
 
-    /// The vertices of later keys, after the tangents of the scene, each followed by its tangent if there are any.
+    /// The vertices of later keys, after the tangents and colours of the scene, each followed by its tangent if there are any.
     pub fn key_rows(&self) -> impl Iterator<Item = &[Row]> {
         let keys = self.trees.iter().flat_map(|tree| &tree.key_rows);
         keys.map(|key| &key[..])

@@ -12,10 +12,10 @@ use super::{
     tlas::Tlas,
 };
 use crate::layout::{
-    MATERIAL_TWO_SIDED_EMISSION, NO_INSTANCE, PackedEmitter, PackedMaterial, PackedShape,
-    PackedTriangle, PackedVertex, SHAPE, SHAPE_DISC, SHAPE_RECTANGLE,
+    MATERIAL_COLORED_EMISSION, MATERIAL_TWO_SIDED_EMISSION, NO_INSTANCE, PackedEmitter,
+    PackedMaterial, PackedShape, PackedTriangle, PackedVertex, SHAPE, SHAPE_DISC, SHAPE_RECTANGLE,
 };
-use glam::{DVec3, Mat3, Vec3};
+use glam::{DVec3, Mat3, Vec3, Vec4};
 use std::{array::from_fn, collections::HashMap, f32::consts::PI};
 
 /// Groups of emitters that the light tree has room for: for more emitters the groups become larger.
@@ -28,8 +28,25 @@ pub struct Emissive {
     primitive: u32,
     material: u32,
     form: Form,
-    /// The mean luminance of the texture of its emission.
-    glow: f32,
+    glow: Glimmer,
+}
+
+/// What differs in emission between triangles of one material.
+#[derive(Clone, Copy, Debug)]
+struct Glimmer {
+    /// The mean luminance of the texture.
+    texture: f32,
+    /// The mean colour of the vertices, if it counts.
+    color: Vec3,
+}
+
+impl Glimmer {
+    fn even(texture: f32) -> Self {
+        Self {
+            texture,
+            color: Vec3::ONE,
+        }
+    }
 }
 
 /// In render space or in the space of its BLAS.
@@ -53,10 +70,10 @@ enum Form {
 pub struct EmissiveParts {
     /// By primitive.
     list: Vec<Emissive>,
-    /// Whether a texture is brighter on some triangles than on others.
+    /// Whether a texture or colours of vertices are brighter on some triangles than on others.
     is_uneven: bool,
-    /// Luminances of textures by the vertices of triangles, which meshes keep when they deform.
-    glow_of: HashMap<[u32; 3], f32>,
+    /// How bright triangles are by their vertices, which meshes keep when they deform.
+    glow_of: HashMap<[u32; 3], Glimmer>,
 }
 
 /// The emitters of a view, and their share of its light.
@@ -102,7 +119,7 @@ fn emissive_shape(primitive: u32, shape: &PackedShape, glow: f32) -> Option<Emis
             SHAPE_DISC => flat(PI / 4.0 * (1.0 - shape.size0 * shape.size0))?,
             _ => Form::Solid(EmissiveSolid::of(shape)?),
         },
-        glow,
+        glow: Glimmer::even(glow),
     })
 }
 
@@ -110,7 +127,7 @@ fn emissive_triangle(
     primitive: u32,
     triangle: &PackedTriangle,
     vertices: [&PackedVertex; 3],
-    glow: f32,
+    glow: Glimmer,
 ) -> Emissive {
     let [v0, v1, v2] = [triangle.v0, triangle.v1, triangle.v2].map(Vec3::from);
     Emissive {
@@ -227,8 +244,18 @@ impl PackedScene {
             }
             let of_texture = &glows[material];
             let uvs = corners.map(|i| self.uvs.get(i as usize).copied().unwrap_or_default());
-            let glow = of_texture.over(uvs, most_texels);
-            if of_texture.is_uneven() {
+            let is_colored = !self.colors.is_empty()
+                && self.materials[material].flags & MATERIAL_COLORED_EMISSION != 0;
+            let color = |i: u32| self.colors.get(i as usize).copied().unwrap_or([1.0; 4]);
+            let color = |i: u32| Vec4::from(color(i)).truncate();
+            let glow = Glimmer {
+                texture: of_texture.over(uvs, most_texels),
+                color: match is_colored {
+                    true => corners.map(color).iter().sum::<Vec3>() / 3.0,
+                    false => Vec3::ONE,
+                },
+            };
+            if of_texture.is_uneven() || is_colored {
                 found.is_uneven = true;
                 if !self.deforming.is_empty() {
                     found.glow_of.insert(corners, glow);
@@ -270,7 +297,8 @@ impl PackedScene {
         let mut add =
             |instance: u32, places: &Places, one: &Emissive, later: &dyn Fn() -> Vec<DVec3>| {
                 let material = &materials[one.material as usize];
-                let radiance = LUMINANCE.dot(material.emission.into()) * one.glow;
+                let emission = one.glow.color * Vec3::from(material.emission);
+                let radiance = LUMINANCE.dot(emission) * one.glow.texture;
                 let own_area = f64::from(one.area(places.linear()));
                 let weight = f64::from(radiance) * own_area;
                 // Areas beyond the range of f32 have no chance.
@@ -300,7 +328,8 @@ impl PackedScene {
                 Some(tree) => tree.triangles().for_each(|(own, triangle, vertices)| {
                     let corners = [triangle.i0, triangle.i1, triangle.i2];
                     let of_material = || materials[vertices[0].material as usize].layers.glow;
-                    let glow = glow_of.get(&corners).copied().unwrap_or_else(of_material);
+                    let glow = (glow_of.get(&corners).copied())
+                        .unwrap_or_else(|| Glimmer::even(of_material()));
                     let one = emissive_triangle(own, triangle, vertices, glow);
                     add(index as u32, &places, &one, &|| tree.later_corners(own));
                 }),

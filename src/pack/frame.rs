@@ -315,7 +315,7 @@ impl PackedView {
     }
 
     /// The triangles and the vertices of later keys of deforming meshes: after the shapes, at the next multiple
-    /// of a triangle, and after the tangents. Each vertex is followed by its tangent if the scene has any.
+    /// of a triangle, and after the tangents and colours. Each vertex is followed by its tangent if the scene has any.
     pub fn later_keys(&self) -> [Vec<&[u8]>; 2] {
         [
             self.deformed.key_triangles().map(cast_slice).collect(),

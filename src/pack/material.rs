@@ -3,12 +3,12 @@
 use super::{Features, PackError, layers, light};
 use crate::{
     layout::{
-        MATERIAL_BLEND, MATERIAL_COVERAGE, MATERIAL_FRESNEL, MATERIAL_MASK,
-        MATERIAL_METALLIC_ROUGHNESS, MATERIAL_SCHLICK, MATERIAL_SHADOW_CATCHER, MATERIAL_SUM,
-        MATERIAL_THIN, MATERIAL_TWO_SIDED, MATERIAL_TWO_SIDED_EMISSION, NO_TEXTURE,
-        PATTERN_CHECKER, PATTERN_GRADIENT, PATTERN_NOISE, PATTERN_PICTURE, PATTERN_STRIPES,
-        PackedMaterial, PackedTexture, TEXTURE_BETWEEN_LEVELS, TEXTURE_LEVELS,
-        TEXTURE_MINIFY_NEAREST, TEXTURE_NEAREST, TEXTURE_SECOND_UV, TEXTURE_UV,
+        MATERIAL_BLEND, MATERIAL_COLORED_EMISSION, MATERIAL_COLORED_GLASS, MATERIAL_COLORED_MIRROR,
+        MATERIAL_COVERAGE, MATERIAL_FRESNEL, MATERIAL_MASK, MATERIAL_METALLIC_ROUGHNESS,
+        MATERIAL_SCHLICK, MATERIAL_SHADOW_CATCHER, MATERIAL_SUM, MATERIAL_THIN, MATERIAL_TWO_SIDED,
+        MATERIAL_TWO_SIDED_EMISSION, NO_TEXTURE, PATTERN_CHECKER, PATTERN_GRADIENT, PATTERN_NOISE,
+        PATTERN_PICTURE, PATTERN_STRIPES, PackedMaterial, PackedTexture, TEXTURE_BETWEEN_LEVELS,
+        TEXTURE_LEVELS, TEXTURE_MINIFY_NEAREST, TEXTURE_NEAREST, TEXTURE_SECOND_UV, TEXTURE_UV,
         TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT,
     },
     scene::{
@@ -46,6 +46,13 @@ pub fn material(material: &Material, lamp: Option<usize>) -> PackedMaterial {
         (true, false) => MATERIAL_TWO_SIDED,
         (false, _) => 0,
     };
+    let colored = material.colored_parts();
+    let colored = [
+        (colored.mirror, MATERIAL_COLORED_MIRROR),
+        (colored.glass, MATERIAL_COLORED_GLASS),
+        (colored.emission, MATERIAL_COLORED_EMISSION),
+    ];
+    let colored = (colored.iter()).fold(0, |bits, (is, bit)| bits | if *is { *bit } else { 0 });
     let pair = |low: Option<usize>, high: Option<usize>| {
         let index = |texture: Option<usize>| texture.map_or(NO_TEXTURE, |index| index as u32);
         index(low) | index(high) << 16
@@ -59,6 +66,7 @@ pub fn material(material: &Material, lamp: Option<usize>) -> PackedMaterial {
             | fresnel
             | mixing
             | covers
+            | colored
             | if material.thin { MATERIAL_THIN } else { 0 }
             | if material.shadow_catcher {
                 MATERIAL_SHADOW_CATCHER

@@ -22,6 +22,7 @@ pub struct CachedMesh {
     pub mixes_materials: bool,
     topology: Mutex<Option<Arc<Topology>>>,
     uvs: OnceLock<Arc<[[f32; 4]]>>,
+    colors: OnceLock<Arc<[[f32; 4]]>>,
     shell: OnceLock<Option<Arc<Shell>>>,
     part_count: OnceLock<usize>,
 }
@@ -36,6 +37,7 @@ impl CachedMesh {
             mixes_materials: mesh.triangles.iter().any(mixes),
             topology: Mutex::default(),
             uvs: OnceLock::new(),
+            colors: OnceLock::new(),
             shell: OnceLock::new(),
             part_count: OnceLock::new(),
         }
@@ -94,6 +96,16 @@ impl CachedMesh {
             uvs.into()
         };
         self.uvs.get_or_init(uvs).clone()
+    }
+
+    /// The colour of each vertex, white where it has none.
+    pub fn colors(&self) -> Arc<[[f32; 4]]> {
+        let colors = || {
+            let mut colors: Vec<_> = self.mesh.colors.iter().map(|it| it.to_array()).collect();
+            colors.resize(self.mesh.positions.len(), [1.0; 4]);
+            colors.into()
+        };
+        self.colors.get_or_init(colors).clone()
     }
 
     /// Its surface for inside tests; `None` without triangles.

@@ -225,6 +225,15 @@ impl Trees {
         blas().map(of_blas).collect()
     }
 
+    /// The colours of all vertices; empty if there is none.
+    pub fn colors(&self) -> Segments<[f32; 4]> {
+        let has_colors = |mesh: &CachedMesh| !mesh.mesh.colors.is_empty();
+        match self.meshes().any(has_colors) {
+            true => self.meshes().map(CachedMesh::colors).collect(),
+            false => Segments::default(),
+        }
+    }
+
     /// The meshes in the order of their vertices.
     pub fn meshes(&self) -> impl Iterator<Item = &CachedMesh> {
         let joint = self.joint.input.meshes.iter().map(|(mesh, _)| &**mesh);

@@ -92,6 +92,7 @@ pub fn arrays<'a>(
     for (first, run) in scene.tangents.runs() {
         vertices.push(view.tangents_from(first).unwrap_or(run), geometry);
     }
+    (scene.colors.bytes()).for_each(|run| vertices.push(run, geometry));
     (later_vertices.iter()).for_each(|run| vertices.push(run, geometry));
     let mut materials = Array::new("materials", Kind::Rows);
     materials.push(

@@ -151,6 +151,7 @@ pub fn of(task: Task) -> Overrides {
         ("LIGHT_MOTION", flag(view.frame.light_key_count > 1)),
         ("ORTHOGRAPHIC", flag(view.orthographic)),
         ("HAS_SECOND_UVS", flag(features.second_uvs)),
+        ("HAS_COLORS", flag(!scene.colors.is_empty())),
         ("HAS_TANGENTS", flag(!scene.tangents.is_empty())),
         ("HAS_ANISOTROPY", flag(is_path && features.anisotropy)),
         ("HAS_UVS", flag(!scene.uvs.is_empty())),

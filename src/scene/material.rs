@@ -64,9 +64,9 @@ pub struct Material {
     /// [`super::Backdrop::Transparent`]. All other light sees the material.
     pub shadow_catcher: bool,
     /// The physically based material that the members above show, if the file has one; the path tracer uses
-    /// it. Shared by materials that differ in vertex colours.
+    /// it. Shared by materials that differ in `tint`.
     pub metallic_roughness: Option<Arc<MetallicRoughness>>,
-    /// The colour of the vertex, which multiplies the base colour of `metallic_roughness`.
+    /// A factor on the base colour of `metallic_roughness`.
     pub tint: Vec3,
     /// Textures that multiply parameters of `metallic_roughness`, if there are any. Its emission has that of
     /// `textures`. Boxed, as few of many materials have them.
@@ -74,19 +74,37 @@ pub struct Material {
 }
 
 impl Material {
-    /// Multiplies its colours with that of vertices.
+    /// The coefficients besides the diffuse and the ambient colour that a colour of vertices multiplies: all that are
+    /// multiples of the base colour, and the emission of a Phong material that shows nothing else.
+    pub fn colored_parts(&self) -> ColoredParts {
+        match &self.metallic_roughness {
+            Some(model) => ColoredParts {
+                mirror: model.metallic > 0.5,
+                glass: true,
+                emission: model.unlit,
+            },
+            None => ColoredParts {
+                emission: self.diffuse == Vec3::ZERO,
+                ..ColoredParts::default()
+            },
+        }
+    }
+
+    /// Multiplies its colours with `color`, as [`super::Mesh::colors`] do.
     pub fn paint(&mut self, color: Vec3) {
+        let parts = self.colored_parts();
         self.diffuse *= color;
         self.ambient *= color;
         self.tint = color;
-        if let Some(model) = &self.metallic_roughness {
-            if model.unlit {
-                self.emission *= color;
-            }
-            if model.metallic > 0.5 {
-                self.specular *= color;
-                self.reflect *= color;
-            }
+        if parts.mirror {
+            self.specular *= color;
+            self.reflect *= color;
+        }
+        if parts.glass {
+            self.transmit *= color;
+        }
+        if parts.emission {
+            self.emission *= color;
         }
     }
 
@@ -138,6 +156,17 @@ impl Material {
             || layers.is_some_and(|layers| layers.clearcoat_normal.is_some())
             || model.is_some_and(|model| model.anisotropy > 0.0)
     }
+}
+
+/// See [`Material::colored_parts`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ColoredParts {
+    /// [`Material::specular`] and [`Material::reflect`].
+    pub mirror: bool,
+    /// [`Material::transmit`].
+    pub glass: bool,
+    /// [`Material::emission`].
+    pub emission: bool,
 }
 
 /// Defines the list of textures from one list of names.

@@ -22,6 +22,9 @@ pub struct Mesh {
     /// length, and in w 1 or −1 as w · normal × tangent points along v or against it. All zero where a triangle's own
     /// u and v decide. Empty if no material needs them; see [`super::Scene::complete_tangents`].
     pub tangents: Vec<Vec4>,
+    /// Linear red, green, blue and alpha of each position, 0 or more, which multiply what the material says; see
+    /// [`super::Material::colored_parts`]. The alpha multiplies [`super::Material::alpha`]. Empty if the file gives none.
+    pub colors: Vec<Vec4>,
     /// For each position, an index into [`super::Scene::materials`]. Where the vertices of a triangle
     /// differ, their coefficients are interpolated and the textures of the first one apply.
     pub materials: Vec<u32>,
@@ -50,6 +53,7 @@ impl Mesh {
             ("texture coordinates", self.uvs.len()),
             ("second texture coordinates", self.second_uvs.len()),
             ("tangents", self.tangents.len()),
+            ("colors", self.colors.len()),
         ];
         let given = optional.into_iter().filter(|(_, count)| *count > 0);
         if let Some((what, count)) =
@@ -87,6 +91,7 @@ impl Mesh {
         copy(&mut self.uvs, vertices);
         copy(&mut self.second_uvs, vertices);
         copy(&mut self.tangents, vertices);
+        copy(&mut self.colors, vertices);
         copy(&mut self.materials, vertices);
     }
 

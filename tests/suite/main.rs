@@ -114,6 +114,7 @@ mod thin_walls;
 mod trees;
 mod tuning;
 mod uv_view;
+mod vertex_colors;
 #[cfg(feature = "video")]
 mod video;
 #[cfg(feature = "viewer")]

@@ -8,6 +8,7 @@ mod emitter_sides;
 pub mod emitter_tree;
 mod emitters;
 mod explained;
+mod full_maps;
 mod layers;
 mod light_chances;
 pub mod lobes;
@@ -403,6 +404,7 @@ fn glowing_square(scene: &mut Scene, world_from_mesh: DAffine3, radiance: f32) {
         normals: vec![Vec3::NEG_Y; 4],
         uvs: Vec::new(),
         second_uvs: Vec::new(),
+        colors: Vec::new(),
         tangents: Vec::new(),
         materials: vec![material as u32; 4],
         triangles: vec![[0, 1, 2], [0, 2, 3]],

@@ -188,6 +188,20 @@ impl<'a> Accessors<'a> {
         Ok(vectors)
     }
 
+    /// The number that stands for 1 in `accessors[index]` if it has integers that are not marked as normalised.
+    pub fn most_unless_normalized(&self, index: usize) -> Option<f32> {
+        let accessor = self.document.accessors.get(index)?;
+        match Component::of(accessor.component_type)? {
+            _ if accessor.normalized => None,
+            Component::F32 => None,
+            Component::I8 => Some(127.0),
+            Component::U8 => Some(255.0),
+            Component::I16 => Some(32767.0),
+            Component::U16 => Some(65535.0),
+            Component::U32 => Some(u32::MAX as f32),
+        }
+    }
+
     /// The elements of `accessors[index]`, to which `place` refers, as whole numbers.
     ///
     /// # Errors

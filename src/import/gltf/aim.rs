@@ -4,12 +4,13 @@
 use super::Reader;
 use super::document::{ChannelTarget, Kind, Material as Source, TextureInfo};
 use super::map_kinds::{MapKind, all_maps};
+use super::materials::MaterialKey;
 use crate::import::error::ImportError;
 use crate::scene::{
     CameraProperty, Coverage, LayerProperty, LightProperty, Material, MaterialProperty,
     NodeProperty, Target, TextureProperty,
 };
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use std::f64::consts::PI;
 
 /// A property of something in the file, by its number there.
@@ -246,20 +247,22 @@ impl Reader<'_> {
         strength.clamp(0.0, 1e12)
     }
 
-    /// What `of` gives for the scene's materials that were made of one of the file, in their order.
+    /// The index in the scene of a material of the file, if something shows it.
+    fn shown_material(&self, index: usize) -> Option<usize> {
+        let shown = self.materials.get(&MaterialKey(Some(index)));
+        shown.map(|&material| material as usize)
+    }
+
+    /// What `of` gives for a material of the file, if something shows it.
     fn targets_of_material(
         &self,
         index: usize,
         of: impl Fn(usize, &Material) -> Vec<Scaled>,
     ) -> Vec<Scaled> {
-        let made = self.materials.iter();
-        let made = made.filter(|((key, _), _)| key.0 == Some(index));
-        let mut materials: Vec<usize> = made.map(|(_, &material)| material as usize).collect();
-        materials.sort_unstable();
-        let targets = materials.into_iter();
-        targets
-            .flat_map(|material| of(material, &self.scene.materials[material]))
-            .collect()
+        let shown = self.shown_material(index);
+        shown.map_or_else(Vec::new, |material| {
+            of(material, &self.scene.materials[material])
+        })
     }
 
     /// The alphas that follow the fourth component of an animated base colour.
@@ -288,12 +291,8 @@ impl Reader<'_> {
         }
         if property == LayerProperty::Transmission {
             // Where there is glass at some time, it is a thin wall at all times unless it has a thickness.
-            let made = self
-                .materials
-                .iter()
-                .filter(|((key, _), _)| key.0 == Some(index));
-            for (_, &material) in made {
-                let material = &mut self.scene.materials[material as usize];
+            if let Some(material) = self.shown_material(index) {
+                let material = &mut self.scene.materials[material];
                 let thickness = material.metallic_roughness.as_ref().map(|it| it.thickness);
                 material.thin = thickness == Some(0.0);
             }
@@ -309,13 +308,12 @@ impl Reader<'_> {
                 LayerProperty::EmissionStrength => vec![layer(rest.recip())],
                 // The colour is the emission then.
                 LayerProperty::BaseColor if model.unlit => {
-                    let tint = shown.tint.as_dvec3();
-                    vec![classical(MaterialProperty::Emission, tint)]
+                    vec![classical(MaterialProperty::Emission, DVec3::ONE)]
                 }
                 // These are kept when the scene is converted.
                 LayerProperty::BaseColor if follows(shown) => {
                     let mut white = model.point();
-                    white.base_color = shown.tint;
+                    white.base_color = Vec3::ONE;
                     let factor = model.lobes(&white, model.roughness).diffuse.as_dvec3();
                     vec![
                         classical(MaterialProperty::Diffuse, factor),

@@ -9,12 +9,8 @@ use super::values::{Checked, MOST};
 use crate::import::error::ImportError;
 use crate::import::{budget, range};
 use crate::scene::{Coverage, LayerTextures, Material, MetallicRoughness};
-use glam::{DVec3, Vec3, Vec4};
-use std::collections::HashSet;
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
-
-/// Number of different vertex colours of a primitive from which they are rounded to 32 levels per channel.
-const MANY_COLORS: usize = 8192;
 
 /// Least and most of the factor on the slopes of normal maps.
 pub(super) const NORMAL_SCALE: [f64; 2] = [0.0, 1e3];
@@ -23,7 +19,7 @@ pub(super) const NORMAL_SCALE: [f64; 2] = [0.0, 1e3];
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct MaterialKey(pub Option<usize>);
 
-/// A material with its pictures, before vertex colours.
+/// A material with its pictures.
 pub(super) struct Surface {
     pub material: Material,
     /// The sets of texture coordinates that its pictures use, at most two.
@@ -80,63 +76,26 @@ impl Reader<'_> {
         material.is_some_and(Material::has_tangents)
     }
 
-    /// Adds a material for each of `count` vertices to `materials`: those of `key`, multiplied with
-    /// `colors` if there are any.
-    pub(super) fn paint(
-        &mut self,
-        materials: &mut Vec<u32>,
-        count: usize,
-        colors: &[Vec4],
-        key: MaterialKey,
-    ) -> Result<(), ImportError> {
-        if colors.is_empty() {
-            let index = self.painted(key, None)?;
-            materials.extend(std::iter::repeat_n(index, count));
-            return Ok(());
-        }
-        let fine: HashSet<u32> = colors
-            .iter()
-            .map(|c| code(*c, 255.0))
-            .take(100 * MANY_COLORS)
-            .collect();
-        let levels = if fine.len() > MANY_COLORS {
-            31.0
-        } else {
-            255.0
-        };
-        // Neighbours often have the same colour.
-        let mut last = None;
-        for color in colors {
-            let code = code(*color, levels);
-            let index = match last {
-                Some((known, index)) if known == code => index,
-                _ => self.painted(key, Some((code, levels)))?,
-            };
-            last = Some((code, index));
-            materials.push(index);
-        }
-        Ok(())
+    /// Whether alpha counts for a material, which [`Self::material_of`] returned.
+    pub(super) fn has_alpha(&self, key: &MaterialKey) -> bool {
+        let material = self.surfaces.get(key).map(|surface| &surface.material);
+        material.is_some_and(|material| material.coverage != Coverage::Opaque)
     }
 
-    /// The index in the scene of a material, multiplied with a colour if one is given by its code.
-    fn painted(&mut self, key: MaterialKey, color: Option<(u32, f32)>) -> Result<u32, ImportError> {
-        let place = (key, color.map(|(code, levels)| (code, levels as u32)));
-        if let Some(&known) = self.materials.get(&place) {
+    /// The index in the scene of a material, which [`Self::material_of`] returned.
+    pub(super) fn scene_material(&mut self, key: MaterialKey) -> Result<u32, ImportError> {
+        if let Some(&known) = self.materials.get(&key) {
             return Ok(known);
         }
         let Some(surface) = self.surfaces.get(&key) else {
             return Ok(0);
         };
-        let mut material = surface.material.clone();
-        if let Some((code, levels)) = color {
-            let [r, g, b, _] = code.to_le_bytes().map(|c| (f32::from(c) / levels).powi(2));
-            material.paint(Vec3::new(r, g, b));
-        }
+        let material = surface.material.clone();
         let size = budget::size::<(Material, [u64; 4])>(1) + material.name.len() as u64;
         self.ledger.take(size, 0, "materials")?;
         let index = self.scene.materials.len() as u32;
         self.scene.materials.push(material);
-        self.materials.insert(place, index);
+        self.materials.insert(key, index);
         Ok(index)
     }
 
@@ -178,16 +137,6 @@ impl Reader<'_> {
         }
         Ok(())
     }
-}
-
-/// The code of a vertex colour with `levels` + 1 levels per channel. They are spaced like squares, which is
-/// near to how differences are seen.
-fn code(color: Vec4, levels: f32) -> u32 {
-    let channel = |x: f32| {
-        let x = if x > 0.0 { x.min(1.0) } else { 0.0 };
-        (x.sqrt() * levels).round() as u8
-    };
-    u32::from_le_bytes([channel(color.x), channel(color.y), channel(color.z), 0])
 }
 
 /// The parameters of a material.

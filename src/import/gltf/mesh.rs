@@ -169,7 +169,8 @@ impl Reader<'_> {
         let shift = |triangle: [u32; 3]| triangle.map(|i| first as u32 + i);
         mesh.triangles.extend(triangles.into_iter().map(shift));
         let count = vertices.positions.len();
-        self.paint(&mut mesh.materials, count, &vertices.colors, material)?;
+        let material = self.scene_material(material)?;
+        (mesh.materials).extend(std::iter::repeat_n(material, count));
         for (uvs, own) in (mesh.uv_sets_mut().into_iter()).zip(&vertices.uvs) {
             if !own.is_empty() {
                 uvs.resize(first, Vec2::ZERO);
@@ -180,11 +181,18 @@ impl Reader<'_> {
             mesh.tangents.resize(first, Vec4::ZERO);
             mesh.tangents.extend(&vertices.tangents);
         }
+        if !vertices.colors.is_empty() {
+            mesh.colors.resize(first, Vec4::ONE);
+            mesh.colors.extend(&vertices.colors);
+        }
         mesh.positions.extend(&vertices.positions);
         mesh.normals.extend(&vertices.normals);
         let count = mesh.positions.len();
         if !mesh.tangents.is_empty() {
             mesh.tangents.resize(count, Vec4::ZERO);
+        }
+        if !mesh.colors.is_empty() {
+            mesh.colors.resize(count, Vec4::ONE);
         }
         for uvs in mesh.uv_sets_mut() {
             if !uvs.is_empty() {
@@ -202,7 +210,7 @@ impl Reader<'_> {
         count: u64,
         here: &str,
     ) -> Result<(), ImportError> {
-        type Vertex = (Vec3, Vec3, [Vec2; 2], Vec4, u32);
+        type Vertex = (Vec3, Vec3, [Vec2; 2], [Vec4; 2], u32);
         let corners = match primitive.indices {
             Some(indices) => self.accessors().count(indices, here)?,
             None => count,
@@ -267,13 +275,21 @@ impl Reader<'_> {
                 }),
             }
         }
-        let accessors = self.accessors();
         let mut colors = Vec::new();
         if let Some(index) = attribute("COLOR_0") {
-            let kinds = [Kind::Vec3, Kind::Vec4];
-            colors = accessors.vectors::<4>(index, &kinds, 1.0, &place("COLOR_0"))?;
+            let place = place("COLOR_0");
+            colors = self.colors(index, material, &place)?;
+            if self.accessors().most_unless_normalized(index).is_some() {
+                self.notes.add("vertex colours", || {
+                    format!("{place} is not marked as normalised, and read as if it were")
+                });
+            }
             same_count(colors.len(), "COLOR_0")?;
+            if colors.iter().all(|color| *color == Vec4::ONE) {
+                colors = Vec::new();
+            }
         }
+        let accessors = self.accessors();
         let mut tangents = Vec::new();
         if let Some(index) = attribute("TANGENT")
             && self.has_tangents(material)
@@ -293,9 +309,29 @@ impl Reader<'_> {
             positions: positions.into_iter().map(Vec3::from).collect(),
             normals: normals.into_iter().map(Vec3::from).collect(),
             uvs: sets,
-            colors: colors.into_iter().map(Vec4::from).collect(),
+            colors,
             tangents: (tangents.into_iter().map(|t| tangent(t.map(f64::from)))).collect(),
         })
+    }
+
+    /// The colours of vertices in `accessors[index]`, to which `place` refers; with an alpha of 1 where it has no effect.
+    fn colors(
+        &self,
+        index: usize,
+        material: &MaterialKey,
+        place: &str,
+    ) -> Result<Vec<Vec4>, ImportError> {
+        let accessors = self.accessors();
+        let kinds = [Kind::Vec3, Kind::Vec4];
+        let mut colors = accessors.vectors::<4>(index, &kinds, 1.0, place)?;
+        if let Some(most) = accessors.most_unless_normalized(index) {
+            let scaled = colors.as_flattened_mut().iter_mut();
+            scaled.for_each(|value| *value /= most);
+        }
+        if !self.has_alpha(material) {
+            colors.iter_mut().for_each(|color| color[3] = 1.0);
+        }
+        Ok(colors.into_iter().map(Vec4::from).collect())
     }
 
     /// The triangles of a primitive with `count` vertices.

@@ -1,6 +1,5 @@
 //! The materials that a model uses, from its material libraries, with their images.
 
-use super::face::Corner;
 use super::lines::Line;
 use super::{Reader, mtl};
 use crate::import::budget;
@@ -9,9 +8,9 @@ use crate::import::notes::Notes;
 use crate::import::paths::Refusal;
 use crate::import::picture::{self, Place, Refused, Role};
 use crate::import::source::{Source, Token, quote};
-use crate::import::tint::{self, Rgb};
+use crate::import::tint;
 use crate::scene::{Coverage, LayerTextures, Material, Minify, Pattern, Space, Texture, Wrap};
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 use std::path::Path;
 
 /// Size limit of a material file in bytes.
@@ -123,39 +122,31 @@ impl<'s> Reader<'s> {
         Ok(materials)
     }
 
-    /// Memory in bytes that [`Self::tint`] takes.
-    pub(super) fn tint_memory(&self) -> u64 {
-        if self.colors.is_empty() {
-            return 0;
+    /// Memory in bytes that colours of vertices take.
+    pub(super) fn color_memory(&self) -> u64 {
+        match self.colors.len() {
+            0 => 0,
+            count => budget::size::<Vec3>(count) + budget::size::<Vec4>(self.corners.len()),
         }
-        budget::size::<Option<Rgb>>(self.colors.len())
-            + budget::size::<(u32, Option<Rgb>)>(self.corners.len())
-            + tint::bytes()
     }
 
-    /// Gives corners of coloured vertices a material of that colour.
-    pub(super) fn tint(&mut self, materials: &mut Vec<Material>) {
-        let colors = std::mem::take(&mut self.colors);
-        if colors.is_empty() || self.replaced.is_some() {
-            return;
-        }
-        // Without a material, colours show unchanged.
-        if let Some(&id) = self.material_ids.get(&None) {
+    /// Makes faces without a material white if vertices have colours, which then show unchanged.
+    pub(super) fn whiten(&self, materials: &mut [Material]) {
+        if let (false, Some(&id)) = (self.colors.is_empty(), self.material_ids.get(&None)) {
             materials[id as usize] = tint::white();
         }
-        let color = |corner: &Corner| colors.get(corner.position as usize).copied().flatten();
-        let of_corners: Vec<Option<Rgb>> = self.corners.iter().map(color).collect();
-        let mut ids: Vec<u32> = self.corners.iter().map(|corner| corner.material).collect();
-        let bits;
-        (*materials, bits) = tint::tint(materials, &mut ids, &of_corners);
-        for (corner, id) in self.corners.iter_mut().zip(ids) {
-            corner.material = id;
+    }
+
+    /// The colours of `vertices`, which are corners; empty if there are none or another material replaces them.
+    pub(super) fn vertex_colors(&self, vertices: &[u32]) -> Vec<Vec4> {
+        if self.colors.is_empty() || self.replaced.is_some() {
+            return Vec::new();
         }
-        if bits < 8 {
-            self.notes.add("colours", || {
-                format!("colours of vertices reduced to {bits} bits a channel: there are too many")
-            });
-        }
+        let color = |&vertex: &u32| {
+            let position = self.corners[vertex as usize].position as usize;
+            tint::linear(self.colors.get(position).copied().unwrap_or(Vec3::ONE))
+        };
+        vertices.iter().map(color).collect()
     }
 
     /// Announces the pictures of a material, so that they are decoded together.

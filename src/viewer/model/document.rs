@@ -250,6 +250,7 @@ fn own_bytes(scene: &Scene, next: &Scene) -> usize {
                 uvs,
                 second_uvs,
                 tangents,
+                colors,
                 materials,
                 triangles,
                 ..
@@ -259,6 +260,7 @@ fn own_bytes(scene: &Scene, next: &Scene) -> usize {
                 + of(uvs)
                 + of(second_uvs)
                 + of(tangents)
+                + of(colors)
                 + of(materials)
                 + of(triangles);
         }

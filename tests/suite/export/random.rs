@@ -3,6 +3,7 @@
 use super::loss;
 use crate::support::random::Random;
 use crate::support::verdict::Verdict;
+use glam::Vec4;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3};
 use glimray::scene::*;
 use std::sync::Arc;
@@ -337,6 +338,11 @@ fn mesh(random: &mut Random, materials: usize) -> Mesh {
         let hand = |random: &mut Random| pick(random, &[1.0, -1.0]);
         let mut tangent = || direction(random).as_vec3().extend(hand(random));
         mesh.tangents = (0..count).map(|_| tangent()).collect();
+    }
+    if random.below(2) == 0 {
+        let mut part = || random.between(0.0, 3.0) as f32;
+        let mut color = || Vec4::from([0; 4].map(|_| part()));
+        mesh.colors = (0..count).map(|_| color()).collect();
     }
     if random.below(2) == 0 {
         mesh.materials.fill(0);

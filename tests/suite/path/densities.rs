@@ -8,7 +8,7 @@ use super::explained::explained;
 use super::{lights, lit_floor, matte, paths};
 use crate::reference::scenes::Build;
 use crate::support::{random::Random, verdict::Verdict};
-use glam::{DAffine3, DQuat, Vec3, dvec3, vec3};
+use glam::{DAffine3, DQuat, Vec3, dvec3, vec3, vec4};
 use glimray::scene::{
     Attenuation, Background, CanonicalShape, Geometry, Light, LightKind, Material, Picture, Scene,
     Shape,
@@ -92,6 +92,23 @@ fn under_meshes(count: usize, random: &mut Random) -> Scene {
                 scene.instances.push(copy);
             }
         };
+    }
+    scene
+}
+
+/// Meshes whose colours vary over their triangles, but not in green.
+fn under_painted_meshes(random: &mut Random) -> Scene {
+    let mut scene = dark(random);
+    let material = scene.add_material(Material {
+        emission: Vec3::splat(RADIANCE),
+        ..matte(0.0)
+    });
+    for _ in 0..6 {
+        let mut mesh = globe(1.0, 4, material as u32);
+        let mut part = || random.between(0.0, 8.0) as f32;
+        let mut color = || vec4(part(), 1.0, part(), 1.0);
+        mesh.colors = mesh.positions.iter().map(|_| color()).collect();
+        scene.add_mesh(mesh, placed(random));
     }
     scene
 }
@@ -206,6 +223,15 @@ fn densities_of_light_samples_are_those_that_hits_take_for_them() {
         }
         let scene = under_meshes(count, &mut random);
         check(&mut verdict, &format!("{count} meshes"), &scene, even);
+    }
+    for tree in [false, true] {
+        let mut scene = under_painted_meshes(&mut random);
+        if !tree {
+            scene.meshes.truncate(1);
+            scene.instances.truncate(1);
+            Arc::make_mut(&mut scene.meshes[0]).triangles.truncate(3);
+        }
+        check(&mut verdict, "painted meshes", &scene, even);
     }
     let scene = under_the_sky(&mut random);
     check(&mut verdict, "sky", &scene, |[_, y, _]| match y {

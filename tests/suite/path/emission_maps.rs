@@ -1,11 +1,11 @@
 //! Emissive textures whose brightness differs from triangle to triangle.
 
-use super::{lit_floor, matte, near, paths};
+use super::{lit_floor, matte, mean, near, paths};
 use crate::reference::compare::render;
-use crate::reference::scenes::Build;
+use crate::reference::scenes::{self, Build};
 use crate::support::random::Random;
 use crate::support::verdict::Verdict;
-use glam::{DAffine3, DVec2, DVec3, Vec3, dvec3, vec3};
+use glam::{DAffine3, DVec2, DVec3, UVec2, Vec3, Vec4, dvec3, vec3};
 use glimray::pack;
 use glimray::scene::{
     Deformation, Light, Material, Mesh, Minify, MorphTarget, Pattern, Picture, Scene, Space,
@@ -257,5 +257,39 @@ fn emitters_know_the_mean_of_their_part_of_a_picture() {
             }
         }
     }
+    verdict.close();
+}
+
+/// A panel whose light rises along x, in so few and in many triangles. By symmetry half of it on either side of its middle
+/// adds up to an even panel there.
+#[test]
+fn light_of_vertices_whose_emission_rises_is_that_of_their_mean() {
+    let mut verdict = Verdict::on("panels with colours");
+    let under = |parts: u32, color: &dyn Fn(f32) -> f32| {
+        let mut scene = dark_floor();
+        scene.cameras[0].look_at = dvec3(0.0, 0.0, 0.0);
+        scene.cameras[0].look_from = dvec3(0.0, 2.5, 1.0);
+        let material = scene.add_material(Material {
+            emission: Vec3::splat(5.0),
+            two_sided: false,
+            ..matte(0.0)
+        });
+        let mut mesh = scenes::lattice(UVec2::splat(parts), material as u32, |u, v| {
+            (dvec3(u - 0.5, 1.2, v - 1.0), -DVec3::Y)
+        });
+        let colors = mesh.positions.iter();
+        mesh.colors = colors.map(|p| Vec4::splat(color(p.x))).collect();
+        scene.add_mesh(mesh, DAffine3::IDENTITY);
+        mean(&scene, &paths(1024, (16, 16), 0))
+    };
+    let expected = under(1, &|_| 1.0);
+    for parts in [1, 8] {
+        let found = under(parts, &|x| 1.0 + 2.0 * x);
+        let what = format!("{parts} quads a side");
+        near(&mut verdict, what, found, expected, 0.01 * expected);
+    }
+    // Without symmetry, few triangles and many give the same light.
+    let [few, many] = [1, 8].map(|parts| under(parts, &|x| (0.5 + x) * 2.0 + 0.1));
+    near(&mut verdict, "few and many", few, many, 0.01 * many);
     verdict.close();
 }

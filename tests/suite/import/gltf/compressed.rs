@@ -132,8 +132,7 @@ fn filtered_quaternions_exponents_and_colors_keep_their_values() {
         let vector = placement.transform_vector3(DVec3::new(0.1, 0.2, 0.3));
         assert!(vector.distance(turned) < 1e-4, "{vector}, not {turned}");
     }
-    let painted = scene.meshes[0].materials[0] as usize;
-    let color = scene.materials[painted].diffuse;
+    let color = scene.meshes[0].colors[0].truncate();
     let white = color / color.x;
     assert!(white.distance(Vec3::new(1.0, 0.5, 0.25)) < 0.02, "{color}");
 }

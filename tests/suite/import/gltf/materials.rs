@@ -4,6 +4,7 @@ use super::model::{Model, UNSIGNED_BYTE, base64, png};
 use super::{folder, message_in};
 use crate::support::verdict::Verdict;
 use glam::{DVec3, Vec3};
+use glam::{Vec4, vec4};
 use glimray::import::{self, Options};
 use glimray::scene::{
     Coverage, Fresnel, Material, MetallicRoughness, Minify, Pattern, Scene, Space, Texture, Wrap,
@@ -491,10 +492,60 @@ fn vertex_colors_multiply_the_base_color() {
     let factor = json!({ "baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0 });
     model.push("materials", json!({ "pbrMetallicRoughness": factor }));
     let scene = model.scene();
-    let corner = |i: usize| scene.materials[scene.meshes[0].materials[i] as usize].diffuse;
-    assert_near(corner(0), [0.5, 0.0, 0.0]);
-    assert_near(corner(1), [0.0, 0.5, 0.0]);
-    assert_near(corner(2), [0.0, 0.0, 0.5]);
+    assert_near(scene.materials[0].diffuse, [0.5; 3]);
+    let colors = [
+        vec4(1.0, 0.0, 0.0, 1.0),
+        vec4(0.0, 1.0, 0.0, 1.0),
+        vec4(0.0, 0.0, 1.0, 1.0),
+    ];
+    assert_eq!(scene.meshes[0].colors, colors);
+}
+
+/// glTF 2.0, 3.7.2.1: integers of colours are normalised.
+#[test]
+fn colors_keep_their_bits_and_those_that_are_none_are_repaired() {
+    let of = |color: usize, model: &mut Model, mode: &str| {
+        let mut model = std::mem::replace(model, Model::triangle(json!({})));
+        model.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(color);
+        model.push("materials", json!({ "alphaMode": mode }));
+        model.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+        let scene = model.scene();
+        (scene.meshes[0].colors.clone(), scene.skipped)
+    };
+    let mut model = Model::triangle(json!({}));
+    let floats = [
+        [0.123_456_79, 7.5, 0.0, 0.3],
+        [1e-5, 1.0, 1.0, 1.0],
+        [1.0; 4],
+    ];
+    let color = model.quads(&floats);
+    assert_eq!(
+        of(color, &mut model, "BLEND"),
+        (floats.map(Vec4::from).to_vec(), vec![])
+    );
+    // Without an effect alpha is dropped, and so is white.
+    let mut model = Model::triangle(json!({}));
+    let color = model.quads(&[[1.0, 1.0, 1.0, 0.3]; 3]);
+    assert_eq!(of(color, &mut model, "OPAQUE"), (vec![], vec![]));
+    let mut model = Model::triangle(json!({}));
+    let color = model.quads(&[[f32::NAN, -1.0, 1e9, 0.3]; 3]);
+    let (colors, notes) = of(color, &mut model, "MASK");
+    assert_eq!(colors, [vec4(0.0, 0.0, 1e3, 0.3); 3]);
+    assert_eq!(notes, ["colours of vertices clamped to 0 to 1000: 3"]);
+    let mut model = Model::triangle(json!({}));
+    let color = model.accessor(
+        &[[255, 51, 0, 102_u8]; 3].concat(),
+        UNSIGNED_BYTE,
+        "VEC4",
+        3,
+    );
+    let (colors, notes) = of(color, &mut model, "BLEND");
+    assert_eq!(colors, [vec4(1.0, 0.2, 0.0, 0.4); 3]);
+    assert_eq!(notes.len(), 1, "{notes:?}");
+    assert!(
+        notes[0].ends_with("is not marked as normalised, and read as if it were"),
+        "{notes:?}"
+    );
 }
 
 #[test]
