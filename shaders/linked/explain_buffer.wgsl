@@ -505,6 +505,8 @@ const types__RAY_BOUNDARY: u32 = 4u;
 
 const types__RAY_TOTAL: u32 = 8u;
 
+const types__RAY_UNTRACED: u32 = 16u;
+
 const types__PROBE_ROWS: u32 = 3u;
 
 const types__RAY_ROWS: u32 = 17u;
@@ -803,6 +805,8 @@ var<private> record__light_index: u32;
 
 var<private> record__light_weight: f32;
 
+var<private> record__shadow: types__PackedRay;
+
 var<private> record__met: tracing__Hit;
 
 var<private> record__met_count: u32;
@@ -918,28 +922,53 @@ fn record__record_met(hit: tracing__Hit, rest: f32) {
 	}
 }
 
-fn record__record_shadow(ray: tracing__Ray, reflected: vec3f, through: vec3f) {
-	var shadow = types__PackedRay();
-	shadow.origin = ray.origin;
-	shadow.kind = types__RAY_SHADOW;
-	shadow.direction = ray.direction;
-	shadow.t = record__met.t;
-	shadow.t_max = ray.t_max;
-	shadow.primitive = record__met.primitive;
-	shadow.instance = record__met.instance;
-	shadow.crossings = record__met_count;
-	shadow.material = types__NONE;
-	shadow.throughput = record__light_weight * record__traced.arriving;
-	shadow.arriving = shadow.throughput * through;
-	shadow.parent = record__traced_index;
-	shadow.contribution = shadow.throughput * (through * reflected);
-	shadow.light = record__light_index;
-	shadow.ambient = reflected;
-	shadow.transmit = through;
-	shadow.medium = types__NONE;
-	shadow.medium_behind = types__NONE;
-	shadow.media = vec4u(types__NONE);
-	record__store_ray(record__ray_count, shadow);
+fn record__record_phong(surface: shading__Surface, light: shading__Incident, v: vec3f, reflected: vec3f, is_traced: bool) {
+	let l = light.direction;
+	let coefficients = surface.phong;
+	record__shadow = types__PackedRay();
+	record__shadow.origin = surface.p;
+	record__shadow.kind = types__RAY_SHADOW;
+	record__shadow.direction = l;
+	record__shadow.t_max = light.distance;
+	record__shadow.primitive = types__NONE;
+	record__shadow.instance = types__NO_INSTANCE;
+	record__shadow.material = types__NONE;
+	record__shadow.throughput = record__light_weight * record__traced.arriving;
+	record__shadow.parent = record__traced_index;
+	record__shadow.flags = select(types__RAY_UNTRACED, 0u, is_traced);
+	record__shadow.light = record__light_index;
+	record__shadow.ambient = reflected;
+	record__shadow.emission = light.radiance;
+	record__shadow.reflect = coefficients.diffuse;
+	record__shadow.value = coefficients.specular;
+	record__shadow.pdf = coefficients.shininess;
+	record__shadow.own_pdf = dot(l, surface.n);
+	record__shadow.other_pdf = phong__mirrored_cosine(surface.n, l, v);
+	record__shadow.chance = phong__shininess_power(max_f32(record__shadow.other_pdf, 0.0), coefficients.shininess);
+	record__shadow.medium = types__NONE;
+	record__shadow.medium_behind = types__NONE;
+	record__shadow.media = vec4u(types__NONE);
+	if (!is_traced) {
+		record__store_shadow();
+	}
+}
+
+fn record__record_shadow(ray: tracing__Ray, through: vec3f) {
+	record__shadow.origin = ray.origin;
+	record__shadow.direction = ray.direction;
+	record__shadow.t = record__met.t;
+	record__shadow.t_max = ray.t_max;
+	record__shadow.primitive = record__met.primitive;
+	record__shadow.instance = record__met.instance;
+	record__shadow.crossings = record__met_count;
+	record__shadow.arriving = record__shadow.throughput * through;
+	record__shadow.contribution = record__shadow.throughput * (through * record__shadow.ambient);
+	record__shadow.transmit = through;
+	record__store_shadow();
+}
+
+fn record__store_shadow() {
+	record__store_ray(record__ray_count, record__shadow);
 	record__ray_count += 1u;
 }
 
@@ -3138,7 +3167,9 @@ fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: 
 						arriving = area_light__area_incident(light, receiver.surface.p, sampling__stratified_2d(sample * count + drawn, hash));
 					}
 					let reflected = arriving.radiance * phong__phong(receiver.surface.phong, receiver.surface.n, arriving.direction, receiver.v);
-					if (any(reflected > vec3f(0.0))) {
+					let is_lit = any(reflected > vec3f(0.0));
+					record__record_phong(receiver.surface, arriving, receiver.v, reflected, is_lit);
+					if (is_lit) {
 						rays = rays__ray_set(rays, k, direct__shadow_ray(receiver.surface, arriving));
 						unshadowed = wide__vector_set(unshadowed, k, reflected);
 					}
@@ -3152,7 +3183,7 @@ fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: 
 		}
 		loops__cut_off |= rows != 0u;
 		let through = shadow__light_through(rays, media);
-		direct__record_shadows(rays, unshadowed, through);
+		direct__record_shadows(rays, through);
 		sum.x += through.x * unshadowed.x;
 		sum.y += through.y * unshadowed.y;
 		sum.z += through.z * unshadowed.z;
@@ -3172,10 +3203,10 @@ fn direct__shadow_ray(surface: shading__Surface, arriving: shading__Incident) ->
 	return ray;
 }
 
-fn direct__record_shadows(rays: rays__Rays, unshadowed: wide__Vectors, through: wide__Vectors) {
+fn direct__record_shadows(rays: rays__Rays, through: wide__Vectors) {
 	let ray = rays__ray_at(rays, 0u);
 	if (ray.t_max >= 0.0) {
-		record__record_shadow(ray, wide__vector_at(unshadowed, 0u), wide__vector_at(through, 0u));
+		record__record_shadow(ray, wide__vector_at(through, 0u));
 	}
 }
 
@@ -4856,10 +4887,14 @@ fn phong__shininess_power(x: f32, shininess: f32) -> f32 {
 	return select(select(0.0, 1.0, shininess <= 0.0), power, x > 0.0);
 }
 
+fn phong__mirrored_cosine(n: vec3f, l: vec3f, v: vec3f) -> f32 {
+	let r = 2.0 * dot(l, n) * n - l;
+	return dot(r, v);
+}
+
 fn phong__phong(coefficients: shading__Phong, n: vec3f, l: vec3f, v: vec3f) -> vec3f {
 	let cos_l = dot(l, n);
-	let r = 2.0 * cos_l * n - l;
-	let highlight = phong__shininess_power(max_f32(dot(r, v), 0.0), coefficients.shininess);
+	let highlight = phong__shininess_power(max_f32(phong__mirrored_cosine(n, l, v), 0.0), coefficients.shininess);
 	let lit = coefficients.diffuse * max_f32(cos_l, 0.0) + coefficients.specular * highlight;
 	return select(vec3f(0.0), lit, cos_l > 0.0);
 }

@@ -3459,7 +3459,8 @@ fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: 
 						arriving = area_light__area_incident(light, receiver.surface.p, sampling__stratified_2d(sample * count + drawn, hash));
 					}
 					let reflected = arriving.radiance * phong__phong(receiver.surface.phong, receiver.surface.n, arriving.direction, receiver.v);
-					if (any(reflected > vec3f(0.0))) {
+					let is_lit = any(reflected > vec3f(0.0));
+					if (is_lit) {
 						rays = rays__ray_set(rays, k, direct__shadow_ray(receiver.surface, arriving));
 						unshadowed = wide__vector_set(unshadowed, k, reflected);
 					}
@@ -4965,10 +4966,14 @@ fn phong__shininess_power(x: f32, shininess: f32) -> f32 {
 	return select(select(0.0, 1.0, shininess <= 0.0), power, x > 0.0);
 }
 
+fn phong__mirrored_cosine(n: vec3f, l: vec3f, v: vec3f) -> f32 {
+	let r = 2.0 * dot(l, n) * n - l;
+	return dot(r, v);
+}
+
 fn phong__phong(coefficients: shading__Phong, n: vec3f, l: vec3f, v: vec3f) -> vec3f {
 	let cos_l = dot(l, n);
-	let r = 2.0 * cos_l * n - l;
-	let highlight = phong__shininess_power(max_f32(dot(r, v), 0.0), coefficients.shininess);
+	let highlight = phong__shininess_power(max_f32(phong__mirrored_cosine(n, l, v), 0.0), coefficients.shininess);
 	let lit = coefficients.diffuse * max_f32(cos_l, 0.0) + coefficients.specular * highlight;
 	return select(vec3f(0.0), lit, cos_l > 0.0);
 }

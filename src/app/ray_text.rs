@@ -4,7 +4,7 @@ pub mod path;
 
 use crate::app::error::AppError;
 use crate::render::{
-    Integrator, RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay,
+    Integrator, PhongTerms, RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay,
 };
 use crate::scene::ObjectRef;
 use glam::{DVec3, Vec3};
@@ -110,7 +110,7 @@ fn write_ray(
     };
     let detail = format!("{below}{bar}");
     match (&ray.shadow, &ray.hit) {
-        (Some(shadow), hit) => write_shadow(out, shadow, hit.as_ref(), ray)?,
+        (Some(shadow), hit) => write_shadow(out, &detail, (shadow, hit.as_ref()), ray)?,
         (None, Some(hit)) => write_hit(out, &detail, hit, ray)?,
         (None, None) => {
             let [direction, throughput] = [vector(ray.direction), color(ray.throughput)];
@@ -131,8 +131,8 @@ fn write_ray(
 
 fn write_shadow(
     out: &mut String,
-    shadow: &ShadowRay,
-    hit: Option<&RayHit>,
+    detail: &str,
+    (shadow, hit): (&ShadowRay, Option<&RayHit>),
     ray: &TracedRay,
 ) -> fmt::Result {
     write!(out, " to {}", target(shadow))?;
@@ -140,11 +140,12 @@ fn write_shadow(
         write!(out, ", {} away", short(distance))?;
     }
     match hit {
+        _ if !shadow.is_traced() => writeln!(out, ": not traced, nothing of it is reflected")?,
         Some(hit) if shadow.blocked => {
             let (what, distance) = (object(hit), short(hit.distance));
-            writeln!(out, ": blocked by {what} at distance {distance}")
+            writeln!(out, ": blocked by {what} at distance {distance}")?;
         }
-        _ if shadow.blocked => writeln!(out, ": blocked"),
+        _ if shadow.blocked => writeln!(out, ": blocked")?,
         _ => {
             let throughput = color(ray.throughput);
             let added = color(ray.contribution);
@@ -155,9 +156,23 @@ fn write_shadow(
                     write!(out, ": transmittance {through} through {count} surface(s)")?;
                 }
             }
-            writeln!(out, ", throughput {throughput}, contribution {added}")
+            writeln!(out, ", throughput {throughput}, contribution {added}")?;
         }
     }
+    match &shadow.phong {
+        Some(terms) => write_phong(out, detail, terms),
+        None => Ok(()),
+    }
+}
+
+fn write_phong(out: &mut String, detail: &str, terms: &PhongTerms) -> fmt::Result {
+    let [l_n, r_v, alpha] = [terms.l_dot_n, terms.r_dot_v, terms.alpha].map(short);
+    let light = color(terms.light);
+    writeln!(out, "{detail}L {light}, l·n {l_n}, r·v {r_v}, α {alpha}")?;
+    let [diffuse, k_d] = [terms.diffuse, terms.k_d].map(color);
+    write!(out, "{detail}diffuse {diffuse} (k_d {k_d})")?;
+    let [highlight, k_s] = [terms.highlight, terms.k_s].map(color);
+    writeln!(out, ", highlight {highlight} (k_s {k_s})")
 }
 
 fn write_hit(out: &mut String, detail: &str, hit: &RayHit, ray: &TracedRay) -> fmt::Result {

@@ -5,9 +5,11 @@
 //! growing, is not changed.
 
 mod path;
+mod phong;
 mod tree;
 
 pub use path::{LightSample, LightSource, Lobe, PathStep, Sharing, StepOutcome};
+pub use phong::PhongTerms;
 pub use tree::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
 
 use super::{

@@ -23,7 +23,7 @@ const MAX_PACKET_MATERIALS: usize = 0xffff;
 const MIN_PACKET_RAYS: u64 = 2_000_000;
 const MIN_PACKET_RAYS_OF_SHAPES: u64 = 10_000_000;
 
-/// Samples of a lane whose ray trees differ in size. They share the 65,535 rounds of a loop of lavapipe, and have at most 1,024
+/// Samples of a lane whose ray trees differ in size. They share the 65,535 rounds of a loop of Mesa 22.3, and have at most 1,024
 /// rays each.
 const TREES_PER_LANE: u32 = 4;
 

@@ -10,8 +10,8 @@ use glam::{DVec3, Vec3, dvec3, vec3};
 use glimray::import;
 use glimray::pack;
 use glimray::render::{
-    Antialias, Filter, RayKind, RayTree, RenderSettings, Renderer, SampleTree, Slicing, Tone,
-    TracedRay,
+    Antialias, Filter, RayKind, RayTree, RenderSettings, Renderer, SampleTree, ShadowRay, Slicing,
+    Tone, TracedRay,
 };
 use glimray::scene::{
     Attenuation, Geometry, Light, LightKind, LightTransport, Minify, ObjectRef, Pattern, Scene,
@@ -128,6 +128,32 @@ pub(crate) fn check_sums(tree: &RayTree, value: Vec3) -> Result<(), String> {
     Ok(())
 }
 
+/// Checks that the terms of Phong's model multiply out to what a shadow ray adds.
+fn check_terms(ray: &TracedRay, shadow: &ShadowRay) -> Result<(), String> {
+    let Some(terms) = &shadow.phong else {
+        return Ok(());
+    };
+    let [l, k_d, k_s] = [terms.light, terms.k_d, terms.k_s].map(Vec3::from);
+    let (cosine, mirrored) = (terms.l_dot_n.max(0.0), terms.r_dot_v.max(0.0));
+    let power = match cosine > 0.0 {
+        true => f64::from(mirrored).powf(terms.alpha.into()) as f32,
+        false => 0.0,
+    };
+    let [diffuse, highlight] = [terms.diffuse, terms.highlight].map(Vec3::from);
+    let passed = Vec3::from(ray.throughput) * Vec3::from(shadow.transmittance);
+    let multiplied = near(diffuse, l * k_d * cosine)
+        // Rounding of the base of a power counts as often as its exponent says.
+        && (highlight - l * k_s * power).abs().max_element()
+            <= (TOLERANCE + 1e-6 * terms.alpha) * (l * k_s).max_element().max(1.0)
+        && near(shadow.unshadowed.into(), diffuse + highlight)
+        && near(ray.contribution.into(), passed * (diffuse + highlight))
+        && shadow.is_traced() == (shadow.unshadowed != [0.0; 3]);
+    match multiplied {
+        true => Ok(()),
+        false => Err(format!("terms do not multiply out: {ray:?}")),
+    }
+}
+
 /// Checks the parent links and kinds of a sample's rays.
 pub(crate) fn check_shape(sample: &SampleTree) -> Result<(), String> {
     for (index, ray) in sample.rays.iter().enumerate() {
@@ -146,6 +172,9 @@ pub(crate) fn check_shape(sample: &SampleTree) -> Result<(), String> {
             }
         };
         let is_shadow = ray.shadow.is_some() == (kind == RayKind::Shadow);
+        if let Some(shadow) = &ray.shadow {
+            check_terms(ray, shadow)?;
+        }
         let names_something = ray.hit.as_ref().is_none_or(|hit| hit.object.is_some());
         if !(is_known && is_shadow && names_something) {
             return Err(format!(
@@ -400,7 +429,8 @@ fn compare(sample: &SampleTree, at: usize, nodes: &[Node], node: usize) -> Resul
     }
     // The tracer sends a ray to every light in front of a surface, the kernel only if it can contribute.
     let others = sent(RayKind::Shadow);
-    for child in children(RayKind::Shadow) {
+    let traced = |&child: &usize| sample.rays[child].is_traced();
+    for child in children(RayKind::Shadow).into_iter().filter(traced) {
         let shadow = sample.rays[child].shadow.as_ref().expect("a shadow ray");
         let other = others
             .iter()
@@ -658,6 +688,78 @@ fn a_shadow_ray_names_its_occluder() {
     let shadow = free.shadow.as_ref().expect("it is one");
     assert!(!shadow.blocked && shadow.distance.is_none() && free.hit.is_none());
     assert!((free.contribution[0] - 0.4).abs() < 1e-5, "{free:?}");
+}
+
+/// A wall at z = 0 is seen along its normal from z = 4: `n` and `v` are both z.
+#[test]
+fn the_terms_of_each_light_are_those_of_a_calculation_by_hand() {
+    let mut scene = Scene {
+        cameras: vec![glimray::scene::Camera {
+            look_from: dvec3(0.0, 0.0, 4.0),
+            ..Default::default()
+        }],
+        materials: vec![glimray::scene::Material {
+            diffuse: vec3(0.6, 0.5, 0.1),
+            specular: vec3(0.2, 0.4, 0.8),
+            shininess: 3.0,
+            ..Default::default()
+        }],
+        ..Scene::default()
+    };
+    scene.add_plane(DVec3::ZERO, DVec3::Z, 0);
+    // A triangle of sides 3, 4 and 5: l·n = 4/5. The mirrored direction is as far from the eye, so r·v = 4/5 too.
+    scene.add_point_light(dvec3(3.0, 0.0, 4.0), 2.0);
+    scene.lights[0].attenuation = Attenuation::None;
+    // Along the normal, from 2 units away: 12/2² = 3.
+    scene.add_point_light(dvec3(0.0, 0.0, 2.0), 12.0);
+    scene.lights[1].attenuation = Attenuation::InverseSquare;
+    // From below the wall: l·n = r·v = −3/5.
+    scene.add_point_light(dvec3(0.0, 4.0, -3.0), 1.0);
+    scene.lights[2].attenuation = Attenuation::None;
+    // As the first, on the other side, behind a ball.
+    scene.add_point_light(dvec3(-3.0, 0.0, 4.0), 2.0);
+    scene.lights[3].attenuation = Attenuation::None;
+    scene.add_sphere(dvec3(-1.5, 0.0, 2.0), 0.25, 0);
+    let tree = renderer(&scene, &sized(1, 1))
+        .explain([0, 0], 0..1)
+        .expect("a tree");
+    let rays = &tree.samples[0].rays;
+    assert_eq!(
+        rays.len(),
+        5,
+        "a ray from the camera, and one for each light"
+    );
+    let (k_d, k_s) = (dvec3(0.6, 0.5, 0.1), dvec3(0.2, 0.4, 0.8));
+    let cubed = 0.8f64.powi(3);
+    // L, l·n and r·v, diffuse, highlight, the fraction that arrives, whether a ray was sent.
+    let expected = [
+        (2.0, 0.8, 1.6 * k_d, 2.0 * cubed * k_s, 1.0, true),
+        (3.0, 1.0, 3.0 * k_d, 3.0 * k_s, 1.0, true),
+        (1.0, -0.6, DVec3::ZERO, DVec3::ZERO, 0.0, false),
+        (2.0, 0.8, 1.6 * k_d, 2.0 * cubed * k_s, 0.0, true),
+    ];
+    for (light, (l, cosine, diffuse, highlight, arriving, traced)) in
+        expected.into_iter().enumerate()
+    {
+        let ray = &rays[1 + light];
+        let shadow = ray.shadow.as_ref().expect("a shadow ray");
+        let terms = shadow.phong.as_ref().expect("terms");
+        let is = |got: [f32; 3], want: DVec3| (Vec3::from(got) - want.as_vec3()).length() < 1e-5;
+        let scalar = |got: f32, want: f64| (f64::from(got) - want).abs() < 1e-6;
+        assert_eq!((shadow.light, terms.traced), (Some(light), traced));
+        assert!(
+            is(terms.light, DVec3::splat(l))
+                && scalar(terms.l_dot_n, cosine)
+                && scalar(terms.r_dot_v, cosine)
+                && is(terms.k_d, k_d)
+                && is(terms.k_s, k_s)
+                && scalar(terms.alpha, 3.0)
+                && is(terms.diffuse, diffuse)
+                && is(terms.highlight, highlight)
+                && is(ray.contribution, arriving * (diffuse + highlight)),
+            "light {light}: {ray:?}"
+        );
+    }
 }
 
 #[test]

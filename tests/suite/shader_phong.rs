@@ -55,6 +55,23 @@ fn light_is_reflected_as_phong_says() {
 }
 
 #[test]
+fn a_mirrored_light_is_seen_at_the_angle_between_eye_and_mirror() {
+    let n = [0f32, 1.0, 0.0];
+    let at = |degrees: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        [sin as f32, cos as f32, 0.0]
+    };
+    #[rustfmt::skip]
+    gpu().check("lib::phong::mirrored_cosine", Tolerance::Absolute(1e-6), &[
+        ("the eye where the mirror sends the light", (n, at(40.0), at(-40.0)), 1.0),
+        ("the eye 60° off", (n, at(30.0), at(30.0)), 0.5),
+        ("the eye opposite", (n, at(80.0), at(100.0)), -1.0),
+        ("a light from below has a mirror too", (n, at(120.0), at(-120.0)), 1.0),
+        ("a tilted normal", (at(30.0), at(75.0), at(-45.0)), 30f64.to_radians().cos()),
+    ]);
+}
+
+#[test]
 fn powers_are_right_and_defined_at_zero() {
     #[rustfmt::skip]
     gpu().check("lib::phong::shininess_power", Tolerance::Absolute(1e-6), &[

@@ -1,6 +1,7 @@
 //! The rays of a pixel as plain data, in world space, with the names of the objects they hit.
 
 use super::path::{LightSample, LightSource, Lobe, PathStep, Sharing, StepOutcome};
+use super::phong::PhongTerms;
 use crate::{
     layout::{
         LARGEST_RADIANCE_BITS, MATERIAL_FRESNEL, NONE, PackedProbe, PackedRay, RAY_BOUNDARY,
@@ -178,7 +179,7 @@ pub struct ShadowRay {
     pub light_name: Option<String>,
     /// Distance to the light, in scene units; `None` if it is infinitely far away.
     pub distance: Option<f64>,
-    /// Whether the light is fully blocked.
+    /// Whether nothing of the light arrives: it is blocked, or the ray is not traced.
     pub blocked: bool,
     /// The fraction of the light that passes.
     pub transmittance: [f32; 3],
@@ -188,16 +189,22 @@ pub struct ShadowRay {
     pub crossings: u32,
     /// In a path: what was chosen.
     pub sample: Option<LightSample>,
+    /// In a tree of the classical integrator: the terms of Phong's model.
+    pub phong: Option<PhongTerms>,
+}
+
+impl ShadowRay {
+    /// Whether the ray exists: there is none to light of which the surface scatters nothing.
+    pub fn is_traced(&self) -> bool {
+        let sample = self.sample.as_ref().is_none_or(|sample| sample.traced);
+        sample && self.phong.as_ref().is_none_or(|phong| phong.traced)
+    }
 }
 
 impl TracedRay {
-    /// Whether the ray exists: a light sample of which the surface scatters nothing has none.
+    /// Whether the ray exists: a shadow ray may not, see [`ShadowRay::is_traced`].
     pub fn is_traced(&self) -> bool {
-        let sample = self
-            .shadow
-            .as_ref()
-            .and_then(|shadow| shadow.sample.as_ref());
-        sample.is_none_or(|sample| sample.traced)
+        self.shadow.as_ref().is_none_or(ShadowRay::is_traced)
     }
 }
 
@@ -380,6 +387,7 @@ impl<'a> Reader<'a> {
             unshadowed: record.ambient,
             crossings: record.crossings,
             sample,
+            phong: (!self.is_path).then(|| PhongTerms::of(record)),
         }
     }
 

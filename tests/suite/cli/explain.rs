@@ -17,6 +17,8 @@ fn explain_writes_text_json_and_obj_lines() {
       │ at (0, 0, -2), normal (0, 0, 1), from outside
       │ throughput 1 1 1, contribution 0.1 0.1 0.1 (ambient 0.1 0.1 0.1)
       └ shadow to light 0, 4.123 away: unoccluded, throughput 1 1 1, contribution 0.5097 0.07311 0.07311
+          L 1 1 1, l·n 0.7276, r·v 0.7276, α 20
+          diffuse 0.5093 0.07276 0.07276 (k_d 0.7 0.1 0.1), highlight 0.0003459 0.0003459 0.0003459 (k_s 0.2 0.2 0.2)
       sum 0.6097 0.1731 0.1731, colour 0.6097 0.1731 0.1731
     sum    0.6097 0.1731 0.1731, the weighted mean of 1 sample(s)
     pixel  0.6097 0.1731 0.1731 (linear)

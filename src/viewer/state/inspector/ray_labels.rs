@@ -197,6 +197,14 @@ fn light(inspected: &Inspected, details: &mut Details, shadow: &ShadowRay, hit: 
         details.push(("radiance per density", color(sample.radiance)));
         details.push(("BSDF times cosine", color(sample.bsdf)));
     }
+    if let Some(terms) = &shadow.phong {
+        details.push(("L", color(terms.light)));
+        details.push(("l·n", short(terms.l_dot_n)));
+        details.push(("r·v", short(terms.r_dot_v)));
+        details.push(("α", short(terms.alpha)));
+        details.push(("diffuse", color(terms.diffuse)));
+        details.push(("highlight", color(terms.highlight)));
+    }
     details.push(("transmittance", color(shadow.transmittance)));
     details.push(("unshadowed", color(shadow.unshadowed)));
 }
