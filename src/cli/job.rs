@@ -19,7 +19,7 @@ use crate::cli::report::{
 use crate::gpu::{AdapterChoice, AdapterReport, Gpu};
 use crate::output;
 use crate::render::{ExecutionPolicy, Integrator, RenderSettings, Renderer, Stats, Tone};
-use crate::scene::{Backdrop, Scene};
+use crate::scene::{Backdrop, LightTransport, Scene};
 use std::path::Path;
 use std::time::Instant;
 
@@ -68,6 +68,7 @@ impl Job<'_> {
         if self.scene.is_unlit() && !(is_path && self.scene.background_shines()) {
             console::warning(UNLIT);
         }
+        self.warn_of_depth();
         let mut gaining = self.scene.materials_that_gain_light();
         if is_path && let Some(first) = gaining.next() {
             let others = match gaining.count() {
@@ -80,6 +81,21 @@ impl Job<'_> {
                 console::quoted(&first.name)
             ));
         }
+    }
+
+    /// Warns of mirrors and glass at a depth of 0 that nobody asked for: that of course scenes.
+    fn warn_of_depth(&self) {
+        let settings = self.settings();
+        let asked = self.picture.max_depth.is_some() || settings.integrator != Integrator::Whitted;
+        let count = self.scene.mirrors_and_glass().count();
+        if asked || settings.max_depth > 0 || count == 0 {
+            return;
+        }
+        let depth = LightTransport::Whitted.max_depth();
+        console::warning(format_args!(
+            "depth 0 follows no reflected or refracted ray, so {count} material(s) of mirror or glass show only their own \
+             colour. Use --max-depth {depth} to follow them; --max-depth 0 silences this."
+        ));
     }
 
     pub fn settings(&self) -> RenderSettings {

@@ -86,6 +86,15 @@ impl Scene {
         self.materials.iter().filter(gains)
     }
 
+    /// The mirrors and the glass: materials that reflect at least 0.7 of the light, more than a glossy paint, or transmit
+    /// some.
+    pub fn mirrors_and_glass(&self) -> impl Iterator<Item = &Material> {
+        let follows = |material: &&Material| {
+            material.reflect.max_element() >= 0.7 || material.transmit.max_element() > 0.0
+        };
+        self.materials.iter().filter(follows)
+    }
+
     /// Whether a material has an emission that its texture does not make black.
     fn emits(&self, material: &Material) -> bool {
         let is_black = |texture: usize| match self.textures[texture].pattern {

@@ -1,6 +1,6 @@
 //! `render` and `demo`: files, crops, linear formats.
 
-use crate::support::program::Workspace;
+use crate::support::program::{SCENE, Workspace};
 use std::fs;
 
 #[test]
@@ -200,4 +200,29 @@ fn the_curve_of_paths_comes_with_its_transfer_function() {
     }
     let washed = picture("a.scene --integrator path --transfer linear");
     assert!(picture("a.scene --integrator path") != washed);
+}
+
+#[test]
+fn depth_0_is_said_where_a_scene_has_a_mirror_or_glass() {
+    let workspace = Workspace::new();
+    let course = |specular: f64| SCENE.replace("spe: 0.2 0.2 0.2", &format!("spe: 0 {specular} 0"));
+    workspace.write("mirror.scene", &course(0.9));
+    workspace.write("glossy.scene", &course(0.6));
+    let glass = "[output]\nmax_depth = 0\n[materials]\nglass = { refract = { ior = 1.5 } }\n[[lights]]\n\
+                 point = { position = [3, 3, 3] }\n[[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n\
+                 material = \"glass\"\n";
+    workspace.write("glass.toml", glass);
+    for (line, is_said) in [
+        ("mirror.scene", true),
+        ("mirror.scene --max-depth 0", false),
+        ("mirror.scene --max-depth 1", false),
+        ("mirror.scene --integrator normals", false),
+        ("glossy.scene", false),
+        ("glass.toml", true),
+        ("glass.toml --set output.max_depth=1", false),
+    ] {
+        let run = workspace.run(&format!("render {line} --size 8x8 -o a.png"));
+        let said = run.expect(0).stderr;
+        assert_eq!(said.contains("--max-depth 5"), is_said, "{line}: {said}");
+    }
 }
