@@ -120,8 +120,11 @@ strips: build driver
 	done
 	$(CARGO) run --release --locked --example strips -- target/strips assets/gallery
 
-# All files of the working tree that Git does not ignore; the frames and the video again, on top.
+# The files of the working tree that Git does not ignore, less those that neither the build nor the pages need; the index,
+# the frames and the video on top. `make` links the kernels again.
 HAND_IN_FOLDER ?= .
+LEFT_OUT := .github assets/scenes/flower.glb assets/scenes/helmet.glb benches/peers docs/hand_in fuzz shaders/linked \
+	tests/farm tests/fuzz/corpus tests/fuzz/regressions tests/fuzz/seeds tests/golden tests/references tests/snapshots
 export NAME
 hand-in:
 	$(if $(NAME),,$(error hand-in: NAME is missing. Use `make hand-in NAME=YourName`))
@@ -132,7 +135,8 @@ hand-in:
 	git add --all && files=$$(git write-tree) && \
 	git archive --format=zip --output="$(HAND_IN_FOLDER)/Exercise4-$$NAME.zip" \
 		--prefix="Exercise4-$$NAME/frames/" $(patsubst %,--add-file=%,$(wildcard assets/gallery/carousel_*.jpg)) \
-		--prefix="Exercise4-$$NAME/" --add-file=assets/gallery/carousel.mp4 "$$files" && \
+		--prefix="Exercise4-$$NAME/" --add-file=docs/hand_in/index.html --add-file=assets/gallery/carousel.mp4 \
+		"$$files" -- . $(patsubst %,':(exclude)%',$(LEFT_OUT)) && \
 	echo "$(HAND_IN_FOLDER)/Exercise4-$$NAME.zip"
 
 # Everything that is read from files, on a nightly compiler.
@@ -145,7 +149,7 @@ build: compiler shaders
 # Links the kernels again where a shader has changed since. Sums are compared, not times: a fresh
 # checkout has none to go by.
 shaders: linker
-	@cd shaders && find * -name '*.wesl' | LC_ALL=C sort | xargs cksum | diff - linked/sources.txt > /dev/null || { \
+	@cd shaders && find * -name '*.wesl' | LC_ALL=C sort | xargs cksum | diff - linked/sources.txt > /dev/null 2>&1 || { \
 		cd .. && echo 'A shader has changed: linking the kernels again.' && \
 		$(CARGO) check $(FLAGS) --lib --no-default-features --features link; }
 

@@ -43,7 +43,9 @@ fn run() -> Result<(), Box<dyn Error>> {
         let lines = sources.iter().map(|(name, sum)| format!("{sum} {name}\n"));
         write(SOURCES, &lines.collect::<String>())?;
     }
-    let linked = fs::read_to_string(SOURCES)?;
+    let linked = fs::read_to_string(SOURCES).map_err(|error| {
+        format!("{SOURCES}: {error}. Link the kernels with `make shaders`, or build with `--features link`.")
+    })?;
     let linked = linked.lines().filter_map(|line| line.rsplit_once(' '));
     let mut linked: Vec<_> = linked
         .map(|(sum, name)| (name.into(), sum.into()))

@@ -1,6 +1,6 @@
 //! What `make hand-in` packs.
 
-use super::check_links;
+use super::{check_links, has};
 use crate::support::skip::{Need, skip};
 use crate::support::verdict::Verdict;
 use std::collections::BTreeMap;
@@ -90,6 +90,14 @@ fn the_hand_in_needs_nothing_from_outside() {
         }
     }
     check_links(&mut verdict, &files);
+    let index = text("index.html");
+    let of = |attribute: &'static str| index.split(attribute).skip(1);
+    let linked = of("href=\"").chain(of("src=\""));
+    let linked = linked.filter_map(|rest| rest.split(['"', '#']).next());
+    for link in linked {
+        let is_there = has(files.keys(), link);
+        verdict.that(format!("index.html: {link}"), is_there, || "is not there");
+    }
     verdict.close();
 }
 
@@ -108,6 +116,26 @@ fn the_hand_in_has_what_the_exercise_asks_for() {
     for (name, bytes) in frames {
         let format = ::image::guess_format(bytes).expect("a picture");
         assert_eq!(format, ::image::ImageFormat::Jpeg, "{name}");
+    }
+    let index = String::from_utf8_lossy(&files["index.html"]);
+    let readme = String::from_utf8_lossy(&files["README.md"]);
+    let titles = readme.split("### Level ").skip(1);
+    let levels = titles.filter_map(|title| title.lines().next());
+    for level in levels {
+        assert!(index.contains(&format!(">Level {level}<")), "{level}");
+    }
+    let (_, extras) = readme.split_once("| extra | idea |").expect("the extras");
+    let (extras, _) = extras.split_once("\n\n").expect("their end");
+    for extra in extras.lines().filter(|line| line.contains("theory/")) {
+        let page = extra.split(['(', ')']).nth(1).expect("a page");
+        assert!(
+            index.contains(&format!("<h2><a href=\"{page}\">")),
+            "{page}"
+        );
+    }
+    for needless in ["shaders/linked/", "tests/golden/", "tests/fuzz/corpus/"] {
+        let is_part = |name: &&String| name.starts_with(needless);
+        assert_eq!(files.keys().find(is_part), None);
     }
     assert_eq!(&files["carousel.mp4"][4..8], b"ftyp", "it is no MP4");
 }
