@@ -1,14 +1,14 @@
 //! Pictures through a second driver, the OpenGL backend of wgpu if available, and in vectors of another width.
 
+use crate::explain::project_scenes;
 use crate::golden;
 use crate::reference::compare::{assert_none, check_alike, render, render_on, sized};
 use crate::support::devices::Devices;
 use crate::support::skip::{Need, skip};
 use glimray::gpu::{AdapterChoice, Backend, Gpu};
-use glimray::import;
 use glimray::render::{Antialias, ExecutionPolicy, RenderSettings};
 use glimray::scene::Shadows;
-use std::{path::Path, process::Command};
+use std::process::Command;
 
 /// The adapter of the OpenGL backend, if available.
 const GL: AdapterChoice = AdapterChoice {
@@ -22,20 +22,10 @@ fn scenes_look_the_same_through_opengl() {
     if let Err(error) = Gpu::new(&GL) {
         return skip(Need::Gl, error);
     }
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
-    let mut scenes: Vec<_> = (std::fs::read_dir(folder).expect("the scenes"))
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| {
-            path.extension()
-                .is_some_and(|e| e == "toml" || e == "scene")
-        })
-        .collect();
-    scenes.sort();
-    assert!(!scenes.is_empty());
     let settings = antialiased(240, 160);
     // Each scene has kernels of its own, which take both drivers seconds to compile.
-    assert_none(scenes.iter().step_by(3).map(|path| {
-        let scene = import::load(path).expect("a scene");
+    let scenes = project_scenes(&["toml", "scene"]).into_iter().step_by(3);
+    assert_none(scenes.map(|(name, scene)| {
         let default = (settings.clone(), ExecutionPolicy::default());
         let (actual, _) = render_on(DEVICES.lease(), &scene, &default);
         let (expected, _) = render(&scene, &settings);
@@ -45,13 +35,7 @@ fn scenes_look_the_same_through_opengl() {
             Shadows::Opaque => 0.001,
             Shadows::Filtered => 0.01,
         };
-        check_alike(
-            &path.display().to_string(),
-            &expected,
-            &actual,
-            3.0,
-            fraction,
-        )
+        check_alike(&name, &expected, &actual, 3.0, fraction)
     }));
 }
 
