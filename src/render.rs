@@ -45,8 +45,8 @@ pub use denoise::Denoised;
 pub use effort::{LongPath, least_rays};
 pub use error::RenderError;
 pub use explain::{
-    LightSample, LightSource, Lobe, PathStep, RayHit, RayKind, RaySplit, RayTree, SampleTree,
-    ShadowRay, Sharing, StepOutcome, TracedRay,
+    LightSample, LightSource, Lobe, PathStep, PhongTerms, RayHit, RayKind, RaySplit, RayTree,
+    SampleTree, ShadowRay, Sharing, StepOutcome, TracedRay,
 };
 pub use features::{Features, PixelFeatures};
 pub use film::{Film, FilmError, FilmHeader, FilmOutline, Missing};
