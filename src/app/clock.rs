@@ -10,6 +10,8 @@ pub struct Clock {
     pub fps: f64,
     /// When the shutter is open, in frames.
     pub shutter: Shutter,
+    /// When the animation stops, in seconds: later frames show this moment. `None` if it goes on.
+    pub end: Option<f64>,
 }
 
 impl Clock {
@@ -18,6 +20,7 @@ impl Clock {
         Self {
             fps: overrides.fps.unwrap_or(output.fps),
             shutter: overrides.shutter.unwrap_or(output.shutter),
+            end: None,
         }
     }
 
@@ -42,7 +45,8 @@ impl Clock {
     /// Shutter opening and closing times for a picture at `time`, all in seconds.
     pub fn shutter_interval(&self, time: f64) -> (f64, f64) {
         let Shutter { open, close } = self.shutter;
-        (time + open / self.fps, time + close / self.fps)
+        let until = |time: f64| self.end.map_or(time, |end| time.min(end));
+        (until(time + open / self.fps), until(time + close / self.fps))
     }
 }
 
@@ -51,15 +55,10 @@ pub fn duration(scene: &Scene) -> Option<f64> {
     Some(scene.duration()).filter(|&duration| duration > 0.0)
 }
 
-/// Number of the last frame within `duration` seconds, counted from 0. With `repeat`, the frame at
-/// `duration` itself is left out because it equals frame 0.
+/// Number of the last frame of an animation of `duration` seconds, counted from 0: the first one that is not before
+/// its end. With `repeat` that frame is left out, because there the animation begins again.
 pub fn last_frame(duration: f64, fps: f64, repeat: bool) -> u32 {
     // Rounding errors must neither add nor drop a frame.
-    let frames = duration * fps;
-    let end = if repeat {
-        (frames - 1e-6).ceil() - 1.0
-    } else {
-        (frames + 1e-6).floor()
-    };
-    end.max(0.0) as u32
+    let end = (duration * fps * (1.0 - 1e-7) - 1e-6).ceil();
+    (end - f64::from(u8::from(repeat))).max(0.0) as u32
 }

@@ -213,7 +213,7 @@ pub enum Beyond {
     /// Hold: the value of the nearest key.
     #[default]
     Hold,
-    /// Repeat from the start.
+    /// Repeat from the start. At the end of each run the last key counts.
     Repeat,
     /// Alternate between forward and backward.
     PingPong,

@@ -4,6 +4,9 @@ use super::{Beyond, Curve, Easing, Interpolation, Values};
 use glam::{DQuat, DVec3};
 use std::ops::{Add, Mul, Sub};
 
+/// How far behind the end of a repeating curve the end still counts, relative to the time since the start.
+const END_TOLERANCE: f64 = 2e-7;
+
 /// The value of a [`Curve`] at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
@@ -16,8 +19,8 @@ pub enum Value {
 }
 
 impl Curve {
-    /// The value at `time` seconds, any finite number. At a key's time it is exactly that key's value. A
-    /// repeating curve has the first key's value at the time of its last key.
+    /// The value at `time` seconds, any finite number. At a key's time it is exactly that key's value, also at
+    /// the end of a curve that repeats, where the last key and the first one meet.
     ///
     /// A cubic of rotations interpolates the quaternions' components and normalises the result, as in
     /// glTF 2.0 (section 3.11, appendix C.5). [`Interpolation::CatmullRom`] first flips signs so that
@@ -64,7 +67,14 @@ impl Curve {
         let after = time - first;
         let clock = match self.beyond {
             Beyond::Hold => time,
-            Beyond::Repeat => first + after.rem_euclid(period),
+            Beyond::Repeat => {
+                let rest = after.rem_euclid(period);
+                // Keys in files have the precision of f32, so that the frame at the end may miss the last key.
+                match after > 0.0 && rest < END_TOLERANCE * after {
+                    true => last,
+                    false => first + rest,
+                }
+            }
             Beyond::PingPong => {
                 let there = after.rem_euclid(2.0 * period);
                 first + there.min(2.0 * period - there)

@@ -7,7 +7,7 @@ mod texture;
 
 use super::{
     Background, Beyond, Camera, Curve, Light, Material, NodeProperty, Scene, Target, Texture,
-    Value, Values,
+    Track, Value, Values,
 };
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 
@@ -110,6 +110,19 @@ impl Scene {
     /// Whether any track changes a property over time.
     pub fn is_animated(&self) -> bool {
         self.tracks.iter().any(|track| !track.curve.is_constant())
+    }
+
+    /// The end of the animation in seconds, if something is elsewhere then than at its start, to which it returns
+    /// at once.
+    pub fn begins_again_at(&self) -> Option<f64> {
+        let end = self.duration();
+        let jumps = |track: &Track| {
+            let (first, last) = track.curve.span();
+            let is_near = (last - end).abs() <= 1e-6 * end;
+            let ends_apart = track.curve.at(first) != track.curve.at(last);
+            track.curve.beyond == Beyond::Repeat && is_near && ends_apart
+        };
+        self.tracks.iter().any(jumps).then_some(end)
     }
 
     /// Duration of the animation in seconds: the file's, otherwise the time of the last key, extended to

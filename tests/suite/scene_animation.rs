@@ -103,8 +103,7 @@ fn curves_pass_exactly_through_their_keys() {
                     easing,
                     ..scalars(&times, &keys)
                 };
-                let ends = if beyond == Beyond::Repeat { 4 } else { 5 };
-                for i in 0..ends {
+                for i in 0..5 {
                     assert_eq!(scalar(&curve, times[i]), values[i], "{curve:?}");
                 }
             }
@@ -215,6 +214,22 @@ fn easing_is_that_of_css() {
             assert!(off < tolerance, "{x1} {y1} {x2} {y2} at {s}: {off}");
         }
     }
+}
+
+#[test]
+fn the_end_of_a_repeated_curve_is_its_last_key_and_then_it_begins_again() {
+    // 23 frames of 24 a second end at a time that f32 rounds down.
+    let end = f64::from(23.0_f32 / 24.0);
+    let curve = Curve {
+        beyond: Beyond::Repeat,
+        ..scalars(&[0.0, end], &[-1.0, 1.0])
+    };
+    assert_eq!(scalar(&curve, end), 1.0);
+    assert_eq!(scalar(&curve, 23.0 / 24.0), 1.0);
+    assert_eq!(scalar(&curve, 0.0), -1.0);
+    assert_eq!(scalar(&curve, -end), -1.0);
+    let after = scalar(&curve, end + 1e-4 * end);
+    assert!((after + 1.0).abs() < 1e-3, "{after}");
 }
 
 #[test]

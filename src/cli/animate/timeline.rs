@@ -24,16 +24,21 @@ impl Timeline {
     ///
     /// # Errors
     /// The range is empty, or the scene has no animation that would end it.
-    pub fn new(scene: &Scene, flags: &RangeFlags, clock: Clock) -> Result<Self, AppError> {
+    pub fn new(scene: &Scene, flags: &RangeFlags, mut clock: Clock) -> Result<Self, AppError> {
         let Range { first, last } = flags.frames.unwrap_or(Range {
             first: 0,
             last: None,
         });
         let end = match last {
-            // The last frame equals the first.
+            // At the last frame the animation begins again.
             Some(last) if flags.repeat => last.checked_sub(1),
             Some(last) => Some(last),
-            None => Some(end_of(scene, clock.fps, flags.repeat)?),
+            None => {
+                if !flags.repeat {
+                    clock.end = scene.begins_again_at();
+                }
+                Some(end_of(scene, clock.fps, flags.repeat)?)
+            }
         };
         let end = end.filter(|&end| end >= first).ok_or_else(|| {
             AppError::Usage(if flags.repeat && last.is_some() {

@@ -65,7 +65,7 @@ pub struct RangeFlags {
     /// Render every Nth frame; a video keeps its duration at a lower frame rate
     #[arg(long, value_name = "N", allow_hyphen_values = true, default_value = "1", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub step: u32,
-    /// Loop: leave out the last frame, which equals the first, and repeat a GIF forever
+    /// Loop: leave out the last frame, at which the animation begins again, and repeat a GIF forever
     #[arg(long = "loop")]
     pub repeat: bool,
 }

@@ -66,7 +66,7 @@ pub fn run(
     let shutters: Vec<_> = match &timeline {
         Some(timeline) => timeline
             .numbers()
-            .map(|number| clock.frame(number))
+            .map(|number| timeline.clock.frame(number))
             .collect(),
         None => vec![clock.moment(&arguments.moment.moment())],
     };

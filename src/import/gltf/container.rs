@@ -13,22 +13,20 @@ pub(super) struct Parts {
     pub json: Range<usize>,
     /// The first buffer, if the file contains it.
     pub bin: Option<Range<usize>>,
+    /// Why it is incomplete, if it is.
+    pub cut: Option<ImportError>,
 }
 
 /// The parts of the file `bytes`, which is a GLB if it begins like one.
 ///
 /// # Errors
-/// A GLB is of another version, its lengths do not fit, or its first chunk is not JSON.
+/// A GLB is of another version, or its first chunk is not JSON.
 pub(super) fn parts(bytes: &[u8], blame: Blame) -> Result<Parts, ImportError> {
     if !bytes.starts_with(MAGIC) {
-        let mark = if bytes.starts_with(b"\xef\xbb\xbf") {
-            3
-        } else {
-            0
-        };
         return Ok(Parts {
-            json: mark..bytes.len(),
+            json: text(bytes, 0..bytes.len()),
             bin: None,
+            cut: None,
         });
     }
     let word = |at: usize| {
@@ -43,28 +41,49 @@ pub(super) fn parts(bytes: &[u8], blame: Blame) -> Result<Parts, ImportError> {
         return Err(blame.file(&why, "Convert it to glTF 2.0"));
     }
     let length = length as usize;
+    let cut = |why: String| Some(blame.truncated(&why));
+    let mut parts = Parts {
+        json: 0..0,
+        bin: None,
+        cut: None,
+    };
     if length > bytes.len() {
-        let have = bytes.len();
-        return Err(blame.truncated(&format!("{have} of {length} bytes are there")));
+        parts.cut = cut(format!("{} of {length} bytes are there", bytes.len()));
     }
-    let mut json = None;
-    let mut bin = None;
     let mut at = 12;
-    while let (Some(size), Some(kind)) = (word(at), word(at + 4)) {
-        let chunk = at + 8..(at + 8).saturating_add(size as usize);
-        if chunk.end > length {
-            return Err(blame.truncated("a chunk is longer than the file"));
+    // What follows the length of the header is not part of the model.
+    while let (true, Some(size), Some(kind)) = (at < length, word(at), word(at + 4)) {
+        let mut chunk = at + 8..(at + 8).saturating_add(size as usize);
+        if chunk.end > bytes.len() {
+            let why = "a chunk is longer than the file".to_owned();
+            parts.cut = parts.cut.or_else(|| cut(why));
+            chunk.end = bytes.len();
         }
         at = chunk.end;
         match kind {
-            JSON if json.is_none() => json = Some(chunk),
-            _ if json.is_none() => break,
-            BIN if bin.is_none() => bin = Some(chunk),
+            JSON if parts.json.is_empty() => parts.json = text(bytes, chunk),
+            _ if parts.json.is_empty() => break,
+            BIN if parts.bin.is_none() => parts.bin = Some(chunk),
             _ => {}
         }
+        // Some programs pad a chunk and do not count it.
+        let is_chunk = |at: usize| matches!(word(at + 4), Some(JSON | BIN));
+        let padded = at.next_multiple_of(4);
+        if !is_chunk(at) && is_chunk(padded) {
+            at = padded;
+        }
     }
-    match json {
-        Some(json) => Ok(Parts { json, bin }),
-        None => Err(blame.truncated("the first chunk is not JSON")),
+    match (parts.json.is_empty(), parts.cut.take()) {
+        (true, Some(cut)) => Err(cut),
+        (true, None) => Err(blame.truncated("the first chunk is not JSON")),
+        (false, cut) => Ok(Parts { cut, ..parts }),
     }
+}
+
+/// The part of `range` without a byte order mark and the zero bytes with which some programs fill up.
+fn text(bytes: &[u8], range: Range<usize>) -> Range<usize> {
+    let part = &bytes[range.clone()];
+    let mark = usize::from(part.starts_with(b"\xef\xbb\xbf")) * 3;
+    let filled = part.iter().rev().take_while(|&&byte| byte == 0).count();
+    range.start + mark..(range.end - filled).max(range.start + mark)
 }

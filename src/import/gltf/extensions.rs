@@ -4,7 +4,7 @@ use super::blame::Blame;
 use super::document::Document;
 use crate::import::error::ImportError;
 use crate::import::notes::Notes;
-use crate::import::source::quote;
+use crate::import::source::quote_up_to;
 
 /// What happens with an extension of glTF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,6 +54,9 @@ pub const GLTF_EXTENSIONS: &[(&str, Support)] = &[
     ("KHR_xmp_json_ld", Support::Irrelevant),
 ];
 
+/// The longest name of an extension that messages show whole.
+pub(super) const LONGEST_NAME: usize = 64;
+
 /// Checks the extensions that `document` requires, and notes those that have no effect.
 ///
 /// # Errors
@@ -70,9 +73,9 @@ pub(super) fn check(
     };
     let mut lacking: Vec<String> = Vec::new();
     for name in &document.extensions_required {
-        let name = quote(name.as_bytes());
-        if support(name.trim_matches('`')).is_none() && !lacking.contains(&name) {
-            lacking.push(name);
+        let quoted = quote_up_to(LONGEST_NAME, name.as_bytes());
+        if support(name).is_none() && !lacking.contains(&quoted) {
+            lacking.push(quoted);
         }
         if lacking.len() > 8 {
             break;
@@ -86,7 +89,7 @@ pub(super) fn check(
         return Err(blame.file(&why, remedy(&lacking)));
     }
     for name in &document.extensions_used {
-        let quoted = || quote(name.as_bytes());
+        let quoted = || quote_up_to(LONGEST_NAME, name.as_bytes());
         match support(name) {
             Some(Support::Full | Support::Irrelevant) => {}
             Some(Support::Paths) if traces_paths => {}

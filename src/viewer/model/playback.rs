@@ -56,6 +56,9 @@ impl Playback {
 
     /// Index of the current frame.
     pub fn frame(&self) -> u32 {
+        if !self.repeats && self.duration > 0.0 && self.time >= self.duration {
+            return self.last_frame();
+        }
         (self.time * self.clock.fps + 1e-6).floor().max(0.0) as u32
     }
 
@@ -84,7 +87,12 @@ impl Playback {
     /// Moves to a frame.
     pub fn go_to(&mut self, frame: u32) {
         self.since_frame = 0.0;
-        self.time = f64::from(frame) / self.clock.fps;
+        let time = f64::from(frame) / self.clock.fps;
+        // The last frame shows the end of a clip, behind which it begins again.
+        self.time = match self.repeats || self.duration == 0.0 {
+            true => time,
+            false => time.min(self.duration),
+        };
     }
 
     /// Moves by some frames, wrapping around if it loops.

@@ -141,7 +141,7 @@ pub(in crate::import::native) enum BeyondName {
     /// The value of the nearest key.
     #[default]
     Hold,
-    /// Repeats from the start.
+    /// Repeats from the start. The last key is shown at the end of the first run.
     Repeat,
     /// Alternates between forward and backward.
     PingPong,
