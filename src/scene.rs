@@ -119,6 +119,8 @@ pub struct Scene {
     /// What the importer skipped or repaired: the first few of each kind, a sentence each, and how many
     /// more there were.
     pub skipped: Vec<String>,
+    /// What the file has and the picture does not depend on, or what is decided otherwise, a sentence each.
+    pub remarks: Vec<String>,
 }
 
 /// A mesh placed in the world. All instances of a mesh share its triangles.

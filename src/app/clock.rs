@@ -46,7 +46,10 @@ impl Clock {
     pub fn shutter_interval(&self, time: f64) -> (f64, f64) {
         let Shutter { open, close } = self.shutter;
         let until = |time: f64| self.end.map_or(time, |end| time.min(end));
-        (until(time + open / self.fps), until(time + close / self.fps))
+        (
+            until(time + open / self.fps),
+            until(time + close / self.fps),
+        )
     }
 }
 

@@ -1,6 +1,7 @@
 //! `glimray inspect SCENE`: the contents of a scene as the renderer sees it.
 
 mod deforming;
+mod materials;
 mod motion;
 mod textures;
 
@@ -14,7 +15,7 @@ use crate::cli::report::SceneReport;
 use crate::cli::scene_file;
 use crate::import::{Baking, Options};
 use crate::render::{Integrator, Tone};
-use crate::scene::{Attenuation, Background, Camera, Light, LightKind, Material, Scene};
+use crate::scene::{Attenuation, Background, Camera, Light, LightKind, Scene};
 use glam::{DVec3, Vec3};
 use serde_json::{Value, json};
 use std::fmt::{self, Write};
@@ -39,7 +40,8 @@ pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
     console::print(&text)
 }
 
-/// The `scene` part of the report, with details: lengths in scene units, angles in degrees.
+/// The `scene` part of the report, with details: lengths in scene units, angles in degrees, cameras and lights in world
+/// space at time 0.
 fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
     let mut value = serde_json::to_value(SceneReport::new(path, scene))
         .map_err(|error| AppError::Internal(format!("inspect: {error}")))?;
@@ -49,9 +51,11 @@ fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
         |(min, max)| json!({ "min": min.to_array(), "max": max.to_array() }),
     );
     value["camera_index"] = json!(scene.camera_index);
-    value["cameras"] = scene.cameras.iter().map(camera_json).collect();
-    value["light_list"] = scene.lights.iter().map(light_json).collect();
-    value["material_list"] = scene.materials.iter().map(material_json).collect();
+    value["cameras"] = scene.cameras_at(0.0).iter().map(camera_json).collect();
+    value["light_list"] = (scene.frame(0.0).lights.iter()).map(light_json).collect();
+    value["material_list"] = (scene.materials.iter())
+        .map(materials::material_json)
+        .collect();
     value["texture_list"] = (scene.textures.iter())
         .map(textures::texture_json)
         .collect();
@@ -70,6 +74,7 @@ fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
     value["clips"] = deforming::clips_json(scene);
     value["deforming"] = deforming::to_json(scene);
     value["unlit"] = json!(scene.is_unlit());
+    value["remarks"] = json!(scene.remarks);
     Ok(value)
 }
 
@@ -149,25 +154,6 @@ fn light_json(light: &Light) -> Value {
     value
 }
 
-fn material_json(material: &Material) -> Value {
-    json!({
-        "name": material.name,
-        "diffuse": material.diffuse.to_array(),
-        "specular": material.specular.to_array(),
-        "shininess": material.shininess,
-        "ambient": material.ambient.to_array(),
-        "two_sided": material.two_sided,
-        "emission": material.emission.to_array(),
-        "two_sided_emission": material.two_sided_emission,
-        "reflect": material.reflect.to_array(),
-        "transmit": material.transmit.to_array(),
-        "ior": material.ior,
-        "thin": material.thin,
-        "absorption": material.absorption.to_array(),
-        "priority": material.priority,
-    })
-}
-
 fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
     let counts = SceneReport::new(path, scene);
     writeln!(out, "{path}")?;
@@ -209,20 +195,25 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
     )?;
     motion::write_text(out, scene)?;
     deforming::write_text(out, scene)?;
-    list(out, "cameras", &scene.cameras, |out, index, camera| {
-        let used = if index == scene.camera_index {
-            " (used)"
-        } else {
-            ""
-        };
-        camera_text(out, camera)?;
-        write!(out, "{used}")
-    })?;
-    list(out, "lights", &scene.lights, |out, _, light| {
+    list(
+        out,
+        "cameras",
+        &scene.cameras_at(0.0),
+        |out, index, camera| {
+            let used = if index == scene.camera_index {
+                " (used)"
+            } else {
+                ""
+            };
+            camera_text(out, camera)?;
+            write!(out, "{used}")
+        },
+    )?;
+    list(out, "lights", &scene.frame(0.0).lights, |out, _, light| {
         light_text(out, light)
     })?;
     list(out, "materials", &scene.materials, |out, _, material| {
-        material_text(out, material)
+        materials::material_text(out, material)
     })?;
     list(out, "textures", &scene.textures, |out, _, texture| {
         textures::texture_text(out, texture)
@@ -230,9 +221,12 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
     list(out, "pictures", &scene.pictures, |out, _, picture| {
         textures::picture_text(out, picture)
     })?;
-    list(out, "skipped", &scene.skipped, |out, _, reason| {
-        write!(out, "{reason}")
-    })?;
+    for (title, lines) in [("skipped", &scene.skipped), ("remarks", &scene.remarks)] {
+        writeln!(out, "{title:<10} {}", lines.len())?;
+        for (index, line) in lines.iter().enumerate() {
+            writeln!(out, "  {index}  {line}")?;
+        }
+    }
     match scene.is_unlit() {
         true => writeln!(out, "warning    {UNLIT}"),
         false => Ok(()),
@@ -331,33 +325,6 @@ fn light_text(out: &mut String, light: &Light) -> fmt::Result {
         }
         None => Ok(()),
     }
-}
-
-fn material_text(out: &mut String, material: &Material) -> fmt::Result {
-    write!(
-        out,
-        "{} diffuse {}, specular {}, shininess {}",
-        quoted(&material.name),
-        color(material.diffuse),
-        color(material.specular),
-        material.shininess
-    )?;
-    for (what, value) in [
-        ("reflect", material.reflect),
-        ("transmit", material.transmit),
-        ("absorption", material.absorption),
-        ("emission", material.emission),
-    ] {
-        if value != Vec3::ZERO {
-            write!(out, ", {what} {}", color(value))?;
-        }
-    }
-    match material.thin {
-        _ if material.transmit == Vec3::ZERO => {}
-        true => write!(out, ", thin")?,
-        false => write!(out, ", ior {}", material.ior)?,
-    }
-    Ok(())
 }
 
 fn kind(light: &Light) -> &'static str {

@@ -16,6 +16,8 @@ mod deform;
 mod document;
 mod document_materials;
 mod extensions;
+mod field_table;
+mod fields;
 mod hierarchy;
 mod lights;
 mod map_kinds;
@@ -55,6 +57,9 @@ use store::Store;
 /// Bytes that an object of the JSON may take in memory.
 const PER_OBJECT: u64 = 400;
 
+/// Bytes that a value of the JSON takes while its properties are checked.
+const PER_VALUE: u64 = 48;
+
 /// The state of an import.
 struct Reader<'a> {
     document: &'a Document,
@@ -65,6 +70,8 @@ struct Reader<'a> {
     /// Whether the model will be path-traced, so that nothing is to be noted that only paths show.
     traces_paths: bool,
     notes: Notes,
+    /// The first fault for which a part of the model was left out.
+    fault: Option<ImportError>,
     scene: Scene,
     /// From the file's axes to those of the scene, in which +Y is up.
     turn: DAffine3,
@@ -72,6 +79,10 @@ struct Reader<'a> {
     variant: Option<usize>,
     /// For each node of the file whether a clip that is played moves it.
     animated: Vec<bool>,
+    /// For each node of the file whether a clip that is played changes its scale.
+    scaled: Vec<bool>,
+    /// For each node of the file the nodes below it.
+    children: Vec<Vec<usize>>,
     /// For each node of the file its index in the scene.
     node_of: Vec<Option<usize>>,
     /// For each node of the file its transform at rest; the identity outside the chosen scene.
@@ -110,6 +121,22 @@ impl<'a> Reader<'a> {
             ledger: self.ledger,
         }
     }
+
+    /// The value of `found`; `None` with a note if a part of the model is malformed, which leaves the others.
+    ///
+    /// # Errors
+    /// The model is too large, or names files that may not be read.
+    fn spared<T>(&mut self, found: Result<T, ImportError>) -> Result<Option<T>, ImportError> {
+        match found {
+            Ok(value) => Ok(Some(value)),
+            Err(ImportError::Malformed(fault)) if !self.ledger.is_exceeded.get() => {
+                (self.notes).add("parts left out", || format!("left out: {}", fault.why));
+                self.fault.get_or_insert(ImportError::Malformed(fault));
+                Ok(None)
+            }
+            Err(error) => Err(error),
+        }
+    }
 }
 
 /// The model in `bytes`, the contents of the file at `path`, as a scene.
@@ -125,8 +152,13 @@ pub(super) fn read(
 ) -> Result<Scene, ImportError> {
     let blame = Blame { path };
     let parts = container::parts(&bytes, blame)?;
-    let mut document = parse(&bytes[parts.json.clone()], blame)?;
     let mut notes = Notes::default();
+    let (mut document, remarks) = parse(&bytes[parts.json.clone()], &mut notes, blame)?;
+    if let Some(cut) = &parts.cut {
+        notes.add("parts left out", || {
+            format!("the file is incomplete: {}", cut.fault().why)
+        });
+    }
     let integrator = options.integrator.unwrap_or(LightTransport::Path);
     let traces_paths = integrator == LightTransport::Path;
     extensions::check(&document, traces_paths, &mut notes, blame)?;
@@ -137,6 +169,7 @@ pub(super) fn read(
         blame,
         budget: Budget::of(buffers.total().saturating_add(in_files)),
         held: Cell::new(buffers.total() as u64),
+        is_exceeded: Cell::new(false),
     };
     let mut reader = Reader {
         document: &document,
@@ -146,8 +179,10 @@ pub(super) fn read(
         ledger: &ledger,
         traces_paths,
         notes,
+        fault: parts.cut,
         scene: Scene {
             shadows: Shadows::Filtered,
+            remarks,
             output: OutputDefaults {
                 size: (800, 600),
                 integrator: LightTransport::Path,
@@ -159,6 +194,8 @@ pub(super) fn read(
         turn: options.up.map_or(DAffine3::IDENTITY, Axis::turn),
         variant: None,
         animated: Vec::new(),
+        scaled: Vec::new(),
+        children: Vec::new(),
         moving: Vec::new(),
         morphed: Vec::new(),
         is_joint: Vec::new(),
@@ -192,16 +229,21 @@ pub(super) fn read(
         reader.tracks(clip)?;
     }
     reader.hold_maps();
-    Ok(reader.finish(options))
+    reader.finish(options)
 }
 
-/// The JSON in `bytes`.
-fn parse(bytes: &[u8], blame: Blame) -> Result<Document, ImportError> {
+/// The JSON in `bytes`, and remarks on what says nothing about the picture.
+fn parse(
+    bytes: &[u8],
+    notes: &mut Notes,
+    blame: Blame,
+) -> Result<(Document, Vec<String>), ImportError> {
     let source = Source::new("bad model", blame.path, bytes.to_vec())?;
-    let objects = bytes.iter().filter(|&&byte| byte == b'{').count() as u64;
-    let size = objects.saturating_mul(PER_OBJECT);
-    Budget::of(bytes.len()).check(size, |why, todo| blame.file(&why, todo))?;
-    let document: Document = serde_json::from_slice(&source.bytes).map_err(|error| {
+    let budget = Budget::of(bytes.len());
+    let count = |marks: &[u8]| bytes.iter().filter(|byte| marks.contains(byte)).count() as u64;
+    let size = count(b"{").saturating_mul(PER_OBJECT);
+    budget.check(size, |why, todo| blame.file(&why, todo))?;
+    let refuse = |error: serde_json::Error| {
         let lines = source.bytes.split_inclusive(|&byte| byte == b'\n');
         let line = lines.take(error.line().saturating_sub(1)).map(<[u8]>::len);
         let at = line.sum::<usize>() + error.column().saturating_sub(1);
@@ -209,16 +251,43 @@ fn parse(bytes: &[u8], blame: Blame) -> Result<Document, ImportError> {
         let why = why.split(" at line ").next().unwrap_or_default();
         let why = one_line(why);
         let todo = "Check that it is a complete glTF 2.0 file";
-        source.malformed(at..at + 1, why, todo)
-    })?;
+        match error.line() {
+            0 => blame.file(&why, todo),
+            _ => source.malformed(at..at + 1, why, todo),
+        }
+    };
+    let size = count(b"{[,:").saturating_mul(PER_VALUE);
+    let is_small = budget
+        .check(size, |why, todo| blame.file(&why, todo))
+        .is_ok();
+    let (document, remarks): (Document, Vec<String>) = match is_small {
+        true => {
+            let mut json = serde_json::from_slice(&source.bytes).map_err(refuse)?;
+            let remarks = fields::check(&mut json, notes);
+            (serde_json::from_value(json).map_err(refuse)?, remarks)
+        }
+        false => {
+            notes.add("properties that were not checked", || {
+                "the model has too many properties to tell which are not used".to_owned()
+            });
+            let document = serde_json::from_slice(&source.bytes);
+            (document.map_err(refuse)?, Vec::new())
+        }
+    };
     let asset = document.asset.as_ref();
     let needed = asset.map(|asset| asset.min_version.as_ref().unwrap_or(&asset.version));
     match needed.map(String::as_str) {
-        Some(version) if version.starts_with("2.") => Ok(document),
+        Some(version) if version.starts_with('2') => Ok((document, remarks)),
         Some(version) => {
             let version = quote(version.as_bytes());
             let why = format!("it is glTF {version}, but only version 2.0 is read");
             Err(blame.file(&why, "Convert it to glTF 2.0"))
+        }
+        None if !document.meshes.is_empty() => {
+            notes.add("models without a version", || {
+                "it has no `asset`, and is read as glTF 2.0".to_owned()
+            });
+            Ok((document, remarks))
         }
         None => Err(blame.file("it has no `asset`", "Check that it is a glTF 2.0 file")),
     }
@@ -264,7 +333,7 @@ impl Reader<'_> {
     }
 
     /// The root nodes of the chosen scene, and their place in the file.
-    fn chosen_scene(&self, wanted: Option<&str>) -> Result<(Vec<usize>, String), ImportError> {
+    fn chosen_scene(&mut self, wanted: Option<&str>) -> Result<(Vec<usize>, String), ImportError> {
         let scenes = &self.document.scenes;
         let index = match wanted {
             Some(wanted) => {
@@ -286,12 +355,22 @@ impl Reader<'_> {
             None => self.document.scene.unwrap_or(0),
         };
         let place = format!("scenes[{index}].nodes");
-        let scene = self.blame.get(scenes, index, "scenes", "scene")?;
-        Ok((scene.nodes.clone(), place))
+        let scene = self.blame.get(scenes, index, "scenes", "scene");
+        match self.spared(scene)? {
+            Some(scene) => Ok((scene.nodes.clone(), place)),
+            None => Ok((scenes[0].nodes.clone(), "scenes[0].nodes".to_owned())),
+        }
     }
 
-    fn finish(mut self, options: &Options) -> Scene {
+    /// The scene.
+    ///
+    /// # Errors
+    /// Nothing can be shown, because all of it is malformed.
+    fn finish(mut self, options: &Options) -> Result<Scene, ImportError> {
         let mut scene = self.scene;
+        if let (true, Some(fault)) = (scene.instances.is_empty(), self.fault) {
+            return Err(fault);
+        }
         scene.pictures = self.store.pictures.finish(&mut self.notes);
         if scene.materials.is_empty() {
             scene.materials.push(crate::scene::Material::default());
@@ -301,6 +380,6 @@ impl Reader<'_> {
             scene.skipped.push("the model has no triangles".to_owned());
         }
         stage::complete(&mut scene, options);
-        scene
+        Ok(scene)
     }
 }

@@ -48,6 +48,11 @@ impl Notes {
         }
     }
 
+    /// Adds notes of the kind `what`, all of which are kept: their number is bounded already.
+    pub fn keep(&mut self, what: &'static str, lines: Vec<String>) {
+        self.kind(what).kept.extend(lines);
+    }
+
     /// Adds the notes of one of several files, prefixed with its name.
     pub fn append(&mut self, other: Self, name: &str) {
         for Kind { what, kept, more } in other.kinds {

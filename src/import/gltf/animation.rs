@@ -7,10 +7,11 @@ use super::hierarchy::{extended, unit};
 use super::map_kinds::all_maps;
 use super::maps;
 use crate::import::budget;
-use crate::import::error::ImportError;
+use crate::import::error::{ImportError, one_line};
 use crate::import::source::quote_up_to;
 use crate::scene::{
-    Beyond, Curve, Easing, Interpolation, LightProperty, Target, TextureProperty, Track, Values,
+    Beyond, Curve, Easing, Interpolation, LightProperty, NodeProperty, Target, TextureProperty,
+    Track, Values,
 };
 use glam::{DQuat, DVec3};
 use std::collections::HashSet;
@@ -27,23 +28,10 @@ impl Reader<'_> {
     /// that move what an earlier one moves.
     ///
     /// # Errors
-    /// There is no clip of that name, or a channel refers to a node that does not exist.
+    /// There is no clip of that name.
     pub(super) fn clips(&mut self, wanted: Option<&str>) -> Result<Vec<usize>, ImportError> {
         let document = self.document;
         let clips = &document.animations;
-        for (index, clip) in clips.iter().enumerate() {
-            for (i, channel) in clip.channels.iter().enumerate() {
-                let here = || format!("animations[{index}].channels[{i}]");
-                if let Some(node) = channel.target.node {
-                    self.blame.get(&document.nodes, node, "nodes", here())?;
-                }
-                if let Some(aim) = Aim::of(&channel.target) {
-                    self.check_aim(aim, &here())?;
-                }
-                self.blame
-                    .get(&clip.samplers, channel.sampler, "samplers", here())?;
-            }
-        }
         if let Some(wanted) = wanted {
             let names = clips.iter().map(|clip| clip.name.as_deref());
             return Ok(vec![super::named("clip", wanted, names, self.blame)?]);
@@ -57,11 +45,9 @@ impl Reader<'_> {
             };
             if targets().any(|target| moved.contains(&target)) {
                 let name = clip.name.clone().unwrap_or_default();
-                self.notes.add("clips that are not played", || {
-                    format!(
-                        "the clip {index} `{name}` is not played: it moves what an earlier one moves"
-                    )
-                });
+                self.scene.remarks.push(one_line(&format!(
+                    "the clip {index} `{name}` is not played: it moves what an earlier one moves"
+                )));
                 continue;
             }
             moved.extend(targets());
@@ -74,11 +60,17 @@ impl Reader<'_> {
     pub(super) fn find_moved(&mut self, clips: &[usize]) {
         let document = self.document;
         let nodes = &document.nodes;
-        (self.animated, self.morphed) = (vec![false; nodes.len()], vec![false; nodes.len()]);
+        for list in [&mut self.animated, &mut self.scaled, &mut self.morphed] {
+            *list = vec![false; nodes.len()];
+        }
         let clips = clips.iter().map(|&clip| &document.animations[clip]);
         for channel in clips.flat_map(|clip| &clip.channels) {
-            match Aim::of(&channel.target) {
-                Some(Aim::Node(node, _)) => self.animated[node] = true,
+            let aim = Aim::of(&channel.target);
+            match aim.filter(|aim| self.check_aim(*aim, "").is_ok()) {
+                Some(Aim::Node(node, property)) => {
+                    self.animated[node] = true;
+                    self.scaled[node] |= property == NodeProperty::Scale;
+                }
                 Some(Aim::Map(material, map, _)) => {
                     let found = map_of(&document.materials[material], map);
                     self.moved_maps
@@ -117,6 +109,15 @@ impl Reader<'_> {
             if !seen.insert(aim) {
                 continue;
             }
+            let place = here(i);
+            let exists = self.check_aim(aim, &place);
+            let sampler = self
+                .blame
+                .get(&clip.samplers, channel.sampler, "samplers", &place);
+            let found_sampler = exists.and(sampler);
+            let Some(sampler) = self.spared(found_sampler)? else {
+                continue;
+            };
             if let Aim::Node(node, _) = aim
                 && document.nodes[node].matrix.is_some()
             {
@@ -124,7 +125,6 @@ impl Reader<'_> {
                     format!("{}: the node has a matrix, which stays", here(i))
                 });
             }
-            let sampler = &clip.samplers[channel.sampler];
             let mut deformations = self.deformations_of(aim);
             if let Aim::WeightsOfMesh(_) = aim {
                 let node = |it: usize| Aim::WeightsOfNode(self.deforming[it].0);
@@ -136,7 +136,10 @@ impl Reader<'_> {
             match self.targets(aim, is_lit) {
                 Err(what) => self.skip(index, what),
                 Ok(targets) if !targets.is_empty() => {
-                    let mut keys = self.keys(sampler, aim.kind(), 1, &here(i))?;
+                    let keys = self.keys(sampler, aim.kind(), 1, &place);
+                    let Some(mut keys) = self.spared(keys)? else {
+                        continue;
+                    };
                     let alphas = self.alphas(aim);
                     if let (false, Some(keys)) = (alphas.is_empty(), keys.last()) {
                         found.push((alphas, ValueKind::Scalar, keys.of_last()));
@@ -147,7 +150,10 @@ impl Reader<'_> {
                     let Some(width) = width.filter(|width| *width > 0) else {
                         continue;
                     };
-                    let all = self.keys(sampler, Kind::Scalar, width, &here(i))?;
+                    let all = self.keys(sampler, Kind::Scalar, width, &place);
+                    let Some(all) = self.spared(all)? else {
+                        continue;
+                    };
                     for (k, keys) in all.into_iter().enumerate() {
                         let has = |it: &&usize| k < self.scene.deformations[**it].targets.len();
                         let targets = deformations.iter().filter(has);

@@ -1,5 +1,6 @@
 //! Errors about a glTF file. What is wrong is named by its place in the JSON, such as `accessors[3]`.
 
+use super::document::ABSENT;
 use crate::import::budget::Budget;
 use crate::import::error::{ImportError, fault};
 use std::cell::Cell;
@@ -33,7 +34,10 @@ impl Blame<'_> {
 
     /// What is at `place` refers to an entry that does not exist.
     pub fn missing(self, place: impl Display, what: &str, index: usize) -> ImportError {
-        self.bad(place, format_args!("{what}[{index}] does not exist"))
+        match index {
+            ABSENT => self.bad(place, format_args!("it names none of the {what}")),
+            _ => self.bad(place, format_args!("{what}[{index}] does not exist")),
+        }
     }
 
     /// The entry `index` of `list`, which is `what` and to which `place` refers.
@@ -54,6 +58,8 @@ pub(super) struct Ledger<'a> {
     pub blame: Blame<'a>,
     pub budget: Budget,
     pub held: Cell<u64>,
+    /// Whether it was exceeded.
+    pub is_exceeded: Cell<bool>,
 }
 
 impl Ledger<'_> {
@@ -65,6 +71,7 @@ impl Ledger<'_> {
         let held = self.held.get().saturating_add(bytes);
         self.budget
             .check(held.saturating_add(transient), |why, todo| {
+                self.is_exceeded.set(true);
                 self.blame.file(&format!("{place}: {why}"), todo)
             })?;
         self.held.set(held);

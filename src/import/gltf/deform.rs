@@ -78,11 +78,8 @@ impl Reader<'_> {
         let Some(shared) = self.deformables[&key].clone() else {
             return Ok(None);
         };
-        let joints = match source.skin {
-            Some(skin) => Some(self.skin(skin, here)?),
-            None => None,
-        };
-        self.check_joints(&shared.influences, joints.as_deref(), here)?;
+        let joints = self.skin_of(source, here)?;
+        let joints = self.enough_joints(&shared.influences, joints, here)?;
         let mut weights = self.weights_of(source);
         weights.resize(shared.targets.len(), 0.0);
         // Each node has vertices of its own in its pose.
@@ -122,11 +119,12 @@ impl Reader<'_> {
     pub(super) fn posed(
         &mut self,
         modelled: Modelled,
-        joints: Option<&[Bound]>,
+        joints: Option<Arc<[Bound]>>,
         mut weights: Vec<f64>,
         here: &str,
     ) -> Result<Mesh, ImportError> {
-        self.check_joints(&modelled.influences, joints, here)?;
+        let joints = self.enough_joints(&modelled.influences, joints, here)?;
+        let joints = joints.as_deref();
         weights.resize(modelled.targets.len(), 0.0);
         let pose = self.rest_pose(joints, weights);
         let deformation = Deformation {
@@ -163,20 +161,31 @@ impl Reader<'_> {
         Ok(mesh)
     }
 
-    fn check_joints(
-        &self,
+    /// `joints`, with the first one in place of those that they lack.
+    fn enough_joints(
+        &mut self,
         influences: &Influences,
-        joints: Option<&[Bound]>,
+        joints: Option<Arc<[Bound]>>,
         here: &str,
-    ) -> Result<(), ImportError> {
-        let count = joints.map_or(usize::MAX, <[_]>::len);
-        match influences.last_joint() {
-            Some(last) if last as usize >= count => {
-                let why = format!("the skin has no joint {last}");
-                Err(self.blame.bad(here, why))
-            }
-            _ => Ok(()),
+    ) -> Result<Option<Arc<[Bound]>>, ImportError> {
+        let Some((joints, last)) = joints.clone().zip(influences.last_joint()) else {
+            return Ok(joints);
+        };
+        let lacking = (last as usize + 1).saturating_sub(joints.len());
+        if lacking == 0 {
+            return Ok(Some(joints));
         }
+        let why = format!("the skin has no joint {last}");
+        let Some(&first) = joints.first() else {
+            return Err(self.blame.bad(here, why));
+        };
+        self.notes.add("joints that do not exist", || {
+            format!("{here}: {why}: its vertices move with the first joint")
+        });
+        let all = joints.iter().copied();
+        Ok(Some(
+            all.chain(std::iter::repeat_n(first, lacking)).collect(),
+        ))
     }
 
     /// Adds the morph targets of a primitive to those of its mesh, whose vertices from `first` on have been made
@@ -216,11 +225,21 @@ impl Reader<'_> {
                 }
                 Ok(moved)
             };
-            let (positions, normals) = (displacements("POSITION")?, displacements("NORMAL")?);
-            let tangents = match wanted_tangents {
-                true => displacements("TANGENT")?,
-                false => Vec::new(),
-            };
+            let found = [
+                displacements("POSITION"),
+                displacements("NORMAL"),
+                match wanted_tangents {
+                    true => displacements("TANGENT"),
+                    false => Ok(Vec::new()),
+                },
+            ];
+            let [mut positions, mut normals, mut tangents] = [const { Vec::new() }; 3];
+            for (list, found) in [&mut positions, &mut normals, &mut tangents]
+                .into_iter()
+                .zip(found)
+            {
+                *list = self.spared(found)?.unwrap_or_default();
+            }
             let at = |list: &[[f32; 3]], i: usize| {
                 list.get(i).map_or(Vec3::ZERO, |&moved| Vec3::from(moved))
             };
@@ -271,18 +290,29 @@ impl Reader<'_> {
                 self.accessors()
                     .vectors::<4>(index, &[Kind::Vec4], 0.0, &place)
             };
-            let (numbers, weights) = (vectors(numbers)?, vectors(weights)?);
-            if numbers.len() != sources.count || weights.len() != sources.count {
-                let why = "joints and weights for another number of vertices";
-                return Err(self.blame.bad(place, why));
-            }
-            let (numbers, weights) = (numbers.as_flattened(), weights.as_flattened());
-            for (&number, weight) in numbers.iter().zip(weights) {
-                let is_used = *weight != 0.0 && weight.is_finite();
-                if is_used && !(0.0..=65535.0).contains(&number) {
-                    let why = format!("the skin has no joint {number}");
-                    return Err(self.blame.bad(place, why));
+            let found = vectors(numbers).and_then(|numbers| Ok((numbers, vectors(weights)?)));
+            let found = found.and_then(|(numbers, weights)| {
+                if numbers.len() == sources.count && weights.len() == sources.count {
+                    return Ok((numbers, weights));
                 }
+                let why = "joints and weights for another number of vertices";
+                Err(self.blame.bad(&place, why))
+            });
+            let Some((mut numbers, weights)) = self.spared(found)? else {
+                break;
+            };
+            let (numbers, weights) = (numbers.as_flattened_mut(), weights.as_flattened());
+            let mut lost = 0;
+            for (number, weight) in numbers.iter_mut().zip(weights) {
+                if !(0.0..=65535.0).contains(number) {
+                    lost += usize::from(*weight != 0.0 && weight.is_finite());
+                    *number = 0.0;
+                }
+            }
+            if lost > 0 {
+                self.notes.add("joints that do not exist", || {
+                    format!("{place}: {lost} weights of joints that do not exist move with the first joint")
+                });
             }
             let size = budget::size::<[(u32, f32); 4]>(sources.len());
             self.ledger.take(size, 2 * size, &place)?;

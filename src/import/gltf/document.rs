@@ -2,6 +2,8 @@
 //! as types. Everything else in a file, such as `extras`, is ignored. Nothing here is checked beyond the
 //! types: indices may be out of range, and numbers may have any finite value.
 //!
+//! An index that the file lacks leads nowhere: it is `ABSENT`.
+//!
 //! The types are our own, because the crate `gltf` knows few of these extensions and panics on indices out
 //! of range unless it validates, which refuses extensions that are read here.
 
@@ -9,6 +11,13 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 
 pub use super::document_materials::{Material, TextureInfo};
+
+/// In place of an index that is required, but not there.
+pub const ABSENT: usize = u32::MAX as usize;
+
+pub fn absent() -> usize {
+    ABSENT
+}
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
@@ -46,11 +55,13 @@ pub struct Accessor {
     pub buffer_view: Option<usize>,
     #[serde(default)]
     pub byte_offset: u64,
+    #[serde(default)]
     pub component_type: u32,
     #[serde(default)]
     pub normalized: bool,
+    #[serde(default)]
     pub count: u64,
-    #[serde(rename = "type")]
+    #[serde(default, rename = "type")]
     pub kind: Kind,
     pub sparse: Option<Box<Sparse>>,
 }
@@ -72,9 +83,10 @@ impl Accessor {
 }
 
 /// The shape of an accessor's elements.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, Hash)]
 #[serde(rename_all = "UPPERCASE")]
 pub enum Kind {
+    #[default]
     Scalar,
     Vec2,
     Vec3,
@@ -84,25 +96,29 @@ pub enum Kind {
     Mat4,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
 pub struct Sparse {
     pub count: u64,
     pub indices: SparseIndices,
     pub values: SparseValues,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct SparseIndices {
+    #[serde(default = "absent")]
     pub buffer_view: usize,
     #[serde(default)]
     pub byte_offset: u64,
+    #[serde(default)]
     pub component_type: u32,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct SparseValues {
+    #[serde(default = "absent")]
     pub buffer_view: usize,
     #[serde(default)]
     pub byte_offset: u64,
@@ -112,15 +128,18 @@ pub struct SparseValues {
 #[serde(rename_all = "camelCase")]
 pub struct Buffer {
     pub uri: Option<String>,
+    #[serde(default)]
     pub byte_length: u64,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct BufferView {
+    #[serde(default = "absent")]
     pub buffer: usize,
     #[serde(default)]
     pub byte_offset: u64,
+    #[serde(default)]
     pub byte_length: u64,
     pub byte_stride: Option<u64>,
     pub extensions: Option<Box<ViewExtensions>>,
@@ -138,12 +157,17 @@ pub struct ViewExtensions {
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct CompressedView {
+    #[serde(default = "absent")]
     pub buffer: usize,
     #[serde(default)]
     pub byte_offset: u64,
+    #[serde(default)]
     pub byte_length: u64,
+    #[serde(default)]
     pub byte_stride: u64,
+    #[serde(default)]
     pub count: u64,
+    #[serde(default)]
     pub mode: String,
     pub filter: Option<String>,
 }
@@ -195,6 +219,7 @@ fn yes() -> bool {
 
 #[derive(Debug, Deserialize)]
 pub struct NodeLight {
+    #[serde(default = "absent")]
     pub light: usize,
 }
 
@@ -248,6 +273,7 @@ pub struct PrimitiveExtensions {
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct CompressedPrimitive {
+    #[serde(default = "absent")]
     pub buffer_view: usize,
     #[serde(default)]
     pub attributes: BTreeMap<String, u32>,
@@ -261,6 +287,7 @@ pub struct VariantMappings {
 
 #[derive(Debug, Deserialize)]
 pub struct VariantMapping {
+    #[serde(default = "absent")]
     pub material: usize,
     #[serde(default)]
     pub variants: Vec<usize>,
@@ -286,11 +313,13 @@ pub struct Camera {
 
 #[derive(Debug, Deserialize)]
 pub struct Perspective {
+    #[serde(default)]
     pub yfov: f64,
 }
 
 #[derive(Debug, Deserialize)]
 pub struct Orthographic {
+    #[serde(default)]
     pub ymag: f64,
 }
 
@@ -306,14 +335,17 @@ pub struct Animation {
 
 #[derive(Debug, Deserialize)]
 pub struct Channel {
+    #[serde(default = "absent")]
     pub sampler: usize,
+    #[serde(default)]
     pub target: ChannelTarget,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
 pub struct ChannelTarget {
     #[serde(default)]
     pub node: Option<usize>,
+    #[serde(default)]
     pub path: String,
     #[serde(default)]
     pub extensions: Option<Box<TargetExtensions>>,
@@ -328,12 +360,15 @@ pub struct TargetExtensions {
 
 #[derive(Debug, Deserialize)]
 pub struct AnimationPointer {
+    #[serde(default)]
     pub pointer: String,
 }
 
 #[derive(Debug, Deserialize)]
 pub struct AnimationSampler {
+    #[serde(default = "absent")]
     pub input: usize,
+    #[serde(default = "absent")]
     pub output: usize,
     #[serde(default)]
     pub interpolation: Interpolation,
@@ -417,7 +452,7 @@ pub struct Lights {
 
 #[derive(Debug, Deserialize)]
 pub struct Light {
-    #[serde(rename = "type")]
+    #[serde(default, rename = "type")]
     pub kind: String,
     #[serde(default)]
     pub name: Option<String>,

@@ -39,6 +39,7 @@ pub struct MetallicRoughness {
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct TextureInfo {
+    #[serde(default = "super::document::absent")]
     pub index: usize,
     #[serde(default)]
     pub tex_coord: u32,

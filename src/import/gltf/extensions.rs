@@ -67,10 +67,6 @@ pub(super) fn check(
     notes: &mut Notes,
     blame: Blame,
 ) -> Result<(), ImportError> {
-    let support = |name: &str| {
-        let mut known = GLTF_EXTENSIONS.iter();
-        known.find(|(known, _)| *known == name).map(|(_, it)| *it)
-    };
     let mut lacking: Vec<String> = Vec::new();
     for name in &document.extensions_required {
         let quoted = quote_up_to(LONGEST_NAME, name.as_bytes());
@@ -120,4 +116,10 @@ fn remedy(lacking: &[String]) -> &'static str {
     } else {
         "Export the model without them"
     }
+}
+
+/// What happens with the extension `name`, if it is known.
+pub(super) fn support(name: &str) -> Option<Support> {
+    let mut known = GLTF_EXTENSIONS.iter();
+    known.find(|(known, _)| *known == name).map(|(_, it)| *it)
 }

@@ -20,6 +20,8 @@ struct Visit {
     parent_from_above: DAffine3,
     /// The nearest node of the file above it that has a name, or itself.
     named: usize,
+    /// Whether a node above it has a scale of 0, at which nothing has an extent.
+    is_flat: bool,
 }
 
 impl Reader<'_> {
@@ -27,17 +29,19 @@ impl Reader<'_> {
     /// clips move stay apart.
     ///
     /// # Errors
-    /// A node has two parents or is its own ancestor, or something that it refers to is wrong.
+    /// The model is too large, or refers to files that may not be read.
     pub(super) fn nodes(&mut self, roots: &[usize], place: &str) -> Result<(), ImportError> {
         let nodes = &self.document.nodes;
-        self.check_tree(roots, place)?;
-        self.find_worlds(roots);
-        self.find_moving(roots);
+        let (children, roots) = self.trees(roots, place)?;
+        self.children = children;
+        self.find_worlds(&roots);
+        self.find_moving(&roots);
         let visit = |&index: &usize| Visit {
             index,
             parent: None,
             parent_from_above: self.turn,
             named: index,
+            is_flat: false,
         };
         let mut stack: Vec<Visit> = roots.iter().rev().map(visit).collect();
         while let Some(visit) = stack.pop() {
@@ -55,24 +59,26 @@ impl Reader<'_> {
                 Some(_) => visit.index,
             };
             let (mut parent, mut above) = (visit.parent, visit.parent_from_above);
+            let is_flat = visit.is_flat || self.is_flat(visit.index);
             if is_animated || is_carrier || is_joint {
                 let size = budget::size::<(Node, Instance)>(1);
                 self.ledger.take(size, 0, &here)?;
                 let name = nodes[named].name.clone().unwrap_or_default();
-                let node = self.node(source, &visit, is_animated, name, &here);
+                let node = self.node(source, &visit, name, &here);
                 self.scene.nodes.push(node);
                 let added = self.scene.nodes.len() - 1;
                 self.node_of[visit.index] = Some(added);
                 (parent, above) = (Some(added), DAffine3::IDENTITY);
-                self.carry(visit.index, added, &here)?;
+                self.carry(visit.index, added, is_flat, &here)?;
             } else {
                 above *= self.placed(source, &here);
             }
-            stack.extend(source.children.iter().rev().map(|&index| Visit {
+            stack.extend(self.children[visit.index].iter().rev().map(|&index| Visit {
                 index,
                 parent,
                 parent_from_above: above,
                 named,
+                is_flat,
             }));
         }
         Ok(())
@@ -86,7 +92,7 @@ impl Reader<'_> {
         while let Some((index, above)) = stack.pop() {
             let world = above * self.placed(&nodes[index], &format!("nodes[{index}]"));
             self.worlds[index] = world;
-            stack.extend(nodes[index].children.iter().map(|&child| (child, world)));
+            stack.extend(self.children[index].iter().map(|&child| (child, world)));
         }
     }
 
@@ -99,7 +105,7 @@ impl Reader<'_> {
         while let Some((index, is_carried)) = stack.pop() {
             let is_moving = is_carried || self.animated[index];
             self.moving[index] = is_moving;
-            let children = document.nodes[index].children.iter();
+            let children = self.children[index].iter();
             stack.extend(children.map(|&child| (child, is_moving)));
         }
         for &joint in document.skins.iter().flat_map(|skin| &skin.joints) {
@@ -109,40 +115,59 @@ impl Reader<'_> {
         }
     }
 
-    /// Checks that the nodes under `roots` are trees.
-    fn check_tree(&self, roots: &[usize], place: &str) -> Result<(), ImportError> {
+    /// The nodes under `roots` as trees: the children of each node, and the roots. What is there twice, or does not
+    /// exist, is left out.
+    fn trees(
+        &mut self,
+        roots: &[usize],
+        place: &str,
+    ) -> Result<(Vec<Vec<usize>>, Vec<usize>), ImportError> {
         let nodes = &self.document.nodes;
-        let mut is_child = vec![false; nodes.len()];
-        for (index, node) in nodes.iter().enumerate() {
-            for &child in &node.children {
-                let here = || format!("nodes[{index}].children");
-                self.blame.get(nodes, child, "nodes", here())?;
-                if std::mem::replace(&mut is_child[child], true) {
-                    let why = format!("nodes[{child}] has two parents");
-                    return Err(self.blame.bad(here(), why));
+        let mut is_placed = vec![false; nodes.len()];
+        let mut place_once = |it: &mut Self, index: usize, here: &str| {
+            let found = it.blame.get(nodes, index, "nodes", here);
+            if it.spared(found)?.is_none() {
+                return Ok(false);
+            }
+            let is_second = std::mem::replace(&mut is_placed[index], true);
+            if is_second {
+                it.notes.add("nodes that appear twice", || {
+                    format!("{here}: nodes[{index}] has another place already, where it stays")
+                });
+            }
+            Ok::<_, ImportError>(!is_second)
+        };
+        let mut children = vec![Vec::new(); nodes.len()];
+        let mut tops = Vec::new();
+        for &root in roots {
+            if place_once(self, root, place)? {
+                tops.push(root);
+            }
+        }
+        let mut stack: Vec<usize> = tops.iter().rev().copied().collect();
+        while let Some(index) = stack.pop() {
+            for &child in &nodes[index].children {
+                if place_once(self, child, &format!("nodes[{index}].children"))? {
+                    children[index].push(child);
                 }
             }
+            stack.extend(children[index].iter().rev());
         }
-        let mut is_root = vec![false; nodes.len()];
-        for &root in roots {
-            self.blame.get(nodes, root, "nodes", place)?;
-            if is_child[root] || std::mem::replace(&mut is_root[root], true) {
-                let why = format!("nodes[{root}] is not a root: it has a parent or appears twice");
-                return Err(self.blame.bad(place, why));
-            }
+        Ok((children, tops))
+    }
+
+    /// Whether the scale of `nodes[index]` is 0 at all times: then it shows no mesh, but cameras and lights, whose
+    /// scale does not count.
+    fn is_flat(&self, index: usize) -> bool {
+        let source = &self.document.nodes[index];
+        match &source.matrix {
+            Some(matrix) => linear(matrix) == DMat3::ZERO,
+            None => source.scale == Some([0.0; 3]) && !self.scaled[index],
         }
-        Ok(())
     }
 
     /// The node of the scene for `source`.
-    fn node(
-        &mut self,
-        source: &Source,
-        visit: &Visit,
-        is_animated: bool,
-        name: String,
-        here: &str,
-    ) -> Node {
+    fn node(&mut self, source: &Source, visit: &Visit, name: String, here: &str) -> Node {
         let mut node = Node {
             name,
             parent: visit.parent,
@@ -150,20 +175,13 @@ impl Reader<'_> {
             visible: !is_hidden(source),
             ..Node::default()
         };
-        if is_animated && source.matrix.is_none() {
+        if self.animated[visit.index] && source.matrix.is_none() {
             let (scale, rotation, translation) = self.parts(source, here);
             node.scale = scale;
             node.rotation = rotation;
             node.translation = translation;
         } else {
             node.placement *= self.placed(source, here);
-        }
-        let is_flat = !is_invertible(&node.parent_from_node());
-        if is_flat && self.is_joint[visit.index] && source.matrix.is_none() {
-            // What follows a joint without extent has none either.
-            let (_, rotation, translation) = self.parts(source, here);
-            (node.rotation, node.translation) = (rotation, translation);
-            (node.placement, node.scale) = (visit.parent_from_above, DVec3::splat(FLAT));
         }
         if !is_invertible(&node.parent_from_node()) {
             self.notes.add("hidden nodes", || {
@@ -185,15 +203,14 @@ impl Reader<'_> {
             let (scale, rotation, translation) = self.parts(source, here);
             return DAffine3::from_scale_rotation_translation(scale, rotation, translation);
         };
-        let column = |i: usize| DVec3::new(matrix[4 * i], matrix[4 * i + 1], matrix[4 * i + 2]);
         if [matrix[3], matrix[7], matrix[11], matrix[15]] != [0.0, 0.0, 0.0, 1.0] {
             self.notes.add("transforms that are not affine", || {
                 format!("{here}.matrix is not affine: its last row was ignored")
             });
         }
         DAffine3 {
-            matrix3: DMat3::from_cols(column(0), column(1), column(2)),
-            translation: column(3),
+            matrix3: thickened(linear(matrix)),
+            translation: DVec3::new(matrix[12], matrix[13], matrix[14]),
         }
     }
 
@@ -212,10 +229,48 @@ impl Reader<'_> {
     }
 
     /// Adds what `nodes[index]`, which is node `added` of the scene, carries.
-    fn carry(&mut self, index: usize, added: usize, here: &str) -> Result<(), ImportError> {
+    fn carry(
+        &mut self,
+        index: usize,
+        added: usize,
+        is_flat: bool,
+        here: &str,
+    ) -> Result<(), ImportError> {
         let document = self.document;
         let source = &document.nodes[index];
         if let Some(mesh) = source.mesh {
+            let mesh = self.carry_mesh(index, added, mesh, is_flat, here);
+            self.spared(mesh)?;
+        }
+        if let Some(index) = source.camera {
+            let camera = self.camera(index, source, added, here);
+            self.spared(camera)?;
+        }
+        let light = source.extensions.as_ref().and_then(|e| e.light.as_ref());
+        if let Some(light) = light {
+            let light = self.light(light.light, added, here);
+            self.spared(light)?;
+        }
+        Ok(())
+    }
+
+    /// Adds the mesh of `nodes[index]`, which is node `added` of the scene.
+    fn carry_mesh(
+        &mut self,
+        index: usize,
+        added: usize,
+        mesh: usize,
+        is_flat: bool,
+        here: &str,
+    ) -> Result<(), ImportError> {
+        let document = self.document;
+        let source = &document.nodes[index];
+        let skin_of = self.skin_of(source, here)?;
+        // The transform of the node of a skinned mesh does not count.
+        if is_flat && skin_of.is_none() {
+            return Ok(());
+        }
+        {
             let skin = source.skin.and_then(|skin| document.skins.get(skin));
             let mut joints = skin.iter().flat_map(|skin| &skin.joints);
             let bends = joints.any(|&joint| self.moving.get(joint).is_some_and(|moves| *moves));
@@ -225,7 +280,7 @@ impl Reader<'_> {
                 true => self.deforming_mesh(index, mesh, here)?,
                 false => self.mesh(mesh, source, here)?,
             };
-            if let (Some(mesh), Some(_)) = (mesh, source.skin) {
+            if let (Some(mesh), Some(_)) = (mesh, skin_of) {
                 // Its node only hides it.
                 self.scene.instances.push(Instance {
                     mesh,
@@ -245,39 +300,44 @@ impl Reader<'_> {
                 }
             }
         }
-        if let Some(index) = source.camera {
-            let cameras = &self.document.cameras;
-            let camera = self.blame.get(cameras, index, "cameras", here)?;
-            let place = format!("cameras[{index}]");
-            let mut named = [&camera.name, &source.name].into_iter().flatten();
-            let mut seen = Camera {
-                name: named
-                    .find(|name| !name.is_empty())
-                    .cloned()
-                    .unwrap_or_default(),
-                node: Some(added),
-                ..Camera::default()
-            };
-            match (&camera.perspective, &camera.orthographic) {
-                (Some(lens), _) if lens.yfov > 0.0 && lens.yfov < std::f64::consts::PI => {
-                    seen.fov_y = lens.yfov;
-                }
-                (None, Some(lens)) if lens.ymag != 0.0 && lens.ymag.abs() < 1e18 => {
-                    seen.orthographic_height = Some(2.0 * lens.ymag.abs());
-                }
-                _ => {
-                    let why = "it needs a yfov between 0 and π, or a ymag other than 0";
-                    return Err(self.blame.bad(place, why));
-                }
+        Ok(())
+    }
+
+    /// Adds `cameras[index]` at the node `source`, which is node `added` of the scene.
+    fn camera(
+        &mut self,
+        index: usize,
+        source: &Source,
+        added: usize,
+        here: &str,
+    ) -> Result<(), ImportError> {
+        let cameras = &self.document.cameras;
+        let camera = self.blame.get(cameras, index, "cameras", here)?;
+        let place = format!("cameras[{index}]");
+        let mut named = [&camera.name, &source.name].into_iter().flatten();
+        let mut seen = Camera {
+            name: named
+                .find(|name| !name.is_empty())
+                .cloned()
+                .unwrap_or_default(),
+            node: Some(added),
+            ..Camera::default()
+        };
+        match (&camera.perspective, &camera.orthographic) {
+            (Some(lens), _) if lens.yfov > 0.0 && lens.yfov < std::f64::consts::PI => {
+                seen.fov_y = lens.yfov;
             }
-            self.scene.cameras.push(seen);
-            self.cameras.push(index);
+            (None, Some(lens)) if lens.ymag != 0.0 && lens.ymag.abs() < 1e18 => {
+                seen.orthographic_height = Some(2.0 * lens.ymag.abs());
+            }
+            _ => {
+                let why = "it needs a yfov between 0 and π, or a ymag other than 0";
+                return Err(self.blame.bad(place, why));
+            }
         }
-        let light = source.extensions.as_ref().and_then(|e| e.light.as_ref());
-        match light {
-            Some(light) => self.light(light.light, added, here),
-            None => Ok(()),
-        }
+        self.scene.cameras.push(seen);
+        self.cameras.push(index);
+        Ok(())
     }
 
     /// The places of a mesh in the space of its node: one, or those of `EXT_mesh_gpu_instancing`.
@@ -345,8 +405,53 @@ pub(super) fn unit(q: DQuat) -> Option<DQuat> {
     (length.is_finite() && length > 1e-12).then(|| q * length.recip())
 }
 
-/// `scale` with small numbers in place of 0, if it is not all 0.
+/// The linear part of the matrix of a node.
+fn linear(matrix: &[f64; 16]) -> DMat3 {
+    let column = |i: usize| DVec3::new(matrix[4 * i], matrix[4 * i + 1], matrix[4 * i + 2]);
+    DMat3::from_cols(column(0), column(1), column(2))
+}
+
+/// `matrix` with a small extent along the normal of the plane that it flattens space to; tiny if it is 0.
+fn thickened(matrix: DMat3) -> DMat3 {
+    if matrix == DMat3::ZERO {
+        return DMat3::from_diagonal(DVec3::splat(FLAT));
+    }
+    let most = matrix
+        .to_cols_array()
+        .map(f64::abs)
+        .into_iter()
+        .fold(0.0, f64::max);
+    let unit = matrix * most.recip();
+    if !unit.is_finite() || unit.determinant().abs() > FLAT * FLAT {
+        return matrix;
+    }
+    let normal = |m: DMat3| {
+        let crosses = [
+            m.x_axis.cross(m.y_axis),
+            m.y_axis.cross(m.z_axis),
+            m.z_axis.cross(m.x_axis),
+        ];
+        let longest = crosses
+            .into_iter()
+            .max_by(|a, b| a.length().total_cmp(&b.length()));
+        longest.unwrap_or_default().normalize_or_zero()
+    };
+    // Across the plane of its columns, for what lies across that of its rows.
+    let (across, along) = (normal(unit), normal(unit.transpose()));
+    let thin = DMat3::from_cols(across * along.x, across * along.y, across * along.z);
+    let sign = if (unit + thin * FLAT).determinant() < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
+    matrix + thin * (sign * FLAT * most)
+}
+
+/// `scale` with small numbers in place of 0.
 pub(super) fn extended(scale: DVec3) -> DVec3 {
+    if scale == DVec3::ZERO {
+        return DVec3::splat(FLAT);
+    }
     let least = FLAT * scale.abs().max_element();
     DVec3::from(scale.to_array().map(|s| match s.abs() < least {
         true => least.copysign(s),

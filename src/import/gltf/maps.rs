@@ -48,7 +48,10 @@ impl Reader<'_> {
         let document = self.document;
         let texture = self
             .blame
-            .get(&document.textures, info.index, "textures", place)?;
+            .get(&document.textures, info.index, "textures", place);
+        let Some(texture) = self.spared(texture)? else {
+            return Ok(None);
+        };
         let here = format!("textures[{}]", info.index);
         let Some(image) = texture.image() else {
             let what = match texture.extensions.basisu {
@@ -59,7 +62,10 @@ impl Reader<'_> {
             self.notes.add("skipped textures", note);
             return Ok(None);
         };
-        self.blame.get(&document.images, image, "images", &here)?;
+        let source = self.blame.get(&document.images, image, "images", &here);
+        if self.spared(source)?.is_none() {
+            return Ok(None);
+        }
         let mut found = FoundMap {
             image,
             uv_set: info.tex_coord,
@@ -72,10 +78,14 @@ impl Reader<'_> {
         if let Some(set) = moved.and_then(|it| it.tex_coord) {
             found.uv_set = set;
         }
-        if let Some(index) = texture.sampler {
-            let sampler = self
-                .blame
-                .get(&document.samplers, index, "samplers", &here)?;
+        let sampler = match texture.sampler {
+            None => None,
+            Some(index) => {
+                let found = self.blame.get(&document.samplers, index, "samplers", &here);
+                self.spared(found)?
+            }
+        };
+        if let Some(sampler) = sampler {
             found.nearest = sampler.mag_filter == Some(NEAREST);
             found.minify = match sampler.min_filter {
                 Some(NEAREST) => Minify::Nearest,

@@ -33,7 +33,15 @@ impl Reader<'_> {
         primitive: &Primitive,
         here: &str,
     ) -> Result<MaterialKey, ImportError> {
-        let index = self.material_index(primitive);
+        let mut index = self.material_index(primitive);
+        if let Some(number) = index {
+            let found = self
+                .blame
+                .get(&self.document.materials, number, "materials", here);
+            if self.spared(found.map(|_| ()))?.is_none() {
+                index = None;
+            }
+        }
         let key = MaterialKey(index);
         if !self.surfaces.contains_key(&key) {
             let surface = match index {

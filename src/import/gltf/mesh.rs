@@ -2,6 +2,7 @@
 //! with a material at each vertex.
 
 use super::Reader;
+use super::blame::Blame;
 use super::deform::{Modelled, Sources, Wanted};
 use super::document::{Kind, Node, Primitive};
 use super::materials::MaterialKey;
@@ -12,6 +13,8 @@ use crate::import::tangent::tangent;
 use crate::import::uvs;
 use crate::scene::Mesh;
 use glam::{Vec2, Vec3, Vec4};
+use std::collections::HashSet;
+use std::fmt::Display;
 
 /// What the still mesh of a node depends on: its number in the file, its skin, and the bits of its weights.
 pub(super) type MeshKey = (usize, Option<usize>, Vec<u64>);
@@ -25,6 +28,8 @@ struct Vertices {
     colors: Vec<Vec4>,
     /// Zero where the file's have no direction.
     tangents: Vec<Vec4>,
+    /// Those whose position is not finite.
+    broken: HashSet<u32>,
 }
 
 impl Vertices {
@@ -74,10 +79,7 @@ impl Reader<'_> {
         if let Some(known) = self.meshes.get(&key) {
             return Ok(*known);
         }
-        let joints = match source.skin {
-            Some(skin) => Some(self.skin(skin, place)?),
-            None => None,
-        };
+        let joints = self.skin_of(source, place)?;
         let wanted = Wanted {
             weights: Some(&weights),
             is_skinned: joints.is_some(),
@@ -87,7 +89,7 @@ impl Reader<'_> {
         let mut mesh = match is_posed {
             true => {
                 let here = format!("meshes[{index}]");
-                self.posed(modelled, joints.as_deref(), weights, &here)?
+                self.posed(modelled, joints, weights, &here)?
             }
             false => modelled.mesh,
         };
@@ -114,7 +116,8 @@ impl Reader<'_> {
         modelled.mesh.name = source.name.clone().unwrap_or_default();
         for (i, primitive) in source.primitives.iter().enumerate() {
             let here = format!("meshes[{index}].primitives[{i}]");
-            self.primitive(&mut modelled, primitive, wanted, &here)?;
+            let added = self.primitive(&mut modelled, primitive, wanted, &here);
+            self.spared(added)?;
         }
         Ok(modelled)
     }
@@ -148,8 +151,11 @@ impl Reader<'_> {
         let material = self.material_of(primitive, here)?;
         let mut vertices = self.vertices(primitive, positions, &material, here)?;
         let count = vertices.positions.len();
-        let mut triangles = self.triangles(primitive, count, here)?;
+        let mut triangles = self.triangles(primitive, count, &vertices.broken, here)?;
         let first = modelled.mesh.positions.len();
+        if first + count.max(3 * triangles.len()) > u32::MAX as usize {
+            return Err(self.blame.bad(here, "the mesh has more than 2³² vertices"));
+        }
         let corners = vertices.normals.is_empty().then(|| {
             let corners = vertices.flatten(&mut triangles);
             modelled.flat.push(first..first + corners.len());
@@ -163,9 +169,6 @@ impl Reader<'_> {
             self.add_influences(&mut modelled.influences, primitive, &sources, here)?;
         }
         let mesh = &mut modelled.mesh;
-        if first + vertices.positions.len() > u32::MAX as usize {
-            return Err(self.blame.bad(here, "the mesh has more than 2³² vertices"));
-        }
         let shift = |triangle: [u32; 3]| triangle.map(|i| first as u32 + i);
         mesh.triangles.extend(triangles.into_iter().map(shift));
         let count = vertices.positions.len();
@@ -243,32 +246,35 @@ impl Reader<'_> {
         let accessors = self.accessors();
         let place = |name: &str| format!("{here}.attributes.{name}");
         let at = place("POSITION");
-        let positions = accessors.vectors::<3>(positions, &[Kind::Vec3], 0.0, &at)?;
+        let mut positions = accessors.vectors::<3>(positions, &[Kind::Vec3], 0.0, &at)?;
         let count = positions.len();
-        if let Some(i) = (positions.iter()).position(|p| !p.iter().all(|x| x.is_finite())) {
-            let why = format!("the position of vertex {i} is not finite");
-            return Err(self.blame.bad(at, why));
+        let whole = positions.iter().find(|p| p.iter().all(|x| x.is_finite()));
+        let Some(&whole) = whole else {
+            return Err(self.blame.bad(at, "no position is finite"));
+        };
+        let mut broken = HashSet::new();
+        for (i, position) in positions.iter_mut().enumerate() {
+            if !position.iter().all(|x| x.is_finite()) {
+                *position = whole;
+                broken.insert(i as u32);
+            }
         }
         let attribute = |name: &str| primitive.attributes.get(name).copied();
-        let same_count = |have: usize, name: &str| match have == count {
-            true => Ok(()),
-            false => {
-                let why = format!("{have} values for {count} vertices");
-                Err(self.blame.bad(place(name), why))
-            }
-        };
+        let blame = self.blame;
         let mut normals = Vec::new();
         if let Some(index) = attribute("NORMAL") {
-            normals = accessors.vectors::<3>(index, &[Kind::Vec3], 0.0, &place("NORMAL"))?;
-            same_count(normals.len(), "NORMAL")?;
+            let found = accessors.vectors::<3>(index, &[Kind::Vec3], 0.0, &place("NORMAL"));
+            let found = found.and_then(|it| of_count(it, count, place("NORMAL"), blame));
+            normals = self.spared(found)?.unwrap_or_default();
         }
         let mut sets = [Vec::new(), Vec::new()];
         for (values, set) in sets.iter_mut().zip(self.uv_sets(material)) {
             let name = format!("TEXCOORD_{set}");
             match attribute(&name) {
                 Some(index) => {
-                    *values = accessors.vectors::<2>(index, &[Kind::Vec2], 0.0, &place(&name))?;
-                    same_count(values.len(), &name)?;
+                    let found = accessors.vectors::<2>(index, &[Kind::Vec2], 0.0, &place(&name));
+                    let found = found.and_then(|it| of_count(it, count, place(&name), blame));
+                    *values = self.spared(found)?.unwrap_or_default();
                 }
                 None => self.notes.add("meshes without texture coordinates", || {
                     format!("{here} has no {name}: each texture shows a single colour")
@@ -278,13 +284,14 @@ impl Reader<'_> {
         let mut colors = Vec::new();
         if let Some(index) = attribute("COLOR_0") {
             let place = place("COLOR_0");
-            colors = self.colors(index, material, &place)?;
+            let found = self.colors(index, material, &place);
+            let found = found.and_then(|it| of_count(it, count, &place, blame));
+            colors = self.spared(found)?.unwrap_or_default();
             if self.accessors().most_unless_normalized(index).is_some() {
                 self.notes.add("vertex colours", || {
                     format!("{place} is not marked as normalised, and read as if it were")
                 });
             }
-            same_count(colors.len(), "COLOR_0")?;
             if colors.iter().all(|color| *color == Vec4::ONE) {
                 colors = Vec::new();
             }
@@ -294,8 +301,9 @@ impl Reader<'_> {
         if let Some(index) = attribute("TANGENT")
             && self.has_tangents(material)
         {
-            tangents = accessors.vectors::<4>(index, &[Kind::Vec4], 1.0, &place("TANGENT"))?;
-            same_count(tangents.len(), "TANGENT")?;
+            let found = accessors.vectors::<4>(index, &[Kind::Vec4], 1.0, &place("TANGENT"));
+            let found = found.and_then(|it| of_count(it, count, place("TANGENT"), blame));
+            tangents = self.spared(found)?.unwrap_or_default();
         }
         let mut lost = 0;
         // glTF's v points down.
@@ -310,6 +318,7 @@ impl Reader<'_> {
             normals: normals.into_iter().map(Vec3::from).collect(),
             uvs: sets,
             colors,
+            broken,
             tangents: (tangents.into_iter().map(|t| tangent(t.map(f64::from)))).collect(),
         })
     }
@@ -334,11 +343,12 @@ impl Reader<'_> {
         Ok(colors.into_iter().map(Vec4::from).collect())
     }
 
-    /// The triangles of a primitive with `count` vertices.
+    /// The triangles of a primitive with `count` vertices, without those at `broken` ones.
     fn triangles(
         &mut self,
         primitive: &Primitive,
         count: usize,
+        broken: &HashSet<u32>,
         here: &str,
     ) -> Result<Vec<[u32; 3]>, ImportError> {
         let place = format!("{here}.indices");
@@ -349,10 +359,6 @@ impl Reader<'_> {
             }
             None => (0..count as u32).collect(),
         };
-        if let Some(index) = indices.iter().find(|&&index| index as usize >= count) {
-            let why = format!("the index {index} is not below the number of vertices, {count}");
-            return Err(self.blame.bad(place, why));
-        }
         let rest = match primitive.mode {
             4 => indices.len() % 3,
             _ if indices.len() < 3 => indices.len(),
@@ -364,7 +370,7 @@ impl Reader<'_> {
             });
         }
         let windows = || indices.windows(3).map(|w| [w[0], w[1], w[2]]);
-        Ok(match primitive.mode {
+        let mut triangles: Vec<_> = match primitive.mode {
             5 => windows()
                 .enumerate()
                 .map(|(i, [a, b, c])| if i % 2 == 0 { [a, b, c] } else { [a, c, b] })
@@ -373,6 +379,41 @@ impl Reader<'_> {
                 .map(|w| [w[0], w[1], indices[0]])
                 .collect(),
             _ => indices.as_chunks::<3>().0.to_vec(),
-        })
+        };
+        let is_whole = |index: &u32| (*index as usize) < count && !broken.contains(index);
+        let before = triangles.len();
+        triangles.retain(|corners| corners.iter().all(is_whole));
+        let dropped = before - triangles.len();
+        if dropped > 0 {
+            let why = match indices.iter().find(|index| **index as usize >= count) {
+                Some(index) => {
+                    format!("the index {index} is not below the number of vertices, {count}")
+                }
+                None => format!("{} positions are not finite", broken.len()),
+            };
+            if triangles.is_empty() {
+                return Err(self.blame.bad(place, why));
+            }
+            self.notes.add("meshes with lost triangles", || {
+                format!("{here}: {dropped} of {before} triangles left out: {why}")
+            });
+        }
+        Ok(triangles)
+    }
+}
+
+/// `values`, if there is one for each of `count` vertices.
+fn of_count<T>(
+    values: Vec<T>,
+    count: usize,
+    place: impl Display,
+    blame: Blame,
+) -> Result<Vec<T>, ImportError> {
+    match values.len() == count {
+        true => Ok(values),
+        false => {
+            let why = format!("{} values for {count} vertices", values.len());
+            Err(blame.bad(place, why))
+        }
     }
 }

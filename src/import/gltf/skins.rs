@@ -2,7 +2,7 @@
 //! its own node has no effect.
 
 use super::Reader;
-use super::document::Kind;
+use super::document::{Kind, Node};
 use crate::import::budget;
 use crate::import::error::ImportError;
 use crate::scene::{Joint, Pose};
@@ -13,6 +13,21 @@ use std::sync::Arc;
 pub(super) type Bound = (usize, DAffine3);
 
 impl Reader<'_> {
+    /// The joints of the skin of `node`; `None` if it has none that can be used.
+    pub(super) fn skin_of(
+        &mut self,
+        node: &Node,
+        here: &str,
+    ) -> Result<Option<Arc<[Bound]>>, ImportError> {
+        match node.skin {
+            Some(skin) => {
+                let found = self.skin(skin, here);
+                self.spared(found)
+            }
+            None => Ok(None),
+        }
+    }
+
     /// The joints of `skins[index]`.
     pub(super) fn skin(&mut self, index: usize, here: &str) -> Result<Arc<[Bound]>, ImportError> {
         if let Some(known) = self.skins.get(&index) {
@@ -31,22 +46,27 @@ impl Reader<'_> {
         if let Some(inverses) = skin.inverse_bind_matrices {
             let matrices = self
                 .accessors()
-                .vectors::<16>(inverses, &[Kind::Mat4], 0.0, &place)?;
-            if matrices.len() < joints.len() {
-                let why = "fewer inverse bind matrices than joints";
-                return Err(self.blame.bad(place, why));
-            }
+                .vectors::<16>(inverses, &[Kind::Mat4], 0.0, &place);
+            let matrices = self.spared(matrices)?.unwrap_or_default();
+            let mut lacking = joints.len().saturating_sub(matrices.len());
             for ((_, bind), matrix) in joints.iter_mut().zip(matrices) {
                 let m = matrix.map(f64::from);
                 let column = |i: usize| DVec3::new(m[4 * i], m[4 * i + 1], m[4 * i + 2]);
-                *bind = DAffine3 {
+                let found = DAffine3 {
                     matrix3: DMat3::from_cols(column(0), column(1), column(2)),
                     translation: column(3),
                 };
-                if !bind.is_finite() {
-                    let why = "an inverse bind matrix is not finite";
-                    return Err(self.blame.bad(place, why));
+                match found.is_finite() {
+                    true => *bind = found,
+                    false => lacking += 1,
                 }
+            }
+            if lacking > 0 {
+                self.notes.add("skins without matrices", || {
+                    format!(
+                        "{place}: {lacking} joints have no inverse bind matrix: it is the identity"
+                    )
+                });
             }
         }
         let joints: Arc<[Bound]> = joints.into();

@@ -122,11 +122,18 @@ impl Reader<'_> {
             let Some(view) = image.buffer_view else {
                 return Ok(Err("has neither a URI nor a buffer view".to_owned()));
             };
-            self.buffers.view(self.document, view, &place, self.blame)?;
+            let found = self.buffers.view(self.document, view, &place, self.blame);
+            if let Err(ImportError::Malformed(fault)) = found {
+                return Ok(Err(format!("cannot be read: {}", fault.why)));
+            }
             let name = image.name.clone().unwrap_or_default();
             return Ok(Ok((Place::Part(view), quote(name.as_bytes()))));
         };
-        let name = match buffers::source(uri, self.blame, &place)? {
+        let source = match buffers::source(uri, self.blame, &place) {
+            Ok(source) => source,
+            Err(error) => return Ok(Err(format!("cannot be read: {}", error.fault().why))),
+        };
+        let name = match source {
             Source::Bytes(_) => {
                 return Ok(Ok((
                     Place::Part(views + index),

@@ -16,12 +16,24 @@ impl Scene {
     /// without the transform, unless the node scales unevenly: then its viewing direction and up vector
     /// are transformed, and its field of view stays.
     pub(in crate::scene) fn camera_at(&self, time: f64, nodes: &[NodeState]) -> Camera {
-        let rest = &self.cameras[self.camera_index];
+        self.any_camera_at(self.camera_index, time, nodes)
+    }
+
+    /// All cameras at `time` seconds, in world space.
+    pub fn cameras_at(&self, time: f64) -> Vec<Camera> {
+        let nodes = self.nodes_at(time, time);
+        let all = 0..self.cameras.len();
+        all.map(|index| self.any_camera_at(index, time, &nodes))
+            .collect()
+    }
+
+    fn any_camera_at(&self, number: usize, time: f64, nodes: &[NodeState]) -> Camera {
+        let rest = &self.cameras[number];
         let mut camera = rest.clone();
         for track in &self.tracks {
             for target in &track.targets {
                 if let Target::Camera(index, property) = *target
-                    && index == self.camera_index
+                    && index == number
                 {
                     change(&mut camera, rest, property, track.curve.at(time));
                 }

@@ -1,0 +1,407 @@
+//! Checks the JSON of a model against the table of its properties (`field_table.rs`) before anything reads it. Values
+//! of a wrong type are repaired or taken out. What is not known, and what is known but not used, is noted by name.
+
+use super::extensions::{LONGEST_NAME, support};
+use super::field_table::ROOT;
+use crate::import::notes::Notes;
+use crate::import::source::quote_up_to;
+use serde_json::{Map, Number, Value};
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// The properties of a kind of objects in the JSON.
+#[derive(Debug)]
+pub struct Object {
+    /// Whether it lists extensions, of which others than these may be there.
+    pub is_extensions: bool,
+    /// By name.
+    pub fields: &'static [(&'static str, Form, Use)],
+}
+
+/// What a property may hold.
+#[derive(Clone, Copy, Debug)]
+pub enum Form {
+    /// A whole number from 0: an index, a count or a code.
+    Whole,
+    /// A list of them.
+    Wholes,
+    /// A number.
+    Number,
+    /// So many numbers.
+    Numbers(usize),
+    /// Any number of numbers.
+    List,
+    /// A string.
+    Text,
+    /// A list of strings.
+    Texts,
+    /// One of these strings.
+    Word(&'static [&'static str]),
+    /// True or false.
+    Flag,
+    /// An object.
+    One(&'static Object),
+    /// A list of objects.
+    Many(&'static Object),
+    /// Indices of accessors by the name of a vertex attribute.
+    Attributes,
+    /// A list of such objects.
+    ManyAttributes,
+    /// Anything.
+    Any,
+}
+
+/// Whether a property has an effect.
+#[derive(Clone, Copy, Debug)]
+pub enum Use {
+    /// It is read.
+    Read,
+    /// It says nothing about the picture.
+    Idle,
+    /// It is not used, for this reason.
+    Unused(&'static str),
+}
+
+/// Most different properties that are told apart.
+const MOST: usize = 100;
+
+/// The longest name of a property that messages show whole.
+const LONGEST: usize = 64;
+
+/// Where a value is in the JSON.
+#[derive(Clone, Copy)]
+enum Place<'a> {
+    Root,
+    Key(&'a Place<'a>, &'a str),
+    At(&'a Place<'a>, usize),
+}
+
+impl fmt::Display for Place<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Root => Ok(()),
+            Self::Key(Self::Root, key) => f.write_str(&shown(key)),
+            Self::Key(above, key) => write!(f, "{above}.{}", shown(key)),
+            Self::At(above, index) => write!(f, "{above}[{index}]"),
+        }
+    }
+}
+
+impl Place<'_> {
+    /// The same for all elements of lists.
+    fn pattern(&self) -> String {
+        match self {
+            Self::Root => String::new(),
+            Self::Key(Self::Root, key) => shown(key),
+            Self::Key(above, key) => format!("{}.{}", above.pattern(), shown(key)),
+            Self::At(above, _) => format!("{}[]", above.pattern()),
+        }
+    }
+}
+
+/// `key`, in backquotes unless it is a plain word.
+fn shown(key: &str) -> String {
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
+    match key.len() <= LONGEST && key.bytes().all(is_plain) {
+        true => key.to_owned(),
+        false => quote_up_to(LONGEST, key.as_bytes()),
+    }
+}
+
+/// Properties that are alike: where the first one is, and how many there are.
+struct Alike {
+    first: String,
+    count: usize,
+}
+
+/// What the check finds.
+struct Check<'n> {
+    unknown: BTreeMap<String, Alike>,
+    unused: BTreeMap<String, (Alike, &'static str)>,
+    idle: BTreeMap<String, usize>,
+    /// Properties beyond [`MOST`] different ones.
+    more: usize,
+    notes: &'n mut Notes,
+}
+
+/// Repairs `json`, a model, so that it has the types of the specification, and notes what is repaired, unknown or
+/// not used. Returns remarks on what says nothing about the picture or is decided otherwise.
+pub(super) fn check(json: &mut Value, notes: &mut Notes) -> Vec<String> {
+    let mut check = Check {
+        unknown: BTreeMap::new(),
+        unused: BTreeMap::new(),
+        idle: BTreeMap::new(),
+        more: 0,
+        notes,
+    };
+    check.object(json, &ROOT, Place::Root);
+    let more = |count: usize| match count {
+        1 => String::new(),
+        _ => format!(" ({count} times)"),
+    };
+    let mut lines = Vec::new();
+    for Alike { first, count } in check.unknown.into_values() {
+        lines.push(format!(
+            "{first} is not known and was ignored{}",
+            more(count)
+        ));
+    }
+    if check.more > 0 {
+        lines.push(format!(
+            "{} more properties are not known or not used",
+            check.more
+        ));
+    }
+    check.notes.keep("unknown properties", lines);
+    let unused = check.unused.into_values();
+    let mut remarks: Vec<String> = unused
+        .map(|(Alike { first, count }, why)| format!("{first} is not used: {why}{}", more(count)))
+        .collect();
+    if !check.idle.is_empty() {
+        let names = check.idle.into_iter();
+        let names: Vec<String> = names
+            .map(|(name, count)| format!("{name}{}", more(count)))
+            .collect();
+        remarks.push(format!(
+            "without effect on the picture: {}",
+            names.join(", ")
+        ));
+    }
+    remarks
+}
+
+impl Check<'_> {
+    fn object(&mut self, value: &mut Value, object: &Object, place: Place) {
+        let Value::Object(members) = value else {
+            return;
+        };
+        members.retain(|key, value| {
+            let here = Place::Key(&place, key);
+            if key == "extras" {
+                *self.idle.entry("extras".to_owned()).or_default() += 1;
+                return false;
+            }
+            let known = object.fields.iter().find(|(name, ..)| name == key);
+            let Some((_, form, used)) = known else {
+                self.unknown(object, here, key);
+                return false;
+            };
+            match used {
+                Use::Read => {}
+                Use::Idle => self.idle(here),
+                Use::Unused(why) => self.unused(here, why),
+            }
+            self.value(value, *form, here)
+        });
+    }
+
+    fn unknown(&mut self, object: &Object, here: Place, key: &str) {
+        if object.is_extensions && support(key).is_none() {
+            let quoted = quote_up_to(LONGEST_NAME, key.as_bytes());
+            self.notes.add("extensions without effect", || {
+                format!("the extension {quoted} is not supported and was ignored")
+            });
+            return;
+        }
+        let pattern = here.pattern();
+        if let Some(alike) = self.unknown.get_mut(&pattern) {
+            alike.count += 1;
+        } else if self.unknown.len() < MOST {
+            let first = here.to_string();
+            self.unknown.insert(pattern, Alike { first, count: 1 });
+        } else {
+            self.more += 1;
+        }
+    }
+
+    fn idle(&mut self, here: Place) {
+        let pattern = here.pattern();
+        if self.idle.len() < MOST || self.idle.contains_key(&pattern) {
+            *self.idle.entry(pattern).or_default() += 1;
+        } else {
+            self.more += 1;
+        }
+    }
+
+    fn unused(&mut self, here: Place, why: &'static str) {
+        let pattern = here.pattern();
+        if let Some((alike, _)) = self.unused.get_mut(&pattern) {
+            alike.count += 1;
+        } else if self.unused.len() < MOST {
+            let first = here.to_string();
+            self.unused
+                .insert(pattern, (Alike { first, count: 1 }, why));
+        } else {
+            self.more += 1;
+        }
+    }
+
+    /// Whether `value` has this form, perhaps after a repair; a note says what was wrong with it.
+    fn value(&mut self, value: &mut Value, form: Form, here: Place) -> bool {
+        let problem = match form {
+            Form::Any => None,
+            Form::One(object) if value.is_object() => {
+                self.object(value, object, here);
+                None
+            }
+            Form::Many(object) => self.each(value, here, |it, part, place| {
+                let is_object = part.is_object();
+                if !is_object {
+                    *part = Value::Object(Map::new());
+                }
+                it.object(part, object, place);
+                is_object
+            }),
+            Form::Attributes if value.is_object() => {
+                self.attributes(value, here);
+                None
+            }
+            Form::ManyAttributes => self.each(value, here, |it, part, place| {
+                let is_object = part.is_object();
+                if !is_object {
+                    *part = Value::Object(Map::new());
+                }
+                it.attributes(part, place);
+                is_object
+            }),
+            Form::Wholes => self.each(value, here, |_, part, _| {
+                let is_whole = whole(part);
+                if !is_whole {
+                    // It leads nowhere, so that others keep their places.
+                    *part = u32::MAX.into();
+                }
+                is_whole
+            }),
+            Form::Texts => self.each(value, here, |_, part, _| {
+                let is_text = part.is_string();
+                if !is_text {
+                    *part = "".into();
+                }
+                is_text
+            }),
+            _ => repair(value, form),
+        };
+        let Some(problem) = problem else { return true };
+        self.notes.add("values of a wrong type", || match &problem {
+            Problem::Kept(what) => format!("{here} {what}"),
+            Problem::Lost(what) => format!("{here} was ignored: it must be {what}"),
+        });
+        matches!(problem, Problem::Kept(_))
+    }
+
+    /// Calls `check` for each element of a list, which says whether it was right.
+    fn each(
+        &mut self,
+        value: &mut Value,
+        here: Place,
+        check: impl Fn(&mut Self, &mut Value, Place) -> bool,
+    ) -> Option<Problem> {
+        let Value::Array(parts) = value else {
+            return Some(Problem::Lost("a list".to_owned()));
+        };
+        for (index, part) in parts.iter_mut().enumerate() {
+            let place = Place::At(&here, index);
+            if !check(self, part, place) {
+                let note = || format!("{place} has a wrong type and was ignored");
+                self.notes.add("values of a wrong type", note);
+            }
+        }
+        None
+    }
+
+    /// Vertex attributes, of which programs may have more than are used.
+    fn attributes(&mut self, value: &mut Value, place: Place) {
+        let Value::Object(members) = value else {
+            return;
+        };
+        members.retain(|name, value| {
+            let here = Place::Key(&place, name);
+            let set = |prefix: &str| {
+                let number = name.strip_prefix(prefix);
+                number.is_some_and(|it| it.parse::<u32>().is_ok())
+            };
+            let is_read = matches!(&**name, "POSITION" | "NORMAL" | "TANGENT" | "COLOR_0")
+                || matches!(&**name, "TRANSLATION" | "ROTATION" | "SCALE")
+                || ["TEXCOORD_", "JOINTS_", "WEIGHTS_"].into_iter().any(set);
+            if !is_read {
+                self.unused(here, "no picture shows this attribute");
+            }
+            self.value(value, Form::Whole, here)
+        });
+    }
+}
+
+/// What is wrong with a value.
+enum Problem {
+    /// It was repaired: how.
+    Kept(String),
+    /// It cannot be used: what is expected.
+    Lost(String),
+}
+
+/// Gives `value` a form that is no object or list of any length.
+fn repair(value: &mut Value, form: Form) -> Option<Problem> {
+    let lost = |what: &str| Some(Problem::Lost(what.to_owned()));
+    match form {
+        Form::Whole if whole(value) => None,
+        Form::Whole => lost("a whole number from 0"),
+        Form::Number if value.is_number() => None,
+        Form::Number => lost("a number"),
+        Form::Text if value.is_string() => None,
+        Form::Text => lost("a string"),
+        Form::Flag => match value.as_f64() {
+            _ if value.is_boolean() => None,
+            Some(number) if number == 0.0 || number == 1.0 => {
+                *value = (number == 1.0).into();
+                None
+            }
+            _ => lost("true or false"),
+        },
+        Form::List | Form::Numbers(_) => {
+            let Value::Array(parts) = value else {
+                return lost("a list of numbers");
+            };
+            let have = parts.len();
+            match form {
+                _ if !parts.iter().all(Value::is_number) => lost("a list of numbers"),
+                Form::Numbers(count) if have > count => {
+                    parts.truncate(count);
+                    let what = format!("has {have} numbers: the first {count} are used");
+                    Some(Problem::Kept(what))
+                }
+                Form::Numbers(count) if have < count => lost(&format!("{count} numbers")),
+                _ => None,
+            }
+        }
+        Form::Word(words) => {
+            let word = value.as_str().unwrap_or_default();
+            if words.contains(&word) {
+                return None;
+            }
+            let alike = words.iter().find(|known| known.eq_ignore_ascii_case(word));
+            match alike {
+                Some(known) => {
+                    *value = (*known).into();
+                    None
+                }
+                None => lost(&format!("one of {}", words.join(", "))),
+            }
+        }
+        _ => lost("an object"),
+    }
+}
+
+/// Whether `value` is a whole number from 0; one with a decimal point loses it.
+fn whole(value: &mut Value) -> bool {
+    if value.is_u64() {
+        return true;
+    }
+    // The largest that a double holds exactly.
+    let number = value
+        .as_f64()
+        .filter(|n| n.fract() == 0.0 && (0.0..9e15).contains(n));
+    if let Some(number) = number {
+        *value = Value::Number(Number::from(number as u64));
+    }
+    number.is_some()
+}
