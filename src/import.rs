@@ -27,13 +27,16 @@ mod archive;
 mod budget;
 mod course;
 mod crease;
+mod encoding;
 #[cfg(not(target_arch = "wasm32"))]
 mod environment;
 mod error;
+mod faults;
 #[cfg(not(target_arch = "wasm32"))]
 mod folder;
 mod formats;
 mod gltf;
+mod levels;
 mod model;
 mod native;
 mod nff;
@@ -56,6 +59,7 @@ mod suggest;
 mod tangent;
 mod tint;
 mod uvs;
+mod visibility;
 mod weld;
 #[cfg(feature = "archive")]
 mod zipped;
@@ -65,7 +69,7 @@ pub use archive::Archive;
 pub use error::{Excerpt, Fault, ImportError, Position};
 #[cfg(not(target_arch = "wasm32"))]
 pub use folder::Folder;
-pub use formats::{SCENE_FORMATS, SceneFormat};
+pub use formats::{FORMAT_KEYS, SCENE_FORMATS, SceneFormat};
 pub use gltf::{GLTF_EXTENSIONS, Support};
 pub use options::{Axis, Baking, Environment, EnvironmentSource, Ground, Options, Staging};
 pub use resolver::{FileError, Memory, Resolver};
@@ -140,7 +144,7 @@ impl Format {
             Some("stl") => Ok(Self::Stl),
             #[cfg(feature = "archive")]
             Some("zip") => Ok(Self::Zip),
-            _ => Err(unknown_format(path)),
+            _ => Err(formats::unknown(path)),
         }
     }
 
@@ -204,7 +208,10 @@ impl Format {
             Self::Obj => "bad model",
             _ => "bad scene",
         };
-        let source = |bytes| Source::new(what, path, bytes);
+        let source = |bytes| match self {
+            Self::Native => Source::new(what, path, bytes),
+            _ => Source::of_any_encoding(what, path, bytes),
+        };
         let mut scene = match self {
             Self::Native => native::read(&source(bytes)?, options, files),
             Self::Course => course::read(&source(bytes)?),
@@ -427,21 +434,4 @@ fn named_picture(
 /// The JSON Schema (2020-12) of the native format, for editors with TOML completion and validation.
 pub fn native_schema() -> serde_json::Value {
     native::schema()
-}
-
-fn unknown_format(path: &Path) -> ImportError {
-    let ending = path.extension().map_or_else(
-        || "the name has no extension".to_owned(),
-        |ending| {
-            let ending = format!(".{}", ending.to_string_lossy());
-            format!(
-                "the extension {} is not supported",
-                source::quote(ending.as_bytes())
-            )
-        },
-    );
-    let (last, others) = SCENE_ENDINGS.split_last().unwrap_or((&"", &[]));
-    let others = others.join(", .");
-    let todo = format!("Use a .{others} or .{last} file; convert other models to one of these");
-    ImportError::UnknownFormat(fault("unknown scene format", path, &ending, &todo))
 }

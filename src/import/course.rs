@@ -18,8 +18,8 @@ mod tokens;
 
 use super::budget::{self, Budget};
 use super::error::ImportError;
+use super::faults::Faults;
 use super::notes::{self, Notes};
-use super::number;
 use super::source::{Source, Token};
 use super::suggest;
 use crate::scene::{
@@ -50,6 +50,26 @@ const VERTEX: &[Key] = &[Pos, Nor, Dif, Spe, Shi];
 const LIGHT: &[Key] = &[Pos, Col];
 const OBJECTS: [&str; 3] = ["sphere", "triangle", "light"];
 
+/// All keywords; those of [`Key`] come first.
+pub(super) const KEYS: [&str; 16] = [
+    "pos:",
+    "nor:",
+    "dif:",
+    "spe:",
+    "shi:",
+    "rad:",
+    "col:",
+    "amb:",
+    "sphere",
+    "triangle",
+    "light",
+    "ref:",
+    "area_light:",
+    "area_u:",
+    "area_v:",
+    "samples:",
+];
+
 /// Keys that student renderers added, and the number of words that follow them.
 const EXTENSIONS: [(&str, usize); 5] = [
     ("ref:", 1),
@@ -64,7 +84,7 @@ type Fields = [Option<[f64; 3]>; 7];
 
 impl Key {
     fn name(self) -> &'static str {
-        ["pos:", "nor:", "dif:", "spe:", "shi:", "rad:", "col:"][self as usize]
+        KEYS[self as usize]
     }
 
     fn of(self, fields: &Fields) -> DVec3 {
@@ -92,6 +112,7 @@ pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
         palette: Palette::default(),
         extensions: [0; 5],
         area: Area::default(),
+        faults: Faults::default(),
     };
     let announced = reader.header()?;
     let budget = Budget::of(source.bytes.len());
@@ -102,14 +123,14 @@ pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
         let refuse = |why, todo: &str| source.malformed(token.span(), why, todo);
         budget.check(reader.memory(), refuse)?;
     }
-    reader.close_light()?;
+    reader.close_light();
     if announced != found as f64 {
         let note = format!(
             "the file announces {announced} objects, but contains {found}: all of them are read"
         );
         reader.scene.skipped.push(note);
     }
-    Ok(reader.finish())
+    reader.finish()
 }
 
 struct Reader<'s> {
@@ -124,17 +145,14 @@ struct Reader<'s> {
     extensions: [usize; 5],
     /// The extent that the current object specifies.
     area: Area<'s>,
+    faults: Faults,
 }
 
 impl<'s> Reader<'s> {
     /// Reads up to the first object and returns the announced number of objects.
     fn header(&mut self) -> Result<f64, ImportError> {
         let token = self.expect("the number of objects ", "N")?;
-        let announced = number::parse(self.source, token)?;
-        if announced < 0.0 || announced.fract() != 0.0 {
-            let why = format!("{} is not a count of objects", token.quote());
-            return Err(self.refuse(token, why, "Write a whole number, 0 or more"));
-        }
+        let announced = self.faults.number_or_nan("N", self.source, token)?;
         let token = self.expect("", "amb:")?;
         if !token.bytes.eq_ignore_ascii_case(b"amb:") {
             let why = format!("expected `amb:`, found {}", token.quote());
@@ -165,7 +183,7 @@ impl<'s> Reader<'s> {
     }
 
     fn object(&mut self, keyword: Token<'s>) -> Result<(), ImportError> {
-        self.close_light()?;
+        self.close_light();
         match keyword.bytes.to_ascii_lowercase().as_slice() {
             b"sphere" => self.sphere(),
             b"triangle" => self.triangle(),
@@ -180,6 +198,9 @@ impl<'s> Reader<'s> {
 
     fn sphere(&mut self) -> Result<(), ImportError> {
         let fields = self.fields("sphere", SPHERE)?;
+        if Pos.of(&fields).is_nan() || Rad.of(&fields).is_nan() {
+            return Ok(());
+        }
         let shape = Shape {
             geometry: Geometry::Sphere {
                 center: Pos.of(&fields),
@@ -193,7 +214,7 @@ impl<'s> Reader<'s> {
     }
 
     fn triangle(&mut self) -> Result<(), ImportError> {
-        let first = self.positions.len() as u32;
+        let first = self.positions.len();
         for _ in 0..3 {
             let fields = self.fields("triangle", VERTEX)?;
             self.positions.push(Pos.of(&fields));
@@ -201,12 +222,22 @@ impl<'s> Reader<'s> {
             let material = self.material(&fields);
             self.mesh.materials.push(material);
         }
+        if self.positions[first..].iter().any(|place| place.is_nan()) {
+            self.positions.truncate(first);
+            self.mesh.normals.truncate(first);
+            self.mesh.materials.truncate(first);
+            return Ok(());
+        }
+        let first = first as u32;
         self.mesh.triangles.push([first, first + 1, first + 2]);
         Ok(())
     }
 
     fn light(&mut self) -> Result<(), ImportError> {
         let fields = self.fields("light", LIGHT)?;
+        if Pos.of(&fields).is_nan() {
+            return Ok(());
+        }
         self.scene.lights.push(Light {
             kind: LightKind::Point {
                 position: Pos.of(&fields),
@@ -219,14 +250,13 @@ impl<'s> Reader<'s> {
     }
 
     /// Gives the light that just ended its extent, if it has one.
-    fn close_light(&mut self) -> Result<(), ImportError> {
+    fn close_light(&mut self) {
         let area = std::mem::take(&mut self.area);
         match self.scene.lights.last_mut() {
-            Some(light) if area.is_of_light => area.apply(light, self.source, &mut self.extensions),
-            _ => {
-                area.count(&mut self.extensions);
-                Ok(())
+            Some(light) if area.is_of_light => {
+                area.apply(light, self.source, &mut self.faults, &mut self.extensions);
             }
+            _ => area.count(&mut self.extensions),
         }
     }
 
@@ -299,15 +329,19 @@ impl<'s> Reader<'s> {
     }
 
     fn radius(&mut self) -> Result<[f64; 3], ImportError> {
-        let (token, radius) = self.number("rad:")?;
+        let (token, mut radius) = self.number("rad:")?;
         if radius < f64::from(f32::MIN_POSITIVE) {
-            let why = format!("the radius {} is not greater than 0", token.quote());
-            return Err(self.refuse(token, why, "Write a positive number"));
+            let what = ("rad:", "spheres without a positive radius skipped");
+            self.faults.add(what, self.source, token.span(), || {
+                let why = format!("the radius {} is not greater than 0", token.quote());
+                (why, "Write a positive number")
+            });
+            radius = f64::NAN;
         }
         Ok([radius, 0.0, 0.0])
     }
 
-    fn color(&mut self, key: &str) -> Result<[f64; 3], ImportError> {
+    fn color(&mut self, key: &'static str) -> Result<[f64; 3], ImportError> {
         Ok([
             self.at_least_zero(key)?,
             self.at_least_zero(key)?,
@@ -315,19 +349,17 @@ impl<'s> Reader<'s> {
         ])
     }
 
-    fn at_least_zero(&mut self, key: &str) -> Result<f64, ImportError> {
-        match self.number(key)? {
-            (_, value) if value >= 0.0 => Ok(value),
-            (token, _) => {
-                let why = format!("{} in `{key}` is negative", token.quote());
-                Err(self.refuse(token, why, "Write 0 or more"))
-            }
-        }
+    fn at_least_zero(&mut self, key: &'static str) -> Result<f64, ImportError> {
+        let (token, value) = self.number(key)?;
+        let value = self.faults.not_negative(key, self.source, token, value);
+        Ok(value.max(0.0))
     }
 
-    fn number(&mut self, key: &str) -> Result<(Token<'s>, f64), ImportError> {
+    /// NaN if it cannot be used.
+    fn number(&mut self, key: &'static str) -> Result<(Token<'s>, f64), ImportError> {
         let token = self.expect("a number of ", key)?;
-        Ok((token, number::parse(self.source, token)?))
+        let number = self.faults.number_or_nan(key, self.source, token)?;
+        Ok((token, number))
     }
 
     /// The next token, expected to be `key` or one of its values.
@@ -350,10 +382,11 @@ impl<'s> Reader<'s> {
             words.push(self.expect("a value of ", name)?);
         }
         if name == "ref:" {
-            number::parse(self.source, words[0])?;
+            self.faults.number_or_nan("ref:", self.source, words[0])?;
             self.extensions[index] += 1;
         } else {
-            self.area.read(index, token, &words, self.source)?;
+            let faults = &mut self.faults;
+            self.area.read(index, token, &words, self.source, faults)?;
         }
         Ok(true)
     }
@@ -362,7 +395,13 @@ impl<'s> Reader<'s> {
         self.source.malformed(token.span(), why, todo)
     }
 
-    fn finish(mut self) -> Scene {
+    fn finish(mut self) -> Result<Scene, ImportError> {
+        if self.scene.shapes.is_empty()
+            && self.mesh.triangles.is_empty()
+            && let Some(refusal) = self.faults.refusal()
+        {
+            return Err(refusal);
+        }
         for ((name, _), count) in EXTENSIONS.iter().zip(self.extensions) {
             if count > 0 {
                 let times = if count == 1 {
@@ -383,6 +422,7 @@ impl<'s> Reader<'s> {
         let (local, offset) = Mesh::from_world_positions(&self.positions);
         self.mesh.positions = local;
         let mut notes = Notes::default();
+        self.faults.note(&mut notes, None);
         notes::of_repairs(&mut notes, self.mesh.repair());
         self.scene.skipped.extend(notes.into_lines());
         if !self.mesh.triangles.is_empty() {
@@ -395,7 +435,7 @@ impl<'s> Reader<'s> {
             });
         }
         self.scene.materials = self.palette.into_materials();
-        self.scene
+        Ok(self.scene)
     }
 }
 

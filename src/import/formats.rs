@@ -1,5 +1,10 @@
 //! What is read of each format, for the tables of the manual.
 
+use super::error::{ImportError, fault};
+use super::source::quote;
+use super::{SCENE_ENDINGS, course, nff, obj, ply, stl};
+use std::path::Path;
+
 /// A format of scenes or models.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SceneFormat {
@@ -68,3 +73,32 @@ pub const SCENE_FORMATS: &[SceneFormat] = &[
         skipped: "further scenes",
     },
 ];
+
+/// The keys of formats that are read by key, each with the extension of its files. A key that is read and has no effect
+/// on the scene is listed in [`crate::scene::Scene::skipped`].
+pub const FORMAT_KEYS: &[(&str, &[&str])] = &[
+    ("obj", &obj::KEYS),
+    ("mtl", &obj::LIBRARY_KEYS),
+    ("ply", &ply::KEYS),
+    ("stl", &stl::KEYS),
+    ("nff", &nff::KEYS),
+    ("scene", &course::KEYS),
+];
+
+/// The error for a file whose extension is not that of a format.
+pub(super) fn unknown(path: &Path) -> ImportError {
+    let ending = path.extension().map_or_else(
+        || "the name has no extension".to_owned(),
+        |ending| {
+            let ending = format!(".{}", ending.to_string_lossy());
+            format!(
+                "the extension {} is not supported",
+                quote(ending.as_bytes())
+            )
+        },
+    );
+    let (last, others) = SCENE_ENDINGS.split_last().unwrap_or((&"", &[]));
+    let others = others.join(", .");
+    let todo = format!("Use a .{others} or .{last} file; convert other models to one of these");
+    ImportError::UnknownFormat(fault("unknown scene format", path, &ending, &todo))
+}

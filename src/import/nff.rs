@@ -20,12 +20,16 @@
 //! The near plane (`hither`) is ignored. Surfaces are two-sided; negative radii, for surfaces visible
 //! from inside only, are reported.
 
+pub(super) use words::KEYS;
+
 mod mesh;
 mod view;
 mod words;
 
 use super::budget::{self, Budget};
 use super::error::ImportError;
+use super::faults::{CLAMPED, Faults};
+use super::notes::Notes;
 use super::source::{Source, Token};
 use super::{number, suggest};
 use crate::scene::{
@@ -103,6 +107,7 @@ pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
         material_ids: HashMap::new(),
         surface: Surface::new(),
         inside_out: 0,
+        faults: Faults::default(),
     };
     let budget = Budget::of(source.bytes.len());
     while let Some(word) = reader.words.next() {
@@ -130,6 +135,7 @@ struct Reader<'s> {
     surface: Surface,
     /// Shapes with negative radii.
     inside_out: usize,
+    faults: Faults,
 }
 
 impl<'s> Reader<'s> {
@@ -186,6 +192,9 @@ impl<'s> Reader<'s> {
 
     fn background(&mut self) -> Result<(), ImportError> {
         let color = self.color()?;
+        if color.is_nan() {
+            return Ok(());
+        }
         self.scene.background = Background::Color(color);
         self.backgrounds += 1;
         Ok(())
@@ -199,6 +208,11 @@ impl<'s> Reader<'s> {
             self.plain_lights.push(self.scene.lights.len());
             Vec3::ZERO
         };
+        if position.is_nan() || color.is_nan() {
+            self.plain_lights
+                .pop_if(|light| *light == self.scene.lights.len());
+            return Ok(());
+        }
         self.scene.lights.push(Light {
             kind: LightKind::Point { position },
             color,
@@ -210,17 +224,25 @@ impl<'s> Reader<'s> {
     fn fill(&mut self, keyword: Token) -> Result<(), ImportError> {
         let mut values = [0.0; 8];
         for value in &mut values {
-            *value = self.at_least_zero()?;
+            // NaN becomes 0.
+            *value = self.at_least_zero()?.max(0.0);
         }
         let [r, g, b, kd, ks, shine, t, index] = values;
         if t > 0.0 && index < SHORTEST {
-            let why = "a transparent material needs an index of refraction".to_owned();
-            return Err(self.refuse(keyword, why, "Write 1 or more as the last number"));
+            let what = ("f", "indices of refraction of 0 set to 1");
+            self.faults.add(what, self.source, keyword.span(), || {
+                let why = "a transparent material needs an index of refraction".to_owned();
+                (why, "Write 1 or more as the last number")
+            });
         }
-        let diffuse = DVec3::new(r, g, b) * kd;
+        let mut diffuse = DVec3::new(r, g, b) * kd;
         if !number::in_range(diffuse.max_element()) {
-            let why = "the colour times Kd is out of range".to_owned();
-            return Err(self.refuse(keyword, why, "Write colours from 0 to 1"));
+            self.faults
+                .add(("f", CLAMPED), self.source, keyword.span(), || {
+                    let why = "the colour times Kd is out of range".to_owned();
+                    (why, "Write colours from 0 to 1")
+                });
+            diffuse = diffuse.min(DVec3::splat(f32::MAX.into()));
         }
         // Adding 0 turns -0 into 0.
         let key = values.map(|value| (value + 0.0).to_bits());
@@ -249,8 +271,11 @@ impl<'s> Reader<'s> {
         let center = self.vector()?;
         let (token, radius) = self.number()?;
         if radius.abs() < SHORTEST {
-            let why = format!("the radius {} is zero", token.quote());
-            return Err(self.refuse(token, why, "Write a positive number"));
+            self.fault("s", token, format!("the radius {} is zero", token.quote()));
+            return Ok(());
+        }
+        if center.is_nan() || radius.is_nan() {
+            return Ok(());
         }
         self.inside_out += usize::from(radius < 0.0);
         let radius = radius.abs();
@@ -267,19 +292,22 @@ impl<'s> Reader<'s> {
         let material = self.material_in_use(keyword)?;
         let (base, (_, bottom)) = (self.vector()?, self.number()?);
         let (apex, (token, top)) = (self.vector()?, self.number()?);
-        if bottom.abs().max(top.abs()) < SHORTEST {
-            let why = "both radii of a cone are zero".to_owned();
-            return Err(self.refuse(token, why, "Write one or two positive numbers"));
-        }
-        if bottom * top < 0.0 {
-            let why = "only one radius of a cone is negative".to_owned();
-            let todo = "Write both positive, or both negative for a surface seen from inside";
-            return Err(self.refuse(token, why, todo));
-        }
         let axis = apex - base;
-        if axis.length() < SHORTEST {
-            let why = "both ends of a cone are the same point".to_owned();
-            return Err(self.refuse(keyword, why, "Place them apart"));
+        if axis.is_nan() || bottom.is_nan() || top.is_nan() {
+            return Ok(());
+        }
+        let fault = if bottom.abs().max(top.abs()) < SHORTEST {
+            Some((token, "both radii of a cone are zero"))
+        } else if bottom * top < 0.0 {
+            Some((token, "only one radius of a cone is negative"))
+        } else if axis.length() < SHORTEST {
+            Some((keyword, "both ends of a cone are the same point"))
+        } else {
+            None
+        };
+        if let Some((token, why)) = fault {
+            self.fault("c", token, why.to_owned());
+            return Ok(());
         }
         self.inside_out += usize::from(bottom + top < 0.0);
         // The height is scaled but not the radii: circles stay round.
@@ -332,14 +360,18 @@ impl<'s> Reader<'s> {
         Ok(DVec3::new(r, g, b).as_vec3())
     }
 
+    /// NaN stays.
     fn at_least_zero(&mut self) -> Result<f64, ImportError> {
-        match self.number()? {
-            (_, value) if value >= 0.0 => Ok(value),
-            (token, _) => {
-                let why = format!("{} in a {} is negative", token.quote(), self.name());
-                Err(self.refuse(token, why, "Write 0 or more"))
-            }
-        }
+        let (token, value) = self.number()?;
+        let key = ENTITIES[self.entity].0;
+        Ok(self.faults.not_negative(key, self.source, token, value))
+    }
+
+    /// Counts a shape that is skipped.
+    fn fault(&mut self, key: &'static str, token: Token, why: String) {
+        let what = (key, "shapes without extent skipped");
+        let todo = ENTITIES[self.entity].2;
+        (self.faults).add(what, self.source, token.span(), || (why, todo));
     }
 
     fn number(&mut self) -> Result<(Token<'s>, f64), ImportError> {
@@ -361,7 +393,9 @@ impl<'s> Reader<'s> {
             );
             return Err(self.refuse(token, why, todo));
         }
-        Ok((token, number::parse(self.source, token)?))
+        let key = ENTITIES[self.entity].0;
+        let number = self.faults.number_or_nan(key, self.source, token)?;
+        Ok((token, number))
     }
 
     fn refuse(&self, token: Token, why: String, todo: &str) -> ImportError {
@@ -372,6 +406,12 @@ impl<'s> Reader<'s> {
         if self.scene.cameras.is_empty() {
             let why = "the file has no view (`v`)".to_owned();
             return Err(self.refuse(self.words.end(), why, ENTITIES[0].2));
+        }
+        if self.scene.shapes.is_empty()
+            && self.surface.is_empty()
+            && let Some(refusal) = self.faults.refusal()
+        {
+            return Err(refusal);
         }
         let strength = 1.0 / (self.scene.lights.len() as f32).sqrt();
         for light in self.plain_lights {
@@ -393,6 +433,9 @@ impl<'s> Reader<'s> {
             self.scene.materials.push(Material::default());
         }
         self.surface.add_to(&mut self.scene);
+        let mut notes = Notes::default();
+        self.faults.note(&mut notes, None);
+        self.scene.skipped.extend(notes.into_lines());
         Ok(self.scene)
     }
 }

@@ -8,42 +8,56 @@ use super::source::{Source, Token};
 /// # Errors
 /// `token` is not a decimal number, or is out of range.
 pub(super) fn parse(source: &Source, token: Token) -> Result<f64, ImportError> {
-    let is_decimal = |b: &u8| b.is_ascii_digit() || b"+-.eE".contains(b);
-    let text = std::str::from_utf8(token.bytes).ok();
-    let text = text.filter(|text| text.bytes().all(|b| is_decimal(&b)));
-    match text.and_then(|text| text.parse().ok()) {
-        Some(value) if in_range(value) => Ok(value),
-        value => {
-            let why = format!(
-                "{} {}",
-                token.quote(),
-                diagnosis(token.bytes, value.is_some())
-            );
-            let todo = "Write a decimal number such as -0.5 or 2e3";
-            Err(source.malformed(token.span(), why, todo))
-        }
-    }
+    read(token.bytes).ok_or_else(|| {
+        let (why, todo) = refusal(token);
+        source.malformed(token.span(), why, todo)
+    })
 }
 
-/// The error for a word that is not a number or is out of range.
-fn diagnosis(word: &[u8], is_number: bool) -> &'static str {
-    let digits = word
-        .strip_prefix(b"-")
-        .or(word.strip_prefix(b"+"))
-        .unwrap_or(word);
-    let begins = |prefix: &[u8]| {
-        let start = digits.get(..prefix.len());
-        start.is_some_and(|start| start.eq_ignore_ascii_case(prefix))
-    };
-    if is_number {
+/// All of `word` as a number in the range of f32.
+pub(super) fn read(word: &[u8]) -> Option<f64> {
+    number(word).filter(|&value| in_range(value))
+}
+
+fn number(word: &[u8]) -> Option<f64> {
+    let is_decimal = |b: &u8| b.is_ascii_digit() || b"+-.eE".contains(b);
+    let text = std::str::from_utf8(word).ok();
+    let text = text.filter(|text| text.bytes().all(|b| is_decimal(&b)));
+    text?.parse().ok()
+}
+
+/// Whether C programs write `word` for a number that is not finite: `nan`, `-nan(ind)`, `1.#QNAN`, `-inf` and so on. Any
+/// number out of the range of f32 is one too.
+pub(super) fn is_nonfinite(word: &[u8]) -> bool {
+    let digits = unsigned(word);
+    let begins = |prefix: &[u8]| begins(digits, prefix);
+    begins(b"nan") || begins(b"inf") || begins(b"1.#") || number(word).is_some_and(|v| !in_range(v))
+}
+
+fn unsigned(word: &[u8]) -> &[u8] {
+    let positive = word.strip_prefix(b"-").or(word.strip_prefix(b"+"));
+    positive.unwrap_or(word)
+}
+
+fn begins(word: &[u8], prefix: &[u8]) -> bool {
+    let start = word.get(..prefix.len());
+    start.is_some_and(|start| start.eq_ignore_ascii_case(prefix))
+}
+
+/// Why `token` is not a number that can be used, and what to do.
+pub(super) fn refusal(token: Token) -> (String, &'static str) {
+    let digits = unsigned(token.bytes);
+    let why = if number(token.bytes).is_some() {
         "is out of range: at most 3.4e38 is allowed"
-    } else if begins(b"nan") || begins(b"inf") {
+    } else if is_nonfinite(token.bytes) {
         "is not a finite number"
-    } else if begins(b"0x") {
+    } else if begins(digits, b"0x") {
         "is hexadecimal, which is not accepted"
     } else {
         "is not a number"
-    }
+    };
+    let why = format!("{} {why}", token.quote());
+    (why, "Write a decimal number such as -0.5 or 2e3")
 }
 
 /// Whether `value` is finite and fits an f32.

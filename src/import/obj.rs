@@ -5,53 +5,40 @@
 //! curves are skipped and reported. Vertices keep u and v only if a material uses them, because they
 //! would split vertices that are otherwise equal.
 
+mod colors;
 mod face;
 mod lines;
 mod materials;
 mod mtl;
 mod smooth;
+mod statements;
 mod surface;
 mod uv;
 mod weld;
 
+pub(super) use mtl::KEYS as LIBRARY_KEYS;
+pub(super) use statements::KEYS;
+
 use super::budget::{self, Budget};
 use super::error::ImportError;
+use super::faults::Faults;
 use super::model::Model;
 use super::notes::{self, Notes};
 use super::paths::Files;
 use super::picture::Pictures;
 use super::polygon::{self, Cutter, Defect};
 use super::source::{Source, Token, quote};
-use super::{Axis, Options, number};
+use super::{Axis, Options};
 use crate::scene::{Material, Mesh, Scene, Texture};
+use colors::Colors;
 use face::Corner;
 use glam::{DVec3, Vec2, Vec3};
 use lines::{Line, Lines};
 use smooth::SmoothFace;
+use statements::Statement;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use std::path::Path;
-
-/// Statements of the format that do not affect triangles.
-const IGNORED: [&[u8]; 17] = [
-    b"o",
-    b"g",
-    b"mg",
-    b"vp",
-    b"bevel",
-    b"c_interp",
-    b"d_interp",
-    b"lod",
-    b"shadow_obj",
-    b"trace_obj",
-    b"ctech",
-    b"stech",
-    b"maplib",
-    b"usemap",
-    b"call",
-    b"csh",
-    b"end",
-];
 
 /// The model in `source` as a scene.
 pub(super) fn read_scene(
@@ -74,7 +61,7 @@ pub(super) fn read_model(
     replaced: Option<bool>,
 ) -> Result<Model, ImportError> {
     let bytes = files.read(path, super::MAX_GEOMETRY_BYTES)?;
-    let source = Source::new("bad model", path, bytes)?;
+    let source = Source::of_any_encoding("bad model", path, bytes)?;
     read(&source, &files.named_in(path), pictures, replaced)
 }
 
@@ -90,11 +77,12 @@ fn read(
         pictures,
         replaced,
         positions: Vec::new(),
-        colors: Vec::new(),
+        colors: Colors::default(),
         normals: Vec::new(),
         uvs: Vec::new(),
         made_normals: Vec::new(),
         smooth_faces: Vec::new(),
+        face: Vec::new(),
         corners: Vec::new(),
         cutter: Cutter::new(),
         fan_count: 0,
@@ -105,9 +93,12 @@ fn read(
         smoothing: smooth::UNSTATED,
         libraries: Vec::new(),
         textures: Vec::new(),
+        names: [None; 2],
         notes: Notes::default(),
+        faults: Faults::default(),
         budget: Budget::of(source.bytes.len()),
         left_out: BTreeMap::new(),
+        statements: BTreeMap::new(),
         unknown: None,
         known_count: 0,
     };
@@ -134,14 +125,14 @@ struct Reader<'s> {
     pictures: &'s mut Pictures,
     replaced: Option<bool>,
     positions: Vec<DVec3>,
-    /// Colours of vertices; empty if there are none, and may be shorter than `positions`.
-    /// Of vertices in sRGB, from 0 to 1, white where the file gives none; empty if it gives none at all.
-    colors: Vec<Vec3>,
+    colors: Colors,
     normals: Vec<Vec3>,
     uvs: Vec<Vec2>,
     /// Normals that are computed, not from the file.
     made_normals: Vec<Vec3>,
     smooth_faces: Vec<SmoothFace>,
+    /// The corners of the current face.
+    face: Vec<Corner>,
     corners: Vec<Corner>,
     cutter: Cutter,
     /// Number of faces that could only be triangulated as fans.
@@ -156,12 +147,17 @@ struct Reader<'s> {
     /// The current smoothing group; 0 for none.
     smoothing: u32,
     /// Material libraries. Only the materials in use are parsed.
-    libraries: Vec<Source>,
+    libraries: Vec<mtl::Library>,
     textures: Vec<Texture>,
+    /// The name of the only object and of the only group; empty if there are several.
+    names: [Option<&'s [u8]>; 2],
     notes: Notes,
+    faults: Faults,
     budget: Budget,
     /// Numbers of skipped statements by kind.
     left_out: BTreeMap<&'static str, usize>,
+    /// Numbers of skipped statements by keyword.
+    statements: BTreeMap<&'static str, usize>,
     /// The first unknown statement.
     unknown: Option<Range<usize>>,
     known_count: usize,
@@ -169,31 +165,38 @@ struct Reader<'s> {
 
 impl<'s> Reader<'s> {
     fn statement(&mut self, keyword: Token, line: &mut Line<'s>) -> Result<(), ImportError> {
+        let Some((name, statement)) = statements::find(keyword.bytes) else {
+            self.skip("unknown statements");
+            self.unknown.get_or_insert(keyword.span());
+            return Ok(());
+        };
         self.known_count += 1;
-        match keyword.bytes {
-            b"v" => self.vertex(keyword, line)?,
-            b"vn" => {
-                let normal = self.numbers(keyword, line)?;
-                self.normals.push(normal.as_vec3());
+        match statement {
+            Statement::Vertex => self.vertex(keyword, line),
+            Statement::Normal => {
+                let normal = self.numbers("vn", keyword, line);
+                // Normals of length 0 are computed.
+                self.normals.push(normal.unwrap_or_default().as_vec3());
             }
-            b"vt" => self.texture_coordinates(keyword, line)?,
-            b"f" | b"fo" => self.face(keyword, line)?,
-            b"usemtl" => self.material = Some(line.rest().bytes),
-            b"mtllib" => self.material_library(line)?,
-            b"s" => self.smoothing = smooth::group(line.word()),
-            b"l" | b"p" => self.skip("lines and points"),
-            b"curv" | b"curv2" | b"surf" | b"cstype" | b"deg" | b"bmat" | b"step" | b"parm"
-            | b"trim" | b"hole" | b"scrv" | b"sp" | b"con" => self.skip("free-form statements"),
-            word if IGNORED.contains(&word) => {}
-            word if word.iter().all(|b| b.is_ascii_alphanumeric() || *b == b'_') => {
-                self.known_count -= 1;
-                self.skip("unknown statements");
-                self.unknown.get_or_insert(keyword.span());
+            Statement::TextureCoordinates => self.texture_coordinates(keyword, line),
+            Statement::Face => self.face(keyword, line)?,
+            Statement::Material => {
+                self.material = Some(line.rest().bytes);
+                if line.rest().bytes.is_empty() {
+                    self.skip("`usemtl` without a name");
+                }
             }
-            _ => {
-                let why = format!("{} is not an OBJ statement", keyword.quote());
-                let todo = "Check that this is a Wavefront OBJ file";
-                return Err(self.source.malformed(keyword.span(), why, todo));
+            Statement::Library => self.material_libraries(keyword, line),
+            Statement::Smoothing => self.smoothing = smooth::group(line.word()),
+            Statement::Object => self.name(0, line),
+            Statement::Group => self.name(1, line),
+            Statement::Thin => self.skip("lines and points"),
+            Statement::FreeForm => self.skip("free-form statements"),
+            Statement::Skipped => {
+                let rest = line.rest().bytes;
+                if !rest.eq_ignore_ascii_case(b"off") && rest != b"0" {
+                    *self.statements.entry(name).or_default() += 1;
+                }
             }
         }
         Ok(())
@@ -203,58 +206,94 @@ impl<'s> Reader<'s> {
         *self.left_out.entry(what).or_default() += 1;
     }
 
-    fn vertex(&mut self, keyword: Token, line: &mut Line) -> Result<(), ImportError> {
-        let position = self.numbers(keyword, line)?;
-        self.positions.push(position);
+    fn name(&mut self, kind: usize, line: &Line<'s>) {
+        let name = line.rest().bytes;
+        match self.names[kind] {
+            Some(known) if known != name => self.names[kind] = Some(b""),
+            _ => self.names[kind] = Some(name),
+        }
+    }
+
+    fn vertex(&mut self, keyword: Token, line: &mut Line) {
+        let position = self.numbers("v", keyword, line);
+        // Faces with it are skipped.
+        self.positions.push(position.unwrap_or(DVec3::NAN));
         // A weight (which only curves use), a colour, or both.
         let mut more = [0.0; 4];
         let mut count = 0;
         while let Some(word) = line.word() {
-            let number = number::parse(self.source, word)?;
             let Some(place) = more.get_mut(count) else {
-                let why = "a vertex has too many numbers".to_owned();
-                return Err(self.source.malformed(word.span(), why, "Write `v X Y Z`"));
+                let what = ("v", "numbers after the eighth skipped");
+                self.faults.add(what, self.source, word.span(), || {
+                    (
+                        "a vertex has too many numbers".to_owned(),
+                        "Write `v X Y Z`",
+                    )
+                });
+                break;
             };
-            *place = number;
+            let number = self.faults.number("v", self.source, word);
+            *place = number.unwrap_or(1.0);
             count += 1;
         }
-        if count >= 3 {
-            let color = DVec3::new(more[count - 3], more[count - 2], more[count - 1]);
-            self.colors.resize(self.positions.len() - 1, Vec3::ONE);
-            self.colors.push(color.as_vec3());
+        match count {
+            3 | 4 => self.colors.push(self.positions.len() - 1, &more[..count]),
+            1 | 2 if more[0] != 1.0 => self.skip("weights of vertices"),
+            _ => {}
         }
-        Ok(())
     }
 
-    fn numbers(&self, keyword: Token, line: &mut Line) -> Result<DVec3, ImportError> {
-        let mut values = DVec3::ZERO;
-        for value in values.as_mut() {
+    /// Three numbers, if all of them are there and finite.
+    fn numbers(&mut self, key: &'static str, keyword: Token, line: &mut Line) -> Option<DVec3> {
+        let mut values = Some(DVec3::ZERO);
+        for i in 0..3 {
             let Some(word) = line.word() else {
-                let why = format!("{} needs three numbers", keyword.quote());
-                return Err(self
-                    .source
-                    .malformed(keyword.span(), why, "Add the missing ones"));
+                let what = (key, "statements with fewer than three numbers skipped");
+                self.faults.add(what, self.source, keyword.span(), || {
+                    let why = format!("{} needs three numbers", keyword.quote());
+                    (why, "Add the missing ones")
+                });
+                return None;
             };
-            *value = number::parse(self.source, word)?;
+            match (self.faults.number(key, self.source, word), &mut values) {
+                (Some(number), Some(values)) => values[i] = number,
+                _ => values = None,
+            }
         }
-        Ok(values)
+        values
     }
 
     fn face(&mut self, keyword: Token, line: &mut Line) -> Result<(), ImportError> {
         let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
-        let mut face = face::read(self.source, keyword, line, counts)?;
+        let mut face = std::mem::take(&mut self.face);
+        if face::read(self.source, &mut self.faults, line, counts, &mut face) {
+            self.polygon(keyword, &mut face)?;
+        }
+        self.face = face;
+        Ok(())
+    }
+
+    fn polygon(&mut self, keyword: Token, face: &mut Vec<Corner>) -> Result<(), ImportError> {
         if face.len() < 3 {
-            self.skip("faces with fewer than three corners");
+            let what = ("f", "faces with fewer than three corners skipped");
+            self.faults.add(what, self.source, keyword.span(), || {
+                let why = "a face has fewer than three corners".to_owned();
+                (why, "Check that the file is complete")
+            });
+            return Ok(());
+        }
+        let points: Vec<DVec3> = face
+            .iter()
+            .map(|c| self.positions[c.position as usize])
+            .collect();
+        if points.iter().any(|point| point.is_nan()) {
+            self.skip("faces with vertices that are not finite");
             return Ok(());
         }
         let material = self.material_in_use();
         face.iter_mut()
             .for_each(|corner| corner.material = material);
-        let points: Vec<DVec3> = face
-            .iter()
-            .map(|c| self.positions[c.position as usize])
-            .collect();
-        self.complete_normals(&mut face, polygon::normal(&points));
+        self.complete_normals(face, polygon::normal(&points));
         let first = self.corners.len();
         if first + face.len() > face::MAX_CORNERS {
             let why = format!("more than {} face corners", face::MAX_CORNERS);
@@ -266,7 +305,7 @@ impl<'s> Reader<'s> {
         let shift = |triangle: [u32; 3]| triangle.map(|i| first as u32 + i);
         if face.len() == 3 {
             self.triangles.push(shift([0, 1, 2]));
-            self.corners.append(&mut face);
+            self.corners.append(face);
             return Ok(());
         }
         let triangles = self.cutter.triangles(&points).unwrap_or_else(|defect| {
@@ -275,7 +314,7 @@ impl<'s> Reader<'s> {
             polygon::fan(points.len())
         });
         self.triangles.extend(triangles.into_iter().map(shift));
-        self.corners.append(&mut face);
+        self.corners.append(face);
         Ok(())
     }
 
@@ -287,7 +326,7 @@ impl<'s> Reader<'s> {
         let libraries = self
             .libraries
             .iter()
-            .map(|library| library.bytes.len() as u64);
+            .map(|library| library.source.bytes.len() as u64);
         self.source.bytes.len() as u64
             + libraries.sum::<u64>()
             + budget::size::<DVec3>(self.positions.len())
@@ -302,8 +341,14 @@ impl<'s> Reader<'s> {
     }
 
     fn finish(mut self) -> Result<Model, ImportError> {
-        let mut materials = self.materials()?;
+        if self.triangles.is_empty()
+            && let Some(refusal) = self.faults.refusal()
+        {
+            return Err(refusal);
+        }
+        let mut materials = self.materials();
         self.whiten(&mut materials);
+        let colors = self.vertex_colors(&mut materials);
         self.drop_unwanted_uvs(&materials);
         self.smooth();
         let (vertices, vertex_of_corner) = weld::weld(&self.corners);
@@ -321,21 +366,52 @@ impl<'s> Reader<'s> {
             0 => self.normals[corner.normal as usize],
             mark => self.made_normals[(corner.normal ^ mark) as usize],
         };
-        let name = self.source.path.file_stem().unwrap_or_default();
         let mut mesh = Mesh {
-            name: name.to_string_lossy().into_owned(),
+            name: self.model_name(),
             positions,
             normals: corners().map(normal).collect(),
             uvs,
             second_uvs: Vec::new(),
             tangents: Vec::new(),
-            colors: self.vertex_colors(&vertices),
+            colors: self.corner_colors(&vertices, &colors),
             materials: corners().map(|corner| corner.material).collect(),
-            triangles: self.triangles,
+            triangles: std::mem::take(&mut self.triangles),
         };
-        for (what, count) in self.left_out {
+        self.note();
+        notes::of_repairs(&mut self.notes, mesh.repair());
+        Ok(Model {
+            mesh,
+            offset,
+            materials,
+            textures: self.textures,
+            notes: self.notes,
+            ..Model::default()
+        })
+    }
+
+    /// The name of the only object, or else of the only group, or else of the file.
+    fn model_name(&self) -> String {
+        let is_given = |name: &&[u8]| !matches!(*name, b"" | b"default" | b"off");
+        let given = self.names.iter().flatten().copied().find(is_given);
+        let stem = self.source.path.file_stem().unwrap_or_default();
+        match given {
+            Some(name) => String::from_utf8_lossy(name).into_owned(),
+            None => stem.to_string_lossy().into_owned(),
+        }
+    }
+
+    /// Notes what was skipped or changed.
+    fn note(&mut self) {
+        for (what, count) in std::mem::take(&mut self.left_out) {
             self.notes.add("models with skipped parts", || {
                 format!("{what} skipped: {count}")
+            });
+        }
+        if !self.statements.is_empty() {
+            let named = |(name, count): (&&str, &usize)| format!("`{name}` {count}");
+            let named: Vec<_> = self.statements.iter().map(named).collect();
+            self.notes.add("models with skipped parts", || {
+                format!("statements skipped: {}", named.join(", "))
             });
         }
         if self.fan_count > 0 {
@@ -346,20 +422,12 @@ impl<'s> Reader<'s> {
                 )
             });
         }
-        if let Some(span) = self.unknown {
+        if let Some(span) = self.unknown.take() {
             let first = quote(&self.source.bytes[span]);
             self.notes.add("unknown statements", || {
                 format!("the first unknown statement is {first}")
             });
         }
-        notes::of_repairs(&mut self.notes, mesh.repair());
-        Ok(Model {
-            mesh,
-            offset,
-            materials,
-            textures: self.textures,
-            notes: self.notes,
-            ..Model::default()
-        })
+        std::mem::take(&mut self.faults).note(&mut self.notes, None);
     }
 }

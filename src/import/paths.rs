@@ -108,6 +108,18 @@ impl<'r> Files<'r> {
         })
     }
 
+    /// As [`Self::resolve`]; but if there is no such file, or it may not be read, as the path of another machine, the
+    /// file of that name beside the referring one. Also returns whether it was found there.
+    pub fn resolve_or_beside(&self, name: &str) -> Result<(PathBuf, bool), Refusal> {
+        self.resolve(name).map(|path| (path, false)).or_else(|why| {
+            let last = name.rsplit(['/', '\\']).next().unwrap_or_default();
+            match last.len() < name.len() && !matches!(last, "" | "." | "..") {
+                true => self.resolve(last).map(|path| (path, true)).map_err(|_| why),
+                false => Err(why),
+            }
+        })
+    }
+
     /// Reads the file at `path`, which was resolved.
     ///
     /// # Errors

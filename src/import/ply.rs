@@ -5,25 +5,29 @@
 //! u and v), `tx ty tz tw` (tangents) and `linear_red linear_green linear_blue linear_alpha` (colours). Face property read: the list `vertex_indices` (also `vertex_index`). Others are skipped. Doubles become floats
 //! near the mesh's own origin. Source: Greg Turk, The PLY Polygon File Format, 1994.
 
+pub(super) use skipped::KEYS;
+
 mod faces;
 mod header;
 mod layout;
 mod points;
 mod reader;
+mod skipped;
 mod types;
 
 use super::budget;
 use super::crease;
+use super::encoding;
 use super::error::ImportError;
 use super::model::Model;
 use super::notes::{self, Notes};
 use super::number::in_range;
 use super::tangent::tangent;
 use super::tint::{self, Rgb};
-use super::{Axis, Options, uvs};
+use super::{Axis, Options, levels, uvs};
 use crate::scene::{Material, Mesh, Scene, Shape};
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
-use layout::{COLORS, LINEAR_COLORS, Layout};
+use layout::Layout;
 use reader::Reader;
 use std::path::Path;
 use types::{Element, Kind};
@@ -58,8 +62,14 @@ struct Content {
     short_faces: usize,
     /// Number of faces that could only be triangulated as fans.
     fans: usize,
+    /// Whether the position of a vertex cannot be used, for each up to the last such vertex of a mesh.
+    lost: Vec<bool>,
     /// Number of points without a position.
     lost_points: usize,
+    /// Number of corners of faces at vertices that do not exist.
+    absent_corners: usize,
+    /// Number of radii that are not finite.
+    lost_radii: usize,
     /// Number of texture coordinates that are not numbers.
     lost_uvs: usize,
     notes: Notes,
@@ -73,7 +83,10 @@ pub(super) fn mesh(
     material_count: usize,
     notes: &mut Notes,
 ) -> Result<(Mesh, DVec3), ImportError> {
-    let content = read(path, bytes, Purpose::Mesh(material_count))?;
+    let mut content = read(path, bytes, Purpose::Mesh(material_count))?;
+    if !content.lost.is_empty() {
+        drop_unused(&mut content.mesh);
+    }
     content.note(notes);
     Ok((content.mesh, content.offset))
 }
@@ -90,7 +103,8 @@ pub(super) fn read_scene(
     let mut materials = vec![Material::default()];
     if !content.colors.is_empty() {
         materials = vec![tint::white()];
-        let colors = std::mem::take(&mut content.colors);
+        let mut colors = std::mem::take(&mut content.colors);
+        levels::normalize(&mut colors, &mut notes);
         if content.mesh.triangles.is_empty() {
             let bits;
             let colors: Vec<Option<Rgb>> = colors.into_iter().map(tint::rgb).map(Some).collect();
@@ -137,7 +151,8 @@ pub(super) fn read_scene(
 }
 
 fn read(path: &Path, bytes: &[u8], purpose: Purpose) -> Result<Content, ImportError> {
-    let mut reader = Reader::new(path, bytes)?;
+    let bytes = encoding::without_mark(bytes);
+    let mut reader = Reader::new(path, &bytes)?;
     let elements = reader.elements()?;
     let mut content = Content::default();
     let is_face = |element: &Element| matches!(element.name.as_str(), "face" | "tristrips");
@@ -146,6 +161,9 @@ fn read(path: &Path, bytes: &[u8], purpose: Purpose) -> Result<Content, ImportEr
         .any(|element| is_face(element) && element.count > 0);
     let mut has_vertices = false;
     for element in &elements {
+        if reader.is_cut.get() {
+            break;
+        }
         match element.name.as_str() {
             "vertex" => {
                 has_vertices = true;
@@ -153,21 +171,40 @@ fn read(path: &Path, bytes: &[u8], purpose: Purpose) -> Result<Content, ImportEr
             }
             "face" => faces::polygons(&mut reader, element, &mut content)?,
             "tristrips" => faces::strips(&mut reader, element, &mut content)?,
-            _ => reader.pass_over(element)?,
+            _ => match reader.pass_over(element) {
+                Err(_) if reader.is_cut.get() && has_vertices => break,
+                result => result?,
+            },
         }
     }
     if !has_vertices {
         return Err(reader.refuse("it has no vertices", "Save the mesh again"));
     }
+    let is_empty = match is_cloud {
+        true => content.mesh.positions.is_empty(),
+        false => content.mesh.triangles.is_empty(),
+    };
+    if is_empty && let Some(fault) = reader.fault.take() {
+        return Err(fault);
+    }
+    if reader.is_cut.get() {
+        if is_empty {
+            return Err(reader.cut());
+        }
+        content.notes.add("ends", || {
+            "the file is shorter than its header announces: the rest is missing".to_owned()
+        });
+    }
     if let Purpose::Model = purpose {
-        note_skipped(&reader, &elements, &mut content.notes);
+        skipped::note(&reader, &elements, &mut content.notes);
     }
     Ok(content)
 }
 
 /// The transforms of copies at the vertices in `bytes`, the contents of the file at `path`.
 pub(super) fn places(path: &Path, bytes: &[u8]) -> Result<Vec<DAffine3>, ImportError> {
-    let mut reader = Reader::new(path, bytes)?;
+    let bytes = encoding::without_mark(bytes);
+    let mut reader = Reader::new(path, &bytes)?;
     for element in reader.elements()? {
         if element.name != "vertex" {
             reader.pass_over(&element)?;
@@ -219,25 +256,33 @@ fn vertices(
         mesh,
         colors,
         radii,
+        lost,
         lost_points,
         lost_uvs,
+        lost_radii,
         ..
     } = content;
+    let mut fault = None;
     mesh.positions
         .reserve_exact(if is_double { 0 } else { element.count });
     mesh.materials.reserve_exact(element.count);
     reader.rows(element, &layout.columns, |reader, row| {
         let three = |at: usize| DVec3::new(row[at], row[at + 1], row[at + 2]);
+        let mut place = three(0);
         if let Some(&number) = row[..3].iter().find(|&&number| !in_range(number)) {
+            fault.get_or_insert_with(|| reader.not_finite(number));
             if is_cloud && is_model {
                 *lost_points += 1;
                 return Ok(());
             }
-            return Err(reader.not_finite(number));
+            // Faces with it are skipped, and then it is dropped.
+            place = DVec3::ZERO;
+            lost.resize(mesh.materials.len(), false);
+            lost.push(true);
         }
         match is_double {
-            true => places.push(three(0)),
-            false => mesh.positions.push(three(0).as_vec3()),
+            true => places.push(place),
+            false => mesh.positions.push(place.as_vec3()),
         }
         if let Some(at) = layout.normal {
             mesh.normals.push(three(at).as_vec3());
@@ -264,11 +309,9 @@ fn vertices(
             colors.push((three(at) / most_color).as_vec3());
         }
         if let Some(at) = layout.radius {
-            radii.push(if in_range(row[at]) {
-                row[at] as f32
-            } else {
-                0.0
-            });
+            let is_usable = in_range(row[at]);
+            *lost_radii += usize::from(!is_usable);
+            radii.push(if is_usable { row[at] as f32 } else { 0.0 });
         }
         let number = layout.material.map_or(0.0, |at| row[at]);
         if let Purpose::Mesh(count) = purpose
@@ -281,6 +324,9 @@ fn vertices(
         mesh.materials.push(number as u32);
         Ok(())
     })?;
+    if reader.fault.is_none() {
+        reader.fault = fault;
+    }
     if is_double {
         (mesh.positions, content.offset) = Mesh::from_world_positions(&places);
     }
@@ -316,62 +362,7 @@ fn drop_unused(mesh: &mut Mesh) {
 }
 
 impl Content {
-    /// Notes the faces and points that were skipped or changed.
-    fn note(&self, notes: &mut Notes) {
-        const WHAT: &str = "skipped parts";
-        let mut add = |what: &str, count: usize| {
-            if count > 0 {
-                notes.add(WHAT, || format!("{what}: {count}"));
-            }
-        };
-        add(
-            "faces with fewer than three corners skipped",
-            self.short_faces,
-        );
-        add(
-            "faces that intersect themselves or are too large, triangulated as fans",
-            self.fans,
-        );
-        add(
-            "points with coordinates that are not finite skipped",
-            self.lost_points,
-        );
-        uvs::note(self.lost_uvs, notes);
-    }
-}
-
-/// Notes what is not read.
-fn note_skipped(reader: &Reader, elements: &[Element], notes: &mut Notes) {
-    const READ: &str = "x y z nx ny nz s t u v texture_u texture_v s2 t2 radius";
-    for element in elements.iter().filter(|element| element.count > 0) {
-        let is_read = |name: &str| match element.name.as_str() {
-            "vertex" => {
-                let mut known =
-                    (READ.split(' ').chain(LINEAR_COLORS)).chain(COLORS.into_iter().flatten());
-                known.any(|known| known == name)
-            }
-            _ => faces::CORNERS.contains(&name),
-        };
-        if !matches!(element.name.as_str(), "vertex" | "face" | "tristrips") {
-            let (name, count) = (&element.name, element.count);
-            notes.add("elements", || format!("elements `{name}` skipped: {count}"));
-            continue;
-        }
-        let names = element
-            .properties
-            .iter()
-            .map(|property| property.name.as_str());
-        let skipped: Vec<&str> = names.filter(|name| !is_read(name)).take(16).collect();
-        if !skipped.is_empty() {
-            let what = &element.name;
-            let skipped = skipped.join(", ");
-            notes.add("properties", || {
-                format!("{what} properties skipped: {skipped}")
-            });
-        }
-    }
-    for name in &reader.texture_files {
-        let name = super::source::quote(name.as_bytes());
-        notes.add("skipped textures", || format!("texture skipped: {name}"));
+    fn vertex_count(&self) -> usize {
+        self.mesh.positions.len()
     }
 }

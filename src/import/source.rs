@@ -1,5 +1,6 @@
 //! A text file in memory, and error positions in it.
 
+use super::encoding;
 use super::error::{Excerpt, ImportError, Position, fault};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -36,24 +37,27 @@ impl Token<'_> {
 }
 
 impl Source {
+    /// The text in `bytes`; see [`encoding::unwrapped`].
+    ///
     /// # Errors
-    /// `bytes` are empty, UTF-16 or binary.
-    pub fn new(what: &'static str, path: &Path, mut bytes: Vec<u8>) -> Result<Self, ImportError> {
+    /// `bytes` are empty, binary, or UTF-16 that does not say so.
+    pub fn new(what: &'static str, path: &Path, bytes: Vec<u8>) -> Result<Self, ImportError> {
         let refuse = |why, todo| Err(ImportError::Malformed(fault(what, path, why, todo)));
         if bytes.is_empty() {
             return refuse("the file is empty", "Check that it was written completely");
         }
-        if is_utf16(&bytes) {
+        if encoding::is_unmarked_utf16(&bytes) {
             return refuse("the file is UTF-16", "Save it as UTF-8");
-        }
-        if bytes.starts_with(b"\xef\xbb\xbf") {
-            bytes.drain(..3);
         }
         let source = Self {
             what,
             path: path.to_owned(),
-            bytes,
+            bytes: encoding::unwrapped(bytes),
         };
+        if source.bytes.is_empty() {
+            let todo = "Check that it was written completely";
+            return refuse("the file has nothing but padding", todo);
+        }
         match source.bytes.iter().position(|&b| b == 0) {
             Some(at) => {
                 let why = "a zero byte: the file is binary, not text".to_owned();
@@ -61,6 +65,19 @@ impl Source {
             }
             None => Ok(source),
         }
+    }
+
+    /// As [`Self::new`], for formats that do not say what their encoding is: see [`encoding::from_latin1`].
+    pub fn of_any_encoding(
+        what: &'static str,
+        path: &Path,
+        bytes: Vec<u8>,
+    ) -> Result<Self, ImportError> {
+        let source = Self::new(what, path, bytes)?;
+        Ok(Self {
+            bytes: encoding::from_latin1(source.bytes),
+            ..source
+        })
     }
 
     /// # Errors
@@ -123,14 +140,6 @@ impl Source {
             .map_or(0, |i| i + 1);
         let length = after.iter().position(|&b| b == b'\n' || b == b'\r');
         start..length.map_or(self.bytes.len(), |length| at + length)
-    }
-}
-
-/// Detected by the byte order mark, or else by the zero byte of the first character.
-fn is_utf16(bytes: &[u8]) -> bool {
-    match *bytes {
-        [a, b, ..] => matches!((a, b), (0xff, 0xfe) | (0xfe, 0xff)) || (a == 0) != (b == 0),
-        _ => false,
     }
 }
 

@@ -1,7 +1,7 @@
 //! View and light for models that have none: a camera that frames the model; two soft lights and a gradient, or a sky
 //! with a sun where paths are traced; and a ground that receives the model's shadow.
 
-use super::{Ground, Options};
+use super::{Ground, Options, visibility};
 use crate::scene::{
     Attenuation, Backdrop, Background, Camera, Framing, Geometry, Light, LightKind, LightTransport,
     Material, Scene, Shape, sky,
@@ -20,6 +20,7 @@ const MARGIN: f64 = 0.1;
 /// Adds what `scene`, which is a model, lacks: a camera; and if it has no lights, lights, a background and a
 /// ground. `options` may leave out each.
 pub(super) fn complete(scene: &mut Scene, options: &Options) {
+    visibility::note(scene);
     let staging = options.staging;
     if scene.cameras.is_empty() {
         let size = options.size.unwrap_or(scene.output.size);

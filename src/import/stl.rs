@@ -22,8 +22,22 @@ use crate::scene::{Material, Mesh, Repairs, Scene};
 use glam::{DVec3, Vec3};
 use std::path::Path;
 
+/// All keywords of the text form, and the parts of the binary one.
+pub(super) const KEYS: [&str; 7] = [
+    "solid",
+    "facet",
+    "normal",
+    "vertex",
+    "COLOR=",
+    "MATERIAL=",
+    "attribute",
+];
+
 /// Facets that meet at less than this angle, in radians, are smooth across their edge.
 const CREASE: f64 = std::f64::consts::FRAC_PI_6;
+
+/// The cosine of the angle by which the normal of a facet in the file may differ from that of its corners: 60°.
+const MOST_TILT: f64 = 0.5;
 
 /// The facets of a file while it is read.
 struct Solid {
@@ -33,6 +47,8 @@ struct Solid {
     colors: Vec<Option<Rgb>>,
     /// The colour of facets that have none.
     color: Option<Rgb>,
+    /// Number of facets whose normal in the file points elsewhere than that of their corners.
+    odd_normals: usize,
     /// Number of facets with coordinates that are not finite.
     nonfinite: usize,
     notes: Notes,
@@ -45,15 +61,22 @@ impl Solid {
             triangles: Vec::new(),
             colors: Vec::new(),
             color: None,
+            odd_normals: 0,
             nonfinite: 0,
             notes: Notes::default(),
         }
     }
 
-    /// Adds a facet; returns whether its coordinates are finite.
-    fn add(&mut self, corners: [Vec3; 3]) -> bool {
+    /// Adds a facet with the `normal` that the file has for it; returns whether its coordinates are finite.
+    fn add(&mut self, normal: Vec3, corners: [Vec3; 3]) -> bool {
         let is_finite = corners.iter().all(|corner| corner.is_finite());
         if is_finite {
+            let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+            let own = (b - a).cross(c - a).normalize_or_zero();
+            let given = normal.as_dvec3();
+            // Files have 0 or NaN for a normal that is to be computed.
+            let differs = own.dot(given) < MOST_TILT * given.length();
+            self.odd_normals += usize::from(differs && own != DVec3::ZERO);
             let triangle = corners.map(|corner| self.welder.index(corner));
             self.triangles.push(triangle);
         } else {
@@ -98,6 +121,12 @@ impl Solid {
                 )
             });
         }
+        if self.odd_normals > 0 {
+            notes.add("facets", || {
+                let count = self.odd_normals;
+                format!("normals that contradict the corners of their facets skipped: {count}")
+            });
+        }
         notes::of_repairs(
             &mut notes,
             Repairs {
@@ -133,9 +162,14 @@ pub(super) fn read_model(path: &Path, bytes: Vec<u8>) -> Result<Model, ImportErr
     let budget = Budget::of(bytes.len());
     let length = bytes.len();
     let solid = match binary::header(&bytes) {
-        Some(count) => binary::read(path, &bytes, count)?,
-        None if text::is_text(&bytes) => text::read(&Source::new("bad model", path, bytes)?)?,
-        None => return Err(binary::refuse(path, &bytes)),
+        Some(count) => binary::read(&bytes, count),
+        None if text::is_text(&bytes) => {
+            text::read(&Source::of_any_encoding("bad model", path, bytes)?)?
+        }
+        None => match binary::room(&bytes) {
+            Some(count) => binary::read(&bytes, count),
+            None => return Err(binary::refuse(path, &bytes)),
+        },
     };
     let taken = length as u64
         + budget::size::<[u8; Facets::BYTES]>(solid.triangles.len())

@@ -1,7 +1,7 @@
 //! The extension that turns a light into a rectangle.
 
 use crate::import::error::ImportError;
-use crate::import::number;
+use crate::import::faults::Faults;
 use crate::import::source::{Source, Token};
 use crate::scene::{Light, LightKind};
 use glam::DVec3;
@@ -32,6 +32,7 @@ impl<'s> Area<'s> {
         key: Token<'s>,
         words: &[Token],
         source: &Source,
+        faults: &mut Faults,
     ) -> Result<(), ImportError> {
         let refuse = |word: Token, why, todo| Err(source.malformed(word.span(), why, todo));
         self.found.push(index);
@@ -45,7 +46,7 @@ impl<'s> Area<'s> {
                 }
             },
             (2 | 3, &[x, y, z]) => {
-                let parse = |word| number::parse(source, word);
+                let mut parse = |word| faults.number_or_nan("area_light:", source, word);
                 let side = DVec3::new(parse(x)?, parse(y)?, parse(z)?);
                 if index == 2 {
                     self.side_u = Some((side, key));
@@ -54,10 +55,14 @@ impl<'s> Area<'s> {
                 }
             }
             (_, [word]) => {
-                let count = number::parse(source, *word)?;
+                let count = faults.number_or_nan("samples:", source, *word)?;
                 if count.fract() != 0.0 || !(1.0..=65536.0).contains(&count) {
-                    let why = format!("{} is not a number of samples", word.quote());
-                    return refuse(*word, why, "Write a whole number from 1 to 65536");
+                    let what = ("samples:", "other than 1 to 65536 skipped");
+                    faults.add(what, source, word.span(), || {
+                        let why = format!("{} is not a number of samples", word.quote());
+                        (why, "Write a whole number from 1 to 65536")
+                    });
+                    return Ok(());
                 }
                 self.samples = Some(count as u32);
             }
@@ -71,11 +76,12 @@ impl<'s> Area<'s> {
         self,
         light: &mut Light,
         source: &Source,
+        faults: &mut Faults,
         unused: &mut [usize],
-    ) -> Result<(), ImportError> {
+    ) {
         match (self.wanted, self.side_u, self.side_v, light.kind) {
             // A disabled light needs no edges.
-            (Some(false), ..) => Ok(()),
+            (Some(false), ..) => {}
             (
                 Some(true),
                 Some((side_u, key)),
@@ -86,10 +92,13 @@ impl<'s> Area<'s> {
                     (Some(u), Some(v)) => u.cross(v).length(),
                     _ => 0.0,
                 };
-                if sine < 1e-6 {
-                    let why = "`area_u:` and `area_v:` span no area".to_owned();
-                    let todo = "Give two sides that are not parallel";
-                    return Err(source.malformed(key.span(), why, todo));
+                if sine.is_nan() || sine < 1e-6 {
+                    let what = ("area_light:", "lights without area left as points");
+                    faults.add(what, source, key.span(), || {
+                        let why = "`area_u:` and `area_v:` span no area".to_owned();
+                        (why, "Give two sides that are not parallel")
+                    });
+                    return;
                 }
                 light.kind = LightKind::Rectangle {
                     center,
@@ -97,12 +106,8 @@ impl<'s> Area<'s> {
                     edge_v: side_v / 2.0,
                 };
                 light.samples = self.samples.unwrap_or(SAMPLES);
-                Ok(())
             }
-            _ => {
-                self.count(unused);
-                Ok(())
-            }
+            _ => self.count(unused),
         }
     }
 

@@ -24,6 +24,7 @@ pub(super) struct Surface {
     repeated_corners: usize,
     too_few_corners: usize,
     without_area: usize,
+    fans: usize,
 }
 
 impl Surface {
@@ -37,6 +38,7 @@ impl Surface {
             repeated_corners: 0,
             too_few_corners: 0,
             without_area: 0,
+            fans: 0,
         }
     }
 
@@ -51,7 +53,10 @@ impl Surface {
     }
 
     /// Triangulates the polygon.
-    fn close(&mut self, announced: usize, material: u32) -> Result<(), Defect> {
+    fn close(&mut self, announced: usize, material: u32) {
+        if self.corners.iter().any(|corner| corner.is_nan()) {
+            return;
+        }
         if self.corners.len() > 1 && self.corners.first() == self.corners.last() {
             self.repeated_corners += 1;
             self.corners.pop();
@@ -59,14 +64,18 @@ impl Surface {
         }
         if announced < 3 {
             self.too_few_corners += 1;
-            return Ok(());
+            return;
         }
         let triangles = match self.cutter.triangles(&self.corners) {
+            Ok(triangles) => triangles,
             Err(Defect::NoArea) => {
                 self.without_area += 1;
-                return Ok(());
+                return;
             }
-            result => result?,
+            Err(Defect::Crossing | Defect::TooMuchWork) => {
+                self.fans += 1;
+                polygon::fan(self.corners.len())
+            }
         };
         let (first, count) = (self.positions.len() as u32, self.corners.len());
         let shift = |triangle: [u32; 3]| triangle.map(|i| first + i);
@@ -78,7 +87,10 @@ impl Surface {
         self.mesh.normals.append(&mut self.normals);
         self.positions.append(&mut self.corners);
         self.mesh.materials.resize(self.positions.len(), material);
-        Ok(())
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.mesh.triangles.is_empty()
     }
 
     /// The memory that all polygons take, including later steps.
@@ -99,6 +111,10 @@ impl Surface {
                 self.too_few_corners,
             ),
             ("polygons without area skipped", self.without_area),
+            (
+                "polygons that intersect themselves or are too large, triangulated as fans",
+                self.fans,
+            ),
         ];
         let counts = counts.iter().filter(|(_, count)| *count > 0);
         let notes = counts.map(|(what, count)| format!("{what}: {count}"));
@@ -144,21 +160,8 @@ impl<'s> Reader<'s> {
             };
             self.surface.corner(position, normal);
         }
-        let name = self.name();
-        match self.surface.close(count, material as u32) {
-            Ok(()) | Err(Defect::NoArea) => Ok(()),
-            Err(Defect::Crossing) => {
-                let why = format!("the {name} intersects itself");
-                Err(self.refuse(keyword, why, "List its corners in order along its boundary"))
-            }
-            Err(Defect::TooMuchWork) => {
-                let why = format!(
-                    "this {name} and those before it have too many corners to be triangulated, because they are not convex"
-                );
-                let error = self.refuse(keyword, why, "Cut it into smaller ones");
-                Err(ImportError::TooBig(error.into_fault()))
-            }
-        }
+        self.surface.close(count, material as u32);
+        Ok(())
     }
 
     /// Three numbers of corner `i` of `count`.

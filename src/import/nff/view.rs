@@ -44,29 +44,40 @@ impl<'s> Reader<'s> {
                 return Err(self.missing(name));
             }
         }
-        let [from, at, up, angle, _, resolution] = values.map(|value| value.unwrap_or_default());
-        let [from, at, up] = [from, at, up].map(DVec3::from);
-        let forward = (at - from).normalize_or_zero();
-        let why = if forward == DVec3::ZERO {
-            "`from` and `at` are the same point"
-        } else if forward.cross(up.normalize_or_zero()).length() < 1e-6 {
-            "`up` is zero or parallel to the viewing direction"
-        } else {
-            self.scene.cameras.push(Camera {
-                look_from: from,
-                look_at: at,
-                up,
-                fov_y: angle[0].to_radians(),
-                ..Camera::default()
-            });
-            self.scene.output.size = (resolution[0] as u32, resolution[1] as u32);
-            return Ok(());
+        let [from, at, mut up, angle, hither, resolution] =
+            values.map(|value| DVec3::from(value.unwrap_or_default()));
+        let axis = at - from;
+        let Some(forward) = axis.try_normalize() else {
+            let why = "`from` and `at` are the same point or not finite".to_owned();
+            return Err(self.refuse(keyword, why, "Choose distinct points"));
         };
-        Err(self.refuse(
-            keyword,
-            why.to_owned(),
-            "Choose distinct points and another `up`",
-        ))
+        let slope = forward.cross(up.normalize_or_zero()).length();
+        if slope.is_nan() || slope < 1e-6 {
+            self.view_fault(keyword, "`up` replaced", || {
+                "`up` is zero or parallel to the viewing direction".to_owned()
+            });
+            up = forward.any_orthonormal_vector();
+        }
+        if hither.x >= axis.length() {
+            let note = "`hither` lies beyond the point that is looked at: nothing is cut off";
+            self.scene.skipped.push(note.to_owned());
+        }
+        self.scene.cameras.push(Camera {
+            look_from: from,
+            look_at: at,
+            up,
+            fov_y: angle.x.to_radians(),
+            ..Camera::default()
+        });
+        self.scene.output.size = (resolution.x as u32, resolution.y as u32);
+        Ok(())
+    }
+
+    /// Counts a value of the view that is replaced.
+    fn view_fault(&mut self, token: Token, what: &'static str, why: impl FnOnce() -> String) {
+        let todo = super::ENTITIES[self.entity].2;
+        let refusal = || (why(), todo);
+        (self.faults).add(("v", what), self.source, token.span(), refusal);
     }
 
     fn view_values(&mut self, key: usize) -> Result<[f64; 3], ImportError> {
@@ -76,8 +87,10 @@ impl<'s> Reader<'s> {
                 if angle > 0.0 && angle < 180.0 {
                     return Ok([angle, 0.0, 0.0]);
                 }
-                let why = format!("the angle {} is out of range", token.quote());
-                Err(self.refuse(token, why, "Write degrees between 0 and 180"))
+                self.view_fault(token, "angles other than 0 to 180 replaced by 45", || {
+                    format!("the angle {} is out of range", token.quote())
+                });
+                Ok([45.0, 0.0, 0.0])
             }
             "hither" => Ok([self.at_least_zero()?, 0.0, 0.0]),
             "resolution" => Ok([self.side()?, self.side()?, 0.0]),
@@ -90,8 +103,10 @@ impl<'s> Reader<'s> {
         if side.fract() == 0.0 && (1.0..=MAX_SIDE).contains(&side) {
             return Ok(side);
         }
-        let why = format!("{} is not a count of pixels", token.quote());
-        Err(self.refuse(token, why, "Write a whole number from 1 to 65536"))
+        self.view_fault(token, "counts of pixels replaced by 512", || {
+            format!("{} is not a count of pixels", token.quote())
+        });
+        Ok(512.0)
     }
 
     fn missing(&mut self, name: &str) -> ImportError {

@@ -2,6 +2,24 @@
 
 use crate::import::source::Token;
 
+/// All keywords.
+pub(in crate::import) const KEYS: [&str; 14] = [
+    "v",
+    "from",
+    "at",
+    "up",
+    "angle",
+    "hither",
+    "resolution",
+    "b",
+    "l",
+    "f",
+    "s",
+    "c",
+    "p",
+    "pp",
+];
+
 /// An iterator over the words with one word of lookahead.
 pub(super) struct Words<'s> {
     bytes: &'s [u8],

@@ -2,7 +2,7 @@
 //! backwards from -1.
 
 use super::lines::Line;
-use crate::import::error::ImportError;
+use crate::import::faults::Faults;
 use crate::import::source::{Source, Token};
 
 /// The normal index of a corner without normal.
@@ -40,31 +40,35 @@ pub(super) fn smooth_index(normal: u32) -> Option<usize> {
     (normal & MADE == 0 && normal & SMOOTH != 0).then_some((normal & !SMOOTH) as usize)
 }
 
-/// The corners in `line`, without their material; `counts` are the numbers of positions, texture
-/// coordinates and normals so far.
+/// Reads the corners in `line` into `corners`, without their material; `counts` are the numbers of positions, texture
+/// coordinates and normals so far. Returns whether all of them can be used; otherwise the face is to be skipped.
+/// Texture coordinates and normals that do not exist are left out.
 pub(super) fn read(
     source: &Source,
-    keyword: Token,
+    faults: &mut Faults,
     line: &mut Line,
     counts: [usize; 3],
-) -> Result<Vec<Corner>, ImportError> {
-    let mut corners = Vec::new();
+    corners: &mut Vec<Corner>,
+) -> bool {
+    corners.clear();
     while let Some(word) = line.word() {
         if corners.len() == MAX_FACE_CORNERS {
-            let why = format!("a face has more than {MAX_FACE_CORNERS} corners");
-            return Err(source.malformed(word.span(), why, "Split the face"));
+            let what = "faces with too many corners skipped";
+            faults.add(("f", what), source, word.span(), || {
+                let why = format!("a face has more than {MAX_FACE_CORNERS} corners");
+                (why, "Split the face")
+            });
+            return false;
         }
-        corners.push(corner(source, word, counts)?);
+        match corner(source, faults, word, counts) {
+            Some(corner) => corners.push(corner),
+            None => return false,
+        }
     }
-    if corners.is_empty() {
-        let why = "a face has no corners".to_owned();
-        return Err(source.malformed(keyword.span(), why, "Check that the file is complete"));
-    }
-    Ok(corners)
+    true
 }
 
-fn corner(source: &Source, word: Token, counts: [usize; 3]) -> Result<Corner, ImportError> {
-    const NAMES: [&str; 3] = ["vertex", "texture coordinate", "normal"];
+fn corner(source: &Source, faults: &mut Faults, word: Token, counts: [usize; 3]) -> Option<Corner> {
     let mut indices = [NONE; 3];
     let mut at = word.at;
     for (place, digits) in word.bytes.split(|&b| b == b'/').enumerate() {
@@ -72,14 +76,29 @@ fn corner(source: &Source, word: Token, counts: [usize; 3]) -> Result<Corner, Im
         at += digits.len() + 1;
         let may_lack = place == 1 || place == 2 && !word.bytes.ends_with(b"//");
         if place > 2 || digits.is_empty() && !may_lack {
-            let why = format!("{} is not a corner of a face", word.quote());
-            return Err(source.malformed(word.span(), why, "Write V, V/VT, V//VN or V/VT/VN"));
+            let what = "faces with corners that cannot be read skipped";
+            faults.add(("f", what), source, word.span(), || {
+                let why = format!("{} is not a corner of a face", word.quote());
+                (why, "Write V, V/VT, V//VN or V/VT/VN")
+            });
+            return None;
         }
-        if !digits.is_empty() {
-            indices[place] = index(source, part, counts[place], NAMES[place])?;
+        if digits.is_empty() {
+            continue;
+        }
+        match index(part, counts[place]) {
+            Some(index) => indices[place] = index,
+            None => {
+                faults.add(("f", LACKING[place].1), source, part.span(), || {
+                    refusal(part, counts[place], LACKING[place].0)
+                });
+                if place == 0 {
+                    return None;
+                }
+            }
         }
     }
-    Ok(Corner {
+    Some(Corner {
         position: indices[0],
         normal: indices[2],
         material: 0,
@@ -87,23 +106,37 @@ fn corner(source: &Source, word: Token, counts: [usize; 3]) -> Result<Corner, Im
     })
 }
 
-/// `part` as a zero-based index into `count` elements called `name`.
-fn index(source: &Source, part: Token, count: usize, name: &str) -> Result<u32, ImportError> {
+/// What the indices of a corner are of, and what becomes of those that do not exist.
+const LACKING: [(&str, &str); 3] = [
+    ("vertex", "faces with vertices that do not exist skipped"),
+    (
+        "texture coordinate",
+        "texture coordinates that do not exist left out",
+    ),
+    ("normal", "normals that do not exist computed"),
+];
+
+/// `part` as a zero-based index into `count` elements.
+fn index(part: Token, count: usize) -> Option<u32> {
+    let number: i64 = std::str::from_utf8(part.bytes).ok()?.parse().ok()?;
+    let index = match number < 0 {
+        true => number.checked_add(count as i64)?,
+        false => number.checked_sub(1)?,
+    };
+    (0..count as i64).contains(&index).then_some(index as u32)
+}
+
+/// Why `part` is not the index of an element called `name`.
+fn refusal(part: Token, count: usize, name: &str) -> (String, &'static str) {
     let text = std::str::from_utf8(part.bytes).ok();
-    let Some(number) = text.and_then(|text| text.parse::<i64>().ok()) else {
-        let why = format!("{} is not the number of a {name}", part.quote());
-        return Err(source.malformed(part.span(), why, "Write a whole number, counted from 1"));
-    };
-    let index = if number < 0 {
-        number.checked_add(count as i64)
-    } else {
-        number.checked_sub(1)
-    };
-    match index {
-        Some(index) if (0..count as i64).contains(&index) => Ok(index as u32),
-        _ => {
-            let why = format!("{name} {number} does not exist: {count} come before this face");
-            Err(source.malformed(part.span(), why, "Count from 1, or backwards from -1"))
-        }
+    match text.and_then(|text| text.parse::<i64>().ok()) {
+        Some(number) => (
+            format!("{name} {number} does not exist: {count} come before this face"),
+            "Count from 1, or backwards from -1",
+        ),
+        None => (
+            format!("{} is not the number of a {name}", part.quote()),
+            "Write a whole number, counted from 1",
+        ),
     }
 }

@@ -3,8 +3,6 @@
 use super::lines::Line;
 use super::{Reader, mtl};
 use crate::import::budget;
-use crate::import::error::ImportError;
-use crate::import::notes::Notes;
 use crate::import::paths::Refusal;
 use crate::import::picture::{self, Place, Refused, Role};
 use crate::import::source::{Source, Token, quote};
@@ -27,74 +25,121 @@ impl<'s> Reader<'s> {
         })
     }
 
-    /// Reads the libraries in `line`: one file name with spaces, or several names.
-    pub(super) fn material_library(&mut self, line: &mut Line) -> Result<(), ImportError> {
+    /// Reads the libraries in `line`: one file name with spaces, or several names. A name that leads nowhere, such as
+    /// the path of another machine, stands for the file of that name beside the model.
+    pub(super) fn material_libraries(&mut self, keyword: Token, line: &mut Line) {
         let whole = line.rest();
-        if self.library_file(whole)? {
-            return Ok(());
+        let mut words: Vec<Token> = std::iter::from_fn(|| line.word()).collect();
+        if words.is_empty() {
+            let what = ("mtllib", "without a name skipped");
+            self.faults.add(what, self.source, keyword.span(), || {
+                ("`mtllib` has no name".to_owned(), "Add the name of a file")
+            });
+            return;
         }
-        while let Some(word) = line.word() {
-            if word.bytes.len() == whole.bytes.len() || !self.library_file(word)? {
-                self.notes.add("missing material files", || {
-                    format!("the material file {} does not exist", word.quote())
-                });
+        let is_found = |name: &Token| self.files.resolve(&library_name(name)).is_ok();
+        if is_found(&whole) || !words.iter().any(is_found) {
+            let beside = self.files.resolve_or_beside(&library_name(&whole));
+            if words.len() == 1 || beside.is_ok() {
+                words = vec![whole];
             }
         }
-        Ok(())
+        for word in words {
+            self.material_library(word);
+        }
     }
 
-    /// Whether the library `name` exists. Its text is validated and kept.
-    fn library_file(&mut self, name: Token) -> Result<bool, ImportError> {
-        let text = String::from_utf8_lossy(name.bytes);
-        let path = match self.files.resolve(&text) {
-            Ok(path) => path,
-            Err(Refusal::Missing(_)) => return Ok(false),
-            Err(refusal) => {
-                let malformed = |why, todo: &str| self.source.malformed(name.span(), why, todo);
-                return Err(refusal.into_error("material file", malformed));
+    /// Reads the library `name` if it exists.
+    fn material_library(&mut self, name: Token) {
+        let quoted = name.quote();
+        let (path, is_beside) = match self.files.resolve_or_beside(&library_name(&name)) {
+            Ok(found) => found,
+            Err(Refusal::Missing(why) | Refusal::Outside(why) | Refusal::Unfit(why)) => {
+                let note = || format!("the material file {why}");
+                self.notes.add("missing material files", note);
+                return;
             }
         };
-        if self.libraries.iter().any(|known| known.path == path) {
-            return Ok(true);
+        if is_beside {
+            self.notes.add("material files beside the model", || {
+                format!(
+                    "the material file {quoted} replaced by the file of that name beside the model"
+                )
+            });
         }
-        let bytes = self.files.read(&path, MAX_MTL_BYTES)?;
+        if (self.libraries.iter()).any(|known| known.source.path == path) {
+            return;
+        }
+        let bytes = self.files.read(&path, MAX_MTL_BYTES);
         // Exporters do write empty libraries.
-        if !bytes.is_empty() {
-            let source = Source::new("bad material file", &path, bytes)?;
-            mtl::read(&source, &mut self.notes, |_, _| false)?;
-            self.libraries.push(source);
+        let bytes = bytes.map(|bytes| (!bytes.is_empty()).then_some(bytes));
+        let source = bytes.and_then(|bytes| {
+            let source =
+                bytes.map(|bytes| Source::of_any_encoding("bad material file", &path, bytes));
+            source.transpose()
+        });
+        match source {
+            Ok(Some(source)) => {
+                let library = mtl::Library::new(source, &mut self.notes);
+                self.libraries.push(library);
+            }
+            Ok(None) => {}
+            Err(error) => self.notes.add("unreadable material files", || {
+                format!(
+                    "the material file {quoted} skipped: {}",
+                    error.into_fault().why
+                )
+            }),
         }
-        Ok(true)
     }
 
     /// The materials that corners use, by index.
-    pub(super) fn materials(&mut self) -> Result<Vec<Material>, ImportError> {
+    pub(super) fn materials(&mut self) -> Vec<Material> {
         let mut found: Vec<Option<Material>> = Vec::new();
         found.resize_with(self.material_names.len(), || None);
+        let (mut panes, mut repeated) = (0, 0);
         // The last of several libraries wins, but within one library the first of two equal names, as in
         // other viewers.
         for library in std::mem::take(&mut self.libraries).iter().rev() {
-            let mut entries = Vec::new();
+            let mut entries: Vec<(usize, mtl::Maps<String>)> = Vec::new();
             let ids = &self.material_ids;
-            mtl::read(library, &mut Notes::default(), |name, entry| {
+            library.materials(|name, entry| {
                 let id = ids.get(&Some(name)).map(|&id| id as usize);
-                let id = id.filter(|&id| found[id].is_none());
-                if let (Some(id), Some(entry)) = (id, entry) {
-                    found[id] = Some(entry.material);
-                    entries.push((id, entry.maps));
+                let is_new = id.is_some_and(|id| found[id].is_none());
+                match (id.filter(|_| is_new), entry) {
+                    (Some(id), Some(entry)) => {
+                        panes += usize::from(entry.is_clear_pane);
+                        found[id] = Some(entry.material);
+                        entries.push((id, entry.maps));
+                    }
+                    (None, None) => {
+                        let is_known = |(known, _): &(usize, _)| Some(*known) == id;
+                        repeated += usize::from(entries.iter().any(is_known));
+                    }
+                    _ => {}
                 }
-                id.is_some()
-            })?;
+                is_new
+            });
             for (_, maps) in &entries {
-                self.plan_pictures(maps, &library.path);
+                self.plan_pictures(maps, &library.source.path);
             }
             for (id, maps) in entries {
                 if let Some(mut material) = found[id].take() {
-                    self.pictures_of(&mut material, maps, &library.path);
+                    self.pictures_of(&mut material, maps, &library.source.path);
                     found[id] = Some(material);
                 }
             }
         }
+        let mut note = |count: usize, what: &str| {
+            if count > 0 {
+                (self.notes).add("materials", || format!("{what}: {count}"));
+            }
+        };
+        note(
+            panes,
+            "black glass without `d` but with `Tf` (`illum` 4 or 9) read as clear",
+        );
+        note(repeated, "materials of a name that came before skipped");
         let names = std::mem::take(&mut self.material_names);
         let notes = &mut self.notes;
         let mut materials: Vec<Material> = (found.into_iter().zip(names))
@@ -119,14 +164,14 @@ impl<'s> Reader<'s> {
         if materials.is_empty() {
             materials.push(Material::default());
         }
-        Ok(materials)
+        materials
     }
 
     /// Memory in bytes that colours of vertices take.
     pub(super) fn color_memory(&self) -> u64 {
-        match self.colors.len() {
-            0 => 0,
-            count => budget::size::<Vec3>(count) + budget::size::<Vec4>(self.corners.len()),
+        match self.colors.is_empty() {
+            true => 0,
+            false => self.colors.memory() + budget::size::<Vec4>(self.corners.len()),
         }
     }
 
@@ -137,16 +182,30 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// The colours of `vertices`, which are corners; empty if there are none or another material replaces them.
-    pub(super) fn vertex_colors(&self, vertices: &[u32]) -> Vec<Vec4> {
-        if self.colors.is_empty() || self.replaced.is_some() {
+    /// The colours of vertices; empty if there are none or another material replaces them. If one is not opaque, the
+    /// materials are covered by alpha.
+    pub(super) fn vertex_colors(&mut self, materials: &mut [Material]) -> Vec<Vec4> {
+        let colors = std::mem::take(&mut self.colors);
+        if colors.is_empty() || self.replaced.is_some() {
             return Vec::new();
         }
+        let colors = colors.finish(&mut self.notes);
+        if colors.iter().any(|color| color.w < 1.0) {
+            materials.iter_mut().for_each(cover);
+        }
+        colors
+    }
+
+    /// Those of `vertices`, which are corners.
+    pub(super) fn corner_colors(&self, vertices: &[u32], colors: &[Vec4]) -> Vec<Vec4> {
         let color = |&vertex: &u32| {
             let position = self.corners[vertex as usize].position as usize;
-            tint::linear(self.colors.get(position).copied().unwrap_or(Vec3::ONE))
+            colors.get(position).copied().unwrap_or(Vec4::ONE)
         };
-        vertices.iter().map(color).collect()
+        match colors.is_empty() {
+            true => Vec::new(),
+            false => vertices.iter().map(color).collect(),
+        }
     }
 
     /// Announces the pictures of a material, so that they are decoded together.
@@ -162,10 +221,15 @@ impl<'s> Reader<'s> {
             (maps.normal.as_ref(), Role::Data),
             (bump, bump.map_or(Role::Height, relief)),
             (maps.alpha.as_ref(), Role::Alpha),
+            (maps.roughness.as_ref(), Role::Data),
+            (maps.metallic.as_ref(), Role::Data),
+            (maps.sheen.as_ref(), Role::Color),
+            (maps.coat.as_ref(), Role::Data),
+            (maps.coat_roughness.as_ref(), Role::Data),
         ];
         for (map, role) in colors.into_iter().chain(others) {
             let Some(map) = map else { continue };
-            if let Ok(path) = self.files.named_in(file).resolve(&map.name) {
+            if let Ok((path, _)) = self.files.named_in(file).resolve_or_beside(&map.name) {
                 let name = quote(map.name.as_bytes());
                 self.pictures.plan(Place::File(path), &name, role);
             }
@@ -177,11 +241,18 @@ impl<'s> Reader<'s> {
             return;
         }
         material.textures.diffuse = self.picture(maps.diffuse, Role::Color, file);
-        if material.metallic_roughness.is_some() && material.textures.diffuse.is_some() {
-            material.layer_textures = Some(Box::new(LayerTextures {
+        if material.metallic_roughness.is_some() {
+            let layers = LayerTextures {
                 base_color: material.textures.diffuse,
+                roughness: self.picture(maps.roughness, Role::Data, file),
+                metallic: self.picture(maps.metallic, Role::Data, file),
+                sheen_color: self.picture(maps.sheen, Role::Color, file),
+                clearcoat: self.picture(maps.coat, Role::Data, file),
+                clearcoat_roughness: self.picture(maps.coat_roughness, Role::Data, file),
                 ..LayerTextures::default()
-            }));
+            };
+            material.layer_textures =
+                (layers != LayerTextures::default()).then(|| Box::new(layers));
         }
         material.textures.specular = self.picture(maps.specular, Role::Color, file);
         // Few exporters write an ambient texture, and all use the diffuse one.
@@ -200,9 +271,7 @@ impl<'s> Reader<'s> {
         }
         material.textures.alpha = self.picture(maps.alpha, Role::Alpha, file);
         if material.textures.alpha.is_some() {
-            material.coverage = Coverage::Blend;
-            material.alpha *= std::mem::replace(&mut material.opacity, 1.0);
-            material.transmit = Vec3::ZERO;
+            cover(material);
         }
     }
 
@@ -210,8 +279,13 @@ impl<'s> Reader<'s> {
     fn picture(&mut self, map: Option<mtl::Map<String>>, role: Role, file: &Path) -> Option<usize> {
         let map = map?;
         let name = quote(map.name.as_bytes());
-        let found = match self.files.named_in(file).resolve(&map.name) {
-            Ok(path) => {
+        let found = match self.files.named_in(file).resolve_or_beside(&map.name) {
+            Ok((path, is_beside)) => {
+                if is_beside {
+                    self.notes.add("textures beside the model", || {
+                        format!("the texture {name} replaced by the file of that name beside the materials")
+                    });
+                }
                 let read = picture::reader(self.files);
                 self.pictures.index(&Place::File(path), &name, role, &read)
             }
@@ -231,7 +305,11 @@ impl<'s> Reader<'s> {
                 picture,
                 nearest: false,
                 minify: Minify::default(),
-                wrap: [Wrap::Repeat; 2],
+                wrap: [if map.is_clamped {
+                    Wrap::Clamp
+                } else {
+                    Wrap::Repeat
+                }; 2],
             },
             space: Space::Uv,
             pattern_from_space: map.picture_from_uv,
@@ -241,6 +319,20 @@ impl<'s> Reader<'s> {
             self.textures.push(texture);
             self.textures.len() - 1
         }))
+    }
+}
+
+/// The file name of a library, without quotes around it.
+fn library_name(name: &Token) -> String {
+    String::from_utf8_lossy(mtl::unquoted(name.bytes)).into_owned()
+}
+
+/// Lets alpha decide how much of a surface is there, instead of its opacity.
+fn cover(material: &mut Material) {
+    if material.coverage == Coverage::Opaque {
+        material.coverage = Coverage::Blend;
+        material.alpha *= std::mem::replace(&mut material.opacity, 1.0);
+        material.transmit = Vec3::ZERO;
     }
 }
 

@@ -1,38 +1,42 @@
 //! Material libraries: the colours and numbers of MTL files, and their textures. Colours are taken as linear.
 
+mod keys;
+mod map;
+
+pub(in crate::import) use keys::KEYS;
+pub(super) use map::{Map, unquoted};
+
 use super::lines::{Line, Lines};
 use super::surface::Values;
-use crate::import::error::ImportError;
+use crate::import::faults::{CLAMPED, Faults};
 use crate::import::notes::Notes;
 use crate::import::number;
-use crate::import::source::{Source, Token};
+use crate::import::source::{Source, Token, quote};
 use crate::scene::Material;
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
+use keys::{Color, Key, Number, Slot};
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
-/// Textures and numbers that are skipped by name: the renderer has no such thing.
-const SKIPPED: [&str; 10] = [
-    "map_Tr", "map_Ns", "map_Pr", "map_Pm", "map_Ps", "map_Pc", "disp", "decal", "refl", "map_refl",
+/// Indices of refraction, by the specification.
+const INDICES: RangeInclusive<f64> = 0.001..=10.0;
+
+/// Number of different unknown keys that are named.
+const MOST_UNKNOWN: usize = 16;
+
+/// Linear Rec. 709 from CIE XYZ (IEC 61966-2-1), in rows.
+const RGB_FROM_XYZ: [[f64; 3]; 3] = [
+    [3.2406, -1.5372, -0.4986],
+    [-0.9689, 1.8758, 0.0415],
+    [0.0557, -0.2040, 1.0570],
 ];
-
-/// Names of height maps, in upper or lower case.
-const HEIGHTS: [&str; 2] = ["map_Bump", "bump"];
 
 /// A material without its images.
 pub(super) struct Entry {
     pub material: Material,
     pub maps: Maps<String>,
-}
-
-/// An image that multiplies a colour.
-#[derive(Clone, Copy)]
-pub(super) struct Map<N> {
-    /// Its file.
-    pub name: N,
-    /// By `-s` and `-o`.
-    pub picture_from_uv: DAffine3,
-    /// By `-bm`: how high white is in a height map, in texels.
-    pub height: f64,
+    /// Whether it is clear glass although nothing dissolves it: see [`Values::is_clear_pane`].
+    pub is_clear_pane: bool,
 }
 
 /// The images of a material.
@@ -48,6 +52,60 @@ pub(super) struct Maps<N> {
     pub bump: Option<Map<N>>,
     /// How much of the surface is there.
     pub alpha: Option<Map<N>>,
+    pub roughness: Option<Map<N>>,
+    pub metallic: Option<Map<N>>,
+    pub sheen: Option<Map<N>>,
+    pub coat: Option<Map<N>>,
+    pub coat_roughness: Option<Map<N>>,
+}
+
+/// A material library whose text was checked.
+pub(super) struct Library {
+    pub source: Source,
+    /// Whether `Tr` means what `d` does: see [`Habit`].
+    tr_is_d: bool,
+}
+
+/// How a library uses `Tr` in materials without `d`. Most programs take it for 1 - d. MeshLab and others wrote it for d,
+/// so that opaque materials have 1: nobody exports a library of invisible materials, so one with 1 and without 0 is
+/// theirs.
+#[derive(Default)]
+struct Habit {
+    zeros: usize,
+    ones: usize,
+}
+
+impl Library {
+    /// Checks the library in `source` and notes what is skipped or repaired.
+    pub fn new(source: Source, notes: &mut Notes) -> Self {
+        let mut reader = Reader::new(&source);
+        let mut habit = Habit::default();
+        reader.read(|draft| match draft.values {
+            Values { d: None, tr, .. } if tr == Some(0.0) => habit.zeros += 1,
+            Values { d: None, tr, .. } if tr == Some(1.0) => habit.ones += 1,
+            _ => {}
+        });
+        reader.note(notes);
+        let tr_is_d = habit.ones > 0 && habit.zeros == 0;
+        if tr_is_d {
+            notes.add("meanings of `Tr`", || {
+                let count = habit.ones;
+                format!("`Tr 1` without `d` read as opaque, as MeshLab writes it: {count}")
+            });
+        }
+        Self { source, tr_is_d }
+    }
+
+    /// Calls `place` with the name of each material, and once more with the material if it returns true.
+    pub fn materials(&self, mut place: impl FnMut(&[u8], Option<Entry>) -> bool) {
+        Reader::new(&self.source).read(|mut draft| {
+            if place(draft.name, None) {
+                draft.values.tr_is_d = self.tr_is_d;
+                let name = draft.name;
+                place(name, Some(draft.entry()));
+            }
+        });
+    }
 }
 
 /// A material while it is parsed. It owns no memory: a library may have millions.
@@ -60,195 +118,302 @@ struct Draft<'s> {
     maps: Maps<&'s [u8]>,
 }
 
-/// Validates the library in `source` and returns those of its materials that `place` assigns an index to,
-/// by name. Notes go to `notes`.
-pub(super) fn read(
-    source: &Source,
-    notes: &mut Notes,
-    mut place: impl FnMut(&[u8], Option<Entry>) -> bool,
-) -> Result<(), ImportError> {
-    let mut close = |draft: Option<Draft>| {
-        if let Some(draft) = draft.filter(|draft| place(draft.name, None)) {
-            place(draft.name, Some(draft.entry()));
-        }
-    };
-    let mut draft: Option<Draft> = None;
-    let mut left_out: BTreeMap<&str, usize> = BTreeMap::new();
-    for mut line in Lines::new(&source.bytes) {
-        let Some(keyword) = line.word() else {
-            continue;
-        };
-        if keyword.bytes == b"newmtl" {
-            close(draft.replace(new_draft(source, keyword, &line)?));
-            continue;
-        }
-        let Some(draft) = &mut draft else {
-            let why = format!("{} comes before the first `newmtl`", keyword.quote());
-            return Err(source.malformed(keyword.span(), why, "Begin with `newmtl NAME`"));
-        };
-        match keyword.bytes {
-            b"Kd" | b"Ks" | b"Ka" | b"Ke" | b"Tf" => {
-                let color = color(source, keyword, &mut line)?;
-                match (keyword.bytes, color) {
-                    (_, None) => *left_out.entry("spectral colours").or_default() += 1,
-                    (b"Kd", color) => draft.diffuse = color,
-                    (b"Ks", color) => draft.specular = color,
-                    (b"Ke", color) => draft.emission = color,
-                    (b"Ka", color) => draft.values.ka = color,
-                    (_, Some(color)) => draft.values.tf = color.min(Vec3::ONE),
-                }
-            }
-            b"d" if line.rest().bytes.starts_with(b"-halo") => {
-                *left_out.entry("`d -halo`").or_default() += 1;
-            }
-            b"illum" => {
-                let model = at_least_zero(source, keyword, line.word())? as u32;
-                draft.values.illum = model;
-                if model > 9 {
-                    *left_out.entry("`illum` above 9").or_default() += 1;
-                }
-            }
-            b"Ns" | b"Ni" | b"d" | b"Tr" | b"Pr" | b"Pm" | b"Ps" | b"Pc" | b"Pcr" | b"aniso"
-            | b"anisor" => {
-                let number = at_least_zero(source, keyword, line.word())?;
-                let values = &mut draft.values;
-                match keyword.bytes {
-                    b"Ns" => values.ns = number,
-                    b"Ni" => values.ni = number,
-                    b"d" => values.d = number,
-                    b"Tr" => values.d = (1.0 - number).max(0.0),
-                    b"Pr" => values.pr = Some(number),
-                    b"Ps" => values.ps = number,
-                    b"Pc" => values.pc = number,
-                    b"Pcr" => values.pcr = number,
-                    b"aniso" => values.aniso = number,
-                    b"anisor" => values.anisor = number,
-                    _ => values.pm = Some(number),
-                }
-            }
-            b"map_Kd" | b"map_Ks" | b"map_Ka" | b"map_Ke" | b"norm" | b"map_d" | b"map_opacity" => {
-                let (map, is_complete) = map(&mut line);
-                if !is_complete || map.is_some_and(|map| map.height != 1.0) {
-                    *left_out.entry("texture options").or_default() += 1;
-                }
-                match keyword.bytes {
-                    b"map_Kd" => draft.maps.diffuse = map,
-                    b"map_Ks" => draft.maps.specular = map,
-                    b"map_Ka" => draft.maps.ambient = map,
-                    b"norm" => draft.maps.normal = map,
-                    b"map_d" | b"map_opacity" => draft.maps.alpha = map,
-                    _ => draft.maps.emission = map,
-                }
-            }
-            word if HEIGHTS
-                .iter()
-                .any(|name| word.eq_ignore_ascii_case(name.as_bytes())) =>
-            {
-                let (map, is_complete) = map(&mut line);
-                if !is_complete {
-                    *left_out.entry("texture options").or_default() += 1;
-                }
-                draft.maps.bump = map;
-            }
-            word => {
-                let is_named = |name: &&&str| word.eq_ignore_ascii_case(name.as_bytes());
-                if let Some(name) = SKIPPED.iter().find(is_named) {
-                    // A number of 0 asks for nothing.
-                    let rest = line.rest().bytes;
-                    let is_zero = std::str::from_utf8(rest).is_ok_and(|t| t.parse() == Ok(0.0));
-                    if !is_zero {
-                        *left_out.entry(name).or_default() += 1;
-                    }
-                } else if word.starts_with(b"map_") {
-                    *left_out.entry("other textures").or_default() += 1;
-                }
-            }
-        }
-    }
-    close(draft);
-    const WHAT: &str = "material files with skipped parts";
-    let (named, others): (Vec<_>, Vec<_>) =
-        (left_out.into_iter()).partition(|(what, _)| SKIPPED.contains(what));
-    for (what, count) in others {
-        notes.add(WHAT, || format!("{what} of materials skipped: {count}"));
-    }
-    if !named.is_empty() {
-        let named = named
-            .iter()
-            .map(|(what, count)| format!("`{what}` {count}"));
-        let named: Vec<_> = named.collect();
-        notes.add(WHAT, || {
-            format!("skipped in materials: {}", named.join(", "))
-        });
-    }
-    Ok(())
+struct Reader<'s> {
+    source: &'s Source,
+    faults: Faults,
+    /// Numbers of skipped statements, options and forms, by name.
+    left_out: BTreeMap<String, usize>,
+    unknown: BTreeMap<String, usize>,
+    more_unknown: usize,
 }
 
-/// Reads a texture, with its transform by `-s` and `-o` and its height by `-bm`, and whether these are all of its
-/// options. `None` without a name.
-fn map<'s>(line: &mut Line<'s>) -> (Option<Map<&'s [u8]>>, bool) {
-    let mut is_complete = true;
-    let mut height = 1.0;
-    let (mut scale, mut offset) = (DVec3::ONE, DVec3::ZERO);
-    while line.rest().bytes.starts_with(b"-") {
-        let Some(option) = line.word() else { break };
-        let (least, most) = match option.bytes {
-            b"-mm" => (2, 2),
-            b"-o" | b"-s" | b"-t" => (1, 3),
-            _ => (1, 1),
-        };
-        let mut numbers: Vec<f64> = Vec::new();
-        for i in 0..most {
-            let next = line.rest().bytes.split(u8::is_ascii_whitespace).next();
-            let text = next.and_then(|word| std::str::from_utf8(word).ok());
-            let number = text.and_then(|text| text.parse::<f64>().ok());
-            if i >= least && number.is_none() {
-                break;
-            }
-            // Beyond this, f32 has whole numbers only.
-            numbers.extend(number.filter(|n| n.is_finite()).map(|n| n.clamp(-1e9, 1e9)));
-            line.word();
-        }
-        match (option.bytes, &numbers[..]) {
-            (b"-s", [first, ..]) if numbers.iter().all(|n| *n != 0.0) => {
-                scale = DVec3::new(*first, numbers.get(1).copied().unwrap_or(1.0), 1.0);
-            }
-            (b"-o", [first, ..]) => {
-                offset = DVec3::new(*first, numbers.get(1).copied().unwrap_or(0.0), 0.0);
-            }
-            (b"-bm", [number]) => height = *number,
-            _ => is_complete = false,
+impl<'s> Reader<'s> {
+    fn new(source: &'s Source) -> Self {
+        Self {
+            source,
+            faults: Faults::default(),
+            left_out: BTreeMap::new(),
+            unknown: BTreeMap::new(),
+            more_unknown: 0,
         }
     }
-    let name = line.rest().bytes;
-    let map = Map {
-        name,
-        picture_from_uv: DAffine3::from_translation(offset) * DAffine3::from_scale(scale),
-        height,
-    };
-    ((!name.is_empty()).then_some(map), is_complete)
+
+    /// Calls `close` with each material.
+    fn read(&mut self, mut close: impl FnMut(Draft<'s>)) {
+        let mut draft: Option<Draft> = None;
+        for mut line in Lines::new(&self.source.bytes) {
+            let Some(word) = line.word() else {
+                continue;
+            };
+            let found = keys::find(word.bytes);
+            if let Some((_, Key::Name)) = found {
+                if let Some(draft) = draft.replace(self.draft(word, &line)) {
+                    close(draft);
+                }
+                continue;
+            }
+            match (found, &mut draft) {
+                (None, _) => self.count_unknown(word),
+                (Some((key, Key::Skipped)), _) => self.skipped(key, &line),
+                (Some((key, meaning)), Some(draft)) => {
+                    self.statement(key, meaning, word, &mut line, draft);
+                }
+                (Some((key, _)), None) => {
+                    let what = "before the first `newmtl` skipped";
+                    self.faults.add((key, what), self.source, word.span(), || {
+                        let why = format!("`{key}` comes before the first `newmtl`");
+                        (why, "Begin with `newmtl NAME`")
+                    });
+                }
+            }
+        }
+        if let Some(draft) = draft {
+            close(draft);
+        }
+    }
+
+    fn draft(&mut self, keyword: Token, line: &Line<'s>) -> Draft<'s> {
+        let name = line.rest().bytes;
+        if name.is_empty() {
+            let what = ("newmtl", "materials without a name");
+            self.faults.add(what, self.source, keyword.span(), || {
+                ("a material has no name".to_owned(), "Write `newmtl NAME`")
+            });
+        }
+        Draft {
+            name,
+            diffuse: None,
+            specular: None,
+            emission: None,
+            values: Values::default(),
+            maps: Maps::default(),
+        }
+    }
+
+    fn skipped(&mut self, key: &'static str, line: &Line) {
+        // A number of 0 asks for nothing, and so does `off`.
+        let rest = line.rest().bytes;
+        if number::read(rest) != Some(0.0) && !rest.eq_ignore_ascii_case(b"off") {
+            self.leave_out(key.to_owned());
+        }
+    }
+
+    fn leave_out(&mut self, what: String) {
+        *self.left_out.entry(what).or_default() += 1;
+    }
+
+    fn count_unknown(&mut self, word: Token) {
+        let name = quote(word.bytes);
+        if self.unknown.len() < MOST_UNKNOWN || self.unknown.contains_key(&name) {
+            *self.unknown.entry(name).or_default() += 1;
+        } else {
+            self.more_unknown += 1;
+        }
+    }
+
+    fn statement(
+        &mut self,
+        key: &'static str,
+        meaning: Key,
+        keyword: Token,
+        line: &mut Line<'s>,
+        draft: &mut Draft<'s>,
+    ) {
+        let values = &mut draft.values;
+        match meaning {
+            Key::Color(color) => {
+                let Some(value) = self.color(key, keyword, line) else {
+                    return;
+                };
+                match color {
+                    Color::Diffuse => draft.diffuse = Some(value),
+                    Color::Specular => draft.specular = Some(value),
+                    Color::Emission => draft.emission = Some(value),
+                    Color::Ambient => values.ka = Some(value),
+                    Color::Filter => values.tf = Some(value.min(Vec3::ONE)),
+                }
+            }
+            Key::Illum => {
+                let number = self.number(key, keyword, line.word());
+                match number.filter(|n| n.fract() == 0.0 && (0.0..=10.0).contains(n)) {
+                    Some(model) => values.illum = model as u32,
+                    None if number.is_some() => self.leave_out("illum other than 0 to 10".into()),
+                    None => {}
+                }
+            }
+            Key::Number(number) => {
+                if line.rest().bytes.starts_with(b"-halo") {
+                    line.word();
+                    self.leave_out(format!("{key} -halo"));
+                }
+                if let Some(value) = self.number(key, keyword, line.word()) {
+                    self.set(key, number, value, keyword, values);
+                }
+            }
+            Key::Map(slot) => {
+                let map = Map::read(line, |option| {
+                    let option = String::from_utf8_lossy(option).chars().take(32).collect();
+                    let option: String = option;
+                    *self.left_out.entry(format!("{key} {option}")).or_default() += 1;
+                });
+                if map.is_none() {
+                    let what = (key, "pictures without a file skipped");
+                    self.faults.add(what, self.source, keyword.span(), || {
+                        (format!("`{key}` has no file"), "Add its name")
+                    });
+                } else if slot != Slot::Bump && map.is_some_and(|map| map.height != 1.0) {
+                    self.leave_out(format!("{key} -bm"));
+                }
+                *draft.maps.slot(slot) = map;
+            }
+            Key::Name | Key::Skipped => {}
+        }
+    }
+
+    fn set(
+        &mut self,
+        key: &'static str,
+        number: Number,
+        value: f64,
+        keyword: Token,
+        values: &mut Values,
+    ) {
+        let range = match number {
+            Number::Shininess | Number::Rotation => 0.0..=f64::from(f32::MAX),
+            // Some exporters write 0 for none.
+            Number::Index if value == 0.0 => 0.0..=0.0,
+            Number::Index => INDICES,
+            _ => 0.0..=1.0,
+        };
+        if !range.contains(&value) {
+            self.faults
+                .add((key, CLAMPED), self.source, keyword.span(), || {
+                    let why = format!("{value} in `{key}` is out of range");
+                    (why, "Write a number within it")
+                });
+        }
+        let value = value.clamp(*range.start(), *range.end()) as f32;
+        match number {
+            Number::Shininess => values.ns = value,
+            Number::Index => values.ni = if value > 0.0 { value } else { 1.0 },
+            Number::Dissolve => values.d = Some(value),
+            Number::Transparency => values.tr = Some(value),
+            Number::Roughness => values.pr = Some(value),
+            Number::Metallic => values.pm = Some(value),
+            Number::Sheen => values.ps = Some(value),
+            Number::Coat => values.pc = Some(value),
+            Number::CoatRoughness => values.pcr = Some(value),
+            Number::Anisotropy => values.aniso = value,
+            Number::Rotation => values.anisor = value,
+        }
+    }
+
+    /// `None` for spectral colours and those that cannot be read.
+    fn color(&mut self, key: &'static str, keyword: Token, line: &mut Line) -> Option<Vec3> {
+        let mut first = line.word();
+        let is = |word: Option<Token>, name: &[u8]| {
+            word.is_some_and(|word| word.bytes.eq_ignore_ascii_case(name))
+        };
+        if is(first, b"spectral") {
+            self.leave_out(format!("{key} spectral"));
+            return None;
+        }
+        let is_xyz = is(first, b"xyz");
+        if is_xyz {
+            first = line.word();
+        }
+        let mut color = DVec3::splat(self.at_least_zero(key, keyword, first)?);
+        // One number stands for three.
+        if let Some(second) = line.word() {
+            color.y = self.at_least_zero(key, keyword, Some(second))?;
+            color.z = self.at_least_zero(key, keyword, line.word())?;
+        }
+        if is_xyz {
+            color = DMat3::from_cols_array_2d(&RGB_FROM_XYZ).transpose() * color;
+        }
+        Some(color.max(DVec3::ZERO).as_vec3())
+    }
+
+    fn number(&mut self, key: &'static str, keyword: Token, word: Option<Token>) -> Option<f64> {
+        if let Some(word) = word {
+            return self.faults.number(key, self.source, word);
+        }
+        let what = (key, "without a number skipped");
+        self.faults.add(what, self.source, keyword.span(), || {
+            (format!("`{key}` lacks a number"), "Add the number")
+        });
+        None
+    }
+
+    fn at_least_zero(
+        &mut self,
+        key: &'static str,
+        keyword: Token,
+        word: Option<Token>,
+    ) -> Option<f64> {
+        match word {
+            Some(word) => self.faults.at_least_zero(key, self.source, word),
+            None => self.number(key, keyword, None),
+        }
+    }
+
+    fn note(self, notes: &mut Notes) {
+        const WHAT: &str = "material files with skipped parts";
+        let mut add = |what: &str, counts: &mut dyn Iterator<Item = String>| {
+            let list: Vec<String> = counts.collect();
+            if !list.is_empty() {
+                notes.add(WHAT, || format!("{what}: {}", list.join(", ")));
+            }
+        };
+        let named = |(what, count): (&String, &usize)| format!("`{what}` {count}");
+        add("skipped in materials", &mut self.left_out.iter().map(named));
+        let more = (self.more_unknown > 0).then(|| format!("others {}", self.more_unknown));
+        let unknown = self
+            .unknown
+            .iter()
+            .map(|(name, count)| format!("{name} {count}"));
+        add("unknown in materials", &mut unknown.chain(more));
+        let name = self.source.path.file_name().unwrap_or_default();
+        self.faults.note(notes, Some(&name.to_string_lossy()));
+    }
+}
+
+impl<N> Maps<N> {
+    fn slot(&mut self, slot: Slot) -> &mut Option<Map<N>> {
+        match slot {
+            Slot::Diffuse => &mut self.diffuse,
+            Slot::Specular => &mut self.specular,
+            Slot::Ambient => &mut self.ambient,
+            Slot::Emission => &mut self.emission,
+            Slot::Normal => &mut self.normal,
+            Slot::Bump => &mut self.bump,
+            Slot::Alpha => &mut self.alpha,
+            Slot::Roughness => &mut self.roughness,
+            Slot::Metallic => &mut self.metallic,
+            Slot::Sheen => &mut self.sheen,
+            Slot::Coat => &mut self.coat,
+            Slot::CoatRoughness => &mut self.coat_roughness,
+        }
+    }
 }
 
 impl Draft<'_> {
-    fn entry(self) -> Entry {
-        let text = |map: Option<Map<&[u8]>>| {
-            map.map(|map| Map {
-                name: String::from_utf8_lossy(map.name).into_owned(),
-                picture_from_uv: map.picture_from_uv,
-                height: map.height,
-            })
-        };
-        // An image without a colour is shown unchanged.
-        let or_white = |color: Option<Vec3>, is_image: bool, default: Vec3| {
-            color.unwrap_or(if is_image { Vec3::ONE } else { default })
-        };
-        let maps = &self.maps;
-        let values = Values {
-            kd: or_white(self.diffuse, maps.diffuse.is_some(), self.values.kd),
-            ks: or_white(self.specular, maps.specular.is_some(), self.values.ks),
-            ke: or_white(self.emission, maps.emission.is_some(), self.values.ke),
-            ..self.values
-        };
+    fn entry(mut self) -> Entry {
+        // An image without a colour or a number is shown unchanged.
+        let white = |is_image: bool| is_image.then_some(Vec3::ONE);
+        let one = |is_image: bool| is_image.then_some(1.0);
+        let (maps, values) = (&self.maps, &mut self.values);
+        let default = Material::default();
+        let is_pictured = maps.diffuse.is_some();
+        values.kd = (self.diffuse.or(white(is_pictured))).unwrap_or(default.diffuse);
+        values.ks = (self.specular.or(white(maps.specular.is_some()))).unwrap_or(default.specular);
+        values.ke = (self.emission.or(white(maps.emission.is_some()))).unwrap_or_default();
+        values.pr = values.pr.or(one(maps.roughness.is_some()));
+        values.pm = values.pm.or(one(maps.metallic.is_some()));
+        values.ps = values.ps.or(one(maps.sheen.is_some()));
+        values.pc = values.pc.or(one(maps.coat.is_some()));
+        values.pcr = values.pcr.or(one(maps.coat_roughness.is_some()));
+        let text = |map: Option<Map<&[u8]>>| map.map(Map::to_text);
         let mut entry = Entry {
             material: Material {
                 name: String::from_utf8_lossy(self.name).into_owned(),
@@ -262,79 +427,17 @@ impl Draft<'_> {
                 normal: text(maps.normal),
                 bump: text(maps.bump),
                 alpha: text(maps.alpha),
+                roughness: text(maps.roughness),
+                metallic: text(maps.metallic),
+                sheen: text(maps.sheen),
+                coat: text(maps.coat),
+                coat_roughness: text(maps.coat_roughness),
             },
+            is_clear_pane: values.is_clear_pane(),
         };
         if values.illum == 0 && entry.maps.emission.is_none() {
             entry.maps.emission = entry.maps.diffuse.take();
         }
         entry
-    }
-}
-
-fn new_draft<'s>(
-    source: &Source,
-    keyword: Token,
-    line: &Line<'s>,
-) -> Result<Draft<'s>, ImportError> {
-    let name = line.rest().bytes;
-    if name.is_empty() {
-        let why = "a material has no name".to_owned();
-        return Err(source.malformed(keyword.span(), why, "Write `newmtl NAME`"));
-    }
-    let default = Material::default();
-    Ok(Draft {
-        name,
-        diffuse: None,
-        specular: None,
-        emission: None,
-        values: Values {
-            kd: default.diffuse,
-            ks: default.specular,
-            ka: None,
-            ke: Vec3::ZERO,
-            tf: Vec3::ONE,
-            ns: default.shininess,
-            ni: 1.0,
-            d: 1.0,
-            illum: 2,
-            pr: None,
-            pm: None,
-            ps: 0.0,
-            pc: 0.0,
-            pcr: 0.0,
-            aniso: 0.0,
-            anisor: 0.0,
-        },
-        maps: Maps::default(),
-    })
-}
-
-/// `None` for spectral colours.
-fn color(source: &Source, keyword: Token, line: &mut Line) -> Result<Option<Vec3>, ImportError> {
-    let first = line.word();
-    if first.is_some_and(|word| matches!(word.bytes, b"spectral" | b"xyz")) {
-        return Ok(None);
-    }
-    let red = at_least_zero(source, keyword, first)?;
-    // One number stands for three.
-    let Some(second) = line.word() else {
-        return Ok(Some(Vec3::splat(red)));
-    };
-    let green = at_least_zero(source, keyword, Some(second))?;
-    let blue = at_least_zero(source, keyword, line.word())?;
-    Ok(Some(Vec3::new(red, green, blue)))
-}
-
-fn at_least_zero(source: &Source, keyword: Token, word: Option<Token>) -> Result<f32, ImportError> {
-    let Some(word) = word else {
-        let why = format!("{} lacks a number", keyword.quote());
-        return Err(source.malformed(keyword.span(), why, "Add the number"));
-    };
-    match number::parse(source, word)? {
-        value if value >= 0.0 => Ok(value as f32),
-        _ => {
-            let why = format!("{} in {} is negative", word.quote(), keyword.quote());
-            Err(source.malformed(word.span(), why, "Write 0 or more"))
-        }
     }
 }

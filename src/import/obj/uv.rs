@@ -3,33 +3,37 @@
 use super::Reader;
 use super::face;
 use super::lines::Line;
-use crate::import::error::ImportError;
-use crate::import::number;
 use crate::import::source::Token;
 use crate::scene::Material;
 use glam::Vec2;
 
 impl Reader<'_> {
-    /// Reads u and optionally v; skips w, which only solid textures use.
-    pub(super) fn texture_coordinates(
-        &mut self,
-        keyword: Token,
-        line: &mut Line,
-    ) -> Result<(), ImportError> {
-        let Some(word) = line.word() else {
-            let why = format!("{} needs a number", keyword.quote());
-            let todo = "Write `vt U V`";
-            return Err(self.source.malformed(keyword.span(), why, todo));
-        };
-        let u = number::parse(self.source, word)?;
-        let v = match line.word() {
-            Some(word) => number::parse(self.source, word)?,
-            None => 0.0,
-        };
+    /// Reads u and optionally v. Only solid textures use w, so another than 0 is reported.
+    pub(super) fn texture_coordinates(&mut self, keyword: Token, line: &mut Line) {
+        let mut numbers = [0.0; 3];
+        for (i, number) in numbers.iter_mut().enumerate() {
+            match line.word() {
+                Some(word) => {
+                    let read = self.faults.number("vt", self.source, word);
+                    *number = read.unwrap_or_default();
+                }
+                None if i == 0 => {
+                    let what = ("vt", "texture coordinates without a number set to 0");
+                    self.faults.add(what, self.source, keyword.span(), || {
+                        let why = format!("{} needs a number", keyword.quote());
+                        (why, "Write `vt U V`")
+                    });
+                }
+                None => break,
+            }
+        }
+        if numbers[2] != 0.0 {
+            self.skip("third texture coordinates");
+        }
         // Beyond this, f32 has whole numbers only, and all texture coordinates are equivalent.
         let place = |x: f64| x.clamp(-1e9, 1e9) as f32;
-        self.uvs.push(Vec2::new(place(u), place(v)));
-        Ok(())
+        self.uvs
+            .push(Vec2::new(place(numbers[0]), place(numbers[1])));
     }
 
     /// Removes u and v from corners whose material does not use them, so that they do not split vertices.

@@ -14,9 +14,15 @@ impl Reader<'_> {
     pub fn elements(&mut self) -> Result<Vec<Element>, ImportError> {
         let mut elements: Vec<Element> = Vec::new();
         let mut number = 0;
+        // The first line tells how all of them end: a binary body may begin with a line feed.
+        let newline = match self.bytes[3..] {
+            [b'\r', b'\n', ..] => b'\n',
+            [b'\r', ..] => b'\r',
+            _ => b'\n',
+        };
         loop {
             let rest = &self.bytes[self.at..self.bytes.len().min(MAX_HEADER)];
-            let Some(end) = rest.iter().position(|&b| b == b'\n') else {
+            let Some(end) = rest.iter().position(|&b| b == newline) else {
                 return Err(self.refuse("its header does not end with `end_header`", AGAIN));
             };
             self.at += end + 1;
@@ -77,21 +83,37 @@ impl Reader<'_> {
         Ok(elements)
     }
 
-    /// Refuses headers that announce more data than the file has, before memory is allocated.
+    /// Refuses headers that announce more data than the file has, before memory is allocated. The elements after the
+    /// vertices may be cut off.
     fn check(&self, elements: &[Element]) -> Result<(), ImportError> {
-        let left = (self.bytes.len() - self.at) as u128;
-        let least = |property: &Property| match self.encoding {
-            Encoding::Text => 2,
-            _ => property.count.unwrap_or(property.kind).size() as u128,
-        };
-        let size = |element: &Element| {
-            let row: u128 = element.properties.iter().map(least).sum();
-            row.max(1) * element.count as u128
-        };
+        let vertices = elements.iter().position(|element| element.name == "vertex");
+        let needed = &elements[..vertices.map_or(elements.len(), |at| at + 1)];
+        let size = |element: &Element| self.least_size(element) as u128 * element.count as u128;
         // The last line of a text file may lack its line break.
-        match elements.iter().map(size).sum::<u128>() > left + 1 {
+        match needed.iter().map(size).sum::<u128>() > self.left() as u128 + 1 {
             true => Err(self.cut()),
             false => Ok(()),
         }
+    }
+
+    /// Bytes of the shortest row of an element.
+    fn least_size(&self, element: &Element) -> usize {
+        let least = |property: &Property| match self.encoding {
+            Encoding::Text => 2,
+            _ => property.count.unwrap_or(property.kind).size(),
+        };
+        element.properties.iter().map(least).sum::<usize>().max(1)
+    }
+
+    /// Bytes that have not been read.
+    fn left(&self) -> usize {
+        self.bytes.len() - self.at
+    }
+
+    /// The rows of an element that the rest of the file has room for, at most as many as it announces.
+    pub fn row_count(&self, element: &Element) -> usize {
+        element
+            .count
+            .min((self.left() + 1) / self.least_size(element))
     }
 }

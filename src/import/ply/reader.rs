@@ -4,7 +4,9 @@ use super::AGAIN;
 use super::types::{Element, Encoding, Kind, Property};
 use crate::import::budget::Budget;
 use crate::import::error::{ImportError, fault};
+use crate::import::number;
 use crate::import::source::quote;
+use std::cell::Cell;
 use std::path::Path;
 
 pub(super) struct Reader<'a> {
@@ -14,6 +16,10 @@ pub(super) struct Reader<'a> {
     pub encoding: Encoding,
     /// The pictures that the header names, as MeshLab writes them.
     pub texture_files: Vec<String>,
+    /// The message for the first value that cannot be used: the file is refused for it if nothing is left.
+    pub fault: Option<ImportError>,
+    /// Whether the end of the file was met too early.
+    pub is_cut: Cell<bool>,
     /// Memory in bytes that the file takes.
     taken: u64,
 }
@@ -26,6 +32,8 @@ impl<'a> Reader<'a> {
             at: 0,
             encoding: Encoding::Text,
             texture_files: Vec::new(),
+            fault: None,
+            is_cut: Cell::new(false),
             taken: bytes.len() as u64,
         };
         match bytes.starts_with(b"ply") {
@@ -45,6 +53,7 @@ impl<'a> Reader<'a> {
     }
 
     pub fn cut(&self) -> ImportError {
+        self.is_cut.set(true);
         let todo = "Check that it was written completely";
         self.refuse("it is shorter than its header announces", todo)
     }
@@ -199,10 +208,15 @@ impl<'a> Reader<'a> {
         let length = rest[start..].iter().position(is_space);
         let word = &rest[start..length.map_or(rest.len(), |length| start + length)];
         self.at += start + word.len();
-        let number = std::str::from_utf8(word)
-            .ok()
-            .and_then(|word| word.parse().ok());
-        number.ok_or_else(|| self.refuse(&format!("{} is not a number", quote(word)), AGAIN))
+        // Out of the range of f32 is finite in a list, which has whole numbers.
+        if let Some(number) = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok()) {
+            return Ok(number);
+        }
+        if self.fault.is_none() && !number::is_nonfinite(word) {
+            let why = format!("{} is not a number", quote(word));
+            self.fault = Some(self.refuse(&why, AGAIN));
+        }
+        Ok(f64::NAN)
     }
 }
 

@@ -24,11 +24,35 @@ const MARK: u16 = 1 << 15;
 pub(super) fn header(bytes: &[u8]) -> Option<usize> {
     let count = u32::from_le_bytes(count_bytes(bytes)?) as usize;
     let length = facets_end(count);
+    // Programs that write while they compute may leave a 0.
+    let is_left_out = count == 0 && room(bytes).is_some();
     let fits = match super::text::is_text(bytes) {
         true => length == bytes.len() as u64,
         false => length <= bytes.len() as u64,
     };
-    fits.then_some(count)
+    (fits && !is_left_out).then_some(count)
+}
+
+/// The number of facets that a file has room for whose header announces another number, as if it was cut off or never
+/// completed. Their normals tell whether it is an STL file: nearly all have the length 1 or 0.
+pub(super) fn room(bytes: &[u8]) -> Option<usize> {
+    let facets = bytes.get(HEADER..)?.chunks_exact(FACET);
+    let count = facets.len();
+    let is_sound = |facet: &&[u8]| {
+        let length = vector(facet, 0).length();
+        length == 0.0 || (length - 1.0).abs() < 1e-2
+    };
+    let sound = facets.filter(is_sound).count();
+    (count > 0 && 10 * sound >= 9 * count).then_some(count)
+}
+
+/// The normal of a facet, or one of its corners, counted from 1.
+fn vector(facet: &[u8], place: usize) -> Vec3 {
+    let number = |k: usize| {
+        let at = 12 * place + 4 * k;
+        f32::from_le_bytes([facet[at], facet[at + 1], facet[at + 2], facet[at + 3]])
+    };
+    Vec3::new(number(0), number(1), number(2))
 }
 
 fn count_bytes(bytes: &[u8]) -> Option<[u8; 4]> {
@@ -67,11 +91,9 @@ pub(super) fn refuse(path: &Path, bytes: &[u8]) -> ImportError {
     ImportError::Malformed(fault("bad model", path, &why, todo))
 }
 
-/// The facets in `bytes`, whose header has their number.
-pub(super) fn read(path: &Path, bytes: &[u8], count: usize) -> Result<Solid, ImportError> {
-    let Some(facets) = bytes.get(HEADER..HEADER + FACET * count) else {
-        return Err(refuse(path, bytes));
-    };
+/// The first `count` facets in `bytes`, which have room for them.
+pub(super) fn read(bytes: &[u8], count: usize) -> Solid {
+    let facets = &bytes[HEADER..HEADER + FACET * count];
     let mut solid = Solid::new();
     solid.triangles.reserve_exact(count);
     let facets = facets.chunks_exact(FACET);
@@ -82,16 +104,18 @@ pub(super) fn read(path: &Path, bytes: &[u8], count: usize) -> Result<Solid, Imp
     };
     solid.color = magics;
     for facet in facets {
-        let corner = |i: usize| {
-            let number = |k: usize| {
-                let at = 12 * (i + 1) + 4 * k;
-                f32::from_le_bytes([facet[at], facet[at + 1], facet[at + 2], facet[at + 3]])
-            };
-            Vec3::new(number(0), number(1), number(2))
-        };
-        if solid.add([corner(0), corner(1), corner(2)]) && has_colors {
+        let corner = |i: usize| vector(facet, i + 1);
+        if solid.add(vector(facet, 0), [corner(0), corner(1), corner(2)]) && has_colors {
             solid.colors.push(color(attribute(facet), magics.is_some()));
         }
+    }
+    let announced = count_bytes(bytes).map_or(0, u32::from_le_bytes);
+    if announced as usize != count {
+        solid.notes.add("ends", || {
+            format!(
+                "the header announces {announced} facets, but the file has {count}: it may be truncated"
+            )
+        });
     }
     let rest = bytes.len() - HEADER - FACET * count;
     if rest > 0 {
@@ -104,7 +128,7 @@ pub(super) fn read(path: &Path, bytes: &[u8], count: usize) -> Result<Solid, Imp
         let note = "the material in the header skipped: only its colour is read";
         solid.notes.add("materials", || note.to_owned());
     }
-    Ok(solid)
+    solid
 }
 
 /// The last two bytes of a facet.
