@@ -138,7 +138,7 @@ impl Faults {
         } in self.kinds
         {
             let first = if count > 1 { "first in " } else { "" };
-            notes.add("repaired values", || {
+            notes.add(key, || {
                 format!("`{key}`: {what}: {count} ({first}line {line}{of})")
             });
         }

@@ -43,7 +43,7 @@ pub const SCENE_FORMATS: &[SceneFormat] = &[
         name: "Wavefront OBJ with MTL",
         shown: "polygons, normals, smoothing groups, texture coordinates, vertex colours; colours, pictures, \
                 normal and height maps, masks, mirrors, glass, roughness, metalness, clear coats, sheen and anisotropy",
-        skipped: "points, lines, curves and surfaces; `disp`, `refl`, pictures of `Pr`, `Pm`, `Ps` and `Pc`",
+        skipped: "points, lines, curves and surfaces; `disp`, `refl`, `map_Ns` and others, by name",
     },
     SceneFormat {
         endings: &["gltf", "glb"],
@@ -63,7 +63,7 @@ pub const SCENE_FORMATS: &[SceneFormat] = &[
         endings: &["stl"],
         name: "STL, text and binary",
         shown: "facets, and their colours in both dialects",
-        skipped: "the normals in the file",
+        skipped: "the normals in the file, which are reported where they contradict the facets",
     },
     #[cfg(feature = "archive")]
     SceneFormat {

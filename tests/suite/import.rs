@@ -7,6 +7,7 @@ mod encoded;
 mod files;
 pub mod gltf;
 mod hostile;
+mod keys;
 mod memory;
 mod mtl;
 mod native;
@@ -25,6 +26,7 @@ mod resolver;
 mod shapes;
 mod stage;
 mod stl;
+mod texts;
 mod textures;
 pub mod zipped;
 

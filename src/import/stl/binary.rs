@@ -36,6 +36,9 @@ pub(super) fn header(bytes: &[u8]) -> Option<usize> {
 /// The number of facets that a file has room for whose header announces another number, as if it was cut off or never
 /// completed. Their normals tell whether it is an STL file: nearly all have the length 1 or 0.
 pub(super) fn room(bytes: &[u8]) -> Option<usize> {
+    if is_big_endian(bytes) {
+        return None;
+    }
     let facets = bytes.get(HEADER..)?.chunks_exact(FACET);
     let count = facets.len();
     let is_sound = |facet: &&[u8]| {
@@ -59,6 +62,11 @@ fn count_bytes(bytes: &[u8]) -> Option<[u8; 4]> {
     bytes.get(TEXT..HEADER)?.try_into().ok()
 }
 
+fn is_big_endian(bytes: &[u8]) -> bool {
+    let count = count_bytes(bytes).map_or(0, u32::from_be_bytes);
+    count > 0 && facets_end(count as usize) == bytes.len() as u64
+}
+
 fn facets_end(count: usize) -> u64 {
     HEADER as u64 + FACET as u64 * count as u64
 }
@@ -75,7 +83,7 @@ pub(super) fn refuse(path: &Path, bytes: &[u8]) -> ImportError {
             format!("it has {length} bytes: neither the text `solid` nor a binary header"),
             "Name an STL file",
         ),
-        Some(count) if facets_end(u32::from_be_bytes(count) as usize) == length => (
+        Some(_) if is_big_endian(bytes) => (
             "its numbers are big-endian, but those of STL are little-endian".to_owned(),
             "Save it again as binary STL",
         ),

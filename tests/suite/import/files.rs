@@ -1,6 +1,7 @@
 //! Which files a scene may read.
 
-use super::{folder, message_in, messages, without_folder};
+use super::{folder, message_in, without_folder};
+use glam::Vec3;
 use glimray::import::{self, Options};
 use insta::assert_snapshot;
 use std::path::Path;
@@ -73,7 +74,7 @@ mesh file refused (a.toml:2:17): `folder/deep.obj/x.obj`: part of the path is no
 }
 
 #[test]
-fn material_files_are_confined_too() {
+fn material_files_are_confined_too_but_do_not_refuse_the_model() {
     let names = [
         "../a.mtl",
         "/etc/passwd",
@@ -81,14 +82,20 @@ fn material_files_are_confined_too() {
         "http://example.org/a.mtl",
         ".",
     ];
-    let texts = names.map(|name| format!("mtllib {name}\n"));
-    assert_snapshot!(messages("a.obj", &texts), @r"
-material file refused (a.obj:1:8): `../a.mtl` points outside the scene folder. Name a file in it, or permit the other folder.
-material file refused (a.obj:1:8): `/etc/passwd` points outside the scene folder. Name a file in it, or permit the other folder.
-material file refused (a.obj:1:8): `C:\a.mtl` points outside the scene folder. Name a file in it, or permit the other folder.
-material file refused (a.obj:1:8): `http://example.org/a.mtl` points outside the scene folder. Name a file in it, or permit the other folder.
-material file refused (a.obj:1:8): `.` is not a plain file. Name a plain file in the scene folder.
-");
+    for name in names {
+        let model = format!("mtllib {name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+        let files = [
+            ("s/a.obj", model.as_bytes()),
+            ("a.mtl", b"newmtl a\nKd 1 0 0"),
+        ];
+        let folder = folder(&files);
+        let scene = import::load(&folder.path().join("s/a.obj")).expect("a model");
+        assert_ne!(scene.materials[0].diffuse, Vec3::X, "{name}");
+        let (first, second) = (&scene.skipped[0], &scene.skipped[1]);
+        let quoted = format!("the material file `{name}` ");
+        assert!(first.starts_with(&quoted), "{name}: {first}");
+        assert!(second.contains("`a` is not defined"), "{name}: {second}");
+    }
 }
 
 #[test]

@@ -71,19 +71,24 @@ fn every_model_of_illumination_has_its_meaning() {
             (Vec3::ZERO, Fresnel::None)
         );
     }
-    // From 3 on the surroundings are reflected; 5 and 7 by Fresnel; 6 and 7 refract.
+    // From 3 to 7 the surroundings are reflected, which 8 and 9 do not trace; 5 and 7 by Fresnel; 6 and 7 refract.
     for model in 3..=9 {
         let material = of(model);
-        assert_eq!(material.reflect, Vec3::splat(0.5), "{model}");
+        let mirror = if model < 8 { 0.5 } else { 0.0 };
+        assert_eq!(material.reflect, Vec3::splat(mirror), "{model}");
         let is_fresnel = matches!(model, 5 | 7);
         assert_eq!(material.fresnel == Fresnel::Exact, is_fresnel, "{model}");
         let is_bent = matches!(model, 5..=7);
         assert_eq!(material.ior, if is_bent { 1.4 } else { 1.0 }, "{model}");
     }
-    assert_eq!(
-        with("illum 10").skipped,
-        ["`illum` above 9 of materials skipped: 1"]
-    );
+    // 10: an invisible surface that receives shadows.
+    assert!(of(10).shadow_catcher && !of(2).shadow_catcher);
+    for library in ["illum 11", "illum 2.5", "illum -1"] {
+        assert_eq!(
+            with(library).skipped,
+            ["skipped in materials: `illum other than 0 to 10` 1"]
+        );
+    }
 }
 
 #[test]
@@ -136,13 +141,11 @@ fn physically_based_keys_become_a_highlight_and_a_mirror() {
 
 #[test]
 fn what_the_renderer_lacks_is_named() {
-    let library = "norm -bm 0.5 red.png\nmap_Ns c.png\nmap_Pr e.png\ndisp f.png\n\
+    let library = "norm -bm 0.5 red.png\nmap_Ns c.png\ndisp f.png\n\
         refl -type sphere g.png\nmap_what h.png\nd -halo 0.5\n";
     assert_snapshot!(with(library).skipped.join("\n"), @r"
-`d -halo` of materials skipped: 1
-other textures of materials skipped: 1
-texture options of materials skipped: 1
-skipped in materials: `disp` 1, `map_Ns` 1, `map_Pr` 1, `refl` 1
+skipped in materials: `d -halo` 1, `disp` 1, `map_Ns` 1, `norm -bm` 1, `refl` 1
+unknown in materials: `map_what` 1
 ");
 }
 
@@ -217,12 +220,12 @@ fn map_d_cuts_holes_by_alpha_or_by_brightness() {
 
 #[test]
 fn textures_are_scaled_and_moved() {
-    let scene = with("map_Kd -s 2 3 1 -o 0.5 0.25 0 -blendu on red.png");
+    let scene = with("map_Kd -s 2 3 1 -o 0.5 0.25 0 -blendu on -mm 0 2 red.png");
     let place = scene.textures[0]
         .pattern_from_space
         .transform_point3(DVec3::new(1.0, 1.0, 0.0));
     assert_eq!(place, DVec3::new(2.5, 3.25, 0.0));
-    assert_eq!(scene.skipped, ["texture options of materials skipped: 1"]);
+    assert_eq!(scene.skipped, ["skipped in materials: `map_Kd -mm` 1"]);
 }
 
 #[test]
@@ -315,4 +318,188 @@ fn height_maps_become_normal_maps_by_their_slopes() {
     // A normal map counts before heights.
     let both = material("bump gone.png\nnorm red.png");
     assert_eq!(both.textures.normal, Some(0));
+}
+
+#[test]
+fn d_decides_where_tr_is_given_too() {
+    for library in ["d 1\nTr 1", "Tr 1\nd 1", "Tr 0.25\nd 1"] {
+        let material = material(library);
+        assert_eq!((material.opacity, material.transmit), (1.0, Vec3::ZERO));
+    }
+    assert_eq!(material("Tr 0.5\nd 0.25").opacity, 0.25);
+}
+
+#[test]
+fn tr_of_one_in_every_material_means_opaque_and_is_reported() {
+    let library = "Tr 1\nKd 1 0 0\nnewmtl b\nTr 1.000000\n";
+    let scene = with(library);
+    assert_eq!(scene.materials[0].opacity, 1.0);
+    assert_snapshot!(scene.skipped.join("\n"), @"`Tr 1` without `d` read as opaque, as MeshLab writes it: 2");
+    // With a material that is opaque by 0, `Tr` is 1 - d.
+    let scene = with("Tr 1\nnewmtl b\nTr 0");
+    assert_eq!(scene.materials[0].opacity, 0.0);
+    assert_snapshot!(scene.skipped.join("\n"), @"");
+    assert_eq!(with("Tr 0.25").materials[0].opacity, 0.75);
+}
+
+#[test]
+fn a_model_that_is_wholly_transparent_is_reported() {
+    let note = "the model is wholly transparent: none of its materials shows anything";
+    for library in ["d 0", "d 0\nPr 0.5", "d -1\nillum 4"] {
+        assert_eq!(with(library).skipped.last().map(String::as_str), Some(note));
+    }
+    for library in ["d 0.1", "d 0\nillum 3\nKs 1 1 1", "Ke 1 1 1\nd 0"] {
+        assert!(
+            !with(library).skipped.contains(&note.to_owned()),
+            "{library}"
+        );
+    }
+}
+
+/// The formulas of models 6 and 7 pass (1 - Ks) Tf of the light behind and Ft Tf, and do not have d.
+#[test]
+fn glass_passes_what_its_filter_does() {
+    let glass = "Kd 0 0 0\nKs 0.2 0.2 0.2\nNi 1.2\nTf 1 0.5 0";
+    for dissolved in ["", "\nd 1"] {
+        let six = material(&format!("{glass}{dissolved}\nillum 6"));
+        assert_eq!(six.transmit, Vec3::new(0.8, 0.4, 0.0));
+        assert_eq!(
+            (six.fresnel, six.ior, six.thin),
+            (Fresnel::None, 1.2, false)
+        );
+        let seven = material(&format!("illum 7\n{glass}{dissolved}"));
+        assert_eq!(seven.transmit, Vec3::new(1.0, 0.5, 0.0));
+        assert_eq!((seven.fresnel, seven.ior), (Fresnel::Exact, 1.2));
+        assert_eq!(seven.reflect, Vec3::splat(0.2));
+    }
+    // McGuire's Cornell box.
+    let ball =
+        "Ns 1000\nNi 2.5\nillum 7\nKa 0.01 0.01 0.01\nKd 0.01 0.01 0.01\nKs 0.9 0.9 0.9\nTf 0.1";
+    assert_eq!(material(ball).transmit, Vec3::splat(0.1));
+    // No light is gained where the surface has a colour of its own.
+    let colored = material("Kd 0.75 0 1\nTf 1 1 1\nillum 7");
+    assert_eq!(colored.transmit, Vec3::new(0.25, 1.0, 0.0));
+    // Without filter and dissolve, what the colour leaves is refracted.
+    assert_eq!(material("Kd 0 0 0\nillum 7").transmit, Vec3::ONE);
+    assert_eq!(material("Kd 0 0 0\nillum 7\nd 1").transmit, Vec3::ZERO);
+    assert_eq!(material("Kd 0 0 0\nillum 6\nTf 0 0 0").transmit, Vec3::ZERO);
+}
+
+#[test]
+fn black_panes_with_a_filter_are_clear_and_reported() {
+    for model in [4, 9] {
+        let scene = with(&format!("Kd 0 0 0\nKs 0 0 0\nTf 1 1 1\nillum {model}"));
+        let pane = &scene.materials[0];
+        assert_eq!((pane.transmit, pane.thin), (Vec3::ONE, true));
+        let note = "black glass without `d` but with `Tf` (`illum` 4 or 9) read as clear: 1";
+        assert_eq!(scene.skipped[0], note);
+        let opaque = material(&format!("Kd 0 0 0\nTf 1 1 1\nd 1\nillum {model}"));
+        assert_eq!(opaque.transmit, Vec3::ZERO);
+    }
+}
+
+#[test]
+fn keys_may_have_any_case() {
+    let plain =
+        material("Kd 1 0 0\nKs 0 1 0\nKa 0 0 1\nKe 1 1 1\nNs 9\nd 0.5\nillum 2\nmap_Kd red.png");
+    let lower =
+        material("kd 1 0 0\nks 0 1 0\nka 0 0 1\nke 1 1 1\nns 9\nD 0.5\nILLUM 2\nmap_kd red.png");
+    let upper =
+        material("KD 1 0 0\nKS 0 1 0\nKA 0 0 1\nKE 1 1 1\nNS 9\nd 0.5\nIllum 2\nMAP_KD red.png");
+    assert_eq!((&lower, &upper), (&plain, &plain));
+    let mask = [material("map_d red.png"), material("map_D red.png")];
+    assert!(mask.iter().all(|m| m.textures.alpha == Some(0)));
+    let normal = [material("norm red.png"), material("map_Kn red.png")];
+    assert!(normal.iter().all(|m| m.textures.normal == Some(0)));
+}
+
+#[test]
+fn colours_may_be_in_xyz() {
+    // The white of Rec. 709, and one number for all three.
+    let white = material("Kd xyz 0.9505 1 1.089").diffuse;
+    assert!((white - 1.0).abs().max_element() < 1e-3, "{white}");
+    let equal = material("Kd xyz 0.5").diffuse;
+    assert!(
+        (equal - Vec3::new(0.6025, 0.4742, 0.4544))
+            .abs()
+            .max_element()
+            < 1e-3,
+        "{equal}"
+    );
+}
+
+#[test]
+fn pictures_of_roughness_and_metalness_are_kept() {
+    let scene = with(
+        "map_Pr red.png\nmap_Pm red.png\nmap_Ps red.png\nmap_Pc red.png\nmap_Pcr red.png\nmap_Kd red.png",
+    );
+    assert_eq!(scene.skipped, [""; 0]);
+    let material = &scene.materials[0];
+    let model = material.metallic_roughness.as_deref().expect("the model");
+    assert_eq!(
+        (model.roughness, model.metallic, model.clearcoat),
+        (1.0, 1.0, 1.0)
+    );
+    let layers = material.layer_textures.as_deref().expect("textures");
+    let slots = [
+        layers.base_color,
+        layers.roughness,
+        layers.metallic,
+        layers.sheen_color,
+        layers.clearcoat,
+        layers.clearcoat_roughness,
+    ];
+    assert!(slots.iter().all(Option::is_some), "{layers:?}");
+}
+
+#[test]
+fn values_of_materials_that_cannot_be_used_are_repaired_and_reported() {
+    let library = "Kd 1 0\nKs 1 0 -1\nKe inf 0 0\nKa\nNs -3\nNi 11\nd much\nTr 2\nPr nan\nPs -1\n\
+        map_Ks\nillum\nnewmtl\nKd 1 1 1\n";
+    let scene = with(library);
+    let material = &scene.materials[0];
+    assert_eq!(material.specular, Vec3::X);
+    assert_eq!((material.emission, material.opacity), (Vec3::ZERO, 0.0));
+    assert_snapshot!(scene.skipped.join("\n"), @"");
+    // What comes before the first material, and binary files.
+    for (library, note) in [
+        (
+            &b"Kd 1 0 0\nnewmtl a\n"[..],
+            "`Kd`: before the first `newmtl` skipped: 1 (line 1 of a.mtl)",
+        ),
+        (
+            b"\x89PNG\0\0\0\x01",
+            "the material file `a.mtl` skipped: a zero byte: the file is binary, not text",
+        ),
+    ] {
+        let folder = folder(&[("a.obj", MODEL.as_bytes()), ("a.mtl", library)]);
+        let scene = import::load(&folder.path().join("a.obj")).expect("a model");
+        assert_eq!(scene.skipped[0], note);
+    }
+}
+
+#[test]
+fn a_library_that_cannot_be_found_is_looked_for_beside_the_model() {
+    let names = [
+        "C:\\Users\\alice\\my models\\a.mtl",
+        "/home/alice/models/a.mtl",
+        "../export/a.mtl",
+        "textures/a.mtl",
+        "\"a.mtl\"",
+        "A:\\a.mtl",
+    ];
+    for name in names {
+        let model = MODEL.replace("a.mtl", name);
+        let folder = folder(&[
+            ("a.obj", model.as_bytes()),
+            ("a.mtl", b"newmtl a\nKd 1 0 0\nmap_Ke D:\\red.png\n"),
+            ("red.png", &super::textures::png()),
+        ]);
+        let scene = import::load(&folder.path().join("a.obj")).expect("a model");
+        let material = &scene.materials[0];
+        assert_eq!(material.diffuse, Vec3::X, "{name}");
+        assert_eq!(material.textures.emission, Some(0), "{name}");
+        let is_said = scene.skipped[0].contains("replaced by the file of that name");
+        assert!(is_said, "{name}: {:?}", scene.skipped);
+    }
 }

@@ -243,15 +243,15 @@ fn damaged_ply_files_are_refused_in_one_line_each() {
         (number("float x", "real x"), "line 5 of its header"),
         (number("property float z\n", ""), "lack x, y or z"),
         (
-            number("3 0 2 3\n", "3 0 2 9\n"),
-            "vertex 9, but only 4 exist",
+            number("3 0 1 2\n3 0 2 3\n", "3 4 1 2\n3 0 2 9\n"),
+            "vertex 4, but only 4 exist",
         ),
         (
             number("3 0 2 3\n", "-1 0 2 3 1\n"),
             "a list has a negative length",
         ),
         (
-            number("3 0 2 3\n", "3 0 2"),
+            number("3 0 1 2\n3 0 2 3\n", "3 0 2"),
             "shorter than its header announces",
         ),
         (number("1 1 0 1\n", "1 nan 0 1\n"), "not a finite number"),

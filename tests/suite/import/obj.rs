@@ -3,7 +3,7 @@
 use super::{folder, messages, scene};
 use glam::Vec3;
 use glimray::import;
-use glimray::scene::{Background, Material, Scene};
+use glimray::scene::{Background, Coverage, Material, Scene};
 use insta::assert_snapshot;
 
 /// The total area of all triangles.
@@ -283,7 +283,7 @@ fn materials_come_from_the_library() {
     assert_eq!(red.opacity, 0.5);
     assert_eq!((green.diffuse, green.ambient), (Vec3::Y, Vec3::Y));
     assert_snapshot!(scene.skipped.join("\n"), @r"
-spectral colours of materials skipped: 1
+skipped in materials: `Kd spectral` 1
 texture skipped: `red.png` does not exist
 ");
 }
@@ -301,11 +301,11 @@ the material file `gone.mtl` does not exist
 the material file `lost` does not exist
 the material file `too.mtl` does not exist
 the material `gold` is not defined: the default replaces it
-faces with fewer than three corners skipped: 1
 free-form statements skipped: 1
 lines and points skipped: 2
 unknown statements skipped: 1
 the first unknown statement is `hologram`
+`f`: faces with fewer than three corners skipped: 1 (line 12)
 dropped 1 triangle without area
 ");
 }
@@ -348,8 +348,6 @@ fn every_error_has_a_message() {
         square("f 1 2 99999999999999999999"),
         square("f 1 2 3.5"),
         square("f 1 2 three"),
-        square("f 1/1 2/1 3/1"),
-        square("f 1//1 2//1 3//1"),
         square("f 1/1/1/1 2 3"),
         square("f 1// 2 3"),
         square("f / 2 3"),
@@ -365,15 +363,13 @@ bad model (a.obj:1:7): `nan` is not a finite number. Write a decimal number such
 bad model (a.obj:1:7): `1e400` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.
 bad model (a.obj:1:17): a vertex has too many numbers. Write `v X Y Z`.
 bad model (a.obj:1:1): `vn` needs three numbers. Add the missing ones.
-bad model (a.obj:5:1): a face has no corners. Check that the file is complete.
+bad model (a.obj:5:1): a face has fewer than three corners. Check that the file is complete.
 bad model (a.obj:5:7): vertex 5 does not exist: 4 come before this face. Count from 1, or backwards from -1.
 bad model (a.obj:5:7): vertex 0 does not exist: 4 come before this face. Count from 1, or backwards from -1.
 bad model (a.obj:5:7): vertex -5 does not exist: 4 come before this face. Count from 1, or backwards from -1.
 bad model (a.obj:5:7): `99999999999999999999` is not the number of a vertex. Write a whole number, counted from 1.
 bad model (a.obj:5:7): `3.5` is not the number of a vertex. Write a whole number, counted from 1.
 bad model (a.obj:5:7): `three` is not the number of a vertex. Write a whole number, counted from 1.
-bad model (a.obj:5:5): texture coordinate 1 does not exist: 0 come before this face. Count from 1, or backwards from -1.
-bad model (a.obj:5:6): normal 1 does not exist: 0 come before this face. Count from 1, or backwards from -1.
 bad model (a.obj:5:5): texture coordinate 1 does not exist: 0 come before this face. Count from 1, or backwards from -1.
 bad model (a.obj:5:3): `1//` is not a corner of a face. Write V, V/VT, V//VN or V/VT/VN.
 bad model (a.obj:5:3): `/` is not a corner of a face. Write V, V/VT, V//VN or V/VT/VN.
@@ -382,34 +378,101 @@ bad model (a.obj:5:131075): a face has more than 65536 corners. Split the face.
 }
 
 #[test]
-fn every_error_in_a_library_has_a_message() {
-    let texts = [
-        "Kd 1 0 0",
-        "newmtl",
-        "newmtl a\nKd 1 0",
-        "newmtl a\nKd 1 0 -1",
-        "newmtl a\nKd inf 0 0",
-        "newmtl a\nKs",
-        "newmtl a\nNs -3",
-        "newmtl a\nNs 1e39",
-        "newmtl a\nd much",
-    ];
-    let message = |text: &&str| {
-        let folder = folder(&[("a.obj", b"mtllib a.mtl"), ("a.mtl", text.as_bytes())]);
-        super::message_in(&folder, "a.obj", &import::Options::default())
-    };
-    let lines: Vec<_> = texts.iter().map(message).collect();
-    assert_snapshot!(lines.join("\n"), @r"
-bad material file (a.mtl:1:1): `Kd` comes before the first `newmtl`. Begin with `newmtl NAME`.
-bad material file (a.mtl:1:1): a material has no name. Write `newmtl NAME`.
-bad material file (a.mtl:2:1): `Kd` lacks a number. Add the number.
-bad material file (a.mtl:2:8): `-1` in `Kd` is negative. Write 0 or more.
-bad material file (a.mtl:2:4): `inf` is not a finite number. Write a decimal number such as -0.5 or 2e3.
-bad material file (a.mtl:2:1): `Ks` lacks a number. Add the number.
-bad material file (a.mtl:2:4): `-3` in `Ns` is negative. Write 0 or more.
-bad material file (a.mtl:2:4): `1e39` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.
-bad material file (a.mtl:2:3): `much` is not a number. Write a decimal number such as -0.5 or 2e3.
+fn values_that_cannot_be_used_are_repaired_and_reported() {
+    let text = format!(
+        "{SQUARE}v nan 0 0\nv 0 1e39\nv 0 0 -1.#IND\nv 2,5 0 0\nvn 0 0 1\nvn -nan(ind) 0 0\n\
+         vt 0.5 0.5\nvt nan 1.#QNAN\nf 1//1 2//1 3//2 4//1\nf 1 2 5\nf 1 2 6\nf 1 2 7\nf 1 2 8 3\n\
+         f 1 2 9\nf 1 2 0\nf 1 -9 2\nf 1/3/3 2/2/1 3/1/0\nf 1 2 x\nf 1 2\nf\nusemtl\nmtllib\nvt\n\
+         v 0 0 0 1 2 3 4 5\n\x01\x02 3\n"
+    );
+    let scene = scene("a.obj", text);
+    assert_eq!(scene.triangle_count(), 5);
+    let mesh = &scene.meshes[0];
+    assert!(mesh.normals.iter().all(|n| n.distance(Vec3::Z) < 1e-6));
+    assert!(mesh.positions.iter().any(|p| p.x == 2.5));
+    assert_snapshot!(scene.skipped.join("\n"), @r"
+colours of vertices of 0 to 255 divided by 255
+`usemtl` without a name skipped: 1
+faces with vertices that are not finite skipped: 3
+unknown statements skipped: 1
+the first unknown statement is `\u{1}\u{2}`
+`v`: values that are not finite numbers skipped: 3 (first in line 5)
+`v`: statements with fewer than three numbers skipped: 1 (line 6)
+`v`: decimal commas read as points: 1 (line 8)
+`vn`: values that are not finite numbers skipped: 1 (line 10)
+`vt`: values that are not finite numbers skipped: 2 (first in line 12)
+`f`: faces with vertices that do not exist skipped: 4 (first in line 18)
+`f`: texture coordinates that do not exist left out: 1 (line 21)
+`f`: normals that do not exist computed: 2 (first in line 21)
+and 4 more repaired values
+recomputed 1 normal of zero length
 ");
+}
+
+#[test]
+fn a_model_of_which_nothing_is_left_is_refused_for_its_first_fault() {
+    let texts = [
+        "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n",
+        "f 1 2 3\nv 0 0 0\n",
+    ];
+    assert_snapshot!(messages("a.obj", &texts), @r"
+bad model (a.obj:2:7): `nan` is not a finite number. Write a decimal number such as -0.5 or 2e3.
+bad model (a.obj:1:3): vertex 1 does not exist: 0 come before this face. Count from 1, or backwards from -1.
+");
+}
+
+#[test]
+fn colours_of_vertices_may_have_an_opacity_a_weight_or_levels() {
+    const RED: [f32; 4] = [1.0, 0.0, 0.0, 1.0];
+    // 128 and 64 of 255 in sRGB, by IEC 61966-2-1.
+    const BROWN: [f32; 4] = [0.2159, 0.0513, 0.0, 1.0];
+    const DARK: [f32; 4] = [0.0, 0.0, 0.000_303_5, 1.0];
+    let of_bytes = "colours of vertices of 0 to 255 divided by 255";
+    let cases = [
+        // Red, green, blue, opacity.
+        (["1 0 0 1", "1 0 0 1", "1 0 0 1"], [RED; 3], vec![]),
+        // A weight of 1, which is no opacity if the last numbers differ from 1.
+        (["1 1 0 0", "1 1 0 0", "1 1 0 0"], [RED; 3], vec![]),
+        (
+            ["0 0 1 1", "0 1 0 0.5", "1 0 0 1"],
+            [[0.0, 0.0, 1.0, 1.0], [0.0, 1.0, 0.0, 0.5], RED],
+            vec![],
+        ),
+        (
+            ["255 0 0", "128 64 0", "0 0 1"],
+            [RED, BROWN, DARK],
+            vec![of_bytes],
+        ),
+        (
+            ["255 0 0 255", "128 64 0 255", "0 0 1 255"],
+            [RED, BROWN, DARK],
+            vec![of_bytes],
+        ),
+        (
+            ["1.5 0 0", "0 -1 0", "1 0 0"],
+            [RED, [0.0, 0.0, 0.0, 1.0], RED],
+            vec!["colours of vertices clamped to 0 to 1: 2"],
+        ),
+    ];
+    let places = ["0 0 0", "1 0 0", "0 1 0"];
+    for (numbers, colors, notes) in cases {
+        let vertices = (0..3).map(|i| format!("v {} {}\n", places[i], numbers[i]));
+        let scene = scene("a.obj", vertices.collect::<String>() + "f 1 2 3\n");
+        let mesh = &scene.meshes[0];
+        for (place, color) in [Vec3::ZERO, Vec3::X, Vec3::Y].into_iter().zip(colors) {
+            let index = mesh.positions.iter().position(|p| *p == place);
+            let found = mesh.colors[index.expect("a vertex")];
+            let expected = glam::Vec4::from(color);
+            assert!(
+                (found - expected).abs().max_element() < 1e-4,
+                "{numbers:?}: {found}"
+            );
+        }
+        assert_eq!(scene.skipped, notes, "{numbers:?}");
+        let is_covered = colors.iter().any(|color| color[3] < 1.0);
+        let coverage = scene.materials[0].coverage;
+        assert_eq!(coverage == Coverage::Blend, is_covered, "{numbers:?}");
+    }
 }
 
 #[test]
