@@ -12,6 +12,8 @@
 //! comments, and the extensions `ref:`, which is not rendered, and `area_light:`, which turns a light
 //! into a rectangle: `pos:` is its centre, `area_u:` and `area_v:` are its edges.
 
+pub(super) use tokens::KEYS;
+
 mod area;
 mod palette;
 mod tokens;
@@ -49,26 +51,6 @@ const SPHERE: &[Key] = &[Pos, Rad, Dif, Spe, Shi];
 const VERTEX: &[Key] = &[Pos, Nor, Dif, Spe, Shi];
 const LIGHT: &[Key] = &[Pos, Col];
 const OBJECTS: [&str; 3] = ["sphere", "triangle", "light"];
-
-/// All keywords; those of [`Key`] come first.
-pub(super) const KEYS: [&str; 16] = [
-    "pos:",
-    "nor:",
-    "dif:",
-    "spe:",
-    "shi:",
-    "rad:",
-    "col:",
-    "amb:",
-    "sphere",
-    "triangle",
-    "light",
-    "ref:",
-    "area_light:",
-    "area_u:",
-    "area_v:",
-    "samples:",
-];
 
 /// Keys that student renderers added, and the number of words that follow them.
 const EXTENSIONS: [(&str, usize); 5] = [

@@ -2,6 +2,26 @@
 
 use crate::import::source::Token;
 
+/// All keywords; those of `Key` come first.
+pub(in crate::import) const KEYS: [&str; 16] = [
+    "pos:",
+    "nor:",
+    "dif:",
+    "spe:",
+    "shi:",
+    "rad:",
+    "col:",
+    "amb:",
+    "sphere",
+    "triangle",
+    "light",
+    "ref:",
+    "area_light:",
+    "area_u:",
+    "area_v:",
+    "samples:",
+];
+
 /// An iterator over the words.
 pub(super) struct Tokens<'s> {
     bytes: &'s [u8],
