@@ -223,7 +223,7 @@ impl<'s> Reader<'s> {
         let mut count = 0;
         while let Some(word) = line.word() {
             let Some(place) = more.get_mut(count) else {
-                let what = ("v", "numbers after the eighth skipped");
+                let what = ("v", "numbers after the seventh skipped");
                 self.faults.add(what, self.source, word.span(), || {
                     (
                         "a vertex has too many numbers".to_owned(),

@@ -454,13 +454,27 @@ fn pictures_of_roughness_and_metalness_are_kept() {
 
 #[test]
 fn values_of_materials_that_cannot_be_used_are_repaired_and_reported() {
-    let library = "Kd 1 0\nKs 1 0 -1\nKe inf 0 0\nKa\nNs -3\nNi 11\nd much\nTr 2\nPr nan\nPs -1\n\
+    let library = "Kd 1 0\nKs 1 0 -1\nKe inf 0 0\nKa\nNs -3\nNi 11\nd much\nTr -1\nPr nan\nPs -1\n\
         map_Ks\nillum\nnewmtl\nKd 1 1 1\n";
     let scene = with(library);
     let material = &scene.materials[0];
     assert_eq!(material.specular, Vec3::X);
-    assert_eq!((material.emission, material.opacity), (Vec3::ZERO, 0.0));
-    assert_snapshot!(scene.skipped.join("\n"), @"");
+    assert_eq!((material.emission, material.opacity), (Vec3::ZERO, 1.0));
+    assert_snapshot!(scene.skipped.join("\n"), @r"
+`Kd`: without a number skipped: 1 (line 2 of a.mtl)
+`Ks`: negative numbers set to 0: 1 (line 3 of a.mtl)
+`Ke`: values that are not finite numbers skipped: 1 (line 4 of a.mtl)
+`Ka`: without a number skipped: 1 (line 5 of a.mtl)
+`Ns`: numbers out of range clamped: 1 (line 6 of a.mtl)
+`Ni`: numbers out of range clamped: 1 (line 7 of a.mtl)
+`d`: values that are not finite numbers skipped: 1 (line 8 of a.mtl)
+`Tr`: numbers out of range clamped: 1 (line 9 of a.mtl)
+`Pr`: values that are not finite numbers skipped: 1 (line 10 of a.mtl)
+`Ps`: numbers out of range clamped: 1 (line 11 of a.mtl)
+`map_Ks`: pictures without a file skipped: 1 (line 12 of a.mtl)
+`illum`: without a number skipped: 1 (line 13 of a.mtl)
+`newmtl`: materials without a name: 1 (line 14 of a.mtl)
+");
     // What comes before the first material, and binary files.
     for (library, note) in [
         (

@@ -257,7 +257,11 @@ polygons that intersect themselves or are too large, triangulated as fans: 1
 `f`: negative numbers set to 0: 1 (line 11)
 `f`: values that are not finite, skipped or set to 0: 1 (line 11)
 `f`: indices of refraction of 0 set to 1: 1 (line 11)
-and 5 more repaired values
+`s`: values that are not finite, skipped or set to 0: 1 (line 13)
+`s`: shapes without extent skipped: 1 (line 14)
+`c`: shapes without extent skipped: 2 (first in line 15)
+`c`: values that are not finite, skipped or set to 0: 1 (line 17)
+`p`: values that are not finite, skipped or set to 0: 1 (line 18)
 ");
 }
 

@@ -399,12 +399,15 @@ the first unknown statement is `\u{1}\u{2}`
 `v`: values that are not finite numbers skipped: 3 (first in line 5)
 `v`: statements with fewer than three numbers skipped: 1 (line 6)
 `v`: decimal commas read as points: 1 (line 8)
+`v`: numbers after the seventh skipped: 1 (line 28)
 `vn`: values that are not finite numbers skipped: 1 (line 10)
 `vt`: values that are not finite numbers skipped: 2 (first in line 12)
+`vt`: texture coordinates without a number set to 0: 1 (line 27)
 `f`: faces with vertices that do not exist skipped: 4 (first in line 18)
 `f`: texture coordinates that do not exist left out: 1 (line 21)
 `f`: normals that do not exist computed: 2 (first in line 21)
-and 4 more repaired values
+`f`: faces with fewer than three corners skipped: 2 (first in line 23)
+`mtllib`: without a name skipped: 1 (line 26)
 recomputed 1 normal of zero length
 ");
 }
