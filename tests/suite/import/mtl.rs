@@ -338,7 +338,7 @@ fn tr_of_one_in_every_material_means_opaque_and_is_reported() {
     // With a material that is opaque by 0, `Tr` is 1 - d.
     let scene = with("Tr 1\nnewmtl b\nTr 0");
     assert_eq!(scene.materials[0].opacity, 0.0);
-    assert_snapshot!(scene.skipped.join("\n"), @"");
+    assert_snapshot!(scene.skipped.join("\n"), @"the model is wholly transparent: none of its materials shows anything");
     assert_eq!(with("Tr 0.25").materials[0].opacity, 0.75);
 }
 
