@@ -50,6 +50,7 @@ mod ply;
 mod polygon;
 mod range;
 mod resolver;
+mod rounding;
 mod source;
 mod stage;
 #[cfg(not(target_arch = "wasm32"))]
@@ -365,6 +366,7 @@ pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportE
 /// What all scenes need at last.
 fn finish(scene: &mut Scene, options: &Options) {
     range::limit(scene);
+    rounding::note(scene);
     scene.complete_tangents();
     let shows_maps = match options.baking {
         Baking::Never => false,

@@ -27,6 +27,7 @@ use super::notes::{self, Notes};
 use super::paths::Files;
 use super::picture::Pictures;
 use super::polygon::{self, Cutter, Defect};
+use super::rounding;
 use super::source::{Source, Token, quote};
 use super::{Axis, Options};
 use crate::scene::{Material, Mesh, Scene, Texture};
@@ -378,6 +379,7 @@ impl<'s> Reader<'s> {
             triangles: std::mem::take(&mut self.triangles),
         };
         self.note();
+        rounding::note_lost_light(&mut self.notes, &mesh, &materials);
         notes::of_repairs(&mut self.notes, mesh.repair());
         Ok(Model {
             mesh,

@@ -23,6 +23,7 @@ mod pictures;
 mod ply;
 mod range;
 mod resolver;
+mod rounding;
 mod shapes;
 mod stage;
 mod stl;

@@ -9,6 +9,7 @@ use super::materials::MaterialKey;
 use crate::import::budget;
 use crate::import::error::ImportError;
 use crate::import::notes;
+use crate::import::rounding;
 use crate::import::tangent::tangent;
 use crate::import::uvs;
 use crate::scene::Mesh;
@@ -93,6 +94,7 @@ impl Reader<'_> {
             }
             false => modelled.mesh,
         };
+        rounding::note_lost_light(&mut self.notes, &mesh, &self.scene.materials);
         let repairs = mesh.repair();
         notes::of_repairs(&mut self.notes, repairs);
         let found = (!mesh.triangles.is_empty()).then(|| {

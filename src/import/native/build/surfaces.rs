@@ -9,6 +9,7 @@ use crate::import::native::shapes;
 use crate::import::native::transforms::{chain, normal_matrix};
 use crate::import::native::values::Vector;
 use crate::import::notes::{self, Notes};
+use crate::import::rounding;
 use crate::import::source::quote;
 use crate::import::{MAX_GEOMETRY_BYTES, obj, ply, suggest};
 use crate::scene::{self, Geometry, Instance, Mesh, Repairs, Shape, Space};
@@ -260,6 +261,7 @@ impl Builder<'_> {
         for material in &mut mesh.materials {
             *material = materials[*material as usize] as u32;
         }
+        rounding::note_lost_light(&mut notes, &mesh, &self.scene.materials);
         notes::of_repairs(&mut notes, mesh.repair());
         self.notes.append(notes, &quote(name.as_bytes()));
         Ok(self.add_mesh(mesh, offset))
@@ -339,6 +341,7 @@ impl Builder<'_> {
                 let own = [Vec2::ZERO, Vec2::X, Vec2::Y];
                 mesh.uvs = own.repeat(mesh.triangles.len());
             }
+            rounding::note_lost_light(&mut self.notes, &mesh, &self.scene.materials);
             let repairs = mesh.repair();
             all.dropped_triangles += repairs.dropped_triangles;
             all.recomputed_normals += repairs.recomputed_normals;

@@ -1,0 +1,121 @@
+//! Notes where the arithmetic of the renderer, in f32, would lose light or change it.
+
+use super::notes::Notes;
+use crate::scene::{LightKind, Material, Mesh, Scene, area_normal};
+use glam::{DAffine3, DVec3, Vec3};
+
+/// The sizes of scenes in which products of lengths are in the range of f32: areas of triangles and of lights, and squares
+/// of distances.
+const SIZES: [f64; 2] = [1e-9, 1e9];
+
+/// The relative error of emitted light from which on it is noted.
+const TOLERANCE: f64 = 0.05;
+
+/// Notes what rounding does to the light of a scene.
+pub(super) fn note(scene: &mut Scene) {
+    let mut notes = Notes::default();
+    of_size(scene, &mut notes);
+    of_slivers(scene, &mut notes);
+    scene.skipped.extend(notes.into_lines());
+}
+
+fn of_size(scene: &Scene, notes: &mut Notes) {
+    let Some((min, max)) = scene.bounds() else {
+        return;
+    };
+    let size = min.distance(max);
+    let is_flat =
+        |kind: &LightKind| matches!(kind, LightKind::Rectangle { .. } | LightKind::Disc { .. });
+    let has_areas = !scene.meshes.is_empty() || scene.lights.iter().any(|it| is_flat(&it.kind));
+    let [least, most] = SIZES;
+    let (is_far, limit) = match size < least {
+        true => (size > 0.0, format!("below {least:e}")),
+        false => (size > most && has_areas, format!("above {most:e}")),
+    };
+    if is_far {
+        let why =
+            "products of lengths leave the range of f32, and lights may turn dark or too bright";
+        notes.add("sizes", || {
+            format!("the scene measures {size:.1e} units; {limit} {why}. Scale it")
+        });
+    }
+}
+
+/// Emissive triangles lie where f32 allows it as seen from the camera, which changes the areas of thin ones.
+fn of_slivers(scene: &Scene, notes: &mut Notes) {
+    let emits: Vec<bool> = scene.materials.iter().map(is_emissive).collect();
+    if !emits.contains(&true) || scene.cameras.is_empty() {
+        return;
+    }
+    let origin = scene.render_origin_at(&scene.frame(0.0));
+    let mut copies = vec![0; scene.meshes.len()];
+    scene.instances.iter().for_each(|it| copies[it.mesh] += 1);
+    for instance in &scene.instances {
+        // Others keep their shape in a space of their own.
+        let is_still = scene.node_of(instance).is_none();
+        let is_placed = is_still && scene.deformation_of(instance.mesh).is_none();
+        if !is_placed || copies[instance.mesh] > 1 {
+            continue;
+        }
+        let mesh = &scene.meshes[instance.mesh];
+        let [true_area, area] = emissive_areas(mesh, &emits, instance.placement, origin);
+        if (area - true_area).abs() > TOLERANCE * true_area {
+            notes.add("slivers", || {
+                format!(
+                    "emissive triangles of mesh `{}` are so thin for their distance from the camera that rounding gives \
+                     them {:.2} times their area and light. Make them wider, or use a rectangle",
+                    mesh.name,
+                    area / true_area
+                )
+            });
+        }
+    }
+}
+
+/// The area of all emissive triangles as they are and as they are packed.
+fn emissive_areas(
+    mesh: &Mesh,
+    emits: &[bool],
+    world_from_object: DAffine3,
+    origin: DVec3,
+) -> [f64; 2] {
+    let mut sums = [0.0; 2];
+    for triangle in &mesh.triangles {
+        if !emits[mesh.materials[triangle[0] as usize] as usize] {
+            continue;
+        }
+        let corners = triangle.map(|i| {
+            let position = mesh.positions[i as usize].as_dvec3();
+            world_from_object.transform_point3(position) - origin
+        });
+        let rounded = corners.map(|corner| corner.as_vec3().as_dvec3());
+        for (sum, [a, b, c]) in sums.iter_mut().zip([corners, rounded]) {
+            *sum += (b - a).cross(c - a).length() / 2.0;
+        }
+    }
+    sums
+}
+
+/// Notes the light of triangles that `Mesh::repair` will drop: those that have an area, but one that f32 cannot hold.
+pub(super) fn note_lost_light(notes: &mut Notes, mesh: &Mesh, materials: &[Material]) {
+    if !materials.iter().any(is_emissive) {
+        return;
+    }
+    let is_lost = |triangle: &&[u32; 3]| {
+        let material = mesh.materials[triangle[0] as usize] as usize;
+        let [a, b, c] = triangle.map(|i| mesh.positions[i as usize].as_dvec3());
+        materials.get(material).is_some_and(is_emissive)
+            && area_normal(&mesh.positions, triangle).is_none()
+            && (b - a).cross(c - a) != DVec3::ZERO
+    };
+    let count = mesh.triangles.iter().filter(is_lost).count();
+    if count > 0 {
+        notes.add("slivers", || {
+            format!("emissive triangles too thin for f32, whose light is lost: {count}")
+        });
+    }
+}
+
+fn is_emissive(material: &Material) -> bool {
+    material.emission != Vec3::ZERO
+}
