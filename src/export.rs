@@ -55,14 +55,16 @@ pub struct ExportFile {
 pub enum ExportError {
     /// The scene exceeds the native format's limit of keys and values.
     #[error(
-        "scene refused: it has so many different objects that a scene file would need {marks} keys \
-         and values, but the limit is {limit}. Remove objects that are not copies of others."
+        "scene refused: a scene file would need {marks} keys and values, but the limit is {limit}. {}.",
+        remedy(*marks, *moments)
     )]
     TooBig {
         /// Number of keys, values and brackets.
         marks: usize,
         /// Limit of that number.
         limit: usize,
+        /// Number of keys of its animation.
+        moments: usize,
     },
     /// An image cannot be encoded.
     #[error("scene refused: an image of {width} × {height} texels cannot be written: {why}.")]
@@ -74,6 +76,17 @@ pub enum ExportError {
         /// The encoder's message.
         why: String,
     },
+}
+
+/// What to do about a scene of so many marks, of which each key of its animation takes at least six.
+fn remedy(marks: usize, moments: usize) -> String {
+    match 12 * moments > marks {
+        true => format!(
+            "{moments} keys of its animation are most of it: choose one clip with --clip, or keep the model as it is, \
+             which renders without being converted"
+        ),
+        false => "Remove objects that are not copies of others".to_owned(),
+    }
 }
 
 /// Limit of keys, values and brackets in the importer of the native format.
@@ -120,7 +133,12 @@ pub fn native(
     let marks = text.bytes().filter(|b| b"[]{}.=,#\"'".contains(b)).count();
     if marks > MAX_MARKS {
         let limit = MAX_MARKS;
-        return Err(ExportError::TooBig { marks, limit });
+        let curves = scene.tracks.iter().map(|track| track.curve.times.len());
+        return Err(ExportError::TooBig {
+            marks,
+            limit,
+            moments: curves.sum(),
+        });
     }
     Ok(Export {
         text,

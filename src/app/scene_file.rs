@@ -1,7 +1,8 @@
 //! Saving a scene as a native file, with its meshes and pictures beside it.
 
 use super::error::AppError;
-use crate::export;
+use crate::export::{self, Export};
+use crate::import::{self, Baking, Memory, Options};
 use crate::output;
 use crate::scene::Scene;
 use std::fs;
@@ -12,7 +13,7 @@ use std::path::{Path, PathBuf};
 /// again, otherwise another name is chosen. `clobber` allows replacing the scene file itself.
 ///
 /// # Errors
-/// The scene is too large, or a file cannot be written. The old scene file is then unchanged, and new files
+/// The scene is too large or extreme for a native scene, or a file cannot be written. The old scene file is then unchanged, and new files
 /// beside it are removed.
 pub fn save(path: &Path, scene: &Scene, clobber: bool) -> Result<Vec<PathBuf>, AppError> {
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -24,6 +25,7 @@ pub fn save(path: &Path, scene: &Scene, clobber: bool) -> Result<Vec<PathBuf>, A
     };
     let made = export::native(scene, &stem, &is_taken);
     let made = made.map_err(|error| AppError::Refused(error.to_string()))?;
+    check(&made)?;
     output::check_file(path, clobber)?;
     let mut written = Vec::new();
     let mut all = Vec::with_capacity(made.files.len() + 1);
@@ -47,4 +49,30 @@ pub fn save(path: &Path, scene: &Scene, clobber: bool) -> Result<Vec<PathBuf>, A
     }
     all.push(path.to_owned());
     Ok(all)
+}
+
+/// Reads what would be written, so that all that is written can be read.
+fn check(made: &Export) -> Result<(), AppError> {
+    const NAME: &str = "scene.toml";
+    let files = made.files.iter();
+    let mut memory: Memory = files
+        .map(|file| (file.name.as_str(), file.bytes.as_slice()))
+        .collect();
+    memory.insert(NAME, made.text.as_bytes());
+    let options = Options {
+        baking: Baking::Never,
+        ..Options::default()
+    };
+    match import::load_from(&memory, NAME, &options) {
+        Ok(_) => Ok(()),
+        Err(error) => {
+            let line = error.fault().excerpt.as_ref();
+            let line = line.map_or(String::new(), |it| format!(" (`{}`)", it.text.trim()));
+            Err(AppError::Refused(format!(
+                "cannot write the scene as a native one: {}{line}. {}.",
+                error.fault().why,
+                error.fault().todo
+            )))
+        }
+    }
 }

@@ -14,6 +14,7 @@ mod compressed;
 mod container;
 mod deform;
 mod document;
+mod document_animation;
 mod document_materials;
 mod extensions;
 mod field_table;
@@ -25,6 +26,7 @@ mod maps;
 mod materials;
 mod mesh;
 mod meshopt;
+mod node_transform;
 mod skins;
 mod store;
 mod textures;
@@ -154,17 +156,19 @@ pub(super) fn read(
     let parts = container::parts(&bytes, blame)?;
     let mut notes = Notes::default();
     let (mut document, remarks) = parse(&bytes[parts.json.clone()], &mut notes, blame)?;
-    if let Some(cut) = &parts.cut {
-        notes.add("parts left out", || {
-            format!("the file is incomplete: {}", cut.fault().why)
-        });
-    }
     let integrator = options.integrator.unwrap_or(LightTransport::Path);
     let traces_paths = integrator == LightTransport::Path;
     extensions::check(&document, traces_paths, &mut notes, blame)?;
-    let mut buffers = Buffers::read(&document, bytes, parts.bin, files, blame)?;
+    let mut faults: Vec<ImportError> = parts.cut.into_iter().collect();
+    let report = &mut |fault| faults.push(fault);
+    let mut buffers = Buffers::read(&document, bytes, parts.bin, files, blame, report)?;
     let in_files = buffers.total();
-    compressed::expand(&mut document, &mut buffers, blame)?;
+    faults.extend(compressed::expand(&mut document, &mut buffers, blame)?);
+    for fault in &faults {
+        notes.add("parts left out", || {
+            format!("left out: {}", fault.fault().why)
+        });
+    }
     let ledger = Ledger {
         blame,
         budget: Budget::of(buffers.total().saturating_add(in_files)),
@@ -179,7 +183,7 @@ pub(super) fn read(
         ledger: &ledger,
         traces_paths,
         notes,
-        fault: parts.cut,
+        fault: faults.into_iter().next(),
         scene: Scene {
             shadows: Shadows::Filtered,
             remarks,

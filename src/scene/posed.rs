@@ -112,12 +112,42 @@ impl Scene {
             instance.node = self.node_of(instance);
         }
         scene.deformations.clear();
+        let carries = scene.carrying_nodes();
         for track in &mut scene.tracks {
-            let is_kept = |target: &Target| !matches!(target, Target::Weight(..));
+            let is_kept = |target: &Target| match *target {
+                Target::Weight(..) => false,
+                // Joints have nothing left to move.
+                Target::Node(node, _) => carries[node],
+                _ => true,
+            };
             track.targets.retain(is_kept);
         }
         scene.tracks.retain(|track| !track.targets.is_empty());
         scene
+    }
+
+    /// For each node whether anything that can be seen or sees is attached to it or to a node below it.
+    fn carrying_nodes(&self) -> Vec<bool> {
+        let mut carries = vec![false; self.nodes.len()];
+        let instances = self.instances.iter().map(|it| it.node);
+        let shapes = self.shapes.iter().map(|it| it.node);
+        let lights = self.lights.iter().map(|it| it.node);
+        let cameras = self.cameras.iter().flat_map(|it| [it.node, it.target]);
+        for node in instances
+            .chain(shapes)
+            .chain(lights)
+            .chain(cameras)
+            .flatten()
+        {
+            carries[node] = true;
+        }
+        // Parents come before their children.
+        for index in (0..self.nodes.len()).rev() {
+            if let (true, Some(parent)) = (carries[index], self.nodes[index].parent) {
+                carries[parent] = true;
+            }
+        }
+        carries
     }
 
     /// Times from 0 to the end of the animation, both included if geometry moves; otherwise only 0.

@@ -3,9 +3,9 @@
 use super::Reader;
 use super::aim::{Aim, Values as ValueKind, map_of};
 use super::document::{AnimationSampler, ChannelTarget, Interpolation as Kinds, Kind};
-use super::hierarchy::{extended, unit};
 use super::map_kinds::all_maps;
 use super::maps;
+use super::node_transform::{extended, unit};
 use crate::import::budget;
 use crate::import::error::{ImportError, one_line};
 use crate::import::source::quote_up_to;

@@ -20,14 +20,17 @@ impl Buffers {
     /// Reads the buffers of `document`. `file` is the whole file and `bin` the part of it that is the
     /// first buffer without a URI.
     ///
+    /// One that is missing or damaged is empty, and one that is too short ends early; `report` gets the faults.
+    ///
     /// # Errors
-    /// A buffer is missing, too short or not permitted.
+    /// A buffer is not permitted.
     pub fn read(
         document: &Document,
         file: Vec<u8>,
         bin: Option<Range<usize>>,
         files: &Files,
         blame: Blame,
+        report: &mut dyn FnMut(ImportError),
     ) -> Result<Self, ImportError> {
         let mut blocks = vec![file];
         let mut places = Vec::with_capacity(document.buffers.len());
@@ -44,27 +47,18 @@ impl Buffers {
                     };
                     (0, bin)
                 }
-                Some(uri) => match source(uri, blame, &place())? {
-                    Source::Bytes(bytes) => {
-                        blocks.push(bytes);
-                        (blocks.len() - 1, 0..blocks[blocks.len() - 1].len())
+                Some(uri) => {
+                    let found = Self::outside(uri, &mut blocks, &mut known, files, blame, &place());
+                    match found {
+                        Ok(block) => (block, 0..blocks[block].len()),
+                        Err(error @ (ImportError::Malformed(_) | ImportError::Unreadable(_))) => {
+                            report(error);
+                            places.push((0, 0..0));
+                            continue;
+                        }
+                        Err(error) => return Err(error),
                     }
-                    Source::File(name) => {
-                        let path = files.resolve(&name);
-                        let path =
-                            path.map_err(|refusal| refused(refusal, "buffer", blame, &place()))?;
-                        let block = match known.get(&path) {
-                            Some(&block) => block,
-                            None => {
-                                let bytes = files.read(&path, crate::import::MAX_GEOMETRY_BYTES)?;
-                                blocks.push(bytes);
-                                known.insert(path, blocks.len() - 1);
-                                blocks.len() - 1
-                            }
-                        };
-                        (block, 0..blocks[block].len())
-                    }
-                },
+                }
             };
             let have = range.len() as u64;
             if buffer.byte_length > have {
@@ -72,14 +66,38 @@ impl Buffers {
                     "byteLength is {}, but only {have} bytes are there",
                     buffer.byte_length
                 );
-                return Err(blame.bad(place(), why));
+                report(blame.bad(place(), why));
             }
-            places.push((
-                block,
-                range.start..range.start + buffer.byte_length as usize,
-            ));
+            let length = buffer.byte_length.min(have) as usize;
+            places.push((block, range.start..range.start + length));
         }
         Ok(Self { blocks, places })
+    }
+
+    /// The block with the contents of `uri`, which is that of the buffer at `place`.
+    fn outside(
+        uri: &str,
+        blocks: &mut Vec<Vec<u8>>,
+        known: &mut HashMap<PathBuf, usize>,
+        files: &Files,
+        blame: Blame,
+        place: &str,
+    ) -> Result<usize, ImportError> {
+        let bytes = match source(uri, blame, place)? {
+            Source::Bytes(bytes) => bytes,
+            Source::File(name) => {
+                let path = files.resolve(&name);
+                let path = path.map_err(|refusal| refused(refusal, "buffer", blame, place))?;
+                if let Some(&block) = known.get(&path) {
+                    return Ok(block);
+                }
+                let bytes = files.read(&path, crate::import::MAX_GEOMETRY_BYTES)?;
+                known.insert(path, blocks.len());
+                bytes
+            }
+        };
+        blocks.push(bytes);
+        Ok(blocks.len() - 1)
     }
 
     /// The bytes of all buffers and of the file together.

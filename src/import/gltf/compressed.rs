@@ -9,7 +9,7 @@ mod draco;
 
 use super::blame::Blame;
 use super::buffers::Buffers;
-use super::document::{CompressedView, Document};
+use super::document::{ABSENT, CompressedView, Document};
 use super::meshopt::{self, Filter, Mode};
 use crate::import::error::ImportError;
 use crate::threads;
@@ -22,6 +22,8 @@ const ALWAYS: u64 = 64 << 20;
 struct Room<'a> {
     left: u64,
     blame: Blame<'a>,
+    /// Why data were left out.
+    faults: Vec<ImportError>,
 }
 
 impl Room<'_> {
@@ -39,6 +41,18 @@ impl Room<'_> {
         }
     }
 
+    /// Whether something can be used; what is malformed is left out.
+    fn spared(&mut self, found: Result<(), ImportError>) -> Result<bool, ImportError> {
+        match found {
+            Ok(()) => Ok(true),
+            Err(fault @ ImportError::Malformed(_)) => {
+                self.faults.push(fault);
+                Ok(false)
+            }
+            Err(error) => Err(error),
+        }
+    }
+
     fn too_big(&self, place: &str) -> ImportError {
         let why = format!(
             "{place}: the compressed data would take more than {PER_BYTE} times the size of the file plus {} MiB",
@@ -49,24 +63,26 @@ impl Room<'_> {
     }
 }
 
-/// Decodes all compressed geometry of `document` into new `buffers`.
+/// Decodes all compressed geometry of `document` into new `buffers`. Returns why some of it was left out: that leads
+/// nowhere.
 ///
 /// # Errors
-/// Compressed data are invalid or too large.
+/// Compressed data are too large.
 pub(super) fn expand(
     document: &mut Document,
     buffers: &mut Buffers,
     blame: Blame,
-) -> Result<(), ImportError> {
+) -> Result<Vec<ImportError>, ImportError> {
     let bytes = buffers.total() as u64;
     let mut room = Room {
         left: ALWAYS.saturating_add(bytes.saturating_mul(PER_BYTE)),
         blame,
+        faults: Vec::new(),
     };
     views(document, buffers, &mut room)?;
     #[cfg(feature = "draco")]
     draco::primitives(document, buffers, &mut room)?;
-    Ok(())
+    Ok(room.faults)
 }
 
 /// Decodes buffer views, several at a time.
@@ -78,58 +94,83 @@ fn views(
     let blame = room.blame;
     let mut found = Vec::new();
     let mut jobs = Vec::new();
+    let mut lost = Vec::new();
     for (index, view) in document.buffer_views.iter().enumerate() {
         let extensions = view.extensions.as_deref();
         let Some(compressed) = extensions.and_then(|it| it.ext.as_ref().or(it.khr.as_ref())) else {
             continue;
         };
         let place = format!("bufferViews[{index}]");
-        let bad = |why: String| blame.bad(&place, why);
-        let mode = match compressed.mode.as_str() {
-            "ATTRIBUTES" => Mode::Attributes,
-            "TRIANGLES" => Mode::Triangles,
-            "INDICES" => Mode::Indices,
-            other => return Err(bad(format!("the mode {other:?} is unknown"))),
-        };
-        let filter = match compressed.filter.as_deref() {
-            None | Some("NONE") => Filter::None,
-            Some("OCTAHEDRAL") => Filter::Octahedral,
-            Some("QUATERNION") => Filter::Quaternion,
-            Some("EXPONENTIAL") => Filter::Exponential,
-            Some("COLOR") => Filter::Color,
-            Some(other) => return Err(bad(format!("the filter {other:?} is unknown"))),
-        };
-        let CompressedView {
-            buffer,
-            byte_offset,
-            byte_length,
-            byte_stride,
-            count,
-            ..
-        } = *compressed;
-        let source = buffers.range(buffer, byte_offset, byte_length, &place, blame)?;
-        if meshopt::least_bytes(mode, count, byte_stride) > source.len() as u64 {
-            let have = source.len();
-            return Err(bad(format!("{have} bytes cannot hold {count} elements")));
+        let planned = planned(compressed, buffers, room, &place).map(|job| {
+            found.push((index, place, job.0, compressed.byte_stride));
+            jobs.push(job);
+        });
+        if !room.spared(planned)? {
+            lost.push(index);
         }
-        room.take(count.saturating_mul(byte_stride), &place)?;
-        // Both fit, as there is room for them.
-        let (count, stride) = (count as usize, byte_stride as usize);
-        jobs.push((mode, filter, count, stride, source));
-        found.push((index, place, mode, byte_stride));
     }
     let decoded = threads::map(jobs, |(mode, filter, count, stride, source)| {
         meshopt::decode(mode, filter, count, stride, source)
     });
     for ((index, place, mode, stride), decoded) in found.into_iter().zip(decoded) {
-        let bytes = decoded.map_err(|why| blame.bad(&place, why))?;
-        let view = &mut document.buffer_views[index];
-        view.byte_offset = 0;
-        view.byte_length = bytes.len() as u64;
-        view.buffer = buffers.push(bytes);
-        if mode == Mode::Attributes {
-            view.byte_stride = Some(stride);
+        let taken = decoded.map_err(|why| blame.bad(&place, why)).map(|bytes| {
+            let view = &mut document.buffer_views[index];
+            view.byte_offset = 0;
+            view.byte_length = bytes.len() as u64;
+            view.buffer = buffers.push(bytes);
+            if mode == Mode::Attributes {
+                view.byte_stride = Some(stride);
+            }
+        });
+        if !room.spared(taken)? {
+            lost.push(index);
         }
     }
+    for index in lost {
+        document.buffer_views[index].buffer = ABSENT;
+    }
     Ok(())
+}
+
+/// What decoding a view takes: its mode and filter, the number and the size of its elements, and its bytes.
+type Job<'b> = (Mode, Filter, usize, usize, &'b [u8]);
+
+fn planned<'b>(
+    compressed: &CompressedView,
+    buffers: &'b Buffers,
+    room: &mut Room,
+    place: &str,
+) -> Result<Job<'b>, ImportError> {
+    let blame = room.blame;
+    let bad = |why: String| blame.bad(place, why);
+    let mode = match compressed.mode.as_str() {
+        "ATTRIBUTES" => Mode::Attributes,
+        "TRIANGLES" => Mode::Triangles,
+        "INDICES" => Mode::Indices,
+        other => return Err(bad(format!("the mode {other:?} is unknown"))),
+    };
+    let filter = match compressed.filter.as_deref() {
+        None | Some("NONE") => Filter::None,
+        Some("OCTAHEDRAL") => Filter::Octahedral,
+        Some("QUATERNION") => Filter::Quaternion,
+        Some("EXPONENTIAL") => Filter::Exponential,
+        Some("COLOR") => Filter::Color,
+        Some(other) => return Err(bad(format!("the filter {other:?} is unknown"))),
+    };
+    let CompressedView {
+        buffer,
+        byte_offset,
+        byte_length,
+        byte_stride,
+        count,
+        ..
+    } = *compressed;
+    let source = buffers.range(buffer, byte_offset, byte_length, place, blame)?;
+    if meshopt::least_bytes(mode, count, byte_stride) > source.len() as u64 {
+        let have = source.len();
+        return Err(bad(format!("{have} bytes cannot hold {count} elements")));
+    }
+    room.take(count.saturating_mul(byte_stride), place)?;
+    // Both fit, as there is room for them.
+    Ok((mode, filter, count as usize, byte_stride as usize, source))
 }

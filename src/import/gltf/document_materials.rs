@@ -2,6 +2,13 @@
 
 use serde::Deserialize;
 
+/// In place of an index that is required, but not there.
+pub const ABSENT: usize = u32::MAX as usize;
+
+pub fn absent() -> usize {
+    ABSENT
+}
+
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 pub struct Material {
@@ -39,7 +46,7 @@ pub struct MetallicRoughness {
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct TextureInfo {
-    #[serde(default = "super::document::absent")]
+    #[serde(default = "absent")]
     pub index: usize,
     #[serde(default)]
     pub tex_coord: u32,

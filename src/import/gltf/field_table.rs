@@ -1,8 +1,60 @@
 //! The properties of glTF 2.0 and of the extensions that are read, and which of them have no effect.
 
-use super::fields::Form::*;
-use super::fields::Use::{Idle, Read, Unused};
-use super::fields::{Form, Object, Use};
+use Form::*;
+use Use::{Idle, Read, Unused};
+
+/// The properties of a kind of objects in the JSON.
+#[derive(Debug)]
+pub struct Object {
+    /// Whether it lists extensions, of which others than these may be there.
+    pub is_extensions: bool,
+    /// By name.
+    pub fields: &'static [(&'static str, Form, Use)],
+}
+
+/// What a property may hold.
+#[derive(Clone, Copy, Debug)]
+pub enum Form {
+    /// A whole number from 0: an index, a count or a code.
+    Whole,
+    /// A list of them.
+    Wholes,
+    /// A number.
+    Number,
+    /// So many numbers.
+    Numbers(usize),
+    /// Any number of numbers.
+    List,
+    /// A string.
+    Text,
+    /// A list of strings.
+    Texts,
+    /// One of these strings.
+    Word(&'static [&'static str]),
+    /// True or false.
+    Flag,
+    /// An object.
+    One(&'static Object),
+    /// A list of objects.
+    Many(&'static Object),
+    /// Indices of accessors by the name of a vertex attribute.
+    Attributes,
+    /// A list of such objects.
+    ManyAttributes,
+    /// Anything.
+    Any,
+}
+
+/// Whether a property has an effect.
+#[derive(Clone, Copy, Debug)]
+pub enum Use {
+    /// It is read.
+    Read,
+    /// It says nothing about the picture.
+    Idle,
+    /// It is not used, for this reason.
+    Unused(&'static str),
+}
 
 /// Objects, whose name in brackets means that they list extensions. Properties without a remark are read.
 macro_rules! objects {
@@ -71,7 +123,7 @@ objects! {
         minVersion: Text;
         generator: Text, Idle;
         copyright: Text, Idle;
-        extensions: One(&DESCRIPTIONS), Idle;
+        extensions: One(&DESCRIPTIONS);
     }
     extensions DESCRIPTIONS {
         KHR_xmp: Any, Idle;
@@ -193,7 +245,7 @@ objects! {
         name: Text;
         uri: Text;
         bufferView: Whole;
-        mimeType: Text, Unused("the picture itself says what it is");
+        mimeType: Text, Idle;
         extensions: One(&NO_EXTENSIONS);
     }
     object MESH {

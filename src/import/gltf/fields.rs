@@ -2,65 +2,12 @@
 //! of a wrong type are repaired or taken out. What is not known, and what is known but not used, is noted by name.
 
 use super::extensions::{LONGEST_NAME, support};
-use super::field_table::ROOT;
+use super::field_table::{Form, Object, ROOT, Use};
 use crate::import::notes::Notes;
 use crate::import::source::quote_up_to;
 use serde_json::{Map, Number, Value};
 use std::collections::BTreeMap;
 use std::fmt;
-
-/// The properties of a kind of objects in the JSON.
-#[derive(Debug)]
-pub struct Object {
-    /// Whether it lists extensions, of which others than these may be there.
-    pub is_extensions: bool,
-    /// By name.
-    pub fields: &'static [(&'static str, Form, Use)],
-}
-
-/// What a property may hold.
-#[derive(Clone, Copy, Debug)]
-pub enum Form {
-    /// A whole number from 0: an index, a count or a code.
-    Whole,
-    /// A list of them.
-    Wholes,
-    /// A number.
-    Number,
-    /// So many numbers.
-    Numbers(usize),
-    /// Any number of numbers.
-    List,
-    /// A string.
-    Text,
-    /// A list of strings.
-    Texts,
-    /// One of these strings.
-    Word(&'static [&'static str]),
-    /// True or false.
-    Flag,
-    /// An object.
-    One(&'static Object),
-    /// A list of objects.
-    Many(&'static Object),
-    /// Indices of accessors by the name of a vertex attribute.
-    Attributes,
-    /// A list of such objects.
-    ManyAttributes,
-    /// Anything.
-    Any,
-}
-
-/// Whether a property has an effect.
-#[derive(Clone, Copy, Debug)]
-pub enum Use {
-    /// It is read.
-    Read,
-    /// It says nothing about the picture.
-    Idle,
-    /// It is not used, for this reason.
-    Unused(&'static str),
-}
 
 /// Most different properties that are told apart.
 const MOST: usize = 100;
@@ -186,12 +133,15 @@ impl Check<'_> {
                 self.unknown(object, here, key);
                 return false;
             };
+            if value.is_null() {
+                return false;
+            }
             match used {
-                Use::Read => {}
+                Use::Read => return self.value(value, *form, here),
                 Use::Idle => self.idle(here),
                 Use::Unused(why) => self.unused(here, why),
             }
-            self.value(value, *form, here)
+            false
         });
     }
 

@@ -39,24 +39,55 @@ pub(super) fn primitives(
             };
             let place = format!("meshes[{m}].primitives[{p}]");
             let view = compressed.buffer_view;
-            let stream = match streams.entry(view) {
-                Entry::Occupied(known) => known.into_mut(),
-                Entry::Vacant(new) => {
-                    let (source, _) = buffers.view(document, view, &place, room.blame)?;
-                    new.insert(decode(source, room, &place)?)
-                }
-            };
-            for (name, &id) in &compressed.attributes {
-                let attribute = primitive.attributes.get_mut(name);
-                let Some(attribute) = attribute else { continue };
-                let here = format!("{place}.attributes.{name}");
-                *attribute = stream.attribute(id, *attribute, document, buffers, room, &here)?;
+            let decoded = decoded(&mut streams, view, document, buffers, room, &place)
+                .and_then(|stream| replaced(primitive, stream, document, buffers, room, &place));
+            if !room.spared(decoded)? {
+                // Its accessors have no values.
+                primitive.attributes.clear();
             }
-            primitive.indices = Some(stream.indices(document, buffers, room, &place)?);
-            primitive.mode = TRIANGLES;
         }
     }
     document.meshes = meshes;
+    Ok(())
+}
+
+/// The data in a buffer view, which several primitives may share.
+fn decoded<'s>(
+    streams: &'s mut HashMap<usize, Decoded>,
+    view: usize,
+    document: &Document,
+    buffers: &Buffers,
+    room: &mut Room,
+    place: &str,
+) -> Result<&'s mut Decoded, ImportError> {
+    Ok(match streams.entry(view) {
+        Entry::Occupied(known) => known.into_mut(),
+        Entry::Vacant(new) => {
+            let (source, _) = buffers.view(document, view, place, room.blame)?;
+            new.insert(decode(source, room, place)?)
+        }
+    })
+}
+
+/// Gives a primitive the decoded data.
+fn replaced(
+    primitive: &mut Primitive,
+    stream: &mut Decoded,
+    document: &mut Document,
+    buffers: &mut Buffers,
+    room: &mut Room,
+    place: &str,
+) -> Result<(), ImportError> {
+    let extensions = primitive.extensions.as_ref();
+    let compressed = extensions.and_then(|it| it.draco.as_ref());
+    for (name, &id) in compressed.iter().flat_map(|it| &it.attributes) {
+        let attribute = primitive.attributes.get_mut(name);
+        let Some(attribute) = attribute else { continue };
+        let here = format!("{place}.attributes.{name}");
+        *attribute = stream.attribute(id, *attribute, document, buffers, room, &here)?;
+    }
+    primitive.indices = Some(stream.indices(document, buffers, room, place)?);
+    primitive.mode = TRIANGLES;
     Ok(())
 }
 
