@@ -55,16 +55,15 @@ pub struct ExportFile {
 pub enum ExportError {
     /// The scene exceeds the native format's limit of keys and values.
     #[error(
-        "scene refused: a scene file would need {marks} keys and values, but the limit is {limit}. {}.",
-        remedy(*marks, *moments)
+        "scene refused: a scene file would need {marks} keys and values, but the limit is {limit}. {todo}."
     )]
     TooBig {
         /// Number of keys, values and brackets.
         marks: usize,
         /// Limit of that number.
         limit: usize,
-        /// Number of keys of its animation.
-        moments: usize,
+        /// What the user can do.
+        todo: &'static str,
     },
     /// An image cannot be encoded.
     #[error("scene refused: an image of {width} × {height} texels cannot be written: {why}.")]
@@ -79,13 +78,12 @@ pub enum ExportError {
 }
 
 /// What to do about a scene of so many marks, of which each key of its animation takes at least six.
-fn remedy(marks: usize, moments: usize) -> String {
-    match 12 * moments > marks {
-        true => format!(
-            "{moments} keys of its animation are most of it: choose one clip with --clip, or keep the model as it is, \
-             which renders without being converted"
-        ),
-        false => "Remove objects that are not copies of others".to_owned(),
+fn remedy(marks: usize, key_count: usize) -> &'static str {
+    match 12 * key_count > marks {
+        true => {
+            "The keys of its animation are most of them: choose one clip with --clip, or render the model as it is"
+        }
+        false => "Remove objects that are not copies of others",
     }
 }
 
@@ -137,7 +135,7 @@ pub fn native(
         return Err(ExportError::TooBig {
             marks,
             limit,
-            moments: curves.sum(),
+            todo: remedy(marks, curves.sum()),
         });
     }
     Ok(Export {

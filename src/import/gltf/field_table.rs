@@ -1,77 +1,9 @@
 //! The properties of glTF 2.0 and of the extensions that are read, and which of them have no effect.
 
-use Form::*;
-use Use::{Idle, Read, Unused};
-
-/// The properties of a kind of objects in the JSON.
-#[derive(Debug)]
-pub struct Object {
-    /// Whether it lists extensions, of which others than these may be there.
-    pub is_extensions: bool,
-    /// By name.
-    pub fields: &'static [(&'static str, Form, Use)],
-}
-
-/// What a property may hold.
-#[derive(Clone, Copy, Debug)]
-pub enum Form {
-    /// A whole number from 0: an index, a count or a code.
-    Whole,
-    /// A list of them.
-    Wholes,
-    /// A number.
-    Number,
-    /// So many numbers.
-    Numbers(usize),
-    /// Any number of numbers.
-    List,
-    /// A string.
-    Text,
-    /// A list of strings.
-    Texts,
-    /// One of these strings.
-    Word(&'static [&'static str]),
-    /// True or false.
-    Flag,
-    /// An object.
-    One(&'static Object),
-    /// A list of objects.
-    Many(&'static Object),
-    /// Indices of accessors by the name of a vertex attribute.
-    Attributes,
-    /// A list of such objects.
-    ManyAttributes,
-    /// Anything.
-    Any,
-}
-
-/// Whether a property has an effect.
-#[derive(Clone, Copy, Debug)]
-pub enum Use {
-    /// It is read.
-    Read,
-    /// It says nothing about the picture.
-    Idle,
-    /// It is not used, for this reason.
-    Unused(&'static str),
-}
-
-/// Objects, whose name in brackets means that they list extensions. Properties without a remark are read.
-macro_rules! objects {
-    ($($(#[$cfg:meta])* $kind:ident $name:ident { $($(#[$own:meta])* $key:ident: $form:expr $(, $used:expr)?;)* })*) => {
-        $(
-            $(#[$cfg])*
-            static $name: Object = Object {
-                is_extensions: objects!(@is $kind),
-                fields: &[$($(#[$own])* (stringify!($key), $form, objects!(@used $($used)?)),)*],
-            };
-        )*
-    };
-    (@is object) => { false };
-    (@is extensions) => { true };
-    (@used) => { Read };
-    (@used $used:expr) => { $used };
-}
+use super::field_forms::Form::*;
+use super::field_forms::Use::{Idle, Read, Unused};
+use super::field_forms::{Form, Object, Use, objects};
+use super::material_fields::MATERIAL;
 
 const PICTURE_SIZE: Use = Unused("the size of the picture decides");
 const NOT_CLIPPED: Use =
@@ -89,7 +21,6 @@ const SHAPES: Form = Word(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "M
 const LIGHTS: Form = Word(&["point", "directional", "spot"]);
 const CAMERAS: Form = Word(&["perspective", "orthographic"]);
 const INTERPOLATIONS: Form = Word(&["LINEAR", "STEP", "CUBICSPLINE"]);
-const ALPHA_MODES: Form = Word(&["OPAQUE", "MASK", "BLEND"]);
 
 objects! {
     object DOCUMENT {
@@ -363,121 +294,4 @@ objects! {
     object VARIANT {
         name: Text;
     }
-    object MATERIAL {
-        name: Text;
-        pbrMetallicRoughness: One(&METALLIC_ROUGHNESS);
-        normalTexture: One(&NORMAL_MAP);
-        occlusionTexture: One(&OCCLUSION_MAP);
-        emissiveTexture: One(&MAP);
-        emissiveFactor: Numbers(3);
-        alphaMode: ALPHA_MODES;
-        alphaCutoff: Number;
-        doubleSided: Flag;
-        extensions: One(&MATERIAL_EXTENSIONS);
-    }
-    object METALLIC_ROUGHNESS {
-        baseColorFactor: Numbers(4);
-        baseColorTexture: One(&MAP);
-        metallicFactor: Number;
-        roughnessFactor: Number;
-        metallicRoughnessTexture: One(&MAP);
-        extensions: One(&NO_EXTENSIONS);
-    }
-    object MAP {
-        index: Whole;
-        texCoord: Whole;
-        extensions: One(&MAP_EXTENSIONS);
-    }
-    object NORMAL_MAP {
-        index: Whole;
-        texCoord: Whole;
-        scale: Number;
-        extensions: One(&MAP_EXTENSIONS);
-    }
-    object OCCLUSION_MAP {
-        index: Whole;
-        texCoord: Whole;
-        strength: Number;
-        extensions: One(&MAP_EXTENSIONS);
-    }
-    extensions MAP_EXTENSIONS {
-        KHR_texture_transform: One(&TRANSFORM);
-    }
-    object TRANSFORM {
-        offset: Numbers(2);
-        rotation: Number;
-        scale: Numbers(2);
-        texCoord: Whole;
-    }
-    extensions MATERIAL_EXTENSIONS {
-        KHR_materials_emissive_strength: One(&EMISSIVE_STRENGTH);
-        KHR_materials_ior: One(&IOR);
-        KHR_materials_transmission: One(&TRANSMISSION);
-        KHR_materials_volume: One(&VOLUME);
-        KHR_materials_specular: One(&SPECULAR);
-        KHR_materials_clearcoat: One(&CLEARCOAT);
-        KHR_materials_sheen: One(&SHEEN);
-        KHR_materials_anisotropy: One(&ANISOTROPY);
-        KHR_materials_iridescence: One(&IRIDESCENCE);
-        KHR_materials_dispersion: One(&DISPERSION);
-        KHR_materials_diffuse_transmission: One(&DIFFUSE_TRANSMISSION);
-        KHR_materials_pbrSpecularGlossiness: One(&SPECULAR_GLOSSINESS);
-        KHR_materials_unlit: One(&UNLIT);
-    }
-    object EMISSIVE_STRENGTH { emissiveStrength: Number; }
-    object IOR { ior: Number; }
-    object TRANSMISSION { transmissionFactor: Number; transmissionTexture: One(&MAP); }
-    object VOLUME {
-        thicknessFactor: Number;
-        thicknessTexture: One(&MAP);
-        attenuationDistance: Number;
-        attenuationColor: Numbers(3);
-    }
-    object SPECULAR {
-        specularFactor: Number;
-        specularTexture: One(&MAP);
-        specularColorFactor: Numbers(3);
-        specularColorTexture: One(&MAP);
-    }
-    object CLEARCOAT {
-        clearcoatFactor: Number;
-        clearcoatTexture: One(&MAP);
-        clearcoatRoughnessFactor: Number;
-        clearcoatRoughnessTexture: One(&MAP);
-        clearcoatNormalTexture: One(&NORMAL_MAP);
-    }
-    object SHEEN {
-        sheenColorFactor: Numbers(3);
-        sheenColorTexture: One(&MAP);
-        sheenRoughnessFactor: Number;
-        sheenRoughnessTexture: One(&MAP);
-    }
-    object ANISOTROPY {
-        anisotropyStrength: Number;
-        anisotropyRotation: Number;
-        anisotropyTexture: One(&MAP);
-    }
-    object IRIDESCENCE {
-        iridescenceFactor: Number;
-        iridescenceTexture: One(&MAP);
-        iridescenceIor: Number;
-        iridescenceThicknessMinimum: Number;
-        iridescenceThicknessMaximum: Number;
-        iridescenceThicknessTexture: One(&MAP);
-    }
-    object DISPERSION { dispersion: Number; }
-    object DIFFUSE_TRANSMISSION {
-        diffuseTransmissionFactor: Number;
-        diffuseTransmissionTexture: One(&MAP);
-        diffuseTransmissionColorFactor: Numbers(3);
-        diffuseTransmissionColorTexture: One(&MAP);
-    }
-    object SPECULAR_GLOSSINESS {
-        diffuseFactor: Numbers(4);
-        diffuseTexture: One(&MAP);
-        specularFactor: Numbers(3);
-        glossinessFactor: Number;
-        specularGlossinessTexture: One(&MAP);
-    }
-    object UNLIT {}
 }

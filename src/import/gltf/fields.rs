@@ -2,7 +2,8 @@
 //! of a wrong type are repaired or taken out. What is not known, and what is known but not used, is noted by name.
 
 use super::extensions::{LONGEST_NAME, support};
-use super::field_table::{Form, Object, ROOT, Use};
+use super::field_forms::{Form, Object, Use};
+use super::field_table::ROOT;
 use crate::import::notes::Notes;
 use crate::import::source::quote_up_to;
 use serde_json::{Map, Number, Value};

@@ -29,6 +29,19 @@ fn inspect_lists_the_contents_of_a_scene() {
 }
 
 #[test]
+fn inspect_places_cameras_and_lights_in_the_world() {
+    let workspace = Workspace::new();
+    let text = "[camera]\nlook_from = [0, 0, 0]\nlook_at = [0, 0, -1]\ncarried_by = \"boom\"\n\
+        [[nodes]]\nname = \"boom\"\ntransform = { translate = [1, 2, 3] }\n\
+        [[lights]]\npoint = { position = [0, 1, 0] }\ncarried_by = \"boom\"";
+    fs::write(workspace.path("boom.toml"), text).expect("a scene");
+    let scene = workspace.run("inspect boom.toml --json").expect(0).json();
+    let place = |x: f64, y: f64, z: f64| serde_json::json!([x, y, z]);
+    assert_eq!(scene["cameras"][0]["look_from"], place(1.0, 2.0, 3.0));
+    assert_eq!(scene["light_list"][0]["position"], place(1.0, 3.0, 3.0));
+}
+
+#[test]
 fn inspect_lists_lenses_and_area_lights() {
     let workspace = Workspace::new();
     let text = "[camera]\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\nlens = { radius = 0.5, blades = 7 }\n\

@@ -4,7 +4,7 @@ use super::Room;
 use crate::import::error::ImportError;
 use crate::import::gltf::accessor::Component;
 use crate::import::gltf::buffers::Buffers;
-use crate::import::gltf::document::{Accessor, BufferView, Document, Kind};
+use crate::import::gltf::document::{Accessor, BufferView, Document, Kind, Primitive};
 use crate::import::source::quote;
 use draco_core::{DecodeLimits, DecoderBuffer, ErrorKind, Mesh, MeshDecoder};
 use std::collections::HashMap;
@@ -80,7 +80,7 @@ fn replaced(
 ) -> Result<(), ImportError> {
     let extensions = primitive.extensions.as_ref();
     let compressed = extensions.and_then(|it| it.draco.as_ref());
-    for (name, &id) in compressed.iter().flat_map(|it| &it.attributes) {
+    for (name, &id) in compressed.into_iter().flat_map(|it| &it.attributes) {
         let attribute = primitive.attributes.get_mut(name);
         let Some(attribute) = attribute else { continue };
         let here = format!("{place}.attributes.{name}");

@@ -159,7 +159,7 @@ fn clips_are_chosen_by_name_and_others_are_left_out() {
     let scene = model.scene();
     assert_eq!(place(&scene, 0.5), DVec3::new(0.5, 0.0, 0.0));
     assert_eq!(
-        scene.skipped,
+        scene.remarks,
         ["the clip 1 `jump` is not played: it moves what an earlier one moves"]
     );
     let files = folder(&[("a.glb", &model.glb())]);

@@ -255,8 +255,34 @@ fn a_flat_scale_is_kept_and_no_extent_hides() {
     let flat = with([1.0, 1.0, 0.0]);
     assert!(flat.nodes[0].visible && world(&flat, &flat.instances[0]).inverse().is_finite());
     let none = with([0.0, 0.0, 0.0]);
-    assert!(!none.nodes[0].visible);
-    assert_eq!(none.skipped.len(), 1, "{:?}", none.skipped);
+    assert!(none.instances.is_empty());
+    assert_eq!(none.skipped, ["the model has no triangles"]);
+}
+
+/// `KHR_lights_punctual` and section 3.10 of glTF 2.0: the scale of lights and cameras does not count.
+#[test]
+fn lights_and_cameras_of_a_node_without_extent_are_kept() {
+    let scene = Model::triangle(json!({}))
+        .with(json!({
+            "scenes": [{ "nodes": [0, 1] }],
+            "nodes": [
+                { "mesh": 0 },
+                {
+                    "scale": [0, 0, 0], "translation": [1, 2, 3], "mesh": 0, "camera": 0,
+                    "extensions": { "KHR_lights_punctual": { "light": 0 } },
+                },
+            ],
+            "cameras": [{ "type": "perspective", "perspective": { "yfov": 1, "znear": 0.1 } }],
+            "extensionsUsed": ["KHR_lights_punctual"],
+            "extensions": { "KHR_lights_punctual": { "lights": [{ "type": "point" }] } },
+        }))
+        .scene();
+    assert_eq!(scene.triangle_count(), 1);
+    let frame = scene.frame(0.0);
+    assert_eq!(frame.camera.look_from, DVec3::new(1.0, 2.0, 3.0));
+    let forward = (frame.camera.look_at - frame.camera.look_from).normalize();
+    assert!(forward.abs_diff_eq(DVec3::NEG_Z, 1e-9), "{forward}");
+    assert!(frame.lights[0].color.min_element() > 0.0);
 }
 
 #[test]
