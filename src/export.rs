@@ -81,7 +81,7 @@ pub enum ExportError {
 fn remedy(marks: usize, key_count: usize) -> &'static str {
     match 12 * key_count > marks {
         true => {
-            "The keys of its animation are most of them: choose one clip with --clip, or render the model as it is"
+            "The keys of its animation are most of them: choose one clip, or render the model as it is"
         }
         false => "Remove objects that are not copies of others",
     }

@@ -39,6 +39,7 @@ fn round(scene: &Scene) -> Result<(Scene, Export), String> {
 fn essence(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     scene.skipped.clear();
+    scene.remarks.clear();
     scene.pin_render_origin();
     scene
         .meshes

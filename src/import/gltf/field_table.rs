@@ -3,7 +3,7 @@
 use super::field_forms::Form::*;
 use super::field_forms::Use::{Idle, Read, Unused};
 use super::field_forms::{Form, Object, Use, objects};
-use super::material_fields::MATERIAL;
+use super::material_fields::{MATERIAL, NO_EXTENSIONS};
 
 const PICTURE_SIZE: Use = Unused("the size of the picture decides");
 const NOT_CLIPPED: Use =
@@ -90,7 +90,6 @@ objects! {
         byteOffset: Whole;
         extensions: One(&NO_EXTENSIONS);
     }
-    extensions NO_EXTENSIONS {}
     object ANIMATION {
         name: Text;
         channels: Many(&CHANNEL);

@@ -7,6 +7,7 @@ use super::field_forms::{Form, Object, objects};
 const ALPHA_MODES: Form = Word(&["OPAQUE", "MASK", "BLEND"]);
 
 objects! {
+    extensions NO_EXTENSIONS {}
     object MATERIAL {
         name: Text;
         pbrMetallicRoughness: One(&METALLIC_ROUGHNESS);

@@ -50,14 +50,4 @@ fn emissive_slivers_that_lose_their_light_are_warned_of() {
     // Without an area nothing is lost.
     let notes = scene("a.toml", sized(1.0, 0.0)).skipped;
     assert_eq!(notes, ["dropped 1 triangle without area"]);
-    // A transform leaves no room between the numbers of f32 at this place.
-    let squashed = sized(1.0, 1.0).replace(
-        "translate = [0, 1, 0]",
-        "scale = [1, 1, 1e-8], translate = [0.1, 1, 0.37]",
-    );
-    let notes = scene("a.toml", &squashed).skipped;
-    assert!(
-        notes.len() == 1 && notes[0].contains("so thin for their distance"),
-        "{notes:?}"
-    );
 }

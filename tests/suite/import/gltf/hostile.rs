@@ -141,7 +141,7 @@ fn references_and_values_out_of_range_are_left_out_and_named() {
         ),
         (
             &|it| it["nodes"][0]["mesh"] = json!(9),
-            "bad model (a.glb): nodes[0]: meshes[9] does not exist",
+            "nodes[0]: meshes[9] does not exist",
         ),
         (
             &|it| it["nodes"][0]["camera"] = json!(-1),
@@ -165,7 +165,7 @@ fn references_and_values_out_of_range_are_left_out_and_named() {
         ),
         (
             &|it| it["meshes"][0]["primitives"][0]["mode"] = json!(7),
-            "bad model (a.glb): meshes[0].primitives[0]: mode 7 is unknown",
+            "meshes[0].primitives[0]: mode 7 is unknown",
         ),
         (
             &|it| it["meshes"][0]["primitives"][0]["material"] = json!(0),
@@ -173,7 +173,7 @@ fn references_and_values_out_of_range_are_left_out_and_named() {
         ),
         (
             &|it| it["meshes"][0]["primitives"][0]["indices"] = json!(0),
-            "bad model (a.glb): accessors[0]: meshes[0].primitives[0].indices must be unsigned integers",
+            "accessors[0]: meshes[0].primitives[0].indices must be unsigned integers",
         ),
         (
             &|it| it["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(1),
@@ -192,7 +192,7 @@ fn references_and_values_out_of_range_are_left_out_and_named() {
         ),
         (
             &|it| it["asset"]["version"] = json!("1.0"),
-            "bad model (a.glb): it is glTF `1.0`, but only version 2.0 is read",
+            "it is glTF `1.0`, but only version 2.0 is read",
         ),
         (&|it| it["asset"] = Value::Null, "it has no `asset`"),
         (
@@ -200,7 +200,7 @@ fn references_and_values_out_of_range_are_left_out_and_named() {
                 it["extensionsRequired"] =
                     json!(["ABC_compression", "KHR_mesh_quantization", "ABC_x"])
             },
-            "bad model (a.glb): it requires extensions that are not supported: `ABC_compression`, `ABC_x`",
+            "it requires extensions that are not supported: `ABC_compression`, `ABC_x`",
         ),
     ];
     let mut verdict = Verdict::on("references");
