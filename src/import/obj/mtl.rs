@@ -81,8 +81,16 @@ impl Library {
         let mut reader = Reader::new(&source);
         let mut habit = Habit::default();
         reader.read(|draft| match draft.values {
-            Values { d: None, tr, .. } if tr == Some(0.0) => habit.zeros += 1,
-            Values { d: None, tr, .. } if tr == Some(1.0) => habit.ones += 1,
+            Values {
+                d: None,
+                tr: Some(0.0),
+                ..
+            } => habit.zeros += 1,
+            Values {
+                d: None,
+                tr: Some(1.0),
+                ..
+            } => habit.ones += 1,
             _ => {}
         });
         reader.note(notes);

@@ -55,24 +55,24 @@ bad scene (a.nff:1:1): unknown entity `\u{89}PNG`. Entities are `v`, `b`, `l`, `
 bad scene (a.nff:1:1): unknown entity `ÿÿÿÿ`. Entities are `v`, `b`, `l`, `f`, `c`, `s`, `p` and `pp`.
 ");
     assert_snapshot!(messages("a.toml", &files), @r"
-bad scene (a.toml): the file is UTF-16. Save it as UTF-8.
-bad scene (a.toml): the file is UTF-16. Save it as UTF-8.
+bad scene (a.toml:1:3): key with no value, expected `=`. See https://toml.io for the syntax.
+bad scene (a.toml:1:3): key with no value, expected `=`. See https://toml.io for the syntax.
 bad scene (a.toml): the file is UTF-16. Save it as UTF-8.
 bad scene (a.toml): the file is UTF-16. Save it as UTF-8.
 bad scene (a.toml:1:10): a zero byte: the file is binary, not text. Name a text file.
-bad scene (a.toml:1:8): a zero byte: the file is binary, not text. Name a text file.
+bad scene (a.toml:1:8): key with no value, expected `=`. See https://toml.io for the syntax.
 bad scene (a.toml:1:1): the byte 0x89 is not UTF-8. Save the file as UTF-8.
 bad scene (a.toml:1:1): the byte 0xff is not UTF-8. Save the file as UTF-8.
 ");
     assert_snapshot!(messages("a.obj", &files), @r"
-bad model (a.obj): the file is UTF-16. Save it as UTF-8.
-bad model (a.obj): the file is UTF-16. Save it as UTF-8.
+bad model (a.obj:1:1): `1` is not an OBJ statement. Check that this is a Wavefront OBJ file.
+bad model (a.obj:1:1): `1` is not an OBJ statement. Check that this is a Wavefront OBJ file.
 bad model (a.obj): the file is UTF-16. Save it as UTF-8.
 bad model (a.obj): the file is UTF-16. Save it as UTF-8.
 bad model (a.obj:1:10): a zero byte: the file is binary, not text. Name a text file.
-bad model (a.obj:1:8): a zero byte: the file is binary, not text. Name a text file.
-bad model (a.obj:1:1): `�PNG` is not an OBJ statement. Check that this is a Wavefront OBJ file.
-bad model (a.obj:1:1): `����` is not an OBJ statement. Check that this is a Wavefront OBJ file.
+bad model (a.obj:1:1): `\u{7f}ELF\u{2}\u{1}\u{1}` is not an OBJ statement. Check that this is a Wavefront OBJ file.
+bad model (a.obj:1:1): `\u{89}PNG` is not an OBJ statement. Check that this is a Wavefront OBJ file.
+bad model (a.obj:1:1): `ÿÿÿÿ` is not an OBJ statement. Check that this is a Wavefront OBJ file.
 ");
 }
 

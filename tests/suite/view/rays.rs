@@ -113,10 +113,10 @@ fn branches_fold_and_unfold_by_name() {
     window.settle();
     assert!(shows(&window, "Ray 1: "));
     // A ray tells about itself once it is chosen.
-    assert!(!shows(&window, "throughput"));
+    assert!(!shows(&window, "origin"));
     window.harness.get_by_label_contains("Ray 0: ").click();
     window.settle();
-    assert!(shows(&window, "throughput"));
+    assert!(shows(&window, "origin"));
 }
 
 #[test]
