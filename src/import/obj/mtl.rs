@@ -80,17 +80,9 @@ impl Library {
     pub fn new(source: Source, notes: &mut Notes) -> Self {
         let mut reader = Reader::new(&source);
         let mut habit = Habit::default();
-        reader.read(|draft| match draft.values {
-            Values {
-                d: None,
-                tr: Some(0.0),
-                ..
-            } => habit.zeros += 1,
-            Values {
-                d: None,
-                tr: Some(1.0),
-                ..
-            } => habit.ones += 1,
+        reader.read(|draft| match (draft.values.d, draft.values.tr) {
+            (None, Some(0.0)) => habit.zeros += 1,
+            (None, Some(1.0)) => habit.ones += 1,
             _ => {}
         });
         reader.note(notes);

@@ -206,8 +206,8 @@ fn the_curve_of_paths_comes_with_its_transfer_function() {
 fn depth_0_is_said_where_a_scene_has_a_mirror_or_glass() {
     let workspace = Workspace::new();
     let course = |specular: f64| SCENE.replace("spe: 0.2 0.2 0.2", &format!("spe: 0 {specular} 0"));
-    workspace.write("mirror.scene", &course(0.9));
-    workspace.write("glossy.scene", &course(0.6));
+    workspace.write("mirror.scene", course(0.9));
+    workspace.write("glossy.scene", course(0.6));
     let glass = "[output]\nmax_depth = 0\n[materials]\nglass = { refract = { ior = 1.5 } }\n[[lights]]\n\
                  point = { position = [3, 3, 3] }\n[[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n\
                  material = \"glass\"\n";
