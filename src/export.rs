@@ -62,7 +62,7 @@ pub enum ExportError {
         marks: usize,
         /// Limit of that number.
         limit: usize,
-        /// What the user can do.
+        /// Advice to the user.
         todo: &'static str,
     },
     /// An image cannot be encoded.
@@ -77,7 +77,7 @@ pub enum ExportError {
     },
 }
 
-/// What to do about a scene of so many marks, of which each key of its animation takes at least six.
+/// The advice on a scene that needs too many keys and values. Each key of its animation takes at least six of them.
 fn remedy(marks: usize, key_count: usize) -> &'static str {
     match 12 * key_count > marks {
         true => {

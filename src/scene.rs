@@ -119,7 +119,7 @@ pub struct Scene {
     /// What the importer skipped or repaired: the first few of each kind, a sentence each, and how many
     /// more there were.
     pub skipped: Vec<String>,
-    /// What the file has and the picture does not depend on, or what is decided otherwise, a sentence each.
+    /// Properties of the file on which the picture does not depend, or which are decided otherwise; a sentence each.
     pub remarks: Vec<String>,
 }
 

@@ -23,7 +23,7 @@ struct Kind {
     key: &'static str,
     what: &'static str,
     count: usize,
-    /// Of the first.
+    /// The line of the first such value.
     line: usize,
 }
 

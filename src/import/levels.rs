@@ -3,7 +3,7 @@
 use super::notes::Notes;
 use glam::Vec3;
 
-/// What divides colours so that they are from 0 to 1: 255 or 65,535 if all are whole numbers up to it, and one is above 1.
+/// The divisor that brings colours to 0 to 1: 255 or 65,535 if all are whole numbers up to it and one is above 1; otherwise 1.
 fn most(colors: &[Vec3]) -> f32 {
     let channels = || colors.iter().flat_map(|color| color.to_array());
     if !channels().all(|c| c.fract() == 0.0) {

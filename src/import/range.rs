@@ -127,7 +127,7 @@ impl Counts {
         }
     }
 
-    /// What is no number becomes 0.
+    /// NaN becomes 0.
     fn colors(&mut self, colors: &mut [Vec4]) {
         for color in colors.iter_mut().filter(|color| !is_color(color)) {
             *color = color.map(|c| if c > 0.0 { c.min(COEFFICIENT) } else { 0.0 });

@@ -31,7 +31,7 @@ pub struct Emissive {
     glow: Glimmer,
 }
 
-/// What differs in emission between triangles of one material.
+/// The differences in emission between triangles of one material.
 #[derive(Clone, Copy, Debug)]
 struct Glimmer {
     /// The mean luminance of the texture.

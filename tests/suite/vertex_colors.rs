@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 const SIDE: u32 = 32;
 
-/// What is behind surfaces with holes.
+/// The surface behind those with holes.
 const BEHIND: Vec3 = vec3(0.1, 0.2, 0.3);
 
 /// A square that fills the picture, whose material is `material`, with the colour `at` its u and v.

@@ -253,7 +253,7 @@ impl Reader<'_> {
         shown.map(|&material| material as usize)
     }
 
-    /// What `of` gives for a material of the file, if something shows it.
+    /// The target that `of` gives for a material of the file, if something shows it.
     fn targets_of_material(
         &self,
         index: usize,

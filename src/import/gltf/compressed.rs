@@ -132,7 +132,7 @@ fn views(
     Ok(())
 }
 
-/// What decoding a view takes: its mode and filter, the number and the size of its elements, and its bytes.
+/// The input of a view's decoder: mode and filter, the number and the size of the elements, and the bytes.
 type Job<'b> = (Mode, Filter, usize, usize, &'b [u8]);
 
 fn planned<'b>(

@@ -51,7 +51,7 @@ pub(super) fn parts(bytes: &[u8], blame: Blame) -> Result<Parts, ImportError> {
         parts.cut = cut(format!("{} of {length} bytes are there", bytes.len()));
     }
     let mut at = 12;
-    // What follows the length of the header is not part of the model.
+    // Bytes beyond the length in the header are not part of the model.
     while let (true, Some(size), Some(kind)) = (at < length, word(at), word(at + 4)) {
         let mut chunk = at + 8..(at + 8).saturating_add(size as usize);
         if chunk.end > bytes.len() {

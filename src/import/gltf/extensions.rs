@@ -118,7 +118,7 @@ fn remedy(lacking: &[String]) -> &'static str {
     }
 }
 
-/// What happens with the extension `name`, if it is known.
+/// How the extension `name` is treated, if it is known.
 pub(super) fn support(name: &str) -> Option<Support> {
     let mut known = GLTF_EXTENSIONS.iter();
     known.find(|(known, _)| *known == name).map(|(_, it)| *it)

@@ -9,7 +9,7 @@ pub struct Object {
     pub fields: &'static [(&'static str, Form, Use)],
 }
 
-/// What a property may hold.
+/// The values that a property may hold.
 #[derive(Clone, Copy, Debug)]
 pub enum Form {
     /// A whole number from 0: an index, a count or a code.
@@ -18,7 +18,7 @@ pub enum Form {
     Wholes,
     /// A number.
     Number,
-    /// So many numbers.
+    /// A list of this many numbers.
     Numbers(usize),
     /// Any number of numbers.
     List,
@@ -45,11 +45,11 @@ pub enum Form {
 /// Whether a property has an effect.
 #[derive(Clone, Copy, Debug)]
 pub enum Use {
-    /// It is read.
+    /// The property is read.
     Read,
-    /// It says nothing about the picture.
+    /// The property says nothing about the picture.
     Idle,
-    /// It is not used, for this reason.
+    /// The property is not used, for this reason.
     Unused(&'static str),
 }
 

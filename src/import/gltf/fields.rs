@@ -36,7 +36,7 @@ impl fmt::Display for Place<'_> {
 }
 
 impl Place<'_> {
-    /// The same for all elements of lists.
+    /// This place with `[]` for each index, so that all elements of a list share one.
     fn pattern(&self) -> String {
         match self {
             Self::Root => String::new(),
@@ -62,7 +62,7 @@ struct Alike {
     count: usize,
 }
 
-/// What the check finds.
+/// The findings of the check.
 struct Check<'n> {
     unknown: BTreeMap<String, Alike>,
     unused: BTreeMap<String, (Alike, &'static str)>,
@@ -218,7 +218,7 @@ impl Check<'_> {
             Form::Wholes => self.each(value, here, |_, part, _| {
                 let is_whole = whole(part);
                 if !is_whole {
-                    // It leads nowhere, so that others keep their places.
+                    // An index that leads nowhere keeps the others in their places.
                     *part = u32::MAX.into();
                 }
                 is_whole
@@ -282,11 +282,11 @@ impl Check<'_> {
     }
 }
 
-/// What is wrong with a value.
+/// The fault of a value.
 enum Problem {
-    /// It was repaired: how.
+    /// The value was repaired, in this way.
     Kept(String),
-    /// It cannot be used: what is expected.
+    /// The value cannot be used; this is expected.
     Lost(String),
 }
 

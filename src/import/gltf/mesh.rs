@@ -29,7 +29,7 @@ struct Vertices {
     colors: Vec<Vec4>,
     /// Zero where the file's have no direction.
     tangents: Vec<Vec4>,
-    /// Those whose position is not finite.
+    /// Vertices whose position is not finite.
     broken: HashSet<u32>,
 }
 

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-/// What replaces a scale of 0, relative to the largest of the three, so that transforms are invertible.
+/// Replaces a scale of 0, relative to the largest of the three, so that transforms are invertible.
 const FLAT: f64 = 1e-6;
 
 /// `q` with unit length, if it has a length.

@@ -106,7 +106,7 @@ fn corner(source: &Source, faults: &mut Faults, word: Token, counts: [usize; 3])
     })
 }
 
-/// What the indices of a corner are of, and what becomes of those that do not exist.
+/// The arrays that the indices of a corner point into, and what becomes of indices that do not exist.
 const LACKING: [(&str, &str); 3] = [
     ("vertex", "faces with vertices that do not exist skipped"),
     (

@@ -196,7 +196,7 @@ impl<'s> Reader<'s> {
         colors
     }
 
-    /// Those of `vertices`, which are corners.
+    /// The entries of `vertices` at these corners.
     pub(super) fn corner_colors(&self, vertices: &[u32], colors: &[Vec4]) -> Vec<Vec4> {
         let color = |&vertex: &u32| {
             let position = self.corners[vertex as usize].position as usize;

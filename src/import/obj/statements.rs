@@ -1,6 +1,6 @@
 //! The statements of OBJ files, in any case.
 
-/// What a statement is.
+/// The kinds of statements.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Statement {
     Vertex,

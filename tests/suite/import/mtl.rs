@@ -475,7 +475,7 @@ fn values_of_materials_that_cannot_be_used_are_repaired_and_reported() {
 `illum`: without a number skipped: 1 (line 13 of a.mtl)
 `newmtl`: materials without a name: 1 (line 14 of a.mtl)
 ");
-    // What comes before the first material, and binary files.
+    // Keys before the first material, and binary files.
     for (library, note) in [
         (
             &b"Kd 1 0 0\nnewmtl a\n"[..],

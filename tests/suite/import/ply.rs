@@ -171,7 +171,7 @@ fn of_too_many_colours_of_points_the_upper_bits_are_kept() {
         "a.ply",
         text("uchar red, uchar green, uchar blue", &vertices, &[]),
     );
-    // Those of the points, and the ground.
+    // The materials of the points, and of the ground.
     assert_eq!(scene.materials.len(), 32 * 32 * 32 + 1);
     let note = "colours of points reduced to 5 bits a channel: there are too many";
     assert!(

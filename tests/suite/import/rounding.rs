@@ -1,7 +1,8 @@
 //! Scenes whose light f32 would change are warned of, and others are not.
 
-use super::scene;
+use super::{folder, scene};
 use crate::support::verdict::Verdict;
+use glimray::import;
 
 /// A scene of this size with a mesh: a triangle and a lamp of this width in its plane, scaled by `thin` across it.
 fn sized(size: f64, thin: f64) -> String {
@@ -50,4 +51,16 @@ fn emissive_slivers_that_lose_their_light_are_warned_of() {
     // Without an area nothing is lost.
     let notes = scene("a.toml", sized(1.0, 0.0)).skipped;
     assert_eq!(notes, ["dropped 1 triangle without area"]);
+    // A transform leaves no room between the numbers of f32 at this place.
+    let placed = sized(1.0, 1.0)
+        + "[[objects]]\nmesh = { file = \"a.obj\" }\nmaterial = \"lamp\"\n\
+           transform = { translate = [0.1, 1, 100.37] }\n";
+    let sliver = "v 0 0 0\nv 4 0 0\nv 0 0 1e-5\nf 1 2 3\n";
+    let folder = folder(&[("a.toml", placed.as_bytes()), ("a.obj", sliver.as_bytes())]);
+    let notes = import::load(&folder.path().join("a.toml")).expect("a scene");
+    let notes = notes.skipped;
+    assert!(
+        notes.len() == 1 && notes[0].contains("so thin for their distance"),
+        "{notes:?}"
+    );
 }

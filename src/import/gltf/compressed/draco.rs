@@ -42,7 +42,7 @@ pub(super) fn primitives(
             let decoded = decoded(&mut streams, view, document, buffers, room, &place)
                 .and_then(|stream| replaced(primitive, stream, document, buffers, room, &place));
             if !room.spared(decoded)? {
-                // Its accessors have no values.
+                // The accessors of a primitive that cannot be decoded have no values.
                 primitive.attributes.clear();
             }
         }

@@ -1,7 +1,7 @@
 //! The keys of material libraries: those of MTL, version 4.2, of its physically based extension, and others that
 //! exporters write. They may have any case.
 
-/// What a key of a material is.
+/// The meaning of a key of a material.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Key {
     /// Begins a material.
@@ -39,7 +39,7 @@ pub(super) enum Number {
     Rotation,
 }
 
-/// What a picture multiplies.
+/// The coefficient that a picture multiplies.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Slot {
     Diffuse,

@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3};
 /// An image that multiplies a colour or a number.
 #[derive(Clone, Copy)]
 pub(in super::super) struct Map<N> {
-    /// Its file.
+    /// The name of the picture's file.
     pub name: N,
     /// By `-s` and `-o`.
     pub picture_from_uv: DAffine3,
