@@ -309,8 +309,7 @@ packed! {
         sample_count: u32,
         /// Chance with which a path samples this light, without a light tree.
         chance: f32,
-        /// The bits of the sum of the chances of the lights before it, as a float. With a light tree the way from the
-        /// root: bit k is set if it is under the second child at depth k.
+        /// The bits of the sum of the chances of the lights before it, as a float; with a light tree its trail.
         place: u32,
         /// Whether rays can hit it, 0 or 1.
         visible: u32,
@@ -323,15 +322,12 @@ packed! {
         power: f32,
         /// Half of the diagonal of the box, squared.
         radius2: f32,
-        /// The index of the first of two clusters, with [`LIGHT_BY_POWER`] if these are chosen by power alone; or
-        /// [`LIGHT_LEAF`] with the index of a light, or also with [`LIGHT_EMITTERS`] that of a group of emitters. With
-        /// [`LIGHT_TWO_SIDED`] as the cluster is.
+        /// The first of two clusters, with [`LIGHT_BY_POWER`] if power alone chooses; or [`LIGHT_LEAF`] with a light, or also
+        /// with [`LIGHT_EMITTERS`] a group of emitters. With [`LIGHT_TWO_SIDED`] as the cluster is.
         child: u32,
-        /// The axis of the cone, by signed 16-bit fractions: x and y where its octahedron is cut along its edges and laid
-        /// flat (Meyer and others 2010).
+        /// The axis of the cone: octahedral x and y as signed 16-bit fractions (Meyer and others 2010).
         axis: u32,
-        /// Signed 16-bit fractions: the cosine of the cone's half angle, and above it that of the angle from a light's
-        /// direction beyond which it sends nothing.
+        /// Signed 16-bit cosines: of the cone's half angle; above it, of the angle from which on a light sends nothing.
         cones: u32,
     }
     /// An emissive triangle or shape that paths sample as a light. Emitters are sorted by instance, then by primitive.
@@ -368,6 +364,10 @@ packed! {
     PackedFrame {
         /// The camera in use.
         camera: PackedCamera,
+        /// Distances of its near and far planes along its viewing direction; 0 for none.
+        clip: [f32; 2],
+        /// Unused.
+        _pad0: [u32; 2],
         /// Linear radiance of rays that hit nothing; gradient: straight down; picture: its factor.
         background: [f32; 3],
         /// Number of lights, at least 1.

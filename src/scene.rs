@@ -198,6 +198,10 @@ pub struct Camera {
     pub orthographic_height: Option<f64>,
     /// `None` for a pinhole, which renders everything in focus.
     pub lens: Option<Lens>,
+    /// Distances along the viewing direction, in scene units, of the planes between which the camera sees: the nearer
+    /// one is at least 0, the other one beyond it, possibly infinite. Other light than that to the camera is not
+    /// clipped: shadows and mirror images stay whole.
+    pub clip: (f64, f64),
     /// Index into [`Scene::nodes`] of the parent node; `None` is the world.
     pub node: Option<usize>,
     /// Index into [`Scene::nodes`] of a node whose origin the camera looks at, instead of `look_at`.
@@ -217,6 +221,11 @@ pub struct Lens {
     pub blade_rotation: f64,
 }
 
+impl Camera {
+    /// The planes of a camera that sees all that is in front of it.
+    pub const UNCLIPPED: (f64, f64) = (0.0, f64::INFINITY);
+}
+
 impl Default for Camera {
     /// The course's camera: at the origin, looking along −Z, up +Y, with a field of view of 60°.
     fn default() -> Self {
@@ -228,6 +237,7 @@ impl Default for Camera {
             fov_y: std::f64::consts::FRAC_PI_3,
             orthographic_height: None,
             lens: None,
+            clip: Self::UNCLIPPED,
             node: None,
             target: None,
         }

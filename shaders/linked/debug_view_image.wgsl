@@ -31,7 +31,7 @@ fn view(batch: dispatch__Batch, ray: tracing__Ray) -> vec3f {
 		return vec3f(0.0);
 	}
 	if (bindings__VIEW == types__VIEW_DEPTH) {
-		return vec3f(hit.t, 1.0, 0.0);
+		return vec3f(dispatch__way_to_near(batch, ray.direction) + hit.t, 1.0, 0.0);
 	}
 	let surface = surface__surface_at(ray, hit, footprint__camera_cone(batch, ray.direction));
 	if (bindings__VIEW == types__VIEW_IDS) {
@@ -64,6 +64,7 @@ var<private> dispatch__kept_light: f32;
 
 struct dispatch__Batch {
 	camera: types__PackedCamera,
+	clip: vec2f,
 	background: vec3f,
 	background_top: vec3f,
 	background_rotation: f32,
@@ -100,7 +101,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 		albedo__albedo_first = bindings__frame.albedo_first;
 	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__dispatch.shared_samples, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group, bindings__frame.sun, bindings__frame.sun_chance);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.clip, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__dispatch.shared_samples, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group, bindings__frame.sun, bindings__frame.sun_chance);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> tracing__Ray {
@@ -116,16 +117,31 @@ fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: 
 		shutter__shutter_time = dispatch__sample_time(sample, key);
 	}
 	let camera = shutter__shutter_camera(batch.camera);
+	let ray = dispatch__ray_through(camera, position, batch.picture_size, sample, key);
+	if (bindings__HAS_CLIP) {
+		return camera__clipped_ray(camera, batch.clip, ray);
+	}
+	return ray;
+}
+
+fn dispatch__ray_through(camera: types__PackedCamera, position: vec2f, size: vec2f, sample: u32, key: u32) -> tracing__Ray {
 	if (bindings__HAS_LENS && bindings__ORTHOGRAPHIC) {
-		return camera__parallel_lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
+		return camera__parallel_lens_ray(camera, position, size, sampling__stratified_34(sample, key));
 	}
 	if (bindings__HAS_LENS) {
-		return camera__lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
+		return camera__lens_ray(camera, position, size, sampling__stratified_34(sample, key));
 	}
 	if (bindings__ORTHOGRAPHIC) {
-		return camera__parallel_ray(camera, position, batch.picture_size);
+		return camera__parallel_ray(camera, position, size);
 	}
-	return camera__camera_ray(camera, position, batch.picture_size);
+	return camera__camera_ray(camera, position, size);
+}
+
+fn dispatch__way_to_near(batch: dispatch__Batch, direction: vec3f) -> f32 {
+	if (bindings__HAS_CLIP) {
+		return camera__along_ray(shutter__shutter_camera(batch.camera), batch.clip.x, direction);
+	}
+	return 0.0;
 }
 
 fn dispatch__sample_time(sample: u32, key: u32) -> f32 {
@@ -439,6 +455,8 @@ struct types__PackedCamera {
 
 struct types__PackedFrame {
 	camera: types__PackedCamera,
+	clip: vec2f,
+	_pad0: vec2u,
 	background: vec3f,
 	light_count: u32,
 	ambient: vec3f,
@@ -714,6 +732,8 @@ override bindings__HAS_REFRACTION: bool = true;
 override bindings__HAS_CONTACT: bool = true;
 
 override bindings__HAS_LENS: bool = true;
+
+override bindings__HAS_CLIP: bool = true;
 
 override bindings__FILTER: u32 = types__FILTER_BOX;
 
@@ -2157,6 +2177,16 @@ fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size:
 	return tracing__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
+fn camera__clipped_ray(camera: types__PackedCamera, clip: vec2f, ray: tracing__Ray) -> tracing__Ray {
+	let start = ray.origin + camera__along_ray(camera, clip.x, ray.direction) * ray.direction;
+	let length = camera__along_ray(camera, clip.y - clip.x, ray.direction);
+	return tracing__Ray(start, select(length, camera__T_FAR, clip.y == 0.0), ray.direction, ray.leaving, ray.leaving_instance);
+}
+
+fn camera__along_ray(camera: types__PackedCamera, distance: f32, direction: vec3f) -> f32 {
+	return distance / dot(normalize(camera.forward), direction);
+}
+
 fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
 	var aperture = warp__disc_from_square(u);
 	if (camera.blade_count >= 3u) {
@@ -2543,7 +2573,8 @@ fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> tracing__
 	if (bindings__ORTHOGRAPHIC) {
 		return tracing__Cone(side, 0.0);
 	}
-	return tracing__Cone(0.0, side * max_f32(dot(direction, camera.forward), 0.0));
+	let spread = side * max_f32(dot(direction, camera.forward), 0.0);
+	return tracing__Cone(spread * dispatch__way_to_near(batch, direction), spread);
 }
 
 fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {

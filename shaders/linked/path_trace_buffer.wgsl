@@ -67,6 +67,7 @@ var<private> dispatch__kept_light: f32;
 
 struct dispatch__Batch {
 	camera: types__PackedCamera,
+	clip: vec2f,
 	background: vec3f,
 	background_top: vec3f,
 	background_rotation: f32,
@@ -103,7 +104,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 		albedo__albedo_first = bindings__frame.albedo_first;
 	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__dispatch.shared_samples, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group, bindings__frame.sun, bindings__frame.sun_chance);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.clip, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__dispatch.shared_samples, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group, bindings__frame.sun, bindings__frame.sun_chance);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> tracing__Ray {
@@ -119,16 +120,40 @@ fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: 
 		shutter__shutter_time = dispatch__sample_time(sample, key);
 	}
 	let camera = shutter__shutter_camera(batch.camera);
+	let ray = dispatch__ray_through(camera, position, batch.picture_size, sample, key);
+	if (bindings__HAS_CLIP) {
+		return camera__clipped_ray(camera, batch.clip, ray);
+	}
+	return ray;
+}
+
+fn dispatch__ray_through(camera: types__PackedCamera, position: vec2f, size: vec2f, sample: u32, key: u32) -> tracing__Ray {
 	if (bindings__HAS_LENS && bindings__ORTHOGRAPHIC) {
-		return camera__parallel_lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
+		return camera__parallel_lens_ray(camera, position, size, sampling__stratified_34(sample, key));
 	}
 	if (bindings__HAS_LENS) {
-		return camera__lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
+		return camera__lens_ray(camera, position, size, sampling__stratified_34(sample, key));
 	}
 	if (bindings__ORTHOGRAPHIC) {
-		return camera__parallel_ray(camera, position, batch.picture_size);
+		return camera__parallel_ray(camera, position, size);
 	}
-	return camera__camera_ray(camera, position, batch.picture_size);
+	return camera__camera_ray(camera, position, size);
+}
+
+fn dispatch__way_to_near(batch: dispatch__Batch, direction: vec3f) -> f32 {
+	if (bindings__HAS_CLIP) {
+		return camera__along_ray(shutter__shutter_camera(batch.camera), batch.clip.x, direction);
+	}
+	return 0.0;
+}
+
+fn dispatch__way_to_far(batch: dispatch__Batch, p: vec3f, direction: vec3f) -> f32 {
+	if (!bindings__HAS_CLIP || batch.clip.y == 0.0) {
+		return camera__T_FAR;
+	}
+	let camera = shutter__shutter_camera(batch.camera);
+	let depth = dot(p - camera.origin, normalize(camera.forward));
+	return camera__along_ray(camera, max_f32(batch.clip.y - depth, 0.0), direction);
 }
 
 fn dispatch__sample_time(sample: u32, key: u32) -> f32 {
@@ -591,6 +616,8 @@ struct types__PackedCamera {
 
 struct types__PackedFrame {
 	camera: types__PackedCamera,
+	clip: vec2f,
+	_pad0: vec2u,
 	background: vec3f,
 	light_count: u32,
 	ambient: vec3f,
@@ -923,6 +950,8 @@ override bindings__LIGHT_KIND: u32 = types__MIXED_LIGHTS;
 override bindings__LIGHT_ATTENUATION: u32 = types__MIXED_LIGHTS;
 
 override bindings__HAS_LENS: bool = true;
+
+override bindings__HAS_CLIP: bool = true;
 
 override bindings__FILTER: u32 = types__FILTER_BOX;
 
@@ -1443,7 +1472,8 @@ fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, pixel: vec2u, sam
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, ray.origin, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(rays__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
+	let eye = ray.origin - dispatch__way_to_near(batch, ray.direction) * ray.direction;
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, eye, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(rays__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
 }
 
 fn path__is_going(path: path__Path) -> bool {
@@ -1507,9 +1537,12 @@ fn path__ended(path: path__Path) -> path__Path {
 	return last;
 }
 
-fn path__passed(path: path__Path, surface: shading__Surface) -> path__Path {
+fn path__passed(batch: dispatch__Batch, path: path__Path, surface: shading__Surface) -> path__Path {
 	var next = path;
 	next.ray = leaving__leaving_ray(surface, path.ray.direction, camera__T_FAR);
+	if (path.bounces == 0u) {
+		next.ray.t_max = dispatch__way_to_far(batch, next.ray.origin, next.ray.direction);
+	}
 	next.passes += 1u;
 	next.kind = ray_states__KIND_REFRACTED;
 	return next;
@@ -1861,7 +1894,8 @@ fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> tracing__
 	if (bindings__ORTHOGRAPHIC) {
 		return tracing__Cone(side, 0.0);
 	}
-	return tracing__Cone(0.0, side * max_f32(dot(direction, camera.forward), 0.0));
+	let spread = side * max_f32(dot(direction, camera.forward), 0.0);
+	return tracing__Cone(spread * dispatch__way_to_near(batch, direction), spread);
 }
 
 fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
@@ -1934,6 +1968,141 @@ fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) 
 	}
 	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
 	return select(-bend, bend, side < 0.0) / 3.0;
+}
+
+const camera__T_FAR: f32 = 3e38;
+
+fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
+	return tracing__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+	let x = 2.0 * position.x / size.x - 1.0;
+	let y = 1.0 - 2.0 * position.y / size.y;
+	return camera.forward + x * camera.right + y * camera.up;
+}
+
+fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
+	let origin = camera.origin + camera__across(camera, position, size);
+	return tracing__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+	let x = 2.0 * position.x / size.x - 1.0;
+	let y = 1.0 - 2.0 * position.y / size.y;
+	return x * camera.right + y * camera.up;
+}
+
+fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
+	let off_axis = camera__aperture_point(camera, u);
+	let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
+	return tracing__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
+	let off_axis = camera__aperture_point(camera, u);
+	let origin = camera.origin + camera__across(camera, position, size) + off_axis;
+	let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
+	return tracing__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__clipped_ray(camera: types__PackedCamera, clip: vec2f, ray: tracing__Ray) -> tracing__Ray {
+	let start = ray.origin + camera__along_ray(camera, clip.x, ray.direction) * ray.direction;
+	let length = camera__along_ray(camera, clip.y - clip.x, ray.direction);
+	return tracing__Ray(start, select(length, camera__T_FAR, clip.y == 0.0), ray.direction, ray.leaving, ray.leaving_instance);
+}
+
+fn camera__along_ray(camera: types__PackedCamera, distance: f32, direction: vec3f) -> f32 {
+	return distance / dot(normalize(camera.forward), direction);
+}
+
+fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
+	var aperture = warp__disc_from_square(u);
+	if (camera.blade_count >= 3u) {
+		aperture = warp__polygon_from_square(u, camera.blade_count, camera.blade_rotation);
+	}
+	let p = camera.lens_radius * aperture;
+	return p.x * normalize(camera.right) + p.y * normalize(camera.up);
+}
+
+var<private> shutter__shutter_time: f32;
+
+fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
+	if (bindings__CAMERA_MOTION) {
+		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
+		return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
+	}
+	return still;
+}
+
+fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
+	var light: types__PackedLight;
+	if (bindings__LIGHT_MOTION) {
+		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
+		let place = moment.key * light_count + index;
+		light = motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
+	}
+	else {
+		light = fetch__load_light(index);
+	}
+	if (bindings__LIGHT_KIND != types__MIXED_LIGHTS) {
+		light.kind = bindings__LIGHT_KIND;
+	}
+	if (bindings__LIGHT_ATTENUATION != types__MIXED_LIGHTS) {
+		light.attenuation = bindings__LIGHT_ATTENUATION;
+	}
+	return light;
+}
+
+struct motion__Moment {
+	key: u32,
+	fraction: f32
+}
+
+fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
+	let intervals = max(key_count, 2u) - 1u;
+	let at = time * f32(intervals);
+	let key = min(u32(at), intervals - 1u);
+	return motion__Moment(key, at - f32(key));
+}
+
+struct motion__Space {
+	translation: vec3f,
+	linear: mat3x3f,
+	inverse: mat3x3f
+}
+
+fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
+	let q = mix(a.rotation, b.rotation, vec4f(fraction));
+	let rotation = motion__rotation_matrix(q * inverseSqrt(max_f32(dot(q, q), 1e-30)));
+	let d = mix(a.stretch, b.stretch, vec3f(fraction));
+	let s = mix(a.shear, b.shear, vec3f(fraction));
+	let size = max_f32(max_f32(abs(d.x), abs(d.y)), max_f32(abs(d.z), 1e-30));
+	let e = d / size;
+	let f = s / size;
+	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
+	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
+	let usable = abs(determinant) > 1e-30;
+	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
+	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
+	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+}
+
+fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
+	let d = 2.0 * q.xyz * q.xyz;
+	let xy = 2.0 * q.x * q.y;
+	let xz = 2.0 * q.x * q.z;
+	let yz = 2.0 * q.y * q.z;
+	let w = 2.0 * q.w * q.xyz;
+	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
+}
+
+fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
+	return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
+}
+
+fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
+	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.place, a.visible);
 }
 
 const ray_states__KIND_PRIMARY: u32 = 0u;
@@ -2048,131 +2217,6 @@ fn filter__inverse_erf(y: vec2f) -> vec2f {
 	let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
 	let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
 	return y * select(far, near, w < vec2f(5.0));
-}
-
-var<private> shutter__shutter_time: f32;
-
-fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
-	if (bindings__CAMERA_MOTION) {
-		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
-		return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
-	}
-	return still;
-}
-
-fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
-	var light: types__PackedLight;
-	if (bindings__LIGHT_MOTION) {
-		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
-		let place = moment.key * light_count + index;
-		light = motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
-	}
-	else {
-		light = fetch__load_light(index);
-	}
-	if (bindings__LIGHT_KIND != types__MIXED_LIGHTS) {
-		light.kind = bindings__LIGHT_KIND;
-	}
-	if (bindings__LIGHT_ATTENUATION != types__MIXED_LIGHTS) {
-		light.attenuation = bindings__LIGHT_ATTENUATION;
-	}
-	return light;
-}
-
-struct motion__Moment {
-	key: u32,
-	fraction: f32
-}
-
-fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
-	let intervals = max(key_count, 2u) - 1u;
-	let at = time * f32(intervals);
-	let key = min(u32(at), intervals - 1u);
-	return motion__Moment(key, at - f32(key));
-}
-
-struct motion__Space {
-	translation: vec3f,
-	linear: mat3x3f,
-	inverse: mat3x3f
-}
-
-fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
-	let q = mix(a.rotation, b.rotation, vec4f(fraction));
-	let rotation = motion__rotation_matrix(q * inverseSqrt(max_f32(dot(q, q), 1e-30)));
-	let d = mix(a.stretch, b.stretch, vec3f(fraction));
-	let s = mix(a.shear, b.shear, vec3f(fraction));
-	let size = max_f32(max_f32(abs(d.x), abs(d.y)), max_f32(abs(d.z), 1e-30));
-	let e = d / size;
-	let f = s / size;
-	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
-	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
-	let usable = abs(determinant) > 1e-30;
-	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
-	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
-	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
-}
-
-fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
-	let d = 2.0 * q.xyz * q.xyz;
-	let xy = 2.0 * q.x * q.y;
-	let xz = 2.0 * q.x * q.z;
-	let yz = 2.0 * q.y * q.z;
-	let w = 2.0 * q.w * q.xyz;
-	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
-}
-
-fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
-	return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
-}
-
-fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
-	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.place, a.visible);
-}
-
-const camera__T_FAR: f32 = 3e38;
-
-fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
-	return tracing__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
-	let x = 2.0 * position.x / size.x - 1.0;
-	let y = 1.0 - 2.0 * position.y / size.y;
-	return camera.forward + x * camera.right + y * camera.up;
-}
-
-fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
-	let origin = camera.origin + camera__across(camera, position, size);
-	return tracing__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
-	let x = 2.0 * position.x / size.x - 1.0;
-	let y = 1.0 - 2.0 * position.y / size.y;
-	return x * camera.right + y * camera.up;
-}
-
-fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
-	let off_axis = camera__aperture_point(camera, u);
-	let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
-	return tracing__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
-	let off_axis = camera__aperture_point(camera, u);
-	let origin = camera.origin + camera__across(camera, position, size) + off_axis;
-	let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
-	return tracing__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
-	var aperture = warp__disc_from_square(u);
-	if (camera.blade_count >= 3u) {
-		aperture = warp__polygon_from_square(u, camera.blade_count, camera.blade_rotation);
-	}
-	let p = camera.lens_radius * aperture;
-	return p.x * normalize(camera.right) + p.y * normalize(camera.up);
 }
 
 const warp__PI: f32 = 3.14159265;
@@ -3521,7 +3565,7 @@ fn path_vertex__traced(batch: dispatch__Batch, before: path__Path, hit: tracing_
 		path.throughput *= medium__transmittance(medium__medium_of(met.here), hit.t);
 	}
 	if (bindings__HAS_COVERAGE && path.passes < path__MAX_PASSES && path__random_1d(path, dimensions__COVERAGE_CHOICE) >= coverage) {
-		return path__passed(path, surface);
+		return path__passed(batch, path, surface);
 	}
 	features__see_first(surface, hit, distance(path.origin, surface.p));
 	if (bindings__HAS_CATCHERS && backdrop__is_seen(path) && (optics.flags & types__MATERIAL_SHADOW_CATCHER) != 0u) {

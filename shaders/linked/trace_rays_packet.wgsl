@@ -329,6 +329,8 @@ struct types__PackedCamera {
 
 struct types__PackedFrame {
 	camera: types__PackedCamera,
+	clip: vec2f,
+	_pad0: vec2u,
 	background: vec3f,
 	light_count: u32,
 	ambient: vec3f,

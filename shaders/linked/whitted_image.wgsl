@@ -110,7 +110,7 @@ fn traced(batch: dispatch__Batch, trees: Trees, keys: wide__Words, sample: u32) 
 				let own = own_light(batch, surface, factors[2]);
 				color = wide__vector_set(color, k, own);
 				if (is_first) {
-					features__see_first(surface, hit, hit.t);
+					features__see_first(surface, hit, dispatch__way_to_near(batch, state.ray.direction) + hit.t);
 					let glow = own - batch.ambient * surface.phong.ambient;
 					features__see_albedo(surface.phong.diffuse + glow, surface.n);
 					features__see_light(event.arriving * glow, 0u);
@@ -118,7 +118,10 @@ fn traced(batch: dispatch__Batch, trees: Trees, keys: wide__Words, sample: u32) 
 			}
 		}
 		if (bindings__HAS_TREES) {
-			let following = ray_stack__next_ray(event.reflected, event.refracted);
+			var following = ray_stack__next_ray(event.reflected, event.refracted);
+			if (bindings__HAS_CLIP && following.depth == 0u && ray_states__is_alive(following)) {
+				following.ray.t_max = dispatch__way_to_far(batch, following.ray.origin, following.ray.direction);
+			}
 			next = ray_states__state_set(next, k, following);
 			are_unfinished |= ray_states__is_alive(following);
 		}
@@ -176,6 +179,7 @@ var<private> dispatch__kept_light: f32;
 
 struct dispatch__Batch {
 	camera: types__PackedCamera,
+	clip: vec2f,
 	background: vec3f,
 	background_top: vec3f,
 	background_rotation: f32,
@@ -212,7 +216,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
 		albedo__albedo_first = bindings__frame.albedo_first;
 	}
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__dispatch.shared_samples, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group, bindings__frame.sun, bindings__frame.sun_chance);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.clip, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.backdrop, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__dispatch.shared_samples, bindings__frame.camera_media, bindings__frame.emitter_count, bindings__frame.emitter_power, bindings__frame.environment_first, bindings__frame.environment_width, bindings__frame.environment_share, bindings__frame.light_root, bindings__frame.lights_share, bindings__frame.emitter_group, bindings__frame.sun, bindings__frame.sun_chance);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> tracing__Ray {
@@ -228,16 +232,40 @@ fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: 
 		shutter__shutter_time = dispatch__sample_time(sample, key);
 	}
 	let camera = shutter__shutter_camera(batch.camera);
+	let ray = dispatch__ray_through(camera, position, batch.picture_size, sample, key);
+	if (bindings__HAS_CLIP) {
+		return camera__clipped_ray(camera, batch.clip, ray);
+	}
+	return ray;
+}
+
+fn dispatch__ray_through(camera: types__PackedCamera, position: vec2f, size: vec2f, sample: u32, key: u32) -> tracing__Ray {
 	if (bindings__HAS_LENS && bindings__ORTHOGRAPHIC) {
-		return camera__parallel_lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
+		return camera__parallel_lens_ray(camera, position, size, sampling__stratified_34(sample, key));
 	}
 	if (bindings__HAS_LENS) {
-		return camera__lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
+		return camera__lens_ray(camera, position, size, sampling__stratified_34(sample, key));
 	}
 	if (bindings__ORTHOGRAPHIC) {
-		return camera__parallel_ray(camera, position, batch.picture_size);
+		return camera__parallel_ray(camera, position, size);
 	}
-	return camera__camera_ray(camera, position, batch.picture_size);
+	return camera__camera_ray(camera, position, size);
+}
+
+fn dispatch__way_to_near(batch: dispatch__Batch, direction: vec3f) -> f32 {
+	if (bindings__HAS_CLIP) {
+		return camera__along_ray(shutter__shutter_camera(batch.camera), batch.clip.x, direction);
+	}
+	return 0.0;
+}
+
+fn dispatch__way_to_far(batch: dispatch__Batch, p: vec3f, direction: vec3f) -> f32 {
+	if (!bindings__HAS_CLIP || batch.clip.y == 0.0) {
+		return camera__T_FAR;
+	}
+	let camera = shutter__shutter_camera(batch.camera);
+	let depth = dot(p - camera.origin, normalize(camera.forward));
+	return camera__along_ray(camera, max_f32(batch.clip.y - depth, 0.0), direction);
 }
 
 fn dispatch__sample_time(sample: u32, key: u32) -> f32 {
@@ -664,6 +692,8 @@ struct types__PackedCamera {
 
 struct types__PackedFrame {
 	camera: types__PackedCamera,
+	clip: vec2f,
+	_pad0: vec2u,
 	background: vec3f,
 	light_count: u32,
 	ambient: vec3f,
@@ -964,6 +994,8 @@ override bindings__LIGHT_KIND: u32 = types__MIXED_LIGHTS;
 override bindings__LIGHT_ATTENUATION: u32 = types__MIXED_LIGHTS;
 
 override bindings__HAS_LENS: bool = true;
+
+override bindings__HAS_CLIP: bool = true;
 
 override bindings__FILTER: u32 = types__FILTER_BOX;
 
@@ -1873,7 +1905,8 @@ fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> tracing__
 	if (bindings__ORTHOGRAPHIC) {
 		return tracing__Cone(side, 0.0);
 	}
-	return tracing__Cone(0.0, side * max_f32(dot(direction, camera.forward), 0.0));
+	let spread = side * max_f32(dot(direction, camera.forward), 0.0);
+	return tracing__Cone(spread * dispatch__way_to_near(batch, direction), spread);
 }
 
 fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
@@ -1986,6 +2019,141 @@ struct tracing__Node {
 struct tracing__Cone {
 	width: f32,
 	spread: f32
+}
+
+const camera__T_FAR: f32 = 3e38;
+
+fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
+	return tracing__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+	let x = 2.0 * position.x / size.x - 1.0;
+	let y = 1.0 - 2.0 * position.y / size.y;
+	return camera.forward + x * camera.right + y * camera.up;
+}
+
+fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
+	let origin = camera.origin + camera__across(camera, position, size);
+	return tracing__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+	let x = 2.0 * position.x / size.x - 1.0;
+	let y = 1.0 - 2.0 * position.y / size.y;
+	return x * camera.right + y * camera.up;
+}
+
+fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
+	let off_axis = camera__aperture_point(camera, u);
+	let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
+	return tracing__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
+	let off_axis = camera__aperture_point(camera, u);
+	let origin = camera.origin + camera__across(camera, position, size) + off_axis;
+	let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
+	return tracing__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__clipped_ray(camera: types__PackedCamera, clip: vec2f, ray: tracing__Ray) -> tracing__Ray {
+	let start = ray.origin + camera__along_ray(camera, clip.x, ray.direction) * ray.direction;
+	let length = camera__along_ray(camera, clip.y - clip.x, ray.direction);
+	return tracing__Ray(start, select(length, camera__T_FAR, clip.y == 0.0), ray.direction, ray.leaving, ray.leaving_instance);
+}
+
+fn camera__along_ray(camera: types__PackedCamera, distance: f32, direction: vec3f) -> f32 {
+	return distance / dot(normalize(camera.forward), direction);
+}
+
+fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
+	var aperture = warp__disc_from_square(u);
+	if (camera.blade_count >= 3u) {
+		aperture = warp__polygon_from_square(u, camera.blade_count, camera.blade_rotation);
+	}
+	let p = camera.lens_radius * aperture;
+	return p.x * normalize(camera.right) + p.y * normalize(camera.up);
+}
+
+var<private> shutter__shutter_time: f32;
+
+fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
+	if (bindings__CAMERA_MOTION) {
+		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
+		return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
+	}
+	return still;
+}
+
+fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
+	var light: types__PackedLight;
+	if (bindings__LIGHT_MOTION) {
+		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
+		let place = moment.key * light_count + index;
+		light = motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
+	}
+	else {
+		light = fetch__load_light(index);
+	}
+	if (bindings__LIGHT_KIND != types__MIXED_LIGHTS) {
+		light.kind = bindings__LIGHT_KIND;
+	}
+	if (bindings__LIGHT_ATTENUATION != types__MIXED_LIGHTS) {
+		light.attenuation = bindings__LIGHT_ATTENUATION;
+	}
+	return light;
+}
+
+struct motion__Moment {
+	key: u32,
+	fraction: f32
+}
+
+fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
+	let intervals = max(key_count, 2u) - 1u;
+	let at = time * f32(intervals);
+	let key = min(u32(at), intervals - 1u);
+	return motion__Moment(key, at - f32(key));
+}
+
+struct motion__Space {
+	translation: vec3f,
+	linear: mat3x3f,
+	inverse: mat3x3f
+}
+
+fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
+	let q = mix(a.rotation, b.rotation, vec4f(fraction));
+	let rotation = motion__rotation_matrix(q * inverseSqrt(max_f32(dot(q, q), 1e-30)));
+	let d = mix(a.stretch, b.stretch, vec3f(fraction));
+	let s = mix(a.shear, b.shear, vec3f(fraction));
+	let size = max_f32(max_f32(abs(d.x), abs(d.y)), max_f32(abs(d.z), 1e-30));
+	let e = d / size;
+	let f = s / size;
+	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
+	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
+	let usable = abs(determinant) > 1e-30;
+	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
+	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
+	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+}
+
+fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
+	let d = 2.0 * q.xyz * q.xyz;
+	let xy = 2.0 * q.x * q.y;
+	let xz = 2.0 * q.x * q.z;
+	let yz = 2.0 * q.y * q.z;
+	let w = 2.0 * q.w * q.xyz;
+	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
+}
+
+fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
+	return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
+}
+
+fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
+	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.place, a.visible);
 }
 
 const filter__PI: f32 = 3.14159265;
@@ -2117,131 +2285,6 @@ fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
 
 fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
 	return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
-}
-
-var<private> shutter__shutter_time: f32;
-
-fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
-	if (bindings__CAMERA_MOTION) {
-		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
-		return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
-	}
-	return still;
-}
-
-fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
-	var light: types__PackedLight;
-	if (bindings__LIGHT_MOTION) {
-		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
-		let place = moment.key * light_count + index;
-		light = motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
-	}
-	else {
-		light = fetch__load_light(index);
-	}
-	if (bindings__LIGHT_KIND != types__MIXED_LIGHTS) {
-		light.kind = bindings__LIGHT_KIND;
-	}
-	if (bindings__LIGHT_ATTENUATION != types__MIXED_LIGHTS) {
-		light.attenuation = bindings__LIGHT_ATTENUATION;
-	}
-	return light;
-}
-
-struct motion__Moment {
-	key: u32,
-	fraction: f32
-}
-
-fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
-	let intervals = max(key_count, 2u) - 1u;
-	let at = time * f32(intervals);
-	let key = min(u32(at), intervals - 1u);
-	return motion__Moment(key, at - f32(key));
-}
-
-struct motion__Space {
-	translation: vec3f,
-	linear: mat3x3f,
-	inverse: mat3x3f
-}
-
-fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
-	let q = mix(a.rotation, b.rotation, vec4f(fraction));
-	let rotation = motion__rotation_matrix(q * inverseSqrt(max_f32(dot(q, q), 1e-30)));
-	let d = mix(a.stretch, b.stretch, vec3f(fraction));
-	let s = mix(a.shear, b.shear, vec3f(fraction));
-	let size = max_f32(max_f32(abs(d.x), abs(d.y)), max_f32(abs(d.z), 1e-30));
-	let e = d / size;
-	let f = s / size;
-	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
-	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
-	let usable = abs(determinant) > 1e-30;
-	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
-	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
-	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
-}
-
-fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
-	let d = 2.0 * q.xyz * q.xyz;
-	let xy = 2.0 * q.x * q.y;
-	let xz = 2.0 * q.x * q.z;
-	let yz = 2.0 * q.y * q.z;
-	let w = 2.0 * q.w * q.xyz;
-	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
-}
-
-fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
-	return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
-}
-
-fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
-	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.place, a.visible);
-}
-
-const camera__T_FAR: f32 = 3e38;
-
-fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
-	return tracing__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
-	let x = 2.0 * position.x / size.x - 1.0;
-	let y = 1.0 - 2.0 * position.y / size.y;
-	return camera.forward + x * camera.right + y * camera.up;
-}
-
-fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
-	let origin = camera.origin + camera__across(camera, position, size);
-	return tracing__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
-	let x = 2.0 * position.x / size.x - 1.0;
-	let y = 1.0 - 2.0 * position.y / size.y;
-	return x * camera.right + y * camera.up;
-}
-
-fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
-	let off_axis = camera__aperture_point(camera, u);
-	let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
-	return tracing__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> tracing__Ray {
-	let off_axis = camera__aperture_point(camera, u);
-	let origin = camera.origin + camera__across(camera, position, size) + off_axis;
-	let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
-	return tracing__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
-	var aperture = warp__disc_from_square(u);
-	if (camera.blade_count >= 3u) {
-		aperture = warp__polygon_from_square(u, camera.blade_count, camera.blade_rotation);
-	}
-	let p = camera.lens_radius * aperture;
-	return p.x * normalize(camera.right) + p.y * normalize(camera.up);
 }
 
 const warp__PI: f32 = 3.14159265;

@@ -297,6 +297,7 @@ impl CameraOverrides {
         camera.look_at = self.look_at.unwrap_or(start.look_at);
         camera.up = self.up.unwrap_or(start.up);
         camera.node = None;
+        camera.clip = Camera::UNCLIPPED;
         if self.look_at.is_some() {
             camera.target = None;
         }

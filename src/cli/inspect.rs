@@ -102,6 +102,8 @@ fn camera_json(camera: &Camera) -> Value {
         "up": camera.up.to_array(),
         "fov_y_deg": camera.fov_y.to_degrees(),
         "orthographic": camera.orthographic_height,
+        "near": camera.clip.0,
+        "far": Some(camera.clip.1).filter(|far| far.is_finite()),
         "lens": camera.lens.map(|lens| json!({
             "radius": lens.radius,
             "focus_distance": lens.focus_distance,
@@ -273,6 +275,14 @@ fn camera_text(out: &mut String, camera: &Camera) -> fmt::Result {
         None => format!("vertical field of view {:.2}°", camera.fov_y.to_degrees()),
     };
     write!(out, "{} from {from} to {at}, {view}", quoted(&camera.name))?;
+    let (near, far) = camera.clip;
+    if camera.clip != Camera::UNCLIPPED {
+        write!(out, ", sees from {}", number(near))?;
+        match far.is_finite() {
+            true => write!(out, " to {}", number(far))?,
+            false => write!(out, " on")?,
+        }
+    }
     match camera.lens {
         Some(lens) => write!(
             out,

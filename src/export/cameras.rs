@@ -49,6 +49,9 @@ impl Writer<'_> {
         if let Some(height) = camera.orthographic_height {
             table.put("orthographic", number(height));
         }
+        let (near, far) = camera.clip;
+        table.put_if(near > 0.0, "near", number(near));
+        table.put_if(far < f64::INFINITY, "far", number(far));
         if let Some(lens) = &camera.lens {
             let mut inner = Table::default();
             inner.put("radius", number(lens.radius));

@@ -167,6 +167,7 @@ impl PackedScene {
         Ok(PackedView {
             frame: PackedFrame {
                 camera: cameras[0],
+                clip: clip(&first.camera)?,
                 light_count,
                 ambient: first.ambient.into(),
                 first_triangle: self.first_baked_triangle,
@@ -175,7 +176,7 @@ impl PackedScene {
                 plane_count: self.plane_count,
                 vertex_count: self.vertices.len() as u32,
                 material_count: self.materials.len() as u32,
-                camera_media: media::at_point(&self.volumes, first, first.camera.look_from)?,
+                camera_media: media::at_point(&self.volumes, first, start(&first.camera))?,
                 root: if self.features.instances {
                     tlas.first_node | moving
                 } else {
@@ -379,6 +380,20 @@ fn widened(camera: &PackedCamera, aspect: f64) -> PackedCamera {
         right: camera.right.map(|c| (f64::from(c) * aspect) as f32),
         ..*camera
     }
+}
+
+/// Where the ray through the centre of the picture starts: on the near plane.
+fn start(camera: &Camera) -> DVec3 {
+    let forward = (camera.look_at - camera.look_from).normalize_or(DVec3::NEG_Z);
+    camera.look_from + camera.clip.0 * forward
+}
+
+/// The near and the far plane; a far plane that is farther away than any geometry is left out.
+fn clip(camera: &Camera) -> Result<[f32; 2], PackError> {
+    let (near, far) = camera.clip;
+    in_range(near)?;
+    let far = if in_range(far).is_ok() { far } else { 0.0 };
+    Ok([near, far].map(|distance| distance as f32))
 }
 
 /// The image plane at distance 1: half its height is tan(fov_y / 2). For an orthographic camera it has the

@@ -93,6 +93,7 @@ pub fn of(task: Task) -> Overrides {
             "HAS_LENS",
             flag(cameras.any(|camera| camera.lens_radius > 0.0)),
         ),
+        ("HAS_CLIP", flag(view.frame.clip != [0.0; 2])),
         ("FILTER", f64::from(filter)),
         ("FILTER_RADIUS", f64::from(settings.filter_radius)),
         (

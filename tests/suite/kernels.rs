@@ -238,6 +238,7 @@ fn a_feature_that_is_off_leaves_no_function_behind() {
         (&Kernel::WHITTED, "HAS_INSTANCES", "load_instance"),
         (&Kernel::WHITTED, "HAS_AREA_LIGHTS", "area_incident"),
         (&Kernel::WHITTED, "HAS_LENS", "lens_ray"),
+        (&Kernel::WHITTED, "HAS_CLIP", "clipped_ray"),
         (&Kernel::WHITTED, "HAS_CONTACT", "is_near"),
         (&Kernel::PATH_TRACE, "HAS_GLOSS", "ggx_albedo"),
         (

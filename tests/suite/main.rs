@@ -8,6 +8,7 @@ mod bsdf;
 mod bvh;
 mod checkpoint;
 mod cli;
+mod clip;
 mod closed_mirrors;
 mod contact;
 mod coverage;

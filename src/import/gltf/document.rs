@@ -310,12 +310,20 @@ pub struct Camera {
 pub struct Perspective {
     #[serde(default)]
     pub yfov: f64,
+    #[serde(default)]
+    pub znear: f64,
+    #[serde(default)]
+    pub zfar: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
 pub struct Orthographic {
     #[serde(default)]
     pub ymag: f64,
+    #[serde(default)]
+    pub znear: f64,
+    #[serde(default)]
+    pub zfar: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]

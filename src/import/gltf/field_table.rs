@@ -6,8 +6,6 @@ use super::field_forms::{Form, Object, Use, objects};
 use super::material_fields::{MATERIAL, NO_EXTENSIONS};
 
 const PICTURE_SIZE: Use = Unused("the size of the picture decides");
-const NOT_CLIPPED: Use =
-    Unused("rays are not clipped, so that everything in front of the camera is seen");
 
 /// A model.
 pub(super) static ROOT: Object = Object {
@@ -160,15 +158,15 @@ objects! {
     object PERSPECTIVE {
         yfov: Number;
         aspectRatio: Number, PICTURE_SIZE;
-        znear: Number, NOT_CLIPPED;
-        zfar: Number, NOT_CLIPPED;
+        znear: Number;
+        zfar: Number;
         extensions: One(&NO_EXTENSIONS);
     }
     object ORTHOGRAPHIC {
         ymag: Number;
         xmag: Number, PICTURE_SIZE;
-        znear: Number, NOT_CLIPPED;
-        zfar: Number, NOT_CLIPPED;
+        znear: Number;
+        zfar: Number;
         extensions: One(&NO_EXTENSIONS);
     }
     object IMAGE {

@@ -324,9 +324,11 @@ impl Reader<'_> {
         match (&camera.perspective, &camera.orthographic) {
             (Some(lens), _) if lens.yfov > 0.0 && lens.yfov < std::f64::consts::PI => {
                 seen.fov_y = lens.yfov;
+                seen.clip = self.clip(lens.znear, lens.zfar, &place);
             }
             (None, Some(lens)) if lens.ymag != 0.0 && lens.ymag.abs() < 1e18 => {
                 seen.orthographic_height = Some(2.0 * lens.ymag.abs());
+                seen.clip = self.clip(lens.znear, lens.zfar, &place);
             }
             _ => {
                 let why = "it needs a yfov between 0 and π, or a ymag other than 0";
@@ -336,6 +338,26 @@ impl Reader<'_> {
         self.scene.cameras.push(seen);
         self.cameras.push(index);
         Ok(())
+    }
+
+    /// The planes between which the camera at `place` sees. One that the specification excludes does not clip.
+    fn clip(&mut self, znear: f64, zfar: Option<f64>, place: &str) -> (f64, f64) {
+        let (mut near, mut far) = Camera::UNCLIPPED;
+        let mut refuse = |value: f64, name: &str, why: &str| {
+            self.notes.add("clipping planes that do not clip", || {
+                format!("{place}: {name} {value} does not clip: it must be {why}")
+            });
+        };
+        match (0.0..1e18).contains(&znear) {
+            true => near = znear,
+            false => refuse(znear, "znear", "0 or more"),
+        }
+        match zfar {
+            Some(zfar) if zfar > near => far = zfar,
+            Some(zfar) => refuse(zfar, "zfar", "greater than znear"),
+            None => {}
+        }
+        (near, far)
     }
 
     /// The places of a mesh in the space of its node: one, or those of `EXT_mesh_gpu_instancing`.

@@ -77,6 +77,17 @@ fn camera(table: &CameraTable, nodes: &Nodes, texts: &Texts) -> Result<Camera, I
         .lens
         .as_ref()
         .map(|lens| self::lens(lens, table, look_at, texts));
+    let (mut near, mut far) = Camera::UNCLIPPED;
+    if let Some(distance) = table.near {
+        near = distance.0;
+    }
+    if let Some(distance) = &table.far {
+        far = distance.get_ref().0;
+        if far <= near {
+            let why = format!("`far` is not beyond `near`, which is {near}");
+            return Err(texts.malformed(distance.span(), why, "Make `far` larger"));
+        }
+    }
     Ok(Camera {
         name: table.name.clone(),
         look_from,
@@ -85,6 +96,7 @@ fn camera(table: &CameraTable, nodes: &Nodes, texts: &Texts) -> Result<Camera, I
         fov_y: table.angle_of_view(),
         orthographic_height: table.orthographic.map(|height| height.0),
         lens: lens.transpose()?,
+        clip: (near, far),
         node,
         target,
     })

@@ -163,6 +163,13 @@ value! {
 }
 
 value! {
+    /// A distance, 0 or more.
+    Distance(f64),
+    { "type": "number", "minimum": 0 },
+    |d| number(d, |x| x >= 0.0, "0 or more")
+}
+
+value! {
     /// A number of pixels.
     Radius(f32),
     { "type": "number", "minimum": 0.01, "maximum": 16 },

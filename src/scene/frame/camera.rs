@@ -85,7 +85,7 @@ fn change(camera: &mut Camera, rest: &Camera, property: CameraProperty, value: V
     }
 }
 
-/// Transforms a camera by `world_from_node`. The plane of focus, the aperture and the height of an
+/// Transforms a camera by `world_from_node`. The planes of focus and of clipping, the aperture and the height of an
 /// orthographic view keep their proportion to the scene; aperture and height scale by the geometric mean
 /// of the horizontal and the vertical scale.
 fn place(camera: &mut Camera, world_from_node: DAffine3) {
@@ -101,6 +101,9 @@ fn place(camera: &mut Camera, world_from_node: DAffine3) {
     if let Some(height) = &mut camera.orthographic_height {
         *height *= across.sqrt();
     }
+    let (near, far) = camera.clip;
+    let along = vector(forward).length();
+    camera.clip = (near * along, far * along);
     camera.look_from = world_from_node.transform_point3(camera.look_from);
     camera.look_at = world_from_node.transform_point3(camera.look_at);
     camera.up = vector(camera.up);

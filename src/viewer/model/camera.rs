@@ -143,8 +143,7 @@ impl CameraController {
             fov_y: self.fov_y,
             orthographic_height: self.orthographic.then_some(pose.height),
             lens: self.lens,
-            node: None,
-            target: None,
+            ..Camera::default()
         }
     }
 

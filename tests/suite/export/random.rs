@@ -616,6 +616,10 @@ pub fn scene(random: &mut Random) -> Scene {
             fov_y: random.between(0.1, 3.0),
             orthographic_height: (name == "b").then_some(lens.focus_distance),
             lens: (random.below(2) == 0).then_some(lens),
+            clip: match random.below(2) {
+                0 => Camera::UNCLIPPED,
+                _ => (random.between(0.0, 3.0), random.between(4.0, 90.0)),
+            },
             node,
             target: None,
         });

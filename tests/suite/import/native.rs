@@ -338,7 +338,7 @@ override refused (override:1:18): invalid type: string "wide", expected a number
 override refused (override:1:18): `[` is not a TOML value. Write it as in a scene file, strings in quotes.
 override refused (override:1:18): `1\nambient=[1,1,1]` is not a TOML value. Write it as in a scene file, strings in quotes.
 override refused (override:1:20): invalid type: map, expected a number. See `glimray schema` for what is allowed.
-override refused (override:1:1): unknown key `fov`. Allowed here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `default`, `lens`.
+override refused (override:1:1): unknown key `fov`. Allowed here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `near`, `far`, `default`, `lens`.
 override refused (override:1:9): invalid type: integer `3`, expected a sequence. See `glimray schema` for what is allowed.
 override refused (override:1:1): `objects` is a list. See the scene for its keys.
 override refused (override:1:1): there is no `objects.1`: the list has 1, counted from 0. See the scene for its keys.
@@ -451,7 +451,7 @@ bad scene (a.toml:1:22): 99 is not between -32 and 32. See `glimray schema` for 
 bad scene (a.toml:1:15): unknown value `filmic`. Allowed here: `none`, `aces`, `agx`, `reinhard`.
 bad scene (a.toml:1:19): unknown value `sRGB`, did you mean `srgb`? Allowed here: `srgb`, `linear`.
 bad scene (a.toml:1:68): 180 is not an angle between 0.001 and 179.999 degrees. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:56): unknown key `fov`. Allowed here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `default`, `lens`.
+bad scene (a.toml:1:56): unknown key `fov`. Allowed here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `near`, `far`, `default`, `lens`.
 bad scene (a.toml:1:10): the key `look_from` is missing. Add `look_from = …`.
 bad scene (a.toml:1:31): -1 is not 0 or more. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:19): unknown key `colour`. Allowed here: `diffuse`, `specular`, `shininess`, `ambient`.

@@ -1,7 +1,7 @@
 //! Cameras in a native scene.
 
 use crate::import::native::values::{
-    Corners, Direction, Number, Positive, Upwards, Vector, ViewAngle, ViewRadians,
+    Corners, Direction, Distance, Number, Positive, Upwards, Vector, ViewAngle, ViewRadians,
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -36,6 +36,11 @@ pub(in crate::import::native) struct CameraTable {
     /// The height of the visible region in scene units: makes the camera orthographic. Geometry behind
     /// `look_from` is then not visible, and `fov_y_deg` has no effect.
     pub orthographic: Option<Positive>,
+    /// The distance along the viewing direction at which the camera begins to see, in scene units; default 0.
+    pub near: Option<Distance>,
+    /// The distance beyond which it sees nothing but the background, greater than `near`; default no limit.
+    #[schemars(with = "Option<Positive>")]
+    pub far: Option<Spanned<Positive>>,
     /// Whether it is the default camera, which is otherwise the first one; default false.
     #[serde(default)]
     pub default: bool,

@@ -89,15 +89,13 @@ impl TryFrom<Entry> for SavedCamera {
         Ok(Self {
             name: entry.name,
             camera: Camera {
-                name: String::new(),
                 look_from,
                 look_at,
                 up,
                 fov_y: entry.fov_y,
                 orthographic_height: entry.orthographic,
                 lens,
-                node: None,
-                target: None,
+                ..Camera::default()
             },
         })
     }

@@ -338,13 +338,34 @@ fn careless_glbs_are_read() {
 }
 
 #[test]
+fn planes_that_cannot_clip_are_left_out_and_named() {
+    let lens = |znear: f64, zfar: f64| json!({ "type": "perspective", "perspective": { "yfov": 1, "znear": znear, "zfar": zfar } });
+    let scene = Model::triangle(json!({}))
+        .with(json!({
+            "scenes": [{ "nodes": [0, 1] }],
+            "nodes": [{ "mesh": 0, "camera": 0 }, { "camera": 1 }],
+            "cameras": [lens(-0.5, 10.0), lens(2.0, 1.0)],
+        }))
+        .scene();
+    let clips: Vec<_> = scene.cameras.iter().map(|camera| camera.clip).collect();
+    assert_eq!(clips, [(0.0, 10.0), (2.0, f64::INFINITY)]);
+    assert_eq!(
+        scene.skipped,
+        [
+            "cameras[0]: znear -0.5 does not clip: it must be 0 or more",
+            "cameras[1]: zfar 1 does not clip: it must be greater than znear",
+        ]
+    );
+}
+
+#[test]
 fn properties_without_effect_are_named() {
     let scene = Model::triangle(json!({ "extras": 1 }))
         .with(json!({
             "asset": { "generator": "a test" },
             "extensionsUsed": ["ABC_mist"],
             "nodes": [{ "mesh": 0, "camera": 0, "spin": 3, "extensions": { "ABC_mist": {} } }],
-            "cameras": [{ "type": "perspective", "perspective": { "yfov": 1, "znear": 0.1, "zfar": 10 } }],
+            "cameras": [{ "type": "perspective", "perspective": { "yfov": 1, "aspectRatio": 2 } }],
         }))
         .scene();
     let skipped = scene.skipped.join("\n");
@@ -356,8 +377,7 @@ fn properties_without_effect_are_named() {
     }
     let remarks = scene.remarks.join("\n");
     for part in [
-        "cameras[0].perspective.znear",
-        "cameras[0].perspective.zfar",
+        "cameras[0].perspective.aspectRatio",
         "asset.generator",
         "extras",
     ] {
@@ -365,7 +385,7 @@ fn properties_without_effect_are_named() {
     }
     // Remarks are no loss, so `--strict` accepts them.
     assert!(
-        !skipped.contains("znear") && !skipped.contains("extras"),
+        !skipped.contains("aspectRatio") && !skipped.contains("extras"),
         "{skipped}"
     );
 }

@@ -98,6 +98,8 @@ fn cameras_look_along_their_negative_z() {
     assert_eq!(names, ["eye", "plan"]);
     assert_eq!(scene.cameras[0].fov_y, 0.5);
     assert_eq!(scene.cameras[1].orthographic_height, Some(3.0));
+    let clips: Vec<_> = scene.cameras.iter().map(|camera| camera.clip).collect();
+    assert_eq!(clips, [(0.1, f64::INFINITY), (0.0, 9.0)]);
     let seen = scene.frame(0.0).camera;
     assert_eq!(seen.look_from, DVec3::new(0.0, 0.0, 5.0));
     let direction = (seen.look_at - seen.look_from).normalize();
