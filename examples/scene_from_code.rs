@@ -6,8 +6,8 @@ use glam::{DAffine3, DVec3, Vec3, dvec3, vec3};
 use glimray::gpu::{AdapterChoice, Gpu};
 use glimray::render::{ExecutionPolicy, RenderSettings, Renderer, Tone};
 use glimray::scene::{
-    Background, Camera, Fresnel, Geometry, Instance, Light, LightKind, Material, Mesh, Scene,
-    Shape, Transfer,
+    Antialias, Background, Camera, Fresnel, Geometry, Instance, Light, LightKind, Material, Mesh,
+    Scene, Shape, Transfer,
 };
 use glimray::{output, pack};
 use std::{error::Error, sync::Arc};
@@ -104,6 +104,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let settings = RenderSettings {
         size: (320, 200),
         samples: 16,
+        // Without it all samples go through the centre of their pixel.
+        antialias: Antialias::Stratified,
         ..RenderSettings::default()
     };
     let gpu = Gpu::new(&AdapterChoice::default())?;

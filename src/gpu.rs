@@ -164,7 +164,7 @@ impl Gpu {
     /// Wraps a device that another program opened, with its instance, adapter and queue. It needs at least the default
     /// limits of WebGPU; with five storage images in a shader, kernels can read the scene from images. The program keeps
     /// control of it: its limits decide which scenes can be rendered, its callbacks are not touched, and if it is lost the
-    /// program has to open another one ([`GpuError::Lost`]).
+    /// program has to open another one ([`GpuError::Lost`]). [`crate::render::Screen`] has an example.
     pub fn from_wgpu(
         instance: wgpu::Instance,
         adapter: wgpu::Adapter,

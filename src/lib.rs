@@ -26,7 +26,7 @@
 //! while !renderer.is_done() {
 //!     renderer.step()?;
 //! }
-//! let picture = renderer.develop(&Tone::LINEAR)?;
+//! let picture = renderer.develop(&Tone::from(&scene.output))?;
 //! let folder = tempfile::tempdir()?;
 //! output::save(folder.path().join("spheres.png"), &picture)?;
 //! # assert_eq!((picture.width, picture.height), (640, 480));

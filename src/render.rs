@@ -81,7 +81,37 @@ use std::{ops::Range, sync::Arc};
 use task::Task;
 use work::Work;
 
-/// Renders frames of a scene, one after another.
+/// Renders frames of a scene, one after another. The scene is uploaded once; each frame brings its own camera, lights and
+/// positions:
+///
+/// ```
+/// use glimray::gpu::{AdapterChoice, Gpu};
+/// use glimray::render::{ExecutionPolicy, RenderSettings, Renderer, Tone};
+/// use glimray::{import, pack};
+/// use std::{path::Path, sync::Arc};
+///
+/// let scene = import::load(Path::new("assets/scenes/carousel.toml"))?;
+/// let packed = Arc::new(pack::scene(&scene)?);
+/// let settings = RenderSettings {
+///     size: (64, 36),
+///     samples: 1,
+///     ..RenderSettings::from(&scene.output)
+/// };
+/// let gpu = Gpu::new(&AdapterChoice::default())?;
+/// let first = packed.frame(&scene.frame(0.0))?;
+/// let mut renderer = Renderer::new(gpu, packed.clone(), &first, settings, ExecutionPolicy::default())?;
+/// let mut pictures = Vec::new();
+/// for time in [0.0, 0.5, 1.0] {
+///     renderer.set_frame(&packed.frame(&scene.frame(time))?)?;
+///     while !renderer.is_done() {
+///         // One slice of the work, so that other programs get the GPU in between.
+///         renderer.step()?;
+///     }
+///     pictures.push(renderer.develop(&Tone::from(&scene.output))?);
+/// }
+/// assert_ne!(pictures[0].pixels, pictures[1].pixels);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Renderer {
     scene: Arc<PackedScene>,
     settings: RenderSettings,

@@ -50,7 +50,41 @@ pub struct FilmHeader {
     pub adapters: BTreeSet<String>,
 }
 
-/// A part of a picture, or all of it.
+/// A part of a picture, or all of it: sums of samples that are written, read and merged. However the samples of a picture
+/// are cut, the parts merge to the bytes of one run:
+///
+/// ```
+/// use glimray::gpu::{AdapterChoice, Gpu};
+/// use glimray::render::{ExecutionPolicy, Film, RenderSettings, Renderer, SAMPLE_BLOCK};
+/// use glimray::{import, pack};
+/// use std::{path::Path, sync::Arc};
+///
+/// let scene = import::load(Path::new("assets/scenes/carousel.toml"))?;
+/// let packed = Arc::new(pack::scene(&scene)?);
+/// let view = packed.frame(&scene.frame(0.0))?;
+/// let render = |sample_range| -> Result<Film, Box<dyn std::error::Error>> {
+///     let settings = RenderSettings {
+///         size: (16, 9),
+///         samples: 3 * SAMPLE_BLOCK,
+///         sample_range,
+///         ..RenderSettings::from(&scene.output)
+///     };
+///     let gpu = Gpu::new(&AdapterChoice::default())?;
+///     let policy = ExecutionPolicy::default();
+///     let mut renderer = Renderer::new(gpu, packed.clone(), &view, settings, policy)?;
+///     while !renderer.is_done() {
+///         renderer.step()?;
+///     }
+///     Ok(renderer.film()?)
+/// };
+/// // Two machines render the halves, and a third one merges their files.
+/// let mut file = Vec::new();
+/// render(Some(0..SAMPLE_BLOCK))?.write(&mut file)?;
+/// let merged = Film::read(file.as_slice())?.merge(&render(Some(SAMPLE_BLOCK..3 * SAMPLE_BLOCK))?)?;
+/// assert!(merged.missing().is_empty());
+/// assert_eq!(merged, render(None)?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
     header: FilmHeader,

@@ -59,11 +59,11 @@ impl Chunk {
 
 /// Traces rays through a view of a packed scene:
 ///
-/// ```no_run
+/// ```
 /// use glam::{DVec3, Vec3};
 /// use glimray::{gpu::Gpu, import, pack, render::{ExecutionPolicy, QueryRay, RayQuery}};
 ///
-/// let scene = import::load("assets/scenes/spheres.toml".as_ref())?;
+/// let scene = import::load("assets/scenes/carousel.toml".as_ref())?;
 /// let packed = std::sync::Arc::new(pack::scene(&scene)?);
 /// let view = packed.frame(&scene.frame(0.0))?;
 /// let query = RayQuery::new(Gpu::new(&Default::default())?, packed, &view, ExecutionPolicy::default())?;

@@ -17,7 +17,42 @@ use bytemuck::{bytes_of, cast_slice};
 use wgpu::BindingResource;
 
 /// A texture for display, as large as the picture: 8 bits per channel, encoded with the transfer function of
-/// the tone, premultiplied alpha.
+/// the tone, premultiplied alpha. A program draws it on its own device while the picture develops; nothing waits for the GPU:
+///
+/// ```
+/// use glimray::gpu::Gpu;
+/// use glimray::render::{ExecutionPolicy, RenderSettings, Renderer, Status, Tone};
+/// use glimray::{import, pack};
+/// use std::{path::Path, sync::Arc};
+///
+/// // The set-up of any wgpu program.
+/// let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+/// let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;
+/// let (device, queue) = pollster::block_on(adapter.request_device(&Default::default()))?;
+/// let gpu = Gpu::from_wgpu(instance, adapter, device.clone(), queue.clone());
+///
+/// let scene = import::load(Path::new("assets/scenes/carousel.toml"))?;
+/// let packed = Arc::new(pack::scene(&scene)?);
+/// let view = packed.frame(&scene.frame(0.0))?;
+/// let settings = RenderSettings { size: (64, 36), samples: 2, ..RenderSettings::from(&scene.output) };
+/// // The film stays on the GPU.
+/// let policy = ExecutionPolicy { host_copy: false, ..ExecutionPolicy::default() };
+/// let mut renderer = Renderer::new(gpu, packed, &view, settings, policy)?;
+/// let screen = renderer.new_screen()?;
+/// loop {
+///     // Once for each frame of the window.
+///     let status = renderer.poll()?;
+///     renderer.show(&Tone::from(&scene.output), &screen)?;
+///     // Here the program draws `screen.view()`.
+///     if status == Status::Done {
+///         break;
+///     }
+///     renderer.submit()?;
+/// }
+/// let shown = screen.read(renderer.gpu())?;
+/// assert!(shown.pixels.iter().any(|pixel| pixel[0] > 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Screen {
     view: wgpu::TextureView,

@@ -81,6 +81,12 @@ fn the_scene_made_in_code_has_its_sky_and_its_triangle() {
             format!("{found:?}, not {expected:?}")
         });
     }
+    let pixel = |point: DVec3| {
+        let seen = (point - eye) / ((point - eye).dot(forward) * slope);
+        let x = (seen.dot(right) / 1.6 + 1.0) / 2.0 * 320.0;
+        let y = (1.0 - seen.dot(up)) / 2.0 * 200.0;
+        (x as u32, y as u32)
+    };
     // Where the middle of the triangle is seen, and points beside it: only its paint is red.
     for (point, is_on) in [
         (dvec3(-1.2, 0.5, -1.0), true),
@@ -88,12 +94,21 @@ fn the_scene_made_in_code_has_its_sky_and_its_triangle() {
         (dvec3(-2.1, 0.5, -1.0), false),
         (dvec3(-1.2, 1.8, -1.0), false),
     ] {
-        let seen = (point - eye) / ((point - eye).dot(forward) * slope);
-        let x = (seen.dot(right) / 1.6 + 1.0) / 2.0 * 320.0;
-        let y = (1.0 - seen.dot(up)) / 2.0 * 200.0;
-        let [r, _, b] = picture.get_pixel(x as u32, y as u32).0;
+        let (x, y) = pixel(point);
+        let [r, _, b] = picture.get_pixel(x, y).0;
         verdict.that(point, (r / 2 > b) == is_on, || format!("red {r}, blue {b}"));
     }
+    // Samples spread over pixels: at the slanted edge of the triangle most rows have a pixel between its blue and that
+    // of the floor behind.
+    let rows = (0..10).map(|step| {
+        let height = 0.3 + 0.05 * f64::from(step);
+        let (x, y) = pixel(dvec3(-2.2 + height / 1.6, height, -1.0));
+        let blue = |x: u32| i32::from(picture.get_pixel(x, y).0[2]);
+        let (floor, paint) = (blue(x - 4), blue(x + 4));
+        (x - 3..x + 4).any(|x| blue(x) < floor - 12 && blue(x) > paint + 12)
+    });
+    let mixed = rows.filter(|is_mixed| *is_mixed).count();
+    verdict.that("the edge", mixed >= 7, || format!("{mixed} of 10 rows"));
     verdict.close();
 }
 
