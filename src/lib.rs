@@ -128,6 +128,7 @@ pub mod pack;
 mod random;
 pub mod render;
 pub mod scene;
+mod text;
 pub mod threads;
 #[cfg(feature = "viewer")]
 pub mod viewer;

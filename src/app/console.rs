@@ -4,6 +4,7 @@
 //! With `--progress json` every line on standard error is a JSON object.
 
 use super::error::AppError;
+use crate::text;
 use serde_json::{Value, json};
 use std::fmt::Display;
 use std::io::{ErrorKind, IsTerminal, Write, stderr};
@@ -69,7 +70,7 @@ pub fn quoted(name: &str) -> String {
         "(unnamed)".into()
     } else {
         // Line breaks are replaced, so that a name cannot imitate lines of its own.
-        format!("`{}`", name.replace(char::is_control, " "))
+        format!("`{}`", text::one_line(name))
     }
 }
 
@@ -93,14 +94,15 @@ pub fn error(text: impl Display, exit_code: u8) {
 
 /// Writes a JSON object to standard error as one line.
 pub fn json_line(value: &Value) {
-    let _ = writeln!(stderr().lock(), "{value}");
+    let line = text::escape_json(&value.to_string());
+    let _ = writeln!(stderr().lock(), "{line}");
 }
 
 /// Writes `label` and `text` to standard error and ends the line. On a terminal the label is coloured and
-/// the text is wrapped between words. Line breaks and control characters are escaped, because parts of the
-/// text come from scene files.
+/// the text is wrapped between words. Line breaks become spaces, and what acts on a terminal is escaped, because parts of
+/// the text come from scene files.
 fn line(label: &str, color: &str, text: &str) {
-    let text = escape(text, |c| c == '\t');
+    let text = text::escape(&text.replace(['\n', '\r'], " "), |c| c == '\t');
     let text = match !label.is_empty() && shows_color() {
         true => format!("{color}{label}{PLAIN}{text}"),
         false => format!("{label}{text}"),
@@ -110,7 +112,8 @@ fn line(label: &str, color: &str, text: &str) {
 
 /// Prints lines to standard error, wrapped between words on a terminal. They may contain styles.
 pub fn wrapped(text: &str) {
-    let _ = writeln!(stderr().lock(), "{}", fit(text.trim_end()));
+    let text = text::escape(text.trim_end(), |c| c == '\t' || c == '\n' || c == '\u{1b}');
+    let _ = writeln!(stderr().lock(), "{}", fit(&text));
 }
 
 /// The escape sequences that begin and end red text on standard error; empty without colour.
@@ -170,9 +173,9 @@ fn columns(word: &str) -> usize {
         .sum()
 }
 
-/// Writes several lines to standard error. Control characters are escaped, except those to `keep`.
+/// Writes several lines to standard error. What acts on a terminal is escaped, except the characters to `keep`.
 pub fn block(text: &str, keep: impl Fn(char) -> bool) {
-    let text = escape(text, |c| c == '\t' || c == '\n' || keep(c));
+    let text = text::escape(text, |c| c == '\t' || c == '\n' || keep(c));
     let _ = writeln!(stderr().lock(), "{}", text.trim_end());
 }
 
@@ -182,7 +185,7 @@ pub fn block(text: &str, keep: impl Fn(char) -> bool) {
 /// # Errors
 /// Standard output fails for any other reason.
 pub fn print(text: &str) -> Result<(), AppError> {
-    let text = escape(text, |c| c == '\t' || c == '\n');
+    let text = text::escape(text, |c| c == '\t' || c == '\n');
     print_bytes(text.as_bytes())
 }
 
@@ -203,17 +206,5 @@ pub fn print_bytes(bytes: &[u8]) -> Result<(), AppError> {
 /// # Errors
 /// As [`print()`].
 pub fn print_json(value: &serde_json::Value) -> Result<(), AppError> {
-    print_bytes(format!("{value:#}\n").as_bytes())
-}
-
-fn escape(text: &str, keep: impl Fn(char) -> bool) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '\n' | '\r' if !keep(c) => escaped.push(' '),
-            c if c.is_control() && !keep(c) => escaped.extend(c.escape_default()),
-            c => escaped.push(c),
-        }
-    }
-    escaped
+    print_bytes(text::escape_json(&format!("{value:#}\n")).as_bytes())
 }

@@ -7,6 +7,7 @@ use crate::render::{
     Integrator, PhongTerms, RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay,
 };
 use crate::scene::ObjectRef;
+use crate::text;
 use glam::{DVec3, Vec3};
 use serde_json::json;
 use std::fmt::{self, Write};
@@ -35,7 +36,7 @@ pub fn json(tree: &RayTree, (width, height): (u32, u32)) -> Result<String, AppEr
         .map_err(|error| AppError::Internal(format!("explain: {error}")))?;
     value["size"] = json!([width, height]);
     value["sum"] = json!(weighted_sum(tree).to_array());
-    Ok(format!("{value:#}\n"))
+    Ok(text::escape_json(&format!("{value:#}\n")))
 }
 
 /// The weighted mean over the samples of the sum of their rays' contributions.
@@ -282,7 +283,7 @@ fn named(object: Option<ObjectRef>, name: &Option<String>, primitive: u32) -> St
 
 /// Quotes a name to follow a number. Line breaks are replaced, so that a name cannot imitate output lines.
 pub fn quoted(name: &Option<String>) -> String {
-    let quote = |name: &String| format!(" `{}`", name.replace(char::is_control, " "));
+    let quote = |name: &String| format!(" `{}`", text::one_line(name));
     name.as_ref().map(quote).unwrap_or_default()
 }
 

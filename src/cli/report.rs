@@ -11,6 +11,7 @@ use crate::gpu::AdapterReport;
 use crate::output;
 use crate::render::{Rays, Renderer, Stats};
 use crate::scene::{Geometry, Scene};
+use crate::text;
 use serde::Serialize;
 use std::path::Path;
 
@@ -314,6 +315,7 @@ pub fn write(path: &Path, report: &impl Serialize) -> Result<(), AppError> {
     let mut text = serde_json::to_string_pretty(report)
         .map_err(|error| AppError::Internal(format!("report: {error}")))?;
     text.push('\n');
+    let text = text::escape_json(&text);
     if path == Path::new("-") {
         console::print_bytes(text.as_bytes())
     } else {

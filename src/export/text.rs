@@ -1,5 +1,6 @@
 //! TOML text: numbers in the fewest digits that preserve all bits.
 
+use crate::text;
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 use std::fmt::Write;
 
@@ -159,8 +160,11 @@ pub(super) fn string(text: &str) -> String {
     for c in text.chars() {
         match c {
             '"' | '\\' => quoted.extend(['\\', c]),
-            c if c.is_control() => {
-                let _ = write!(quoted, "\\u{:04x}", u32::from(c));
+            c if text::is_control(c) => {
+                let _ = match u32::from(c) {
+                    code @ ..=0xffff => write!(quoted, "\\u{code:04x}"),
+                    code => write!(quoted, "\\U{code:08x}"),
+                };
             }
             c => quoted.push(c),
         }

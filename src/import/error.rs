@@ -1,5 +1,6 @@
 //! Errors of importers and their text.
 
+use crate::text::one_line;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -112,7 +113,7 @@ impl Fault {
         self.path.as_os_str().is_empty()
     }
 
-    /// The file at fault, or "override", without line breaks.
+    /// The file at fault, or "override", on one line.
     pub fn place(&self) -> String {
         match self.is_in_override() {
             true => "override".to_owned(),
@@ -128,11 +129,11 @@ impl fmt::Display for Fault {
             write!(f, ":{line}:{column}")?;
         }
         let stop = if self.why.ends_with('?') { "" } else { "." };
-        write!(f, "): {}{stop} {}.", self.why, self.todo)
+        write!(
+            f,
+            "): {}{stop} {}.",
+            one_line(&self.why),
+            one_line(&self.todo)
+        )
     }
-}
-
-/// `text` from a file, on one line: without control characters.
-pub(super) fn one_line(text: &str) -> String {
-    text.replace(char::is_control, "\u{fffd}")
 }

@@ -36,12 +36,13 @@ mod uv_sets;
 mod values;
 
 use super::budget::Budget;
-use super::error::{ImportError, one_line};
+use super::error::ImportError;
 use super::notes::Notes;
 use super::paths::Files;
 use super::source::{Source, quote};
 use super::{Axis, Options, stage, suggest};
 use crate::scene::{Clip, LightTransport, OutputDefaults, Scene, Shadows};
+use crate::text::one_line;
 use accessor::Accessors;
 use blame::{Blame, Ledger};
 use buffers::Buffers;

@@ -26,6 +26,7 @@ use super::paths::Files;
 use super::source::Source;
 use super::suggest;
 use crate::scene::Scene;
+use crate::text;
 use serde::Deserialize;
 use set::Override;
 use std::ops::Range;
@@ -175,7 +176,7 @@ fn shorten(message: &str) -> String {
     let line: String = message
         .chars()
         .take(LONGEST)
-        .map(|c| if c.is_control() { ' ' } else { c })
+        .map(|c| if text::is_control(c) { ' ' } else { c })
         .collect();
     let more = if message.chars().nth(LONGEST).is_some() {
         "…"

@@ -1,7 +1,7 @@
 //! Notes about skipped features. A file may cause millions of similar notes, so the first few of each
 //! kind are kept and the others counted.
 
-use super::error::one_line;
+use crate::text::one_line;
 
 /// Number of notes kept per kind.
 const MOST: usize = 8;

@@ -14,10 +14,11 @@ mod store;
 pub(super) use repair::Repairs;
 pub(super) use store::{Pictures, Place, Read};
 
-use super::error::{Fault, ImportError, one_line};
+use super::error::{Fault, ImportError};
 use super::paths::{Files, Refusal};
 pub(super) use crate::scene::linear_from_srgb;
 use crate::scene::{Origin, Picture, Texels};
+use crate::text::one_line;
 use glam::Vec4;
 use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits};
 use std::borrow::Cow;

@@ -2,6 +2,7 @@
 
 use super::encoding;
 use super::error::{Excerpt, ImportError, Position, fault};
+use crate::text::one_line;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -162,10 +163,5 @@ pub(super) fn quote_up_to(longest: usize, bytes: &[u8]) -> String {
 }
 
 fn visible(bytes: &[u8]) -> String {
-    let plain = |c: char| match c {
-        '\t' => ' ',
-        c if c.is_control() => '\u{fffd}',
-        c => c,
-    };
-    String::from_utf8_lossy(bytes).chars().map(plain).collect()
+    one_line(&String::from_utf8_lossy(bytes).replace('\t', " "))
 }

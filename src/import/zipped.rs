@@ -1,12 +1,13 @@
 //! A ZIP archive of a model with its files, read in memory.
 
 use super::archive::Archive;
-use super::error::{ImportError, fault, one_line};
+use super::error::{ImportError, fault};
 use super::paths::{self, Files};
 use super::resolver::{FileError, Resolver};
 use super::source::quote;
 use super::{Format, Options, SCENE_ENDINGS};
 use crate::scene::Scene;
+use crate::text::one_line;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 

@@ -2,6 +2,7 @@
 
 use super::Format;
 use super::video::{FrameRate, VideoFormat};
+use crate::text;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -287,14 +288,7 @@ impl OutputError {
 /// A path for a one-line message: control characters are escaped, so that a file name cannot break the
 /// line or control the terminal.
 fn show(path: &Path) -> String {
-    path.to_string_lossy()
-        .chars()
-        .flat_map(|c| {
-            let escaped = c.is_control().then(|| c.escape_default());
-            let plain = escaped.is_none().then_some(c);
-            escaped.into_iter().flatten().chain(plain)
-        })
-        .collect()
+    text::escape(&path.to_string_lossy(), |_| false)
 }
 
 /// The system's message without its number, as a clause.

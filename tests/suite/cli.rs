@@ -25,3 +25,4 @@ mod report;
 #[cfg(unix)]
 mod signals;
 mod streams;
+mod terminal;

@@ -15,13 +15,14 @@ const MODULES: &[(&str, &[&str])] = &[
     ("scene", &["threads"]),
     ("clock", &[]),
     ("random", &[]),
+    ("text", &[]),
     ("image", &[]),
     ("layout", &[]),
     ("gpu", &[]),
     ("threads", &[]),
     ("bvh", &["threads"]),
-    ("import", &["random", "scene", "threads"]),
-    ("export", &["scene"]),
+    ("import", &["random", "scene", "text", "threads"]),
+    ("export", &["scene", "text"]),
     ("pack", &["clock", "scene", "bvh", "layout"]),
     (
         "render",
@@ -29,11 +30,12 @@ const MODULES: &[(&str, &[&str])] = &[
             "clock", "random", "scene", "threads", "pack", "layout", "gpu", "image",
         ],
     ),
-    ("output", &["image"]),
+    ("output", &["image", "text"]),
     (
         "app",
         &[
             "clock", "scene", "image", "gpu", "import", "export", "pack", "render", "output",
+            "text",
         ],
     ),
     ("cli", ABOVE_APP),
@@ -45,7 +47,7 @@ const MODULES: &[(&str, &[&str])] = &[
 /// What the command line and the window may use: everything but each other.
 const ABOVE_APP: &[&str] = &[
     "app", "bvh", "clock", "random", "scene", "image", "layout", "gpu", "import", "export", "pack",
-    "render", "output",
+    "render", "output", "text",
 ];
 
 /// What each tier of `shaders/` may import.

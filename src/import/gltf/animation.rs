@@ -7,12 +7,13 @@ use super::map_kinds::all_maps;
 use super::maps;
 use super::node_transform::{extended, unit};
 use crate::import::budget;
-use crate::import::error::{ImportError, one_line};
+use crate::import::error::ImportError;
 use crate::import::source::quote_up_to;
 use crate::scene::{
     Beyond, Curve, Easing, Interpolation, LightProperty, NodeProperty, Target, TextureProperty,
     Track, Values,
 };
+use crate::text::one_line;
 use glam::{DQuat, DVec3};
 use std::collections::HashSet;
 
