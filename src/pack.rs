@@ -10,6 +10,7 @@ mod emissive_solid;
 mod emitter_places;
 mod emitters;
 mod environment;
+mod error;
 mod features;
 mod frame;
 mod geometry;
@@ -36,6 +37,7 @@ mod topology;
 mod trees;
 mod triangle_pieces;
 
+pub use error::PackError;
 pub use features::{Apart, Features};
 pub use frame::PackedView;
 pub use instance::MAX_BAKED;
@@ -139,65 +141,11 @@ pub struct PackedScene {
     pub work: TreeWork,
 }
 
-/// A scene that cannot be packed: it exceeds a limit, or a mesh contradicts itself.
-#[derive(Debug, thiserror::Error)]
-pub enum PackError {
-    /// A mesh whose arrays, or what deforms it, do not fit each other.
-    #[error("mesh refused (mesh {index}): {what}. Correct the mesh before it is packed.")]
-    Inconsistent {
-        /// Index into [`Scene::meshes`].
-        index: usize,
-        /// How they do not fit.
-        what: String,
-    },
-    /// An index does not fit its bits.
-    #[error(
-        "scene too big (after instancing): it has {count} {what}, at most {limit} are possible. Use fewer or simpler objects."
-    )]
-    TooMany {
-        /// The counted objects, in the plural.
-        what: &'static str,
-        /// Their number, with each instance counted.
-        count: usize,
-        /// The maximum number.
-        limit: usize,
-    },
-    /// A coordinate or radius whose square overflows f32.
-    #[error(
-        "scene too spread out (object coordinates): {value:e} units from the camera is beyond the range of f32 arithmetic, at most {limit:e}. Scale the scene down."
-    )]
-    OutOfRange {
-        /// Its magnitude in scene units, relative to the render origin.
-        value: f64,
-        /// The largest allowed.
-        limit: f64,
-    },
-    /// A shape that is too thin for f32.
-    #[error(
-        "object too small (scaled size): {size:e} units in one direction is below the range of f32 arithmetic, at least {limit:e}. Make it larger, or scale the scene up."
-    )]
-    TooSmall {
-        /// In scene units.
-        size: f64,
-        /// The smallest allowed.
-        limit: f64,
-    },
-    /// The TLAS and the BLASes together need a deeper traversal stack than shaders have.
-    #[error(
-        "scene too deep (BVH over instances): traversal needs {need} stack entries, at most {limit} are available. Use fewer objects, or spread them more evenly."
-    )]
-    TooDeep {
-        /// Entries needed.
-        need: usize,
-        /// Entries available.
-        limit: usize,
-    },
-}
-
 /// Packs a scene and builds its BVHs.
 ///
 /// # Errors
-/// The scene exceeds the limits of the packed formats, or the arrays of a mesh, or what deforms it, do not fit each other.
+/// The scene exceeds the limits of the packed formats, or it has no camera, or the arrays of a mesh, or what deforms it, do
+/// not fit each other.
 pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
     pack(None, scene, MAX_BAKED, false)
 }
@@ -247,6 +195,9 @@ fn pack(
     most_baked: usize,
     drafts: bool,
 ) -> Result<PackedScene, PackError> {
+    if scene.camera_index >= scene.cameras.len() {
+        return Err(PackError::NoCamera);
+    }
     let meshes = mesh::cached(previous.map_or(&[], |previous| &previous.meshes), scene)?;
     let rest = scene.frame(0.0);
     let origin = scene.render_origin_at(&rest);

@@ -101,7 +101,8 @@ impl AppError {
     /// The exit code, a stable interface for scripts.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Internal(_) | Self::Pack(PackError::Inconsistent { .. }) => 1,
+            Self::Internal(_)
+            | Self::Pack(PackError::NoCamera | PackError::Inconsistent { .. }) => 1,
             Self::Usage(_) => 2,
             Self::Import(error) if error.is_too_big() => 7,
             Self::Import(_) | Self::Refused(_) | Self::Film { .. } | Self::Films { .. } => 3,

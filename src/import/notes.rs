@@ -84,6 +84,12 @@ pub(super) fn of_repairs(notes: &mut Notes, repairs: crate::scene::Repairs) {
         let triangles = count(repairs.dropped_triangles, "triangle");
         notes.add(WHAT, || format!("dropped {triangles} without area"));
     }
+    if repairs.dangling_triangles > 0 {
+        let triangles = count(repairs.dangling_triangles, "triangle");
+        notes.add(WHAT, || {
+            format!("dropped {triangles} with vertices that do not exist")
+        });
+    }
     if repairs.recomputed_normals > 0 {
         let normals = count(repairs.recomputed_normals, "normal");
         notes.add(WHAT, || format!("recomputed {normals} of zero length"));

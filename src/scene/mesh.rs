@@ -37,6 +37,8 @@ pub struct Mesh {
 pub struct Repairs {
     /// Degenerate triangles that were dropped.
     pub dropped_triangles: usize,
+    /// Triangles that were dropped because they name a vertex that does not exist.
+    pub dangling_triangles: usize,
     /// Normals without a usable length, recomputed from the adjacent triangles.
     pub recomputed_normals: usize,
 }
@@ -95,12 +97,14 @@ impl Mesh {
         copy(&mut self.materials, vertices);
     }
 
-    /// Drops triangles whose area is zero (or below f32's precision), recomputes missing and zero normals
-    /// as the area-weighted mean of the adjacent triangles' normals, and normalises the others.
+    /// Drops triangles with a vertex that does not exist and those whose area is zero (or below f32's precision),
+    /// recomputes missing and zero normals as the area-weighted mean of the adjacent triangles' normals, and normalises the
+    /// others.
     ///
     /// `normals` may be shorter than `positions`; the missing ones count as zero and are not reported as
-    /// repaired. Indices must be in range and positions finite.
+    /// repaired. Positions must be finite.
     pub fn repair(&mut self) -> Repairs {
+        let dangling_triangles = self.drop_dangling();
         let before = self.triangles.len();
         let (positions, triangles) = (&self.positions, &self.triangles);
         let has_area = threads::collect(before, |index| {
@@ -113,13 +117,22 @@ impl Mesh {
         }
         Repairs {
             dropped_triangles: before - self.triangles.len(),
+            dangling_triangles,
             ..self.repair_normals()
         }
     }
 
-    /// Repairs normals as [`Self::repair`] does, and keeps triangles without area, which a deformation may give
-    /// one.
+    /// Drops triangles with a vertex that does not exist, and returns their number.
+    fn drop_dangling(&mut self) -> usize {
+        let (before, vertices) = (self.triangles.len(), self.positions.len());
+        let exist = |triangle: &[u32; 3]| triangle.iter().all(|&i| (i as usize) < vertices);
+        self.triangles.retain(exist);
+        before - self.triangles.len()
+    }
+
+    /// As [`Self::repair`], but keeps triangles without area, which a deformation may give one.
     pub fn repair_normals(&mut self) -> Repairs {
+        let dangling_triangles = self.drop_dangling();
         let given_normals = self.normals.len();
         self.normals.resize(self.positions.len(), Vec3::ZERO);
         let positions = &self.positions;
@@ -156,6 +169,7 @@ impl Mesh {
         }
         Repairs {
             dropped_triangles: 0,
+            dangling_triangles,
             recomputed_normals,
         }
     }

@@ -461,6 +461,25 @@ fn visible_lights_are_surfaces_that_shine_on_their_front() {
 }
 
 #[test]
+fn scenes_without_a_camera_are_refused() {
+    let mut scene = scenes::spheres();
+    let before = packed(&scene);
+    // The index is of another scene's camera.
+    scene.camera_index = 1;
+    let others = [scene, Scene::default()];
+    for scene in &others {
+        for outcome in [pack::scene(scene), pack::scene_from(&before, scene)] {
+            let error = outcome.expect_err("a refusal");
+            assert!(matches!(error, PackError::NoCamera), "{error}");
+            assert_eq!(
+                error.to_string(),
+                "scene refused (cameras): it has no camera to be seen by. Add one to `Scene::cameras`."
+            );
+        }
+    }
+}
+
+#[test]
 fn meshes_whose_arrays_do_not_fit_are_refused() {
     let refused = |spoil: fn(&mut Mesh)| {
         let mut scene = scenes::empty();

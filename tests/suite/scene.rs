@@ -53,12 +53,47 @@ fn triangles_without_area_are_dropped_and_counted() {
             repairs,
             Repairs {
                 dropped_triangles: 1,
-                recomputed_normals: 0
+                ..Repairs::default()
             },
             "{name}"
         );
         assert_eq!(mesh.triangles, square().triangles, "{name}");
     }
+}
+
+#[test]
+fn triangles_with_vertices_that_do_not_exist_are_dropped_and_counted() {
+    for unknown in [4, 1000, u32::MAX] {
+        let mut mesh = square();
+        mesh.triangles.push([unknown, 0, 1]);
+        mesh.triangles.insert(1, [0, 1, unknown]);
+        mesh.triangles.insert(0, [0, 1, 1]);
+        let repairs = mesh.repair();
+        assert_eq!(
+            repairs,
+            Repairs {
+                dropped_triangles: 1,
+                dangling_triangles: 2,
+                recomputed_normals: 0
+            },
+            "{unknown}"
+        );
+        assert_eq!(mesh.triangles, square().triangles, "{unknown}");
+        assert_eq!(mesh.normals, [Vec3::Z; 4], "{unknown}");
+
+        let mut deforming = square();
+        deforming.triangles.push([unknown, 0, 1]);
+        let repairs = deforming.repair_normals();
+        assert_eq!(repairs.dangling_triangles, 1, "{unknown}");
+        assert_eq!(deforming.triangles, square().triangles, "{unknown}");
+    }
+    // Without vertices no triangle is left.
+    let mut mesh = Mesh {
+        triangles: vec![[0, 1, 2]],
+        ..Mesh::default()
+    };
+    assert_eq!(mesh.repair().dangling_triangles, 1);
+    assert!(mesh.triangles.is_empty());
 }
 
 #[test]
@@ -103,8 +138,8 @@ fn normals_without_length_are_recomputed_and_counted() {
     assert_eq!(
         repairs,
         Repairs {
-            dropped_triangles: 0,
-            recomputed_normals: 3
+            recomputed_normals: 3,
+            ..Repairs::default()
         }
     );
     assert_eq!(mesh.normals, [Vec3::Z, Vec3::Z, Vec3::Z, Vec3::X]);
