@@ -10,18 +10,28 @@
 //!   draws: so compute kernels have 512, and the window 256.
 //! - `MESA_SHADER_CACHE_DIR` names the folder of compiled kernels: one for each width and processor. Mesa's cache does not
 //!   distinguish widths, and would execute code of 256 bits as if it had 512. It distinguishes its own builds.
+//! - `MESA_SHADER_CACHE_DISABLE` is set where that folder cannot be used. Mesa maps the index of its cache into memory, a
+//!   file with holes, and on a full disk it ends with SIGBUS as soon as it writes into one: so the index is given its
+//!   space before.
 
 #[cfg(target_os = "linux")]
-use crate::app::folders;
+use crate::app::{console, folders};
+#[cfg(target_os = "linux")]
+use crate::output;
 #[cfg(target_os = "linux")]
 use std::{
     ffi::OsString,
+    fs, io,
     path::{Path, PathBuf},
 };
 
+/// Size in bytes of the index: a number, and 65,536 keys of 20 bytes (`disk_cache_mmap_cache_index` in Mesa).
+#[cfg(target_os = "linux")]
+const INDEX_SIZE: u64 = 8 + (20 << 16);
+
 /// Replaces this process by one with the variables that are missing. Returns if there are none, or if the program
 /// cannot be executed again. Variables that are set stay as they are, but for a width with which the window would
-/// crash, and a folder of kernels, in which those of this width get one of their own.
+/// crash, and a folder of kernels, in which those of this width get one of their own. Warns if there is no space for them.
 #[cfg(target_os = "linux")]
 pub fn set_environment(opens_window: bool) {
     use std::os::unix::process::CommandExt as _;
@@ -33,6 +43,13 @@ pub fn set_environment(opens_window: bool) {
         Some("512") if opens_window => Some("256"),
         _ => None,
     };
+    let uses_cache = value("MESA_SHADER_CACHE_DISABLE").is_none_or(|value| value != "true");
+    let set_folder = value("MESA_SHADER_CACHE_DIR").map(PathBuf::from);
+    let folder = match uses_cache {
+        true => kernel_folder(width.or(given.as_deref()), set_folder.as_deref()),
+        false => None,
+    };
+    let has_no_space = (folder.as_deref()).is_some_and(|folder| !can_hold_kernels(folder));
     let wanted = [
         (
             "NODEVICE_SELECT",
@@ -41,10 +58,13 @@ pub fn set_environment(opens_window: bool) {
         ("LP_NATIVE_VECTOR_WIDTH", width.map(OsString::from)),
         (
             "MESA_SHADER_CACHE_DIR",
-            kernel_folder(
-                width.or(given.as_deref()),
-                value("MESA_SHADER_CACHE_DIR").map(PathBuf::from),
-            ),
+            folder
+                .filter(|folder| set_folder.as_ref() != Some(folder))
+                .map(OsString::from),
+        ),
+        (
+            "MESA_SHADER_CACHE_DISABLE",
+            has_no_space.then(|| OsString::from("true")),
         ),
     ];
     let missing: Vec<_> = (wanted.into_iter())
@@ -66,20 +86,53 @@ pub fn set_environment(opens_window: bool) {
 }
 
 /// The folder of kernels for vectors of this width on this processor, inside the one that is set, or else in the cache of the
-/// program. `None` if it is set, or cannot be created: Mesa would print a message.
+/// program. `None` if the platform has none.
 #[cfg(target_os = "linux")]
-fn kernel_folder(width: Option<&str>, set: Option<PathBuf>) -> Option<OsString> {
+fn kernel_folder(width: Option<&str>, set: Option<&Path>) -> Option<PathBuf> {
     let width = width.filter(|width| width.bytes().all(|byte| byte.is_ascii_digit()));
     let name = format!("{}-bits-{}", width.unwrap_or("256"), processor());
-    if set.as_deref().and_then(Path::file_name) == Some(name.as_ref()) {
-        return None;
+    match set {
+        Some(set) if set.file_name() == Some(name.as_ref()) => Some(set.to_owned()),
+        Some(set) => Some(set.join(name)),
+        None => Some(folders::platform_cache()?.join("mesa").join(name)),
     }
-    let folder = match set {
-        Some(set) => set.join(name),
-        None => folders::platform_cache()?.join("mesa").join(name),
-    };
-    std::fs::create_dir_all(&folder).ok()?;
-    Some(folder.into())
+}
+
+/// Whether Mesa can keep kernels in `folder`. Says so if the disk is too full for them. A folder that cannot be created is no
+/// reason for a message.
+#[cfg(target_os = "linux")]
+fn can_hold_kernels(folder: &Path) -> bool {
+    use io::ErrorKind::{QuotaExceeded, StorageFull};
+    match reserve_index(folder) {
+        Ok(()) => true,
+        Err(error) => {
+            if [QuotaExceeded, StorageFull].contains(&error.kind()) {
+                console::warning(format!(
+                    "no shader cache ({}): {}. Free some space: kernels are compiled anew by each run until then.",
+                    folder.display(),
+                    output::reason(&error)
+                ));
+            }
+            false
+        }
+    }
+}
+
+/// Gives the index of Mesa's cache in `folder` its space on the disk, with its contents unchanged.
+#[cfg(target_os = "linux")]
+fn reserve_index(folder: &Path) -> io::Result<()> {
+    use rustix::fs::{FallocateFlags, fallocate};
+    use rustix::io::Errno;
+    let folder = folder.join("mesa_shader_cache");
+    fs::create_dir_all(&folder)?;
+    let mut options = fs::File::options();
+    let index =
+        (options.read(true).write(true).create(true).truncate(false)).open(folder.join("index"))?;
+    match fallocate(&index, FallocateFlags::empty(), 0, INDEX_SIZE) {
+        Err(error @ (Errno::NOSPC | Errno::DQUOT)) => Err(error.into()),
+        // Some network file systems reserve nothing. Beyond a limit on sizes Mesa does without a cache by itself.
+        _ => Ok(()),
+    }
 }
 
 /// A name for the kind of this processor, from its model and its instruction sets.

@@ -167,7 +167,12 @@ fn kernels_of_each_vector_width_have_a_shader_cache_of_their_own() {
         let folders = std::fs::read_dir(parent).into_iter().flatten();
         let used = folders
             .map(|folder| folder.expect("an entry").path())
-            .filter(|folder| std::fs::read_dir(folder).is_ok_and(|mut all| all.next().is_some()));
+            .filter(|folder| {
+                let parts = std::fs::read_dir(folder).into_iter().flatten();
+                let parts = parts.map(|part| std::fs::read_dir(part.expect("an entry").path()));
+                let mut files = parts.flat_map(|files| files.into_iter().flatten());
+                files.any(|file| file.expect("an entry").file_name() != "index")
+            });
         let name = |folder: std::path::PathBuf| folder.file_name().expect("a name").to_owned();
         let mut widths: Vec<_> = used
             .map(|folder| name(folder).into_string().expect("text"))
@@ -191,6 +196,61 @@ fn kernels_of_each_vector_width_have_a_shader_cache_of_their_own() {
     std::fs::create_dir(workspace.path("blocked")).expect("a folder");
     workspace.write("blocked/glimray", "a file");
     run(&[("XDG_CACHE_HOME", &workspace.path("blocked"))]);
+}
+
+/// Mesa maps the index of its cache into memory. On a full disk the program ended with SIGBUS.
+#[cfg(target_os = "linux")]
+#[test]
+fn on_a_full_disk_kernels_are_compiled_without_a_shader_cache() {
+    let workspace = Workspace::new();
+    std::fs::create_dir(workspace.path("home")).expect("a folder");
+    let render = |script: &str| {
+        let line = workspace.command("render a.scene --size 8x6 --quiet -o a.png");
+        let mut command = std::process::Command::new("unshare");
+        command
+            .args(["--map-root-user", "--mount", "sh", "-ec", script, "sh"])
+            .arg(line.get_program())
+            .args(line.get_args())
+            .current_dir(workspace.path("."))
+            .env("HOME", workspace.path("home"))
+            .envs(
+                ["GLIMRAY_CACHE", "XDG_CACHE_HOME", "MESA_SHADER_CACHE_DIR"].map(|name| (name, "")),
+            );
+        command.output()
+    };
+    let mount = "mount -t tmpfs -o size=300k tmpfs \"$HOME\"";
+    match render(mount) {
+        Ok(probe) if probe.status.success() => {}
+        other => {
+            return skip(
+                Need::Mounts,
+                format!("there are no private mounts: {other:?}"),
+            );
+        }
+    }
+    let with = |prepare: &str| {
+        let script = format!("{mount}; {prepare}; exec \"$@\"");
+        let run = Run::from(render(&script).expect("unshare")).expect(0);
+        std::fs::remove_file(workspace.path("a.png")).expect("a picture");
+        run.stderr
+    };
+    // The first file has no space, the second has some, but not for all of the index.
+    for prepare in [
+        "head -c 400000 /dev/zero > \"$HOME/fill\" || true",
+        "true",
+        "mkdir -p \"$HOME/.cache/glimray/mesa\"; head -c 400000 /dev/zero > \"$HOME/fill\" || true",
+    ] {
+        let said = with(prepare);
+        let mut warnings = said.lines().filter(|line| line.starts_with("warning: "));
+        let warning = warnings.next().unwrap_or_default();
+        let words = "no space left on device. Free some space: kernels are compiled anew by each run until then.";
+        assert!(
+            warning.starts_with("warning: no shader cache ("),
+            "{prepare}: {said}"
+        );
+        assert!(warning.ends_with(words), "{prepare}: {said}");
+        assert_eq!(warnings.next(), None, "{prepare}: {said}");
+    }
 }
 
 fn is_lavapipe(workspace: &Workspace) -> bool {
