@@ -21,6 +21,7 @@ mod inspect;
 mod interrupt;
 mod job;
 mod layers;
+mod lock;
 mod man;
 mod memory;
 mod merge;

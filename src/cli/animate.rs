@@ -8,7 +8,6 @@ mod encode;
 mod fingerprint;
 mod frame_renderer;
 mod journal;
-mod lock;
 mod pattern;
 mod plan;
 
@@ -28,13 +27,13 @@ use crate::cli::args::{AnimateArgs, LogFlags, SequenceFlags};
 use crate::cli::idle_flags;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job::{Job, Outcome};
+use crate::cli::lock::Lock;
 use crate::cli::progress::FrameProgress;
 use crate::cli::report::{AnimationReport, Draft};
 use crate::output::video::{FrameRate, VideoOptions};
 use crate::render::Stats;
 use frame_renderer::{FrameRenderer, Sink};
 use journal::Journal;
-use lock::Lock;
 use plan::Plan;
 use std::fs;
 use std::path::Path;
@@ -156,7 +155,7 @@ impl<'a> Sequence<'a> {
 
         // The folder is locked from here on, so a signal must not end the program at once.
         let _deferred = interrupt.defer();
-        let lock = files.map(|files| Lock::acquire(files.pattern.folder()));
+        let lock = files.map(|files| Lock::of_folder(files.pattern.folder()));
         let lock = lock.transpose()?;
         let mut journal = files.map(|files| Journal::open(&files.pattern));
         let origin = |number| Ok(renderer.origin(&renderer.view(number)?));

@@ -7,6 +7,7 @@ use crate::app::error::AppError;
 use crate::app::inputs::is_same;
 use crate::cli::args::CheckpointFlags;
 use crate::cli::interrupt::Interrupt;
+use crate::cli::lock::Lock;
 use crate::cli::report::Draft;
 use crate::output::{self, OutputError};
 use crate::render::{CheckpointError, Renderer};
@@ -26,13 +27,15 @@ pub struct CheckpointFile<'a> {
     saved: Option<(f64, u64)>,
     /// Whether it could not be written, and a warning said so.
     has_failed: bool,
+    /// Keeps other runs away until this one ends.
+    _lock: Option<Lock>,
 }
 
 impl<'a> CheckpointFile<'a> {
     /// The file that the flags name, if they do.
     ///
     /// # Errors
-    /// The file is the picture, the report or an input, or cannot be written.
+    /// The file is the picture, the report or an input, cannot be written, or another run keeps it.
     pub fn new(
         flags: &'a CheckpointFlags,
         picture: &Path,
@@ -67,6 +70,10 @@ impl<'a> CheckpointFile<'a> {
             last: Instant::now(),
             saved: None,
             has_failed: false,
+            _lock: match flags.is_leased {
+                true => None,
+                false => Some(Lock::of_checkpoint(path)?),
+            },
         }))
     }
 

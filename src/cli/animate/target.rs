@@ -2,10 +2,9 @@
 
 use crate::app::error::AppError;
 use crate::app::inputs::Inputs;
-use crate::cli::animate::lock;
 use crate::cli::animate::pattern::Pattern;
 use crate::cli::args::{LogFlags, SequenceFlags, SequenceFormat};
-use crate::cli::{destination, job};
+use crate::cli::{destination, job, lock};
 use crate::output::video::{self, VideoFormat, VideoOptions};
 use crate::output::{self, Format, OutputError, SaveOptions};
 use std::ffi::OsString;

@@ -2,7 +2,7 @@
 //! it.
 
 use super::lease::{Claim, Leases, host};
-use super::manifest::{Manifest, Part};
+use super::manifest::{self, Manifest, Part};
 use super::results::{self, Depth, State, frame_ending, frame_files};
 use super::{Done, Failed, Folder, archive, failed_io, flags, frames, read, remove, write};
 use crate::app::console;
@@ -339,7 +339,10 @@ impl Farm {
             ))
         })?;
         match parsed.command {
-            Command::Render(arguments) => render::run(&arguments, started)?,
+            Command::Render(mut arguments) => {
+                arguments.part.checkpoint.is_leased = true;
+                render::run(&arguments, started)?;
+            }
             Command::Animate(arguments) => animate::run(&arguments, started)?,
             _ => return Err(AppError::Internal(format!("part {number}: no command"))),
         }
@@ -349,7 +352,7 @@ impl Farm {
         let frames = frame_files(&self.folder, &self.manifest, number);
         let frames = frames.iter().map(|(_, path)| {
             let bytes = fs::read(path).map_err(|error| failed_io(path, error))?;
-            Ok::<_, AppError>(archive::hash(&bytes))
+            Ok::<_, AppError>(manifest::hash(&bytes))
         });
         Ok(Done {
             seconds: started.elapsed().as_secs_f64(),

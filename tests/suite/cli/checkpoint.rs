@@ -295,6 +295,52 @@ fn a_failing_device_keeps_the_checkpoint() {
 }
 
 #[test]
+fn a_second_run_on_a_checkpoint_is_refused_and_a_killed_one_blocks_nobody() {
+    let workspace = Workspace::new();
+    let flags = "--size 160x120 --samples 4000 --checkpoint a.ckpt --every 0.05s";
+    let mut first = workspace.start(&format!("render a.scene {flags} -o a.png"));
+    while !workspace.path("a.ckpt").exists() {
+        let ended = first.try_wait().expect("a process");
+        assert!(ended.is_none(), "it ended without a checkpoint: {ended:?}");
+        sleep(Duration::from_millis(20));
+    }
+    let before = workspace.read("a.ckpt.lock");
+    for seed in ["", "--seed 5"] {
+        let second = workspace.run(&format!("render a.scene {flags} {seed} -o b.png"));
+        assert_eq!(
+            second.expect(4).stderr,
+            "error: cannot keep a checkpoint (a.ckpt): another run is writing there. Wait until it ends, or name \
+             another file with --checkpoint.\n",
+            "{seed}"
+        );
+    }
+    assert_eq!(before, b"");
+    send(&first, "-KILL");
+    first.wait().expect("it ends");
+    // The lock is left, and locked by nobody.
+    let mut names = workspace.names(".");
+    names.retain(|name| !name.starts_with(".a.ckpt.part-"));
+    assert_eq!(names, ["a.ckpt", "a.ckpt.lock", "a.scene"]);
+    let line = format!("render a.scene {flags} -o a.png");
+    let mut third = workspace.start(&line);
+    let mut said = BufReader::new(third.stderr.take().expect("a pipe")).lines();
+    let resumed = said.any(|line| line.expect("text").starts_with("resuming from a.ckpt: "));
+    assert!(resumed, "the third run does not go on from the checkpoint");
+    send(&third, "-INT");
+    said.for_each(drop);
+    assert_eq!(third.wait().expect("it ends").code(), Some(130));
+    let mut names = workspace.names(".");
+    names.retain(|name| !name.starts_with(".a.ckpt.part-"));
+    assert_eq!(names, ["a.ckpt", "a.scene"]);
+
+    // A file that happens to have the name of the lock.
+    workspace.write("a.ckpt.lock", "something else");
+    let refused = workspace.run(&line).expect(4);
+    refused.says("error: cannot lock the checkpoint (a.ckpt.lock): the file is not a lock.");
+    assert_eq!(workspace.read("a.ckpt.lock"), b"something else");
+}
+
+#[test]
 fn a_checkpoint_in_an_impossible_place_is_refused_before_rendering() {
     let workspace = Workspace::new();
     std::fs::create_dir(workspace.path("folder")).expect("a folder");

@@ -1,4 +1,4 @@
-//! Allows one run at a time per folder. The system releases the lock when a process ends, however it ends, so
+//! Allows one run at a time per folder of frames and per checkpoint. The system releases the lock when a process ends, however it ends, so
 //! a killed run blocks nobody.
 
 use crate::app::console;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 const NAME: &str = ".glimray.lock";
 
-/// Keeps other runs out of a folder until it is dropped.
+/// Keeps other runs out of a folder, or away from a checkpoint, until it is dropped.
 pub struct Lock {
     path: PathBuf,
     /// `None` if the file system has no locks.
@@ -28,8 +28,41 @@ impl Lock {
     ///
     /// # Errors
     /// Another run holds the lock, or the lock file cannot be written.
-    pub fn acquire(folder: &Path) -> Result<Self, AppError> {
-        let path = path(folder);
+    pub fn of_folder(folder: &Path) -> Result<Self, AppError> {
+        let name = format!("the folder {}", folder.display());
+        Self::acquire(path(folder), &name, || {
+            format!(
+                "cannot write frames (folder {}): another run is writing there. Wait until it ends, or choose another \
+                 folder.",
+                folder.display()
+            )
+        })
+    }
+
+    /// Locks `checkpoint`, whose lock file is beside it.
+    ///
+    /// # Errors
+    /// As [`Self::of_folder`], or there is another file in place of the lock file.
+    pub fn of_checkpoint(checkpoint: &Path) -> Result<Self, AppError> {
+        let name = checkpoint.display();
+        let mut path = checkpoint.as_os_str().to_owned();
+        path.push(".lock");
+        if fs::metadata(&path).is_ok_and(|found| found.len() > 0) {
+            return Err(AppError::Unwritable(format!(
+                "cannot lock the checkpoint ({}): the file is not a lock. Move it away, or name another checkpoint.",
+                path.display()
+            )));
+        }
+        Self::acquire(path.into(), &format!("the checkpoint {name}"), || {
+            format!(
+                "cannot keep a checkpoint ({name}): another run is writing there. Wait until it ends, or name another \
+                 file with --checkpoint."
+            )
+        })
+    }
+
+    /// Locks what `name` describes with the file `path`. `busy` is the error if another run holds it.
+    fn acquire(path: PathBuf, name: &str, busy: impl FnOnce() -> String) -> Result<Self, AppError> {
         output::check_no_link(&path)?;
         loop {
             let failed = |source| OutputError::Io {
@@ -45,17 +78,11 @@ impl Lock {
             let file = match file.try_lock() {
                 Ok(()) => Some(file),
                 Err(TryLockError::WouldBlock) => {
-                    return Err(AppError::Unwritable(format!(
-                        "cannot write frames (folder {}): another run is writing there. Wait until it \
-                         ends, or choose another folder.",
-                        folder.display()
-                    )));
+                    return Err(AppError::Unwritable(busy()));
                 }
                 Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {
                     console::warning(format_args!(
-                        "cannot lock the folder {}: its file system has no locks. Make sure that no other \
-                         run writes there.",
-                        folder.display()
+                        "cannot lock {name}: the file system has no locks. Make sure that no other run writes there."
                     ));
                     None
                 }
