@@ -185,10 +185,15 @@ fn read<T: for<'a> Deserialize<'a>>(path: &Path) -> Option<T> {
 
 /// Writes a small JSON file.
 fn write<T: Serialize>(path: &Path, value: &T) -> Result<(), AppError> {
+    Ok(output::write(path, &json(value)?, true)?)
+}
+
+/// The text of a small JSON file.
+fn json<T: Serialize>(value: &T) -> Result<Vec<u8>, AppError> {
     let mut text = serde_json::to_vec_pretty(value)
-        .map_err(|error| AppError::Internal(format!("{}: {error}", path.display())))?;
+        .map_err(|error| AppError::Internal(format!("JSON: {error}")))?;
     text.push(b'\n');
-    Ok(output::write(path, &text, true)?)
+    Ok(text)
 }
 
 /// Removes a file that may be missing.

@@ -1,15 +1,13 @@
 //! Packs a scene with everything that it names into one archive, so that other machines need no shared sources.
 
 use super::Folder;
-use super::manifest::PackedFile;
+use super::manifest::{PackedFile, hash};
 use crate::app::error::AppError;
 use crate::import::SCENE_MEMBER;
 use crate::output;
-use crate::render::Fingerprint;
 use std::fs;
 use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
-use xxhash_rust::xxh3::xxh3_128;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
@@ -75,11 +73,6 @@ fn described(name: &str, bytes: &[u8]) -> PackedFile {
         bytes: bytes.len() as u64,
         xxh3: hash(bytes),
     }
-}
-
-/// The 128-bit XXH3 hash in hexadecimal.
-pub fn hash(bytes: &[u8]) -> String {
-    Fingerprint(xxh3_128(bytes)).to_string()
 }
 
 /// Checks that a packed file is there and whole, and returns its path.

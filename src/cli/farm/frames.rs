@@ -1,9 +1,9 @@
 //! Frames of an animation that are cut into films. Whoever finishes the last film of a frame merges the frame, so many
 //! machines merge at a time. [`super::merge`] merges those that are left.
 
-use super::manifest::Manifest;
+use super::manifest::{self, Manifest};
 use super::results::frame_ending;
-use super::{Folder, archive, failed_io, flags, numbered, read, write};
+use super::{Folder, failed_io, flags, numbered, read, write};
 use crate::app::error::AppError;
 use crate::cli::args::{Cli, Command};
 use crate::cli::merge;
@@ -51,7 +51,7 @@ pub fn merge(
     let films: Vec<PathBuf> = parts.iter().map(|&part| folder.film(part)).collect();
     let hash = |film: &PathBuf| last_hash(film).map_err(|error| failed_io(film, error));
     let hashes = films.iter().map(hash).collect::<Result<Vec<_>, _>>()?;
-    let picture = || fs::read(&path).map(|bytes| archive::hash(&bytes));
+    let picture = || fs::read(&path).map(|bytes| manifest::hash(&bytes));
     if let Some(merged) = read::<Merged>(&mark)
         && merged.films == hashes
         && picture().is_ok_and(|picture| picture == merged.picture)

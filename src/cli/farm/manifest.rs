@@ -1,15 +1,20 @@
 //! The manifest of a farm: what is rendered, from which files, and the parts. It does not change once it is written.
 
 use crate::app::error::AppError;
+use crate::render::Fingerprint;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Component, Path, PathBuf};
+use xxhash_rust::xxh3::xxh3_128;
 
 /// The name in a farm's folder.
 pub const NAME: &str = "manifest.json";
 
 /// The version of the format.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
+
+/// Stands for the checksum while it is computed.
+const NO_CHECKSUM: &str = "00000000000000000000000000000000";
 
 /// More parts or frames than any farm has.
 const MOST: usize = 1 << 24;
@@ -48,6 +53,9 @@ pub struct Manifest {
     pub measured: Measured,
     /// The parts, by number.
     pub parts: Vec<Part>,
+    /// 128-bit XXH3 hash in hexadecimal of this file with zeros in place of the hash.
+    #[serde(default)]
+    pub checksum: String,
 }
 
 /// A file in the farm's folder.
@@ -175,13 +183,33 @@ impl Manifest {
                 "Use the same version on all machines, or plan it again",
             ));
         }
-        match manifest.fault() {
-            Some(what) => Err(refused(
+        if let Some(what) = manifest.fault() {
+            return Err(refused(
                 format!("its {what} are malformed"),
                 "It was changed; plan it again",
-            )),
-            None => Ok(manifest),
+            ));
         }
+        let checksum = &manifest.checksum;
+        let text = String::from_utf8_lossy(&text);
+        let is_whole = checksum.len() == NO_CHECKSUM.len()
+            && hash(text.replace(checksum, NO_CHECKSUM).as_bytes()) == *checksum;
+        if !is_whole {
+            return Err(refused(
+                "its manifest was changed after it was planned".into(),
+                "Copy it again, or plan it again with other flags",
+            ));
+        }
+        Ok(manifest)
+    }
+
+    /// Writes the manifest of the farm in `folder`, with its checksum.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn write(&mut self, folder: &Path) -> Result<(), AppError> {
+        self.checksum = NO_CHECKSUM.into();
+        self.checksum = hash(&super::json(self)?);
+        super::write(&folder.join(NAME), self)
     }
 
     /// What is malformed in a manifest that was changed by hand.
@@ -217,6 +245,11 @@ impl Manifest {
     pub fn number(part: u32) -> String {
         format!("{part:05}")
     }
+}
+
+/// The 128-bit XXH3 hash in hexadecimal.
+pub fn hash(bytes: &[u8]) -> String {
+    Fingerprint(xxh3_128(bytes)).to_string()
 }
 
 /// The JSON Schema of manifests.

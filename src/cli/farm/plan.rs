@@ -1,11 +1,11 @@
 //! `glimray farm plan SCENE`: measures, cuts, and writes the folder.
 
-use super::manifest::{self, Frames, Manifest, Measured};
+use super::manifest::{Frames, Manifest, Measured};
 use super::measure::{Costs, measure};
 use super::merge_costs::MergeCosts;
 use super::target::Target;
 use super::work::Work;
-use super::{Folder, archive, command, flags, simulate, write};
+use super::{Folder, archive, command, flags, simulate};
 use crate::app::clock::Clock;
 use crate::app::console;
 use crate::app::error::AppError;
@@ -124,7 +124,7 @@ pub fn run(
         given.retain(|flag| !flag.starts_with("--environment="));
     }
     let of_film = work.costs.film.header();
-    let manifest = Manifest {
+    let mut manifest = Manifest {
         version: Manifest::VERSION,
         glimray: env!("CARGO_PKG_VERSION").into(),
         output,
@@ -150,9 +150,10 @@ pub fn run(
             render_seconds: total,
         },
         parts,
+        checksum: String::new(),
     };
     // The manifest comes last: a folder without one is no farm.
-    write(&folder.path().join(manifest::NAME), &manifest)?;
+    manifest.write(folder.path())?;
     unfinished.keep();
     report(&job, &manifest, count, &folder);
     Ok(())

@@ -1,7 +1,7 @@
 //! What parts leave behind: whether it is there, whole, and of this farm.
 
-use super::manifest::{Manifest, Part};
-use super::{Done, Folder, archive, numbered};
+use super::manifest::{self, Manifest, Part};
+use super::{Done, Folder, numbered};
 use crate::output::Format;
 use crate::render::{Film, FilmError, FilmHeader, FilmOutline};
 use std::fs::{self, File};
@@ -125,7 +125,7 @@ fn invalid_frames(
         if depth == Depth::Outline {
             return (!path.is_file()).then_some((path, "is missing"));
         }
-        let hash = fs::read(path).ok().map(|bytes| archive::hash(&bytes));
+        let hash = fs::read(path).ok().map(|bytes| manifest::hash(&bytes));
         match (hash, done.frames.get(index)) {
             (None, _) => Some((path, "is missing")),
             (Some(hash), Some(wanted)) if hash == *wanted => None,
