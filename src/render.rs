@@ -58,7 +58,7 @@ pub use opacity::CatcherLight;
 pub use pipelines::early_module;
 pub use policy::{ExecutionPolicy, Fetch, Slicing, Stack, Storage};
 pub use query::{Coherence, QueryHit, QueryRay, RayBatch, RayQuery, RaySteps, RayTest};
-pub use settings::{BsdfModel, MIN_THROUGHPUT, RayOffset, RenderSettings, TriangleTest};
+pub use settings::{BsdfModel, MAX_SIDE, MIN_THROUGHPUT, RayOffset, RenderSettings, TriangleTest};
 pub use show::Screen;
 pub use stats::{Rays, Stats, Uploads};
 pub use sums::SAMPLE_BLOCK;

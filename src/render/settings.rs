@@ -4,6 +4,9 @@ use super::{Fingerprint, Integrator, Shows, fingerprint::Encoder};
 use crate::scene::{Antialias, Backdrop, Filter, LightTransport, OutputDefaults};
 use std::{fmt, ops::Range, str::FromStr};
 
+/// Largest width and height of a picture in pixels.
+pub const MAX_SIDE: u32 = 1_000_000;
+
 /// The default minimum throughput of rays: half of the smallest 8-bit step.
 pub const MIN_THROUGHPUT: f32 = 1.0 / 512.0;
 
@@ -14,7 +17,7 @@ const MAX_SHARED_SAMPLES: u32 = 64;
 /// Settings of one picture. Together with scene and frame they determine every pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderSettings {
-    /// Width and height of the whole picture in pixels, at least 1.
+    /// Width and height of the whole picture in pixels, 1 to [`MAX_SIDE`].
     pub size: (u32, u32),
     /// Part of the picture to render: x0, y0, x1, y1 in pixels, the last two exclusive.
     pub crop: Option<[u32; 4]>,

@@ -7,7 +7,7 @@ use crate::gpu::Backend;
 use crate::import::{Axis, Baking, EnvironmentSource, Ground};
 use crate::output::Format;
 use crate::output::video::VideoFormat;
-use crate::render::Integrator;
+use crate::render::{Integrator, MAX_SIDE};
 use crate::scene::{Shutter, sky};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec3, Vec3};
@@ -110,9 +110,6 @@ pub static GROUNDS: ValueNames<Ground> = ValueNames(&[
         Ground::Shadow,
     ),
 ]);
-
-/// Largest width or height of a picture, in pixels.
-const MAX_SIDE: u32 = 1_000_000;
 
 /// Largest absolute value of a coordinate.
 const MAX_COORDINATE: f64 = 1e9;

@@ -8,6 +8,7 @@ use super::{
         Fingerprint, Integrator, Tone,
         binary::{ReadError, Reader, Writer},
         layers,
+        settings::MAX_SIDE,
         sums::SAMPLE_BLOCK,
     },
     Film, FilmError, FilmHeader, FilmOutline,
@@ -156,6 +157,10 @@ fn header<R: Read>(input: &mut Reader<R>) -> Result<FilmHeader, FilmError> {
     }
     let [scene, view, settings] = fingerprints;
     let size = (input.number()?, input.number()?);
+    let sides = 1..=MAX_SIDE;
+    if !sides.contains(&size.0) || !sides.contains(&size.1) {
+        return Err(damaged("its size is invalid"));
+    }
     let samples = input.number()?;
     if input.number()? != SAMPLE_BLOCK || samples == 0 {
         return Err(damaged("its number of samples is invalid"));

@@ -129,6 +129,42 @@ fn damage_to_the_head_of_a_film_is_not_taken_for_missing_samples() {
     verdict.close();
 }
 
+/// The checksum of the forged films is right.
+#[test]
+fn sizes_that_no_picture_has_are_the_films_fault() {
+    let workspace = Workspace::new();
+    workspace
+        .run("render a.scene --size 3x2 --samples 1 -o a.film")
+        .expect(0);
+    let film = workspace.read("a.film");
+    // Signature, version, name of the program, and three fingerprints.
+    let name = u32::from_le_bytes(film[12..16].try_into().expect("four bytes"));
+    let at = 16 + name as usize + 48;
+    assert_eq!(film[at..at + 8], [3, 0, 0, 0, 2, 0, 0, 0]);
+    let mut verdict = Verdict::on("forged sizes");
+    for (side, width) in [(0, 0), (0, 1_000_001), (1, 0), (1, u32::MAX)] {
+        let mut forged = film.clone();
+        forged[at + 4 * side..][..4].copy_from_slice(&width.to_le_bytes());
+        let end = forged.len() - 16;
+        let sum = xxhash_rust::xxh3::xxh3_128(&forged[..end]);
+        forged[end..].copy_from_slice(&sum.to_le_bytes());
+        workspace.write("forged.film", forged);
+        for line in [
+            "merge forged.film -o b.png",
+            "merge forged.film --partial -o b.jpg",
+        ] {
+            let run = workspace.run(line);
+            let is_said = run.stderr.contains("its size is invalid");
+            verdict.that(
+                format!("{line}, {width}"),
+                run.code == Some(3) && is_said,
+                || format!("{run:?}"),
+            );
+        }
+    }
+    verdict.close();
+}
+
 #[test]
 fn a_film_names_its_adapter_with_backend_and_driver() {
     let workspace = Workspace::new();
