@@ -1,3 +1,5 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| glimray_fuzz::zip(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    glimray_fuzz::zip(bytes);
+});

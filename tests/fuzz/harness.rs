@@ -3,7 +3,7 @@
 //!
 //! A file must be read or refused. A refusal is one line. A scene that was read keeps the invariants of
 //! `Scene`, has a frame at any time, and if it is small, it can be packed, and exporting it, reading the
-//! export and exporting that gives the same text.
+//! export and exporting that gives the same text. Each target tells whether the file was read.
 
 mod invariants;
 pub mod poses;
@@ -15,8 +15,8 @@ use glimray::render::Film;
 use glimray::scene::Scene;
 use xxhash_rust::xxh3::xxh3_128;
 
-/// A kind of file and the function that reads one.
-pub type Target = (&'static str, fn(&[u8]));
+/// A kind of file, and the function that reads one and returns whether it was accepted.
+pub type Target = (&'static str, fn(&[u8]) -> bool);
 
 /// All targets.
 pub const TARGETS: &[Target] = &[
@@ -51,69 +51,68 @@ const SQUARE: &[u8] =
     usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\n";
 
 /// A native scene.
-pub fn native(bytes: &[u8]) {
-    let read = |text: &[u8]| scene("a.toml", text);
-    if let Some(scene) = read(bytes) {
-        survives_export(&scene);
-    }
+pub fn native(bytes: &[u8]) -> bool {
+    let scene = scene("a.toml", bytes);
+    scene.iter().for_each(survives_export);
+    scene.is_some()
 }
 
 /// A scene of the course.
-pub fn course(bytes: &[u8]) {
-    scene("a.scene", bytes);
+pub fn course(bytes: &[u8]) -> bool {
+    scene("a.scene", bytes).is_some()
 }
 
 /// A scene in NFF.
-pub fn nff(bytes: &[u8]) {
-    scene("a.nff", bytes);
+pub fn nff(bytes: &[u8]) -> bool {
+    scene("a.nff", bytes).is_some()
 }
 
 /// An OBJ model.
-pub fn obj(bytes: &[u8]) {
-    scene("a.obj", bytes);
+pub fn obj(bytes: &[u8]) -> bool {
+    scene("a.obj", bytes).is_some()
 }
 
 /// The materials of an OBJ model.
-pub fn mtl(bytes: &[u8]) {
+pub fn mtl(bytes: &[u8]) -> bool {
     let files = [("a.obj", SQUARE), ("a.mtl", bytes), ("a.png", PNG)];
-    read(&files, "a.obj");
+    read(&files, "a.obj").is_some_and(|scene| scene.materials.iter().any(|it| it.name == "a"))
 }
 
 /// A PLY model.
-pub fn ply(bytes: &[u8]) {
-    scene("a.ply", bytes);
+pub fn ply(bytes: &[u8]) -> bool {
+    scene("a.ply", bytes).is_some()
 }
 
 /// A PLY mesh of a native scene.
-pub fn mesh_ply(bytes: &[u8]) {
+pub fn mesh_ply(bytes: &[u8]) -> bool {
     let named: &[u8] = b"[[objects]]\nmesh = { file = 'b.ply' }\n";
-    read(&[("a.toml", named), ("b.ply", bytes)], "a.toml");
+    read(&[("a.toml", named), ("b.ply", bytes)], "a.toml").is_some()
 }
 
 /// An STL model.
-pub fn stl(bytes: &[u8]) {
-    scene("a.stl", bytes);
+pub fn stl(bytes: &[u8]) -> bool {
+    scene("a.stl", bytes).is_some()
 }
 
 /// A glTF model in JSON.
-pub fn gltf(bytes: &[u8]) {
-    scene("a.gltf", bytes);
+pub fn gltf(bytes: &[u8]) -> bool {
+    scene("a.gltf", bytes).is_some()
 }
 
 /// A binary glTF model.
-pub fn glb(bytes: &[u8]) {
-    scene("a.glb", bytes);
+pub fn glb(bytes: &[u8]) -> bool {
+    scene("a.glb", bytes).is_some()
 }
 
 /// An archive of a model.
-pub fn zip(bytes: &[u8]) {
-    scene("a.zip", bytes);
+pub fn zip(bytes: &[u8]) -> bool {
+    scene("a.zip", bytes).is_some()
 }
 
 /// Deforming meshes: two moments, and the buffer of a model with a skin, morph targets and a clip.
-pub fn poses(bytes: &[u8]) {
+pub fn poses(bytes: &[u8]) -> bool {
     let Some((moments, buffer)) = bytes.split_first_chunk::<16>() else {
-        return;
+        return false;
     };
     let moment = |at: usize| {
         let bytes = moments[at..].first_chunk().copied().unwrap_or_default();
@@ -127,7 +126,7 @@ pub fn poses(bytes: &[u8]) {
     let (open, length) = (moment(0), moment(8).abs().min(10.0));
     let scene = match poses::model(buffer) {
         Ok(scene) => scene,
-        Err(error) => return is_one_line(&error.to_string()),
+        Err(error) => return refused(&error),
     };
     let broken = invariants::broken(&scene);
     let broken = broken.or_else(|| poses::broken(&scene, open));
@@ -136,7 +135,10 @@ pub fn poses(bytes: &[u8]) {
     }
     let packed = match pack::scene(&scene) {
         Ok(packed) => packed,
-        Err(error) => return is_one_line(&error.to_string()),
+        Err(error) => {
+            refused(&error);
+            return true;
+        }
     };
     // Trees are built, refitted and blurred.
     let mut before = None;
@@ -146,25 +148,26 @@ pub fn poses(bytes: &[u8]) {
     ] {
         match packed.view_from(before.as_ref(), &frames) {
             Ok(view) => before = Some(view),
-            Err(error) => is_one_line(&error.to_string()),
+            Err(error) => _ = refused(&error),
         }
     }
+    true
 }
 
 /// An image.
-pub fn picture(bytes: &[u8]) {
+pub fn picture(bytes: &[u8]) -> bool {
     let named: &[u8] = b"textures.t = { picture = 'a.png' }\n";
-    read(&[("a.toml", named), ("a.png", bytes)], "a.toml");
+    read(&[("a.toml", named), ("a.png", bytes)], "a.toml").is_some()
 }
 
 /// A film file. Its checksum is put right, which no mutation would.
-pub fn film(bytes: &[u8]) {
+pub fn film(bytes: &[u8]) -> bool {
     let mut bytes = bytes.to_vec();
     if let Some((content, digest)) = bytes.split_last_chunk_mut::<16>() {
         *digest = xxh3_128(content).to_le_bytes();
     }
     match Film::read(&bytes[..]) {
-        Err(error) => is_one_line(&error.to_string()),
+        Err(error) => refused(&error),
         Ok(film) => {
             let mut again = Vec::new();
             film.write(&mut again).expect("memory takes everything");
@@ -174,6 +177,7 @@ pub fn film(bytes: &[u8]) {
                 film.merge(&film).is_err() == has_parts,
                 "samples were merged with themselves"
             );
+            true
         }
     }
 }
@@ -197,7 +201,7 @@ fn read(files: &[(&str, &[u8])], name: &str) -> Option<Scene> {
     let scene = match import::load_from(&files, name, &Options::default()) {
         Ok(scene) => scene,
         Err(error) => {
-            is_one_line(&error.to_string());
+            refused(&error);
             return None;
         }
     };
@@ -211,10 +215,10 @@ fn read(files: &[(&str, &[u8])], name: &str) -> Option<Scene> {
     let frame = scene.frame(0.7);
     if scene.triangle_count() + scene.instances.len() + scene.shapes.len() < MOST_PACKED {
         match pack::scene(&scene) {
-            Err(error) => is_one_line(&error.to_string()),
+            Err(error) => _ = refused(&error),
             Ok(packed) => {
                 if let Err(error) = packed.frame(&frame) {
-                    is_one_line(&error.to_string());
+                    refused(&error);
                 }
             }
         }
@@ -250,10 +254,21 @@ fn survives_export(scene: &Scene) {
     );
 }
 
+/// Checks the message of a refusal, which accepts nothing.
+fn refused(error: &impl std::fmt::Display) -> bool {
+    is_one_line(&error.to_string());
+    false
+}
+
 fn is_one_line(message: &str) {
     assert!(!message.is_empty(), "a message is empty");
+    // Marks, separators, embeddings, overrides and isolates of Unicode's bidirectional algorithm.
+    let acts = |c: char| {
+        c.is_control()
+            || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
     assert!(
-        !message.contains(char::is_control),
-        "a message has several lines: {message:?}"
+        !message.contains(acts),
+        "a message has several lines, or acts on a terminal: {message:?}"
     );
 }
