@@ -78,11 +78,12 @@ pub enum ExportError {
 }
 
 /// The advice on a scene that needs too many keys and values. Each key of its animation takes at least six of them.
-fn remedy(marks: usize, key_count: usize) -> &'static str {
+fn remedy(marks: usize, key_count: usize, clip_count: usize) -> &'static str {
     match 12 * key_count > marks {
-        true => {
+        true if clip_count > 1 => {
             "The keys of its animation are most of them: choose one clip, or render the model as it is"
         }
+        true => "The keys of its animation are most of them: render the model as it is",
         false => "Remove objects that are not copies of others",
     }
 }
@@ -135,7 +136,7 @@ pub fn native(
         return Err(ExportError::TooBig {
             marks,
             limit,
-            todo: remedy(marks, curves.sum()),
+            todo: remedy(marks, curves.sum(), scene.clips.len()),
         });
     }
     Ok(Export {

@@ -69,9 +69,8 @@ fn check(made: &Export) -> Result<(), AppError> {
             let line = error.fault().excerpt.as_ref();
             let line = line.map_or(String::new(), |it| format!(" (`{}`)", it.text.trim()));
             Err(AppError::Refused(format!(
-                "cannot write the scene as a native one: {}{line}. {}.",
-                error.fault().why,
-                error.fault().todo
+                "cannot write the scene as a native one: {}{line}. Render the original instead, or change that in it.",
+                error.fault().why
             )))
         }
     }

@@ -43,7 +43,8 @@ pub(super) fn normal_matrix(transform: DAffine3) -> DMat3 {
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
 }
 
-/// Whether `matrix` is safely invertible: its axes are in range and far from coplanar.
+/// Whether `matrix` is safely invertible: its axes are in range, and they are far from coplanar or its inverse is exact to a
+/// millionth, as below very uneven scales.
 pub(super) fn is_invertible(matrix: DMat3) -> bool {
     let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     let is_good = |axis: &DVec3| {
@@ -51,5 +52,7 @@ pub(super) fn is_invertible(matrix: DMat3) -> bool {
         length >= f64::from(f32::MIN_POSITIVE) && in_range(axis.abs().max_element())
     };
     let [x, y, z] = axes.map(DVec3::normalize_or_zero);
-    axes.iter().all(is_good) && x.cross(y).dot(z).abs() > 1e-12
+    let error = (matrix * matrix.inverse() - DMat3::IDENTITY).to_cols_array();
+    let is_exact = error.iter().all(|error| error.abs() < 1e-6);
+    axes.iter().all(is_good) && (x.cross(y).dot(z).abs() > 1e-12 || is_exact)
 }

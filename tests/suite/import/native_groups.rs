@@ -76,6 +76,24 @@ fn a_group_is_placed_with_all_its_objects_and_groups() {
     assert_eq!(scene.materials.len(), 1);
 }
 
+/// The axes of the ball are nearly parallel, but their matrix has an inverse.
+#[test]
+fn turned_objects_may_be_scaled_very_unevenly() {
+    let text = format!(
+        "[[groups.a]]\n{BALL}\ntransform = {{ rotate_deg = [40, 30, 20] }}\n\
+         [[objects]]\ngroup = 'a'\ntransform = {{ scale = [0.01, 0.01, 1e6] }}"
+    );
+    let (low, high) = scene("a.toml", text).bounds().expect("a ball");
+    assert!(
+        (high - DVec3::new(0.01, 0.01, 1e6))
+            .abs()
+            .cmple(DVec3::new(1e-6, 1e-6, 1.0))
+            .all(),
+        "{high}"
+    );
+    assert!((high + low).abs().max_element() < 1.0, "{low} to {high}");
+}
+
 #[test]
 fn copies_of_a_grid_are_a_step_apart() {
     let grid = |rest: &str| {
