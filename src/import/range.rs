@@ -13,13 +13,17 @@ use std::sync::Arc;
 /// them.
 const COEFFICIENT: f32 = 1e3;
 
-/// Limit of radiance: of the background and its picture (`picture/repair.rs`), ambient light, emission, and lights without
-/// attenuation.
-pub(super) const RADIANCE: f32 = 1e12;
+/// Limit of radiance: of the background and its picture (`picture/repair.rs`), ambient light, emission, lights without
+/// attenuation, and others at the far end of the scene. Its product with a coefficient is below 2^40, beyond which samples
+/// count as not finite.
+pub(super) const RADIANCE: f32 = 1e9;
 
-/// Limit of lights with attenuation and of the surfaces of area lights. The Sun at its distance in metres
-/// needs 2e25.
+/// Limit of lights with attenuation, however far they are, and of the surfaces of area lights. The Sun at its distance in
+/// metres needs 2e25.
 const INTENSITY: f32 = 1e30;
+
+/// Limit of absorption, per unit of length.
+const ABSORPTION: f32 = 1e12;
 
 /// Range of indices of refraction, whose squares must not overflow.
 pub(super) const IOR: (f32, f32) = (1e-6, 1e6);
@@ -47,8 +51,9 @@ pub(super) fn limit(scene: &mut Scene) {
     for texture in &mut scene.textures {
         counts.texture(texture);
     }
-    for light in &mut scene.lights {
-        counts.light(light);
+    let most = intensities(scene);
+    for (light, most) in scene.lights.iter_mut().zip(&most) {
+        counts.light(light, *most);
     }
     counts.radiance(&mut scene.ambient);
     match &mut scene.background {
@@ -65,7 +70,7 @@ pub(super) fn limit(scene: &mut Scene) {
             lower_number(strength, most, &mut counts.radiances);
         }
     }
-    counts.tracks(scene);
+    counts.tracks(scene, &most);
     counts.report(scene);
 }
 
@@ -120,7 +125,7 @@ impl Counts {
             lower(color, COEFFICIENT, &mut self.coefficients);
         }
         self.radiance(emission);
-        lower(absorption, RADIANCE, &mut self.coefficients);
+        lower(absorption, ABSORPTION, &mut self.coefficients);
         if !(IOR.0..=IOR.1).contains(ior) {
             *ior = ior.clamp(IOR.0, IOR.1);
             self.indices += 1;
@@ -149,22 +154,22 @@ impl Counts {
         }
     }
 
-    fn light(&mut self, light: &mut Light) {
+    fn light(&mut self, light: &mut Light, most: f32) {
         // The surface of a small area light is brighter than its intensity.
         let surface = light.kind.radiance().unwrap_or(1.0).max(1.0);
-        let most = most_of(light.attenuation).min((f64::from(INTENSITY) / surface) as f32);
+        let most = most.min((f64::from(INTENSITY) / surface) as f32);
         lower(&mut light.color, most, &mut self.intensities);
     }
 
-    fn tracks(&mut self, scene: &mut Scene) {
+    /// `intensities` are the limits of the lights.
+    fn tracks(&mut self, scene: &mut Scene, intensities: &[f32]) {
         for track in &mut scene.tracks {
             let most = |target: &Target| match *target {
                 Target::Light(light, LightProperty::Color | LightProperty::Intensity) => {
-                    Some(most_of(scene.lights[light].attenuation))
+                    Some(intensities[light])
                 }
-                Target::Material(_, MaterialProperty::Emission | MaterialProperty::Absorption) => {
-                    Some(RADIANCE)
-                }
+                Target::Material(_, MaterialProperty::Emission) => Some(RADIANCE),
+                Target::Material(_, MaterialProperty::Absorption) => Some(ABSORPTION),
                 Target::Material(
                     _,
                     MaterialProperty::Diffuse
@@ -214,7 +219,7 @@ impl Counts {
             (self.radiances, format!("radiances clamped to {RADIANCE:e}")),
             (
                 self.intensities,
-                format!("lights clamped to {RADIANCE:e}, or {INTENSITY:e} with attenuation"),
+                format!("lights clamped to a radiance of {RADIANCE:e} at the far end of the scene"),
             ),
             (
                 self.indices,
@@ -229,10 +234,26 @@ impl Counts {
     }
 }
 
-/// The limit of a light's colour.
-fn most_of(attenuation: Attenuation) -> f32 {
-    match attenuation {
-        Attenuation::None => RADIANCE,
-        Attenuation::InverseSquare => INTENSITY,
+/// The limits of the colours of the lights: [`RADIANCE`] at the point of the scene that is farthest from the light, at least
+/// one unit away.
+fn intensities(scene: &Scene) -> Vec<f32> {
+    let is_bright = |light: &Light| light.color.max_element() > RADIANCE;
+    let is_moving = |target: &Target| matches!(target, Target::Light(..));
+    let mut targets = scene.tracks.iter().flat_map(|track| &track.targets);
+    if !scene.lights.iter().any(is_bright) && !targets.any(is_moving) {
+        return vec![RADIANCE; scene.lights.len()];
     }
+    let rest = scene.frame(0.0);
+    let eye = rest.camera.look_from;
+    let (low, high) = scene.bounds().unwrap_or((eye, eye));
+    let (low, high) = (low.min(eye), high.max(eye));
+    let limit = |light: &Light| match (light.attenuation, light.kind.bounds()) {
+        (Attenuation::InverseSquare, Some((from, to))) => {
+            let place = (from + to) / 2.0;
+            let reach = (place - low).abs().max((high - place).abs()).length();
+            (f64::from(RADIANCE) * reach.max(1.0).powi(2)).min(INTENSITY.into()) as f32
+        }
+        _ => RADIANCE,
+    };
+    rest.lights.iter().map(limit).collect()
 }

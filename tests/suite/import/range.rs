@@ -107,6 +107,41 @@ fn ordinary_colours_are_unchanged() {
     assert_eq!(scene.lights[0].color.x, 2e25);
 }
 
+/// Beyond 2^40 kernels drop a sample.
+#[test]
+fn the_brightest_light_on_the_whitest_surface_is_in_the_picture() {
+    let all = |size: &str| {
+        format!(
+            "[camera]\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\nfov_y_deg = 60\n[output]\nmax_depth = 1\n{size}\n\
+             [[objects]]\nrectangle = {{ center = [0, 0, 0], normal = [0, 0, 1], size = [1, 1] }}\n\
+             material = {{ phong = {{ diffuse = [3e38, 3e38, 3e38], specular = [0, 0, 0] }} }}\n"
+        )
+    };
+    for light in [
+        "[[lights]]\npoint = { position = [0, 0, 5], intensity = 3e38 }",
+        "[[lights]]\nspot = { position = [0, 0, 5], direction = [0, 0, -1], outer_deg = 60, intensity = 3e38 }",
+        "[[lights]]\ndirectional = { direction = [0, 0, -1], intensity = 3e38 }",
+    ] {
+        let scene = read("a.toml", &all(light), &[]);
+        assert!(
+            scene
+                .skipped
+                .iter()
+                .any(|note| note.starts_with("lights clamped")),
+            "{:?}",
+            scene.skipped
+        );
+        let (image, stats) = render(&scene, &sized(16, 16));
+        assert_eq!(stats.nonfinite_samples, 0, "{light}");
+        let lit = image.pixels[8 * 16 + 8][0];
+        assert!(lit > 1e11, "{light}: {lit}");
+    }
+    // The same light is not cut where the scene is as large as the light needs.
+    let far = "[[lights]]\npoint = { position = [0, 0, 1e6], intensity = 1e20 }";
+    let scene = read("a.toml", &all(far), &[]);
+    assert_eq!(scene.skipped, ["coefficients clamped to 1000: 2"]);
+}
+
 #[test]
 fn clamped_values_are_counted() {
     let text = "[[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n\
