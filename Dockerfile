@@ -9,7 +9,7 @@ RUN apt-get update && \
 WORKDIR /source
 COPY . .
 # Everything but the window and OpenGL.
-RUN cargo build --release --locked --no-default-features --features archive,flip,parallel,video
+RUN cargo build --release --locked --no-default-features --features archive,basis,draco,flip,parallel,video
 
 FROM debian:bookworm-slim
 RUN apt-get update && \

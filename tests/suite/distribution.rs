@@ -163,6 +163,32 @@ fn each_feature_is_compiled_without_each_other_one() {
     verdict.close();
 }
 
+#[test]
+fn the_container_has_every_usual_feature_but_the_window_and_opengl() {
+    let manifest = manifest();
+    let features = manifest["features"].as_table().expect("features");
+    let dockerfile = read("Dockerfile");
+    let builds = commands(&dockerfile, "cargo ");
+    let lists = builds.iter().flat_map(|words| words.windows(2));
+    let lists: Vec<_> = lists.filter(|pair| pair[0] == "--features").collect();
+    let [[_, list]] = lists[..] else {
+        panic!("one list of features: {builds:?}");
+    };
+    assert!(
+        builds
+            .iter()
+            .any(|words| words.contains(&"--no-default-features"))
+    );
+    let found: BTreeSet<_> = (list.split(','))
+        .flat_map(|name| implied(features, name))
+        .collect();
+    let mut usual = implied(features, "default");
+    for absent in ["default", "gl", "viewer"] {
+        assert!(usual.remove(absent), "{absent}");
+    }
+    assert_eq!(found, usual);
+}
+
 /// Rust is named by the same version everywhere.
 #[test]
 fn containers_and_workflows_use_the_rust_of_the_manifest() {
@@ -223,35 +249,56 @@ fn the_changelog_has_the_version_of_the_manifest() {
     assert_eq!(newest, Some(version));
 }
 
+/// The commands that the help of `command` lists; that of the program for none.
+fn commands_below(workspace: &Workspace, command: &str) -> Vec<String> {
+    let help = workspace.run(&format!("{command} --help")).expect(0);
+    let Some((_, list)) = help.text().split_once("Commands:\n") else {
+        return Vec::new();
+    };
+    let (list, _) = list.split_once("\n\n").expect("their end");
+    // What a command does stands in the same line or below, farther in.
+    let commands = list.lines().filter(|line| !line.starts_with("   "));
+    let commands = commands.filter_map(|line| line.split_whitespace().next());
+    let commands = commands.filter(|name| *name != "help");
+    commands
+        .map(|name| format!("{command} {name}").trim().to_owned())
+        .collect()
+}
+
 #[test]
 fn every_command_has_a_manual_page_with_its_flags() {
     let workspace = Workspace::new();
     fs::create_dir(workspace.path("man")).expect("a folder");
     let run = workspace.run("man man").expect(0);
-    let names = String::from_utf8(run.stdout).expect("text");
-    let help = workspace.run("--help").expect(0);
-    let help = String::from_utf8(help.stdout).expect("text");
-    let (_, list) = help.split_once("Commands:\n").expect("the commands");
-    let (list, _) = list.split_once("\n\n").expect("their end");
-    // What a command does stands in the same line or below, farther in.
-    let commands = list.lines().filter(|line| !line.starts_with("   "));
-    let commands = commands.filter_map(|line| line.split_whitespace().next());
-    let commands: Vec<_> = commands.filter(|name| *name != "help").collect();
-    assert!(commands.contains(&"render") && commands.len() >= 14);
+    let mut commands = commands_below(&workspace, "");
+    assert!(commands.len() >= 14, "{commands:?}");
+    let steps: Vec<_> = (commands.iter())
+        .flat_map(|command| commands_below(&workspace, command))
+        .collect();
+    assert!(steps.contains(&"farm plan".to_owned()), "{steps:?}");
+    commands.extend(steps);
+    assert!(commands.contains(&"render".to_owned()), "{commands:?}");
+    let names = run.text();
     assert_eq!(names.lines().count(), commands.len() + 1, "{names}");
     let page = |name: &str| String::from_utf8(workspace.read(name)).expect("text");
     assert!(page("man/glimray.1").contains(".TH glimray 1"));
-    for command in commands {
-        let text = page(&format!("man/glimray-{command}.1"));
-        let title = format!(".TH glimray\\-{command} 1");
-        assert!(
-            text.replace("glimray-", "glimray\\-").contains(&title),
-            "{text}"
-        );
+    for command in &commands {
+        let name = command.replace(' ', "-");
+        let text = page(&format!("man/glimray-{name}.1"));
+        let is_titled = text
+            .replace("\\-", "-")
+            .contains(&format!(".TH glimray-{name} 1"));
+        assert!(is_titled, "{text}");
     }
-    let render = page("man/glimray-render.1");
-    for flag in ["samples", "max\\-depth", "look\\-from"] {
-        assert!(render.contains(&format!("\\-\\-{flag}")), "{flag}");
+    for (name, flags) in [
+        ("render", ["samples", "max\\-depth", "look\\-from"]),
+        ("farm-plan", ["parts", "minutes", "simulate"]),
+        ("farm-run", ["all", "jobs", "attempts"]),
+    ] {
+        let text = page(&format!("man/glimray-{name}.1"));
+        for flag in flags {
+            assert!(text.contains(&format!("\\-\\-{flag}")), "{name}: {flag}");
+        }
     }
     workspace.run("man gone").expect(4);
 }
