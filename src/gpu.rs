@@ -13,6 +13,8 @@ mod fault;
 mod guard;
 mod inline;
 mod lanes;
+mod limits;
+mod patience;
 mod readback;
 mod shader;
 mod specialize;
@@ -32,17 +34,12 @@ pub use shader::{Kernel, Overrides, Variant};
 pub(crate) use timer::Timer;
 pub use trusted::runtime_checks;
 
-use std::{
-    sync::{
-        Arc, Mutex,
-        atomic::{AtomicBool, Ordering},
-    },
-    time::Duration,
+use limits::limits_for;
+use patience::WAIT;
+use std::sync::{
+    Arc, Mutex,
+    atomic::{AtomicBool, Ordering},
 };
-
-/// Time limit of one wait for the device, and the number of waits before the device counts as lost.
-const WAIT: Duration = Duration::from_secs(10);
-const WAITS: u32 = 3;
 
 /// Workgroup memory of packet kernels, for the stacks of their ray trees.
 const PACKET_WORKGROUP_BYTES: u32 = 32_256;
@@ -224,15 +221,21 @@ impl Gpu {
         let buffer = has.max_buffer_size.min(has.max_storage_buffer_binding_size);
         let side = u64::from(has.max_texture_dimension_2d);
         let needed = [
-            ("bytes in one storage buffer", needs.binding_bytes, buffer),
+            ("one storage buffer", needs.binding_bytes, buffer, true),
             (
                 "texels along a texture's side",
                 needs.texture_side.into(),
                 side,
+                false,
             ),
         ];
-        match needed.into_iter().find(|(_, need, limit)| need > limit) {
-            Some((name, need, limit)) => Err(GpuError::Limit { name, need, limit }),
+        match needed.into_iter().find(|(_, need, limit, _)| need > limit) {
+            Some((name, need, limit, in_bytes)) => Err(GpuError::Limit {
+                name,
+                need,
+                limit,
+                in_bytes,
+            }),
             None => Ok(()),
         }
     }
@@ -285,7 +288,7 @@ impl Gpu {
 
     /// Whether the adapter is a software renderer.
     pub fn is_cpu(&self) -> bool {
-        self.report.device_type == "cpu"
+        self.report.is_cpu()
     }
 
     /// Loses the device, as a driver reset would, to test recovery.
@@ -325,7 +328,7 @@ impl Gpu {
     }
 
     fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), GpuError> {
-        for _ in 0..WAITS {
+        for _ in 0..self.report.steps_of_patience(WAIT) {
             let poll = wgpu::PollType::Wait {
                 submission_index: Some(index.clone()),
                 timeout: Some(WAIT),
@@ -401,49 +404,4 @@ impl Gpu {
         }
         made.map_err(|_| GpuError::Lost)
     }
-}
-
-/// WebGPU's default limits, raised to `needs` where the adapter allows it.
-fn limits_for(needs: Needs, adapter: &wgpu::Limits) -> Result<wgpu::Limits, GpuError> {
-    let defaults = wgpu::Limits::default();
-    let raise = |name, need: u64, default: u64, most: u64| {
-        if need > default && need > most {
-            return Err(GpuError::Limit {
-                name,
-                need,
-                limit: most,
-            });
-        }
-        Ok(need.max(default).min(most.max(1)))
-    };
-    let binding = raise(
-        "bytes in one storage buffer binding",
-        needs.binding_bytes,
-        defaults.max_storage_buffer_binding_size,
-        adapter.max_storage_buffer_binding_size,
-    )?;
-    let buffer = raise(
-        "bytes in one buffer",
-        needs.binding_bytes,
-        defaults.max_buffer_size,
-        adapter.max_buffer_size,
-    )?;
-    let side = raise(
-        "texels along a texture's side",
-        needs.texture_side.into(),
-        defaults.max_texture_dimension_2d.into(),
-        adapter.max_texture_dimension_2d.into(),
-    )?;
-    // Limits that an adapter cannot meet (a GL driver below the WebGPU minimum) are not requested; creating the
-    // pipeline of a shader that needs them fails.
-    let floor = defaults.or_worse_values_from(adapter);
-    Ok(wgpu::Limits {
-        max_storage_buffer_binding_size: binding,
-        max_buffer_size: buffer,
-        max_texture_dimension_2d: side as u32,
-        max_storage_textures_per_shader_stage: adapter
-            .max_storage_textures_per_shader_stage
-            .min(STORAGE_IMAGES),
-        ..floor
-    })
 }

@@ -89,6 +89,7 @@
 //! | module | does | uses |
 //! |---|---|---|
 //! | [`scene`] | the host model, with every question settled | `threads` |
+//! | [`bytes`] | sizes in messages | |
 //! | [`threads`] | work on slices by all cores | |
 //! | [`import`] | file → `Scene`, one file for each format; files come from an [`import::Resolver`] | `scene`, `threads` |
 //! | [`bvh`] | boxes → tree of four-way nodes | `threads` |
@@ -114,6 +115,7 @@
 #[cfg(feature = "cli")]
 pub mod app;
 pub mod bvh;
+pub mod bytes;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod clock;

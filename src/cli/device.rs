@@ -144,7 +144,7 @@ pub fn kind(adapter: &AdapterReport) -> &str {
 
 /// How to get a faster adapter than this, if the system has none but OpenGL on the CPU.
 pub fn faster_driver(adapter: &AdapterReport) -> Option<&'static str> {
-    let is_slow = adapter.backend == "gl" && adapter.device_type == "cpu";
+    let is_slow = adapter.backend == "gl" && adapter.is_cpu();
     (is_slow && cfg!(target_os = "linux")).then_some(
         "There is no Vulkan driver. Mesa's is several times faster than OpenGL on the CPU: install \
          mesa-vulkan-drivers (Debian, Ubuntu, Fedora), vulkan-swrast (Arch) or mesa-vulkan-swrast (Alpine).",

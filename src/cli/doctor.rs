@@ -5,6 +5,7 @@ mod self_test;
 use crate::app::console;
 use crate::app::error::AppError;
 use crate::app::tuning::{self, Tuning};
+use crate::bytes::size;
 use crate::cli::args::DoctorArgs;
 use crate::cli::device;
 use crate::gpu::{self, AdapterChoice, AdapterReport, Gpu};
@@ -128,12 +129,4 @@ fn write_text(
         None => writeln!(out, "self-test  not run")?,
     }
     Ok(())
-}
-
-fn size(bytes: u64) -> String {
-    if bytes >= 10 << 30 {
-        format!("{} GiB", bytes >> 30)
-    } else {
-        format!("{} MiB", bytes >> 20)
-    }
 }

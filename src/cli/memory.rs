@@ -5,6 +5,7 @@
 //! nothing can be checked: the system kills a process that uses too much memory.
 
 use crate::app::error::AppError;
+use crate::bytes::sizes;
 use crate::scene::Scene;
 use std::fs;
 use std::path::Path;
@@ -54,12 +55,13 @@ pub fn is_limited() -> bool {
 /// Refuses `what` (at `place`) if it needs more bytes than are available.
 fn require(what: &str, place: &str, need: u64) -> Result<(), AppError> {
     match available() {
-        Some(available) if available < need => Err(AppError::TooBig(format!(
-            "too big for the memory ({place}): {what} takes about {} MiB, and the limit (`ulimit -v`) \
-             leaves {} MiB. Raise the limit, or use a smaller scene or picture.",
-            need / MIB,
-            available / MIB
-        ))),
+        Some(available) if available < need => {
+            let [need, available] = sizes([need, available]);
+            Err(AppError::TooBig(format!(
+                "too big for the memory ({place}): {what} takes about {need}, and the limit (`ulimit -v`) \
+                 leaves {available}. Raise the limit, or use a smaller scene or picture."
+            )))
+        }
         _ => Ok(()),
     }
 }

@@ -2,6 +2,7 @@
 //! checked against a limit before anything is allocated.
 
 use super::{Gpu, GpuError, fault};
+use crate::bytes::size;
 
 /// The default memory limit, in bytes.
 pub const MEMORY_LIMIT_BYTES: u64 = 4 << 30;
@@ -31,7 +32,7 @@ impl Ledger {
         }
         let largest = self.entries.iter().max_by_key(|(_, bytes)| *bytes);
         let what = largest.map_or(String::new(), |(what, bytes)| {
-            format!("{what} {bytes} bytes")
+            format!("{what} {}", size(*bytes))
         });
         Err(GpuError::Budget { what, need, limit })
     }
@@ -150,6 +151,7 @@ impl Gpu {
                 name: "width or height of a picture in pixels",
                 need: side.into(),
                 limit: limit.into(),
+                in_bytes: false,
             });
         }
         if fault::should_fail(fault::Site::Allocation) {

@@ -1,5 +1,7 @@
 //! Errors of the device and its driver.
 
+use crate::bytes::sizes;
+
 /// An error of the device or its driver.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
@@ -48,17 +50,19 @@ pub enum GpuError {
         count: u32,
     },
     /// The scene or picture exceeds a limit of the adapter.
-    #[error("too big for this adapter ({name}): {need} needed, {limit} allowed.")]
+    #[error("too big for this adapter ({name}): {} needed, {} allowed.", amounts(*in_bytes, [*need, *limit])[0], amounts(*in_bytes, [*need, *limit])[1])]
     Limit {
-        /// The limit, with its unit.
+        /// The limit; with its unit unless that is bytes.
         name: &'static str,
-        /// The required value, in that unit.
+        /// The required value.
         need: u64,
         /// The maximum of the adapter.
         limit: u64,
+        /// Whether both are in bytes.
+        in_bytes: bool,
     },
     /// The total of all allocations would exceed [`crate::render::ExecutionPolicy::memory_limit_bytes`].
-    #[error("too big for the memory limit ({what}): {need} bytes needed in all, {limit} allowed.")]
+    #[error("too big for the memory limit ({what}): {} needed in all, {} allowed.", sizes([*need, *limit])[0], sizes([*need, *limit])[1])]
     Budget {
         /// The largest allocation and its size.
         what: String,
@@ -103,6 +107,14 @@ impl GpuError {
     } else {
         "Install a Vulkan driver, or Mesa's software one."
     };
+}
+
+/// What is needed and what is allowed.
+fn amounts(in_bytes: bool, amounts: [u64; 2]) -> [String; 2] {
+    match in_bytes {
+        true => sizes(amounts),
+        false => amounts.map(|amount| amount.to_string()),
+    }
 }
 
 /// The error of a driver that fails to open the adapter. wgpu reports a lack of memory only in the text.

@@ -1,12 +1,12 @@
 //! Readback from the GPU; all of it happens here.
 
 use super::{Gpu, GpuError, guard};
+use crate::bytes::sizes;
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::Duration;
 
-/// Time between two looks whether the device is lost while another thread reports, and the number of looks.
+/// Time between two looks whether the device is lost while another thread reports.
 const LOOK: Duration = Duration::from_millis(100);
-const LOOKS: u32 = 100;
 
 /// A range of a buffer to read back.
 pub(crate) struct Source<'a> {
@@ -75,7 +75,8 @@ impl Gpu {
     ) -> Result<Reading, GpuError> {
         let all: u64 = sources.iter().map(|source| source.bytes).sum();
         if all > staging.size() {
-            let what = format!("a staging buffer of {} bytes is for {all}", staging.size());
+            let [has, all] = sizes([staging.size(), all]);
+            let what = format!("a staging buffer of {has} is for {all}");
             return Err(GpuError::Internal { what });
         }
         let mut bytes = 0;
@@ -127,13 +128,13 @@ impl Gpu {
     ) -> Result<T, GpuError> {
         self.wait(reading.submission.clone())?;
         // The driver may have finished before wgpu reports it, and another thread may be about to report what it polled.
-        let mut looks = 0;
+        let mut looks = self.adapter().steps_of_patience(LOOK);
         while !self.is_readable(&reading)? {
-            looks += 1;
             // A browser's thread cannot wait.
-            if cfg!(target_arch = "wasm32") || looks > LOOKS {
+            if cfg!(target_arch = "wasm32") || looks == 0 {
                 return Err(GpuError::Lost);
             }
+            looks -= 1;
             reading.mapped.wait();
         }
         let slice = reading.staging.slice(0..reading.bytes);

@@ -3,6 +3,7 @@
 //! later steps will need, and stop when it exceeds the file's budget.
 
 use super::error::{Fault, ImportError};
+use crate::bytes;
 
 /// Bytes of memory per byte of the file.
 const PER_BYTE: u64 = 8;
@@ -37,10 +38,9 @@ impl Budget {
             return Ok(());
         }
         let why = format!(
-            "reading it would take more than {} MiB of memory: {PER_BYTE} times the size of the \
-             file plus {} MiB",
-            self.limit >> 20,
-            ALWAYS >> 20
+            "reading it would take more than {} of memory: {PER_BYTE} times the size of the file plus {}",
+            bytes::size(self.limit),
+            bytes::size(ALWAYS)
         );
         let fault: Box<Fault> = refuse(why, "Split it into several files").into_fault();
         Err(ImportError::TooBig(fault))

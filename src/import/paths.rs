@@ -3,6 +3,7 @@
 use super::error::{Fault, ImportError, fault};
 use super::resolver::{FileError, Resolver};
 use super::source::quote;
+use crate::bytes::sizes;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -146,10 +147,13 @@ pub(super) fn unreadable(path: &Path, error: &FileError, limit: u64) -> ImportEr
         FileError::Failed(error) => unreadable(&reason(error), CHECK),
         FileError::IsFolder | FileError::NotPlain => unreadable(&error.to_string(), "Name a file"),
         FileError::Outside => unreadable(&error.to_string(), "Name a file in the scene folder"),
-        FileError::TooLong { length } => too_big(
-            &format!("{length} bytes, but at most {limit} are read"),
-            "Split the scene, or keep geometry in OBJ files",
-        ),
+        FileError::TooLong { length } => {
+            let [length, limit] = sizes([*length, limit]);
+            too_big(
+                &format!("{length}, but at most {limit} are read"),
+                "Split the scene, or keep geometry in OBJ files",
+            )
+        }
         FileError::NoMemory { .. } => too_big(
             &error.to_string(),
             "Use a smaller file, or raise the memory limit (`ulimit -v`) if there is one",

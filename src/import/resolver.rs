@@ -1,5 +1,6 @@
 //! Where importers get files from: a folder, memory, or any implementation of [`Resolver`].
 
+use crate::bytes::size;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -43,13 +44,13 @@ pub enum FileError {
     #[error("it is not a plain file")]
     NotPlain,
     /// It is longer than the limit.
-    #[error("{length} bytes")]
+    #[error("{}", size(*length))]
     TooLong {
         /// Its length in bytes, as far as known.
         length: u64,
     },
     /// There is not enough memory for it.
-    #[error("{length} bytes do not fit into memory")]
+    #[error("{} do not fit into memory", size(*length))]
     NoMemory {
         /// Its length in bytes.
         length: u64,

@@ -2,6 +2,7 @@
 
 use super::Format;
 use super::video::{FrameRate, VideoFormat};
+use crate::bytes::sizes;
 use crate::text;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -142,9 +143,11 @@ pub enum OutputError {
 
     /// Writing reported no error, but the file is incomplete.
     #[error(
-        "cannot write the file ({}): only {found} of {expected} bytes were written. \
+        "cannot write the file ({}): only {} of {} were written. \
          Check the disk and write to another one.",
-        show(path)
+        show(path),
+        sizes([*found, *expected])[0],
+        sizes([*found, *expected])[1]
     )]
     Incomplete {
         /// The file.

@@ -2,6 +2,7 @@
 //! picture after a lost device, or one clear line and an exit code, and never a partial file.
 
 use crate::reference::compare::assert_none;
+use glimray::gpu::AdapterReport;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::PathBuf;
@@ -243,5 +244,28 @@ fn the_memory_limit_is_checked_before_the_first_allocation() {
     let place = Workplace::new();
     let flags = ["--memory-limit", "1", "--size", "4096x4096"];
     let run = place.render("allocation@1", flags);
-    assert_none([run.check_refusal("allocation@1", 7, &["memory limit", "1048576"])]);
+    assert_none([run.check_refusal("allocation@1", 7, &["memory limit", " 1 MiB allowed"])]);
+}
+
+/// Kernels of software adapters are compiled in the time of a wait, on cores that others keep busy.
+#[test]
+fn a_busy_software_adapter_is_not_taken_for_lost() {
+    let patience = |device_type: &str| {
+        let adapter = AdapterReport {
+            index: 0,
+            name: "any".into(),
+            backend: "vulkan".into(),
+            driver: String::new(),
+            device_type: device_type.into(),
+            max_buffer_bytes: 1 << 30,
+            max_binding_bytes: 1 << 27,
+            max_texture_2d: 8192,
+            storage_buffers_per_stage: 8,
+        };
+        adapter.patience().as_secs()
+    };
+    assert_eq!(patience("cpu"), 3600);
+    for kind in ["discrete_gpu", "integrated_gpu", "virtual_gpu", "other"] {
+        assert_eq!(patience(kind), 30, "{kind}");
+    }
 }

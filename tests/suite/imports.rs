@@ -16,26 +16,27 @@ const MODULES: &[(&str, &[&str])] = &[
     ("clock", &[]),
     ("random", &[]),
     ("text", &[]),
+    ("bytes", &[]),
     ("image", &[]),
     ("layout", &[]),
-    ("gpu", &[]),
+    ("gpu", &["bytes"]),
     ("threads", &[]),
     ("bvh", &["threads"]),
-    ("import", &["random", "scene", "text", "threads"]),
+    ("import", &["bytes", "random", "scene", "text", "threads"]),
     ("export", &["scene", "text"]),
     ("pack", &["clock", "scene", "bvh", "layout"]),
     (
         "render",
         &[
-            "clock", "random", "scene", "threads", "pack", "layout", "gpu", "image",
+            "bytes", "clock", "random", "scene", "threads", "pack", "layout", "gpu", "image",
         ],
     ),
-    ("output", &["image", "text"]),
+    ("output", &["bytes", "image", "text"]),
     (
         "app",
         &[
-            "clock", "scene", "image", "gpu", "import", "export", "pack", "render", "output",
-            "text",
+            "bytes", "clock", "scene", "image", "gpu", "import", "export", "pack", "render",
+            "output", "text",
         ],
     ),
     ("cli", ABOVE_APP),
@@ -46,8 +47,8 @@ const MODULES: &[(&str, &[&str])] = &[
 
 /// What the command line and the window may use: everything but each other.
 const ABOVE_APP: &[&str] = &[
-    "app", "bvh", "clock", "random", "scene", "image", "layout", "gpu", "import", "export", "pack",
-    "render", "output", "text",
+    "app", "bvh", "bytes", "clock", "random", "scene", "image", "layout", "gpu", "import",
+    "export", "pack", "render", "output", "text",
 ];
 
 /// What each tier of `shaders/` may import.

@@ -5,6 +5,7 @@ use crate::support::program::Workspace;
 use crate::support::skip::{Need, skip};
 use crate::support::verdict::Verdict;
 use glimray::app::error::AppError;
+use glimray::bytes;
 use glimray::gpu::GpuError;
 use insta::assert_snapshot;
 use serde_json::Value;
@@ -314,20 +315,65 @@ fn messages_of_the_program_name_its_flags() {
 #[test]
 fn a_limit_of_the_adapter_is_not_blamed_on_the_memory_limit() {
     let limit = GpuError::Limit {
-        name: "bytes in one storage buffer binding",
+        name: "one storage buffer binding",
         need: 2 << 30,
         limit: 128 << 20,
+        in_bytes: true,
     };
     let refused = GpuError::OutOfMemory {
         what: "film".into(),
     };
     let budget = GpuError::Budget {
-        what: "film 5 bytes".into(),
-        need: 5,
-        limit: 4,
+        what: "film 5 GiB".into(),
+        need: (6 << 30) + (512 << 20),
+        limit: 4 << 30,
     };
     let [limit, refused, budget] = [limit, refused, budget].map(AppError::from);
     let says_so = |error: &AppError| error.to_string().contains("--memory-limit");
     assert!(!says_so(&limit) && !says_so(&refused) && says_so(&budget));
     assert!(limit.to_string().contains("an adapter with higher limits"));
+    // People read neither 2147483648 nor bytes.
+    let sizes = |error: AppError, text: &str| assert!(error.to_string().contains(text), "{error}");
+    sizes(
+        limit,
+        "(one storage buffer binding): 2 GiB needed, 128 MiB allowed.",
+    );
+    sizes(
+        budget,
+        "(film 5 GiB): 6.5 GiB needed in all, 4 GiB allowed.",
+    );
+    let side = GpuError::Limit {
+        name: "texels along a texture's side",
+        need: 20_000,
+        limit: 16_384,
+        in_bytes: false,
+    };
+    sizes(side.into(), "side): 20000 needed, 16384 allowed.");
+}
+
+#[test]
+fn sizes_are_in_the_largest_unit_that_fits() {
+    let mut verdict = Verdict::on("sizes");
+    for (number, text) in [
+        (0, "0 bytes"),
+        (1, "1 byte"),
+        (1023, "1023 bytes"),
+        (1024, "1 KiB"),
+        (12_600, "12.3 KiB"),
+        ((1 << 20) - 1, "1 MiB"),
+        (1 << 20, "1 MiB"),
+        (1_073_741_824, "1 GiB"),
+        (3 << 29, "1.5 GiB"),
+        (u64::MAX, "16 EiB"),
+    ] {
+        let found = bytes::size(number);
+        verdict.that(number, found == text, || found.clone());
+    }
+    verdict.close();
+    assert_eq!(bytes::sizes([3 << 20, 2 << 20]), ["3 MiB", "2 MiB"]);
+    // What is too large by little is not as large as what is allowed.
+    assert_eq!(
+        bytes::sizes([(1 << 20) + 1, 1 << 20]),
+        ["1048577 bytes", "1048576 bytes"]
+    );
 }

@@ -11,6 +11,7 @@ use super::blame::Blame;
 use super::buffers::Buffers;
 use super::document::{ABSENT, CompressedView, Document};
 use super::meshopt::{self, Filter, Mode};
+use crate::bytes::size;
 use crate::import::error::ImportError;
 use crate::threads;
 
@@ -55,8 +56,8 @@ impl Room<'_> {
 
     fn too_big(&self, place: &str) -> ImportError {
         let why = format!(
-            "{place}: the compressed data would take more than {PER_BYTE} times the size of the file plus {} MiB",
-            ALWAYS >> 20
+            "{place}: the compressed data would take more than {PER_BYTE} times the size of the file plus {}",
+            size(ALWAYS)
         );
         let todo = "Export the model without compression";
         ImportError::TooBig(self.blame.file(&why, todo).into_fault())

@@ -1,6 +1,7 @@
 //! The two containers of glTF 2.0: plain JSON, and binary GLB (section 4 of the specification).
 
 use super::blame::Blame;
+use crate::bytes::sizes;
 use crate::import::error::ImportError;
 use std::ops::Range;
 
@@ -48,7 +49,8 @@ pub(super) fn parts(bytes: &[u8], blame: Blame) -> Result<Parts, ImportError> {
         cut: None,
     };
     if length > bytes.len() {
-        parts.cut = cut(format!("{} of {length} bytes are there", bytes.len()));
+        let [there, length] = sizes([bytes.len() as u64, length as u64]);
+        parts.cut = cut(format!("{there} of {length} are there"));
     }
     let mut at = 12;
     // Bytes beyond the length in the header are not part of the model.

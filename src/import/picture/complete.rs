@@ -1,6 +1,7 @@
 //! Checks whether an image file can contain what its header announces, before memory is allocated.
 //! Decoders fill the missing part of a truncated JPEG with grey, and allocate whatever a header claims.
 
+use crate::bytes::size;
 use image::ImageFormat;
 
 /// The message for a file that ends too early.
@@ -39,7 +40,8 @@ pub(super) fn check(format: ImageFormat, bytes: &[u8], texels: u64) -> Result<()
 }
 
 fn too_short(length: usize, count: u64, what: &str) -> String {
-    format!("is truncated: {length} bytes cannot hold the {count} {what} that its header announces")
+    let length = size(length as u64);
+    format!("is truncated: {length} cannot hold the {count} {what} that its header announces")
 }
 
 /// Compares the length of a WebP file with the one in its header (RFC 9649, section 2.4).

@@ -5,6 +5,7 @@
 //! which only the decoders to RGBA are used: the others would bring megabytes of tables.
 
 use super::complete;
+use crate::bytes::sizes;
 use basisu::basislz::etc1s::Etc1sTranscoder;
 use basisu::uastc::unpack::unpack_uastc;
 use image::{DynamicImage, RgbImage, RgbaImage};
@@ -154,10 +155,12 @@ fn inflated(level: &[u8], scheme: u32, length: u64) -> Result<Cow<'_, [u8]>, Fau
     };
     match bytes.len() as u64 == length {
         true => Ok(bytes),
-        false => Err(damaged(&format!(
-            "its first level has {} bytes instead of {length}",
-            bytes.len()
-        ))),
+        false => {
+            let [found, length] = sizes([bytes.len() as u64, length]);
+            Err(damaged(&format!(
+                "its first level has {found} instead of {length}"
+            )))
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Why a checkpoint cannot be used.
 
 use super::ReadError;
+use crate::bytes::size;
 use std::io;
 
 /// Why a checkpoint cannot be used.
@@ -24,7 +25,7 @@ pub enum CheckpointError {
         differing: Vec<&'static str>,
     },
     /// The file is truncated.
-    #[error("the checkpoint is cut short: it ends after {bytes} bytes.")]
+    #[error("the checkpoint is cut short: it ends after {}.", size(*bytes))]
     CutShort {
         /// Its length.
         bytes: u64,
@@ -36,7 +37,7 @@ pub enum CheckpointError {
         why: &'static str,
     },
     /// Out of memory while reading.
-    #[error("the checkpoint is too big: memory ran out after {bytes} bytes.")]
+    #[error("the checkpoint is too big: memory ran out after {}.", size(*bytes))]
     TooBig {
         /// Bytes read so far.
         bytes: u64,

@@ -1,6 +1,7 @@
 //! Errors of merging and reading films.
 
 use super::super::sums::SAMPLE_BLOCK;
+use crate::bytes::size;
 use std::{io, ops::Range};
 
 /// Errors of merging and reading films.
@@ -60,7 +61,7 @@ pub enum FilmError {
         known: u32,
     },
     /// The file is truncated.
-    #[error("the film is cut short: it ends after {bytes} bytes. Copy or render it again.")]
+    #[error("the film is cut short: it ends after {}. Copy or render it again.", size(*bytes))]
     CutShort {
         /// Its length.
         bytes: u64,
@@ -72,7 +73,7 @@ pub enum FilmError {
         why: &'static str,
     },
     /// Out of memory while reading.
-    #[error("the film is too big: memory ran out after {bytes} bytes.")]
+    #[error("the film is too big: memory ran out after {}.", size(*bytes))]
     TooBig {
         /// Bytes read so far.
         bytes: u64,

@@ -120,7 +120,7 @@ fn one_long_line_is_refused_and_not_shown_whole() {
     assert_snapshot!(soon("a.scene", &numbers), @"bad scene (a.scene:1:3): expected `amb:`, found `1`. Begin the file with N and `amb: R G B`.");
     assert_snapshot!(soon("a.scene", "/".repeat(LENGTH)), @"bad scene (a.scene:1:30000001): the file ends where the number of objects `N` should be. Check that it is complete.");
     assert_snapshot!(soon("a.scene", "1/".repeat(LENGTH / 2)), @"bad scene (a.scene:1:1): `1/1/1/1/1/1/1/1/1/1/1/1/1/1/1/1/…` is not a number. Write a decimal number such as -0.5 or 2e3.");
-    assert_snapshot!(soon("a.toml", &word), @"file too big (a.toml): 30000000 bytes, but at most 16777216 are read. Split the scene, or keep geometry in OBJ files.");
+    assert_snapshot!(soon("a.toml", &word), @"file too big (a.toml): 28.6 MiB, but at most 16 MiB are read. Split the scene, or keep geometry in OBJ files.");
     assert_snapshot!(soon("a.toml", &word[..15_000_000]), @"bad scene (a.toml:1:15000001): key with no value, expected `=`. See https://toml.io for the syntax.");
     assert_snapshot!(soon("a.obj", &word), @"bad model (a.obj:1:1): `aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…` is not an OBJ statement. Check that this is a Wavefront OBJ file.");
     assert_snapshot!(soon("a.obj", format!("v {numbers}")), @"bad model (a.obj:1:17): a vertex has too many numbers. Write `v X Y Z`.");

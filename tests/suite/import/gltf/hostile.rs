@@ -469,10 +469,10 @@ fn lying_headers_and_bombs_of_json_are_refused_soon() {
         .collect();
     assert_snapshot!(lines.join("\n"), @r"
 version: bad model (a.glb): it is a GLB of version 1, but only version 2 is read. Convert it to glTF 2.0.
-length: bad model (a.glb): 12 of 4294967295 bytes are there. Check that it was written completely.
+length: bad model (a.glb): 12 bytes of 4 GiB are there. Check that it was written completely.
 no chunk: bad model (a.glb): the first chunk is not JSON. Check that it was written completely.
 nested: bad model (a.glb:1:137): recursion limit exceeded. Check that it is a complete glTF 2.0 file.
-many: bad model (a.glb): reading it would take more than 292 MiB of memory: 8 times the size of the file plus 64 MiB. Split it into several files.
+many: bad model (a.glb): reading it would take more than 292.9 MiB of memory: 8 times the size of the file plus 64 MiB. Split it into several files.
 text: bad model (a.glb:1:1): expected value. Check that it is a complete glTF 2.0 file.
 ");
 }

@@ -1,5 +1,6 @@
 //! Progress and statistics of the picture.
 
+use crate::bytes::size;
 use crate::viewer::model::bindings::Action;
 use crate::viewer::ui::context::PanelContext;
 use crate::viewer::worker::progressive_image::PictureSlot;
@@ -126,8 +127,8 @@ fn rows(shown: &Shown) -> Vec<(&'static str, &'static str, String)> {
         ),
         (
             "Memory",
-            "GPU memory planned for the scene and the picture, in MiB",
-            format!("{:.1} MiB", stats.gpu_bytes as f64 / f64::from(1 << 20)),
+            "GPU memory planned for the scene and the picture",
+            size(stats.gpu_bytes),
         ),
     ];
     if stats.nonfinite_samples > 0 {
