@@ -2,7 +2,7 @@
 //! [`Sequence`] and everything below it.
 //!
 //! Frames are first written to files. A run renders the frames that are missing or out of date and then
-//! encodes all of them. So runs are resumable, and a video can be encoded again without rendering.
+//! encodes all of them. So runs are resumable, and a video whose frames are kept can be encoded again without rendering.
 
 mod encode;
 mod fingerprint;
@@ -124,7 +124,7 @@ impl<'a> Sequence<'a> {
     /// Renders the frames that are not done, and writes the video and the report if they were requested.
     ///
     /// # Errors
-    /// Any error of rendering, encoding and writing. Finished frames are kept, and a video is complete or
+    /// Any error of rendering, encoding and writing. Finished frames are then kept, and a video is complete or
     /// absent.
     pub fn run(&self, draft: &mut Draft) -> Result<(), AppError> {
         let interrupt = Interrupt::install()?;
@@ -185,7 +185,8 @@ impl<'a> Sequence<'a> {
             Some(options) => self.encode(options, &interrupt)?,
             None => 0.0,
         };
-        if let (true, Some(files), Some(journal)) = (self.flags.discard_frames, files, journal) {
+        // The video is complete and in its place from here on.
+        if let (false, Some(files), Some(journal)) = (self.target.keeps_frames, files, journal) {
             journal.discard(&files.pattern, self.timeline.numbers());
             drop(lock);
             // Fails if the folder has other files, and then it is kept.
@@ -299,7 +300,7 @@ impl<'a> Sequence<'a> {
             reused: frames.plan.done_count(),
             redone: frames.plan.redone(),
             frame_files: files
-                .filter(|_| !self.flags.discard_frames)
+                .filter(|_| self.target.keeps_frames)
                 .map(|files| files.pattern.text().display().to_string()),
             video: (self.target.video.is_some()).then(|| self.target.path.display().to_string()),
             encode_seconds,

@@ -203,12 +203,16 @@ impl Journal {
         }
     }
 
-    /// Removes the journal and the files of these frames.
-    pub fn discard(self, pattern: &Pattern, numbers: impl Iterator<Item = u32>) {
+    /// Removes the files of these frames, and the journal unless it has other frames.
+    pub fn discard(mut self, pattern: &Pattern, numbers: impl Iterator<Item = u32>) {
         for number in numbers {
             let _ = fs::remove_file(pattern.path(number));
+            self.frames.remove(&number);
         }
-        let _ = fs::remove_file(&self.path);
+        let _ = match self.frames.is_empty() {
+            true => fs::remove_file(&self.path).map_err(drop),
+            false => self.rewrite().map_err(drop),
+        };
     }
 
     fn rewrite(&self) -> Result<(), AppError> {

@@ -54,7 +54,7 @@ impl Plan {
             if *state != State::Done {
                 output::check_no_link(&path)?;
             }
-            if *state != State::Done || sequence.flags.discard_frames {
+            if *state != State::Done || !sequence.target.keeps_frames {
                 inputs.refuse_overwrite(&path, "frame", files.flag(&sequence.target))?;
             }
         }

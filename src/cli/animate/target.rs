@@ -16,6 +16,8 @@ pub struct Target {
     pub path: PathBuf,
     /// `None` for a stream without kept frames.
     pub frames: Option<Files>,
+    /// Whether the frames stay when all is written.
+    pub keeps_frames: bool,
     pub video: Option<Video>,
 }
 
@@ -93,6 +95,7 @@ impl Target {
         };
         for (given, flag) in [
             (flags.frames_dir.is_some(), "--frames-dir"),
+            (flags.keep_frames, "--keep-frames"),
             (flags.discard_frames, "--discard-frames"),
             (flags.encode_only, "--encode-only"),
         ] {
@@ -104,7 +107,10 @@ impl Target {
                 )));
             }
         }
+        let is_asked_for =
+            video.is_none() || flags.keep_frames || flags.frames_dir.is_some() || flags.encode_only;
         Ok(Self {
+            keeps_frames: is_asked_for && !flags.discard_frames,
             frames: frames.map(|(pattern, format)| Files {
                 pattern,
                 format,

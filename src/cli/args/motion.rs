@@ -98,8 +98,11 @@ pub struct SequenceFlags {
     /// Folder for the frames of a video [default: OUT.frames beside it; none for `-`]
     #[arg(long, value_name = "DIR")]
     pub frames_dir: Option<PathBuf>,
-    /// Delete the frames once the video is written
+    /// Keep the frames of a video after it is written, as --frames-dir and --encode-only do
     #[arg(long)]
+    pub keep_frames: bool,
+    /// Remove the frames after the video is written, those in --frames-dir too
+    #[arg(long, conflicts_with = "keep_frames")]
     pub discard_frames: bool,
     /// Encode the video from existing frames without rendering
     #[arg(long)]

@@ -48,7 +48,7 @@ fn a_loop_drops_the_frame_that_equals_the_first() {
     assert_eq!(span(&workspace.animate("-o f_%d.png", 0)), [0, 6, 7]);
     assert!(workspace.read("f_0.png") == workspace.read("f_6.png"));
     assert_eq!(span(&workspace.animate("--loop -o f_%d.png", 0)), [0, 5, 6]);
-    workspace.animate("--loop -o f.gif", 0);
+    workspace.animate("--loop -o f.gif --keep-frames", 0);
     assert_eq!(workspace.frames("f.gif.frames").len(), 6);
 }
 
@@ -107,7 +107,7 @@ fn a_frame_is_the_same_alone_in_sequence_and_from_render() {
 fn two_runs_of_a_blurred_animation_are_the_same_byte_for_byte() {
     let run = || {
         let workspace = Workspace::moving();
-        workspace.animate("--samples 3 --shutter 270deg -o v.y4m", 0);
+        workspace.animate("--samples 3 --shutter 270deg -o v.y4m --keep-frames", 0);
         let mut files = workspace.files("v.y4m.frames");
         files.append(&mut workspace.files("."));
         files

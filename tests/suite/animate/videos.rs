@@ -1,5 +1,7 @@
 //! Videos, name patterns, and the same frame from other commands.
 
+#[cfg(unix)]
+use crate::support::program::Run;
 use crate::support::program::Workspace;
 use std::fs;
 
@@ -16,9 +18,9 @@ fn y4m_frames(bytes: &[u8]) -> usize {
 }
 
 #[test]
-fn a_video_keeps_its_frames_and_is_encoded_again_without_rendering() {
+fn a_video_with_kept_frames_is_encoded_again_without_rendering() {
     let workspace = Workspace::moving();
-    let run = workspace.animate("--frames 0..7 -o v.y4m", 0);
+    let run = workspace.animate("--frames 0..7 -o v.y4m --keep-frames", 0);
     assert_eq!(run.counts(), (8, 0));
     assert_eq!(workspace.frames("v.y4m.frames").len(), 8);
     let animation = &run.report["animation"];
@@ -62,10 +64,55 @@ fn a_video_keeps_its_frames_and_is_encoded_again_without_rendering() {
 }
 
 #[test]
+fn frames_are_removed_once_their_video_is_written() {
+    let workspace = Workspace::moving();
+    let run = workspace.animate("--frames 0..3 -o v.y4m", 0);
+    assert_eq!(run.counts(), (4, 0));
+    assert!(run.report["animation"]["frame_files"].is_null());
+    assert_eq!(workspace.made(), ["v.y4m"]);
+}
+
+/// The video is longer than a file may be, and each frame is not.
+#[cfg(unix)]
+#[test]
+fn a_video_that_cannot_be_written_leaves_all_its_frames() {
+    let workspace = Workspace::moving();
+    let line = "animate a.toml --size 96x72 --samples 1 -o v.y4m --report -";
+    let mut shell = std::process::Command::new("sh");
+    shell.args(["-c", &format!("ulimit -f 64; exec \"$G\" {line}")]);
+    shell.env("G", env!("CARGO_BIN_EXE_glimray"));
+    let output = shell.current_dir(workspace.path(".")).output();
+    let run = Run::from(output.expect("a shell")).expect(4);
+    run.says("All 7 frames are kept in v.y4m.frames; the same command resumes with encoding.");
+    assert!(!workspace.path("v.y4m").exists());
+    assert_eq!(
+        workspace.files("v.y4m.frames").len(),
+        8,
+        "frames and journal"
+    );
+    assert_eq!(workspace.run(line).expect(0).counts(), (0, 7));
+    assert_eq!(workspace.made(), ["v.y4m"]);
+}
+
+#[test]
+fn frames_of_other_ranges_outlive_a_video() {
+    let workspace = Workspace::moving();
+    workspace.animate("--frames 0..3 -o v.y4m --keep-frames", 0);
+    workspace.animate("--frames 0..1 -o v.y4m", 0);
+    assert_eq!(
+        workspace.frames("v.y4m.frames"),
+        ["frame_0002.png", "frame_0003.png"]
+    );
+    assert_eq!(
+        workspace.animate("--frames 2..3 -o v.y4m", 0).counts(),
+        (0, 2)
+    );
+    assert!(!workspace.path("v.y4m.frames").exists());
+}
+
+#[test]
 fn discard_frames_keeps_other_files_in_the_folder() {
     let workspace = Workspace::moving();
-    workspace.animate("--frames 0..2 -o v.y4m --discard-frames", 0);
-    assert!(!workspace.path("v.y4m.frames").exists());
     fs::create_dir(workspace.path("d")).expect("a folder");
     workspace.write("d/mine.txt", "mine");
     let flags = "--frames 0..2 -o v.y4m --frames-dir d --discard-frames";
