@@ -119,7 +119,8 @@ pub struct Scene {
     /// What the importer skipped or repaired: the first few of each kind, a sentence each, and how many
     /// more there were.
     pub skipped: Vec<String>,
-    /// Properties of the file on which the picture does not depend, or which are decided otherwise; a sentence each.
+    /// What is neither: properties of the file on which the picture does not depend, or which are decided otherwise, and
+    /// what was asked for; a sentence each.
     pub remarks: Vec<String>,
 }
 

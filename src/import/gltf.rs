@@ -382,6 +382,7 @@ impl Reader<'_> {
         if scene.materials.is_empty() {
             scene.materials.push(crate::scene::Material::default());
         }
+        scene.remarks.extend(self.notes.take_remarks());
         scene.skipped = self.notes.into_lines();
         if scene.instances.is_empty() {
             scene.skipped.push("the model has no triangles".to_owned());

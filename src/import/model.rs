@@ -45,6 +45,7 @@ impl Model {
                 size: (800, 600),
                 ..OutputDefaults::default()
             },
+            remarks: self.notes.take_remarks(),
             skipped: self.notes.into_lines(),
             ..Scene::default()
         };

@@ -6,10 +6,11 @@ use crate::text::one_line;
 /// Number of notes kept per kind.
 const MOST: usize = 8;
 
-/// Notes for [`crate::scene::Scene::skipped`], in order, grouped by kind.
+/// Notes for [`crate::scene::Scene::skipped`], in order, grouped by kind, and those for its remarks.
 #[derive(Debug, Default)]
 pub(super) struct Notes {
     kinds: Vec<Kind>,
+    remarks: Vec<String>,
 }
 
 #[derive(Debug)]
@@ -53,8 +54,20 @@ impl Notes {
         self.kind(what).kept.extend(lines);
     }
 
+    /// Adds a sentence on what is neither skipped nor repaired: it was asked for, or says nothing about the picture.
+    pub fn remark(&mut self, sentence: String) {
+        self.remarks.push(sentence);
+    }
+
+    /// The remarks, which [`Notes::into_lines`] leaves out.
+    pub fn take_remarks(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.remarks)
+    }
+
     /// Adds the notes of one of several files, prefixed with its name.
-    pub fn append(&mut self, other: Self, name: &str) {
+    pub fn append(&mut self, mut other: Self, name: &str) {
+        let remarks = other.take_remarks().into_iter();
+        (self.remarks).extend(remarks.map(|remark| format!("{name}: {remark}")));
         for Kind { what, kept, more } in other.kinds {
             for note in kept {
                 self.add(what, || format!("{name}: {note}"));

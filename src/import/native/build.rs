@@ -62,6 +62,7 @@ pub(super) fn scene(
         materials: &names,
     };
     scene.tracks = animation::tracks(&file, found, texts, &mut notes)?;
+    scene.remarks.extend(notes.take_remarks());
     scene.skipped = notes.into_lines();
     scene.lights = lights.into_iter().map(|named| named.light).collect();
     if file.output.samples.is_none() {

@@ -199,10 +199,10 @@ impl Pictures {
             }
         }
         if !self.limited.is_empty() {
-            notes.add("smaller pictures", || {
-                let (pictures, limit) = (pictures(self.limited.len()), self.limit);
-                format!("{pictures} halved to at most {limit} texels a side, as asked for")
-            });
+            let (pictures, limit) = (pictures(self.limited.len()), self.limit);
+            notes.remark(format!(
+                "{pictures} halved to at most {limit} texels a side, as asked for"
+            ));
         }
         if self.halved_count > 0 {
             notes.add("smaller pictures", || {

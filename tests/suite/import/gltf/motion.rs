@@ -2,6 +2,7 @@
 
 use super::model::Model;
 use super::{folder, message_in};
+use crate::support::program::Workspace;
 use glam::{DQuat, DVec3};
 use glimray::import::{self, Options};
 use glimray::scene::Scene;
@@ -162,6 +163,11 @@ fn clips_are_chosen_by_name_and_others_are_left_out() {
         scene.remarks,
         ["the clip 1 `jump` is not played: it moves what an earlier one moves"]
     );
+    // Nothing of the file is lost: any clip can be asked for.
+    let workspace = Workspace::new();
+    workspace.write("a.glb", model.glb());
+    let strict = workspace.run("inspect a.glb --strict").expect(0);
+    assert!(strict.text().contains("the clip 1 `jump` is not played"));
     let files = folder(&[("a.glb", &model.glb())]);
     let options = |clip: &str| Options {
         clip: Some(clip.to_owned()),
@@ -173,4 +179,17 @@ fn clips_are_chosen_by_name_and_others_are_left_out() {
         message_in(&files, "a.glb", &options("run")),
         "bad model (a.glb): unknown clip `run`. It has `walk`, `jump`."
     );
+}
+
+#[test]
+fn convert_writes_no_file_of_a_scene_that_it_could_not_read_again() {
+    let mirrored = Values::Three(&[[1.0; 3], [-1.0; 3]]);
+    let model = moved("scale", &[0.0, 1.0], mirrored, "LINEAR");
+    let workspace = Workspace::new();
+    workspace.write("a.glb", model.glb());
+    workspace.run("inspect a.glb --strict").expect(0);
+    let run = workspace.run("convert a.glb -o out.toml").expect(3);
+    run.says("error: cannot write the scene as a native one: ");
+    run.says("the scale would pass through 0");
+    assert_eq!(workspace.made(), ["a.glb"]);
 }
