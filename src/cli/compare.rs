@@ -1,6 +1,9 @@
-//! `glimray compare A B`: measures the difference between two pictures.
+//! `glimray compare A B`: measures the difference between two pictures, or between those of two folders.
 
+mod comparison;
 mod figures;
+mod folders;
+mod limits;
 
 use crate::app::console;
 use crate::app::error::AppError;
@@ -10,118 +13,122 @@ use crate::cli::args::CompareArgs;
 use crate::cli::interrupt::Interrupt;
 use crate::image::Image;
 use crate::output;
+use comparison::Comparison;
 use figures::Figures;
-use serde_json::json;
+use folders::Folders;
+use limits::Limits;
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::path::Path;
+
+/// What `--json` prints: of two pictures or of two folders.
+#[derive(Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ComparisonOutput {
+    Pictures(Comparison),
+    Folders(Folders),
+}
+
+impl ComparisonOutput {
+    fn print(&self, as_json: bool) -> Result<(), AppError> {
+        if as_json {
+            let value = serde_json::to_value(self);
+            let value = value.map_err(|error| AppError::Internal(format!("compare: {error}")))?;
+            return console::print_json(&value);
+        }
+        console::print(&match self {
+            Self::Pictures(comparison) => comparison.to_text(),
+            Self::Folders(folders) => folders.to_text(),
+        })
+    }
+}
 
 pub fn run(arguments: &CompareArgs) -> Result<(), AppError> {
     Interrupt::install()?;
+    let limits = Limits::new(arguments)?;
+    let (a, b) = (&arguments.a, &arguments.b);
+    match (a.is_dir(), b.is_dir()) {
+        (true, true) => folders::run(arguments, &limits),
+        (false, false) => pictures(arguments, &limits),
+        _ => Err(AppError::Refused(format!(
+            "cannot compare ({}, {}): one is a folder and the other is not. Give two pictures or two folders.",
+            a.display(),
+            b.display()
+        ))),
+    }
+}
+
+fn pictures(arguments: &CompareArgs, limits: &Limits) -> Result<(), AppError> {
+    let (a, b) = (&arguments.a, &arguments.b);
     if let Some(path) = &arguments.diff {
-        Inputs::new([&arguments.a, &arguments.b]).refuse_overwrite(path, "difference", "--diff")?;
+        Inputs::new([a, b]).refuse_overwrite(path, "difference", "--diff")?;
         output::check(path, &output::SaveOptions::default(), 1, 1)?;
     }
-    let a = picture_file::read(&arguments.a)?;
-    let b = picture_file::read(&arguments.b)?;
-    let names = format!("{}, {}", arguments.a.display(), arguments.b.display());
-    let ([aw, ah], [bw, bh]) = (a.size(), b.size());
-    if (aw, ah) != (bw, bh) {
-        return Err(AppError::Different(format!(
-            "the pictures differ ({names}): one is {aw}×{ah} pixels, the other {bw}×{bh}."
-        )));
-    }
-
-    let figures = Figures::new(&a, &b, arguments.tolerance);
-    let differ = figures.beyond_percent > arguments.max_share;
-    if arguments.json {
-        console::print_json(&to_json(arguments, &a, &figures, differ))?;
-    } else {
-        console::print(&to_text(arguments, &a, &figures))?;
-    }
+    let names = format!("{}, {}", a.display(), b.display());
+    let different =
+        |why: &str| AppError::Different(format!("the pictures differ ({names}): {why}."));
+    let pair = Pair::read(a, b)?;
+    let figures = (pair.measure(limits)?).map_err(|why| different(&why))?;
+    let exceeded = limits.exceeded(&figures);
+    let comparison = Comparison::new([a, b], pair.a.size(), &figures, limits);
+    ComparisonOutput::Pictures(comparison).print(arguments.json)?;
     if let Some(path) = &arguments.diff {
-        write_difference(path, &a, &b, &figures)?;
+        pair.write_difference(path, &figures)?;
     }
-    if differ {
-        return Err(AppError::Different(format!(
-            "the pictures differ ({names}): {} % of pixels differ by more than {}/255; the limit is {} %.",
-            rounded(figures.beyond_percent),
-            arguments.tolerance,
-            arguments.max_share
-        )));
+    match exceeded {
+        None => Ok(()),
+        Some(why) => Err(different(&why)),
     }
-    Ok(())
 }
 
-fn to_json(
-    arguments: &CompareArgs,
-    a: &Picture,
-    figures: &Figures,
-    differ: bool,
-) -> serde_json::Value {
-    let [width, height] = a.size();
-    // JSON has no infinity, so the PSNR of equal pictures is null.
-    json!({
-        "a": arguments.a.display().to_string(),
-        "b": arguments.b.display().to_string(),
-        "width": width,
-        "height": height,
-        "rmse": figures.rmse,
-        "psnr_db": figures.psnr_db(),
-        "flip": figures.flip,
-        "max_levels": figures.max_levels,
-        "max_at": figures.max_at,
-        "tolerance_levels": arguments.tolerance,
-        "beyond_percent": figures.beyond_percent,
-        "different": differ,
-    })
+/// Two pictures.
+struct Pair {
+    a: Picture,
+    b: Picture,
 }
 
-fn to_text(arguments: &CompareArgs, a: &Picture, figures: &Figures) -> String {
-    let [width, height] = a.size();
-    let [x, y] = figures.max_at;
-    let flip = figures.flip.map_or_else(
-        || match cfg!(feature = "flip") {
-            true => "not computed: too many pixels".to_owned(),
-            false => "not computed: built without the feature `flip`".to_owned(),
-        },
-        |flip| format!("{flip:.6}"),
-    );
-    let (rmse, levels) = (figures.rmse, figures.rmse * 255.0);
-    format!(
-        "size      {width}×{height} pixels\n\
-         RMSE      {rmse:.6} ({levels:.3} levels)\n\
-         PSNR      {:.2} dB\n\
-         FLIP      {flip}\n\
-         largest   {} levels at {x},{y}\n\
-         beyond    {} % of pixels differ by more than {} levels\n",
-        figures.psnr_db(),
-        rounded(figures.max_levels),
-        rounded(figures.beyond_percent),
-        arguments.tolerance,
-    )
-}
+impl Pair {
+    fn read(a: &Path, b: &Path) -> Result<Self, AppError> {
+        Ok(Self {
+            a: picture_file::read(a)?,
+            b: picture_file::read(b)?,
+        })
+    }
 
-/// Writes the absolute difference of every channel, scaled so that the largest is 1.
-fn write_difference(
-    path: &Path,
-    a: &Picture,
-    b: &Picture,
-    figures: &Figures,
-) -> Result<(), AppError> {
-    let scale = match figures.max_levels {
-        levels if levels > 0.0 => (255.0 / levels) as f32,
-        _ => 1.0,
-    };
-    let pixels = a.image.pixels.iter().zip(&b.image.pixels);
-    let difference = Image {
-        pixels: pixels
-            .map(|(a, b)| {
-                let [r, g, b] = [0, 1, 2].map(|channel| (a[channel] - b[channel]).abs() * scale);
-                [r, g, b, 1.0]
-            })
-            .collect(),
-        ..a.image
-    };
-    Ok(output::save(path, &difference)?)
+    /// The figures of two pictures of equal size, or how their sizes differ.
+    ///
+    /// # Errors
+    /// FLIP is limited, but the pictures are too large for it.
+    fn measure(&self, limits: &Limits) -> Result<Result<Figures, String>, AppError> {
+        let ([aw, ah], [bw, bh]) = (self.a.size(), self.b.size());
+        if (aw, ah) != (bw, bh) {
+            let why = format!("one is {aw}×{ah} pixels, the other {bw}×{bh}");
+            return Ok(Err(why));
+        }
+        let figures = Figures::new(&self.a, &self.b, limits.tolerance);
+        limits.check_flip(&figures, [aw, ah])?;
+        Ok(Ok(figures))
+    }
+
+    /// Writes the absolute difference of every channel, scaled so that the largest is 1.
+    fn write_difference(&self, path: &Path, figures: &Figures) -> Result<(), AppError> {
+        let scale = match figures.max_levels {
+            levels if levels > 0.0 => (255.0 / levels) as f32,
+            _ => 1.0,
+        };
+        let pixels = self.a.image.pixels.iter().zip(&self.b.image.pixels);
+        let difference = Image {
+            pixels: pixels
+                .map(|(a, b)| {
+                    let [r, g, b] =
+                        [0, 1, 2].map(|channel| (a[channel] - b[channel]).abs() * scale);
+                    [r, g, b, 1.0]
+                })
+                .collect(),
+            ..self.a.image
+        };
+        Ok(output::save(path, &difference)?)
+    }
 }
 
 /// Rounds to four decimals.

@@ -262,6 +262,11 @@ pub fn percent(text: &str) -> Result<f64, String> {
     within(text, 0.0, 100.0, "it")
 }
 
+/// The mean of FLIP.
+pub fn flip(text: &str) -> Result<f64, String> {
+    within(text, 0.0, 1.0, "it")
+}
+
 /// The highest frame number.
 pub const MAX_FRAME: u32 = 9_999_999;
 

@@ -6,8 +6,7 @@
 use crate::app::picture_file::Picture;
 
 /// Largest picture for FLIP, in pixels; larger ones would need gigabytes of memory.
-#[cfg(feature = "flip")]
-const MAX_FLIP_PIXELS: usize = 1 << 24;
+pub const MAX_FLIP_PIXELS: usize = 1 << 24;
 
 /// Difference metrics. One level is 1/255.
 pub struct Figures {
