@@ -7,5 +7,7 @@ mod generated;
 mod links;
 mod native_reference;
 mod pages;
+#[cfg(unix)]
+mod recipes;
 mod scenes;
 mod tables;
