@@ -9,7 +9,8 @@ use crate::render::{
 use crate::scene::ObjectRef;
 use crate::text;
 use glam::{DVec3, Vec3};
-use serde_json::json;
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::fmt::{self, Write};
 
 /// The tree of every sample, their weighted sum, and the pixel.
@@ -27,15 +28,29 @@ pub fn of(tree: &RayTree, (width, height): (u32, u32)) -> Result<String, fmt::Er
     Ok(out)
 }
 
-/// The output of `--json`: the tree with the picture's size and the weighted sum.
+/// The rays of a pixel, as `--json` prints them.
+#[derive(Serialize, JsonSchema)]
+pub struct Explanation<'a> {
+    #[serde(flatten)]
+    tree: &'a RayTree,
+    /// Width and height of the picture in pixels.
+    size: [u32; 2],
+    /// Linear radiance: the weighted mean over the samples of the sum of their rays' contributions.
+    sum: [f64; 3],
+}
+
+/// The output of `--json`.
 ///
 /// # Errors
 /// The tree cannot be serialized, which would be a bug.
 pub fn json(tree: &RayTree, (width, height): (u32, u32)) -> Result<String, AppError> {
-    let mut value = serde_json::to_value(tree)
+    let explanation = Explanation {
+        tree,
+        size: [width, height],
+        sum: weighted_sum(tree).to_array(),
+    };
+    let value = serde_json::to_value(explanation)
         .map_err(|error| AppError::Internal(format!("explain: {error}")))?;
-    value["size"] = json!([width, height]);
-    value["sum"] = json!(weighted_sum(tree).to_array());
     Ok(text::escape_json(&format!("{value:#}\n")))
 }
 

@@ -8,6 +8,7 @@ use crate::clock::Instant;
 use crate::gpu::Gpu;
 use crate::output;
 use crate::render::{ExecutionPolicy, Storage, StorageTimes};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -34,7 +35,7 @@ const MIN_RAYS_ON_CPU: u64 = 200_000_000;
 const MIN_RAYS: u64 = 4_000_000_000;
 
 /// Why a storage was chosen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
     /// It is usual for adapters of this kind.

@@ -6,6 +6,7 @@ mod checkpoint;
 mod farm;
 mod flags;
 mod motion;
+mod schema;
 mod values;
 
 pub use bench::BenchArgs;
@@ -23,6 +24,7 @@ pub use flags::{
 pub use motion::{
     MomentFlags, MotionFlags, Range, RangeFlags, SequenceFlags, SequenceFormat, TurnFlags,
 };
+pub use schema::{SchemaArgs, Subject};
 pub use values::MAX_FRAME;
 
 use clap::{Args, Parser, Subcommand};
@@ -71,12 +73,14 @@ pub enum Command {
             glimray animate scene.toml -o walk.mp4\n  \
             glimray animate scene.toml --frames 0..47 --shutter 180deg -o walk_%04d.png\n  \
             glimray animate scene.toml --loop --fps 12 -o walk.gif\n  \
+            glimray animate scene.toml -o walk.mp4 --keep-frames\n  \
             glimray animate scene.toml -o walk.mp4 --encode-only --quality 60\n  \
             glimray animate scene.toml --quiet -o - --format y4m | mpv -\n\n\
-            The frames of a video are kept as files (walk.mp4.frames/frame_0000.png …), so the video can \
-            be encoded again without rendering. An existing frame is reused if it was written completely \
-            by the same scene, settings, adapter and version; the journal NAME_journal.png.jsonl beside the \
-            frames records this. To render a single frame again, delete its file.")]
+            The frames of a video are first written as files (walk.mp4.frames/frame_0000.png …), which are removed \
+            when the video is complete. With --keep-frames they stay, so the video can be encoded again without rendering. \
+            An existing frame is reused if it was written completely by the same scene, settings, adapter and version; \
+            the journal NAME_journal.png.jsonl beside the frames records this. To render a single frame again, delete \
+            its file.")]
     Animate(Box<AnimateArgs>),
     /// Render a seamless turntable animation of a model.
     ///
@@ -158,14 +162,16 @@ pub enum Command {
             GLIMRAY_CACHE names. The variable GLIMRAY_FETCH decides instead: image, buffer, off (what is usual on such \
             adapters, without measuring) or auto.")]
     Doctor(DoctorArgs),
-    /// Compare two pictures: RMSE, PSNR, FLIP, largest difference.
+    /// Compare two pictures, or those of two folders: RMSE, PSNR, FLIP, largest difference.
     ///
-    /// The exit code is 8 if more pixels differ than the flags allow.
-    #[command(
-        after_help = "Example: glimray compare a.png b.png --tolerance 3 --max-share 0.1 \
-            --diff difference.png\n\n\
-            Values are compared as stored; 8-bit and 16-bit values are scaled to 0..1. One level is 1/255."
-    )]
+    /// The exit code is 8 if they differ by more than the flags allow, or a picture is only in one of the folders.
+    #[command(after_help = "Examples:\n  \
+            glimray compare a.png b.png --tolerance 3 --max-share 0.1 --diff difference.png\n  \
+            glimray compare a.png b.png --flip 0.02\n  \
+            glimray compare reference new --tolerance 2 --max-share 0.1 --diff difference\n\n\
+            Values are compared as stored; 8-bit and 16-bit values are scaled to 0..1. One level is 1/255. \
+            The pictures of folders, and of the folders in them, are compared by name in one table; hidden files and files \
+            that are not pictures are left out.")]
     Compare(CompareArgs),
     /// Benchmark built-in scenes: rays per second, traversal steps, build rates, start-up.
     #[command(after_help = "Examples:\n  \
@@ -183,11 +189,13 @@ pub enum Command {
         after_help = "Example: glimray completions bash > ~/.local/share/bash-completion/completions/glimray"
     )]
     Completions(CompletionsArgs),
-    /// Write manual pages: glimray.1, and a page for each command.
+    /// Write manual pages: glimray.1, and a page for each command and step of a command.
     #[command(after_help = "Example: glimray man ~/.local/share/man/man1")]
     Man(ManArgs),
-    /// Print the JSON Schema of the native scene format (.toml) for editors.
-    #[command(after_help = "Example: glimray schema > glimray.schema.json")]
+    /// Print the JSON Schema of native scenes, for editors, or of written JSON.
+    #[command(after_help = "Examples:\n  \
+            glimray schema > glimray.schema.json\n  \
+            glimray schema report > report.schema.json")]
     Schema(SchemaArgs),
 }
 
@@ -335,14 +343,6 @@ pub struct MergeArgs {
 }
 
 #[derive(Debug, Args)]
-pub struct SchemaArgs {
-    /// Print the schema of the manifest of `farm plan` instead
-    #[cfg(feature = "archive")]
-    #[arg(long)]
-    pub manifest: bool,
-}
-
-#[derive(Debug, Args)]
 pub struct InspectArgs {
     /// Scene file: .toml (native), .scene (course format), .nff, .obj, .gltf, .glb, .ply, .stl or .zip
     pub scene: PathBuf,
@@ -396,17 +396,21 @@ pub struct DoctorArgs {
 
 #[derive(Debug, Args)]
 pub struct CompareArgs {
-    /// First picture: PNG, JPEG, WebP, KTX2, OpenEXR or Radiance HDR
+    /// First picture: PNG, JPEG, WebP, KTX2, OpenEXR or Radiance HDR; or a folder of pictures
     pub a: PathBuf,
-    /// Second picture, of the same size
+    /// Second picture, of the same size; or the folder with pictures of the same names
     pub b: PathBuf,
-    /// Largest difference in any channel, in levels of 1/255, at which two pixels count as equal
-    #[arg(long, value_name = "LEVELS", default_value = "0", value_parser = values::tolerance)]
-    pub tolerance: f64,
-    /// Percentage of pixels that may differ by more than the tolerance
-    #[arg(long, value_name = "PERCENT", default_value = "0", value_parser = values::percent)]
-    pub max_share: f64,
-    /// Write a difference image, scaled so that the largest difference is white
+    /// Largest difference in any channel, in levels of 1/255, at which two pixels count as equal [default: 0]
+    #[arg(long, value_name = "LEVELS", value_parser = values::tolerance)]
+    pub tolerance: Option<f64>,
+    /// Percentage of pixels that may differ by more than the tolerance [default: 0]
+    #[arg(long, value_name = "PERCENT", value_parser = values::percent)]
+    pub max_share: Option<f64>,
+    /// Largest mean of FLIP, 0 (equal) to 1; without --tolerance and --max-share it is the only limit
+    #[arg(long, value_name = "MAX", value_parser = values::flip)]
+    pub flip: Option<f64>,
+    /// Write a difference image, scaled so that the largest difference is white; for folders, a folder with those of
+    /// the pictures that differ
     #[arg(long, value_name = "OUT.png")]
     pub diff: Option<PathBuf>,
     /// Print JSON instead of text

@@ -1,9 +1,12 @@
 //! `glimray inspect SCENE`: the contents of a scene as the renderer sees it.
 
 mod deforming;
+mod entries;
 mod materials;
 mod motion;
 mod textures;
+
+pub use entries::Inspection;
 
 use crate::app::console::{self, quoted};
 use crate::app::error::AppError;
@@ -17,7 +20,6 @@ use crate::import::{Baking, Options};
 use crate::render::{Integrator, Tone};
 use crate::scene::{Attenuation, Background, Camera, Light, LightKind, Scene};
 use glam::{DVec3, Vec3};
-use serde_json::{Value, json};
 use std::fmt::{self, Write};
 
 /// Largest number of list items in the text output; JSON lists all.
@@ -32,128 +34,14 @@ pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
     let scene = scene_file::load(&arguments.scene, &options, arguments.reading.strict).0?;
     let path = arguments.scene.display().to_string();
     if arguments.json {
-        return console::print_json(&to_json(&path, &scene)?);
+        let value = serde_json::to_value(Inspection::new(&path, &scene))
+            .map_err(|error| AppError::Internal(format!("inspect: {error}")))?;
+        return console::print_json(&value);
     }
     let mut text = String::new();
     write_text(&mut text, &path, &scene)
         .map_err(|error| AppError::Internal(format!("inspect: {error}")))?;
     console::print(&text)
-}
-
-/// The `scene` part of the report, with details: lengths in scene units, angles in degrees, cameras and lights in world
-/// space at time 0.
-fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
-    let mut value = serde_json::to_value(SceneReport::new(path, scene))
-        .map_err(|error| AppError::Internal(format!("inspect: {error}")))?;
-    let output = &scene.output;
-    value["bounds"] = scene.bounds().map_or(
-        Value::Null,
-        |(min, max)| json!({ "min": min.to_array(), "max": max.to_array() }),
-    );
-    value["camera_index"] = json!(scene.camera_index);
-    value["cameras"] = scene.cameras_at(0.0).iter().map(camera_json).collect();
-    value["light_list"] = (scene.frame(0.0).lights.iter()).map(light_json).collect();
-    value["material_list"] = (scene.materials.iter())
-        .map(materials::material_json)
-        .collect();
-    value["texture_list"] = (scene.textures.iter())
-        .map(textures::texture_json)
-        .collect();
-    value["picture_list"] = (scene.pictures.iter())
-        .map(|picture| textures::picture_json(picture))
-        .collect();
-    value["background"] = background_json(&scene.background);
-    value["ambient"] = json!(scene.ambient.to_array());
-    value["output"] = json!({
-        "size": output.size, "integrator": Integrator::from(output.integrator).entry().name,
-        "samples": output.samples, "max_depth": output.max_depth,
-        "exposure_ev": output.exposure_ev, "auto_exposure": output.auto_exposure,
-        "tone": TONES.name(&Tone::from(output).curve), "transfer": TRANSFERS.name(&output.transfer),
-    });
-    value["animation"] = motion::to_json(scene);
-    value["clips"] = deforming::clips_json(scene);
-    value["deforming"] = deforming::to_json(scene);
-    value["unlit"] = json!(scene.is_unlit());
-    value["remarks"] = json!(scene.remarks);
-    Ok(value)
-}
-
-fn background_json(background: &Background) -> Value {
-    match background {
-        Background::Color(color) => json!(color.to_array()),
-        Background::Gradient { bottom, top } => {
-            json!({ "bottom": bottom.to_array(), "top": top.to_array() })
-        }
-        Background::Picture {
-            picture,
-            strength,
-            rotation,
-        } => json!({
-            "picture": picture, "strength": strength, "rotation_deg": rotation.to_degrees(),
-        }),
-    }
-}
-
-fn camera_json(camera: &Camera) -> Value {
-    json!({
-        "name": camera.name,
-        "look_from": camera.look_from.to_array(),
-        "look_at": camera.look_at.to_array(),
-        "up": camera.up.to_array(),
-        "fov_y_deg": camera.fov_y.to_degrees(),
-        "orthographic": camera.orthographic_height,
-        "near": camera.clip.0,
-        "far": Some(camera.clip.1).filter(|far| far.is_finite()),
-        "lens": camera.lens.map(|lens| json!({
-            "radius": lens.radius,
-            "focus_distance": lens.focus_distance,
-            "blades": lens.blade_count,
-            "blade_rotation_deg": lens.blade_rotation.to_degrees(),
-        })),
-    })
-}
-
-fn light_json(light: &Light) -> Value {
-    let mut value = match light.kind {
-        LightKind::Point { position } => json!({ "position": position.to_array() }),
-        LightKind::Directional { direction } => json!({ "direction": direction.to_array() }),
-        LightKind::Spot {
-            position,
-            direction,
-            inner,
-            outer,
-        } => json!({
-            "position": position.to_array(),
-            "direction": direction.to_array(),
-            "inner_deg": inner.to_degrees(),
-            "outer_deg": outer.to_degrees(),
-        }),
-        LightKind::Rectangle {
-            center,
-            edge_u,
-            edge_v,
-        } => json!({
-            "center": center.to_array(),
-            "edge_u": edge_u.to_array(),
-            "edge_v": edge_v.to_array(),
-        }),
-        LightKind::Disc {
-            center,
-            normal,
-            radius,
-        } => json!({
-            "center": center.to_array(), "normal": normal.to_array(), "radius": radius,
-        }),
-        LightKind::Sphere { center, radius } => {
-            json!({ "center": center.to_array(), "radius": radius })
-        }
-    };
-    value["kind"] = json!(kind(light));
-    value["color"] = json!(light.color.to_array());
-    value["attenuation"] = json!(attenuation(light));
-    value["samples"] = json!(light.samples);
-    value["visible"] = json!(light.visible);
-    value
 }
 
 fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
@@ -357,10 +245,6 @@ fn attenuation(light: &Light) -> &'static str {
 
 fn point(p: DVec3) -> String {
     format!("({}, {}, {})", number(p.x), number(p.y), number(p.z))
-}
-
-fn color_json(c: Vec3) -> Value {
-    json!(c.to_array())
 }
 
 fn color(c: Vec3) -> String {

@@ -6,6 +6,7 @@ use crate::app::console::Console;
 use crate::app::error::AppError;
 use crate::app::inputs;
 use crate::app::value_names::{BSDF_MODELS, INTEGRATORS};
+use crate::bytes::size;
 use crate::cli::args::{DeviceFlags, LayerFlags, LogFlags, PictureFlags};
 use crate::cli::destination;
 use crate::cli::device;
@@ -14,7 +15,7 @@ use crate::cli::layers::Finished;
 use crate::cli::memory;
 use crate::cli::report;
 use crate::cli::report::{
-    AnimationReport, Draft, ImageReport, Memory, Report, SceneReport, Seconds,
+    AnimationReport, AnyReport, Draft, ImageReport, Memory, Report, SceneReport, Seconds,
 };
 use crate::gpu::{AdapterChoice, AdapterReport, Gpu};
 use crate::output;
@@ -57,10 +58,13 @@ impl Job<'_> {
         Console::new(self.log.quiet, self.log.verbose)
     }
 
-    /// Warns about skipped parts of the scene, missing lights, materials that paths change and flags without effect.
+    /// Warns about skipped parts of the scene (and with --verbose tells its remarks), missing lights, materials that paths change and flags without effect.
     pub fn warn_of_skipped(&self) {
         for skipped in &self.scene.skipped {
             console::warning(skipped);
+        }
+        for remark in &self.scene.remarks {
+            self.console().detail(remark);
         }
         idle_flags::warn(self.picture, &self.settings());
         // Only paths find the light of the background on every surface.
@@ -174,7 +178,7 @@ impl Job<'_> {
             width: size.0,
             height: size.1,
             samples: settings.samples,
-            mean_samples: 0.0,
+            mean_samples: None,
             integrator: INTEGRATORS.name(&settings.integrator),
             max_depth: settings.max_depth,
             seed: settings.seed,
@@ -269,7 +273,7 @@ impl Job<'_> {
             scene: SceneReport::new(&draft.scene_path, &self.scene),
             image: ImageReport {
                 // Avoids 0/0 when nothing was rendered.
-                mean_samples: stats.samples as f64 / samples.max(1.0),
+                mean_samples: Some(stats.samples as f64 / samples.max(1.0)),
                 ..self.image(outcome.path, settings, outcome.size)
             },
             adapter: outcome.adapter.map(Into::into),
@@ -291,11 +295,11 @@ impl Job<'_> {
             },
             resumed: draft.resumed,
             animation: outcome.animation,
-            error: None,
+            error: (),
         };
         details(self.console(), &report);
         match &self.log.report {
-            Some(path) => report::write(path, &report),
+            Some(path) => report::write(path, AnyReport::Done(&report)),
             None => Ok(()),
         }
     }
@@ -383,9 +387,9 @@ fn details(console: Console, report: &Report) {
         console.detail(format_args!("{}", fetch.sentence()));
     }
     console.detail(format_args!(
-        "{} submissions, the longest {:.1} ms; {:.1} MiB on the GPU",
+        "{} submissions, the longest {:.1} ms; {} on the GPU",
         report.submissions.count,
         report.submissions.longest_ms,
-        report.memory.gpu_bytes as f64 / f64::from(1 << 20)
+        size(report.memory.gpu_bytes)
     ));
 }

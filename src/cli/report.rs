@@ -1,8 +1,10 @@
 //! The JSON report of a run. Its fields are a stable interface: add to them, rename none.
 
 mod draft;
+mod failed;
 
 pub use draft::Draft;
+pub use failed::FailedReport;
 
 use crate::app::console;
 use crate::app::error::AppError;
@@ -12,11 +14,20 @@ use crate::output;
 use crate::render::{Rays, Renderer, Stats};
 use crate::scene::{Geometry, Scene};
 use crate::text;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::Path;
 
+/// What `--report` writes.
+#[derive(Debug, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum AnyReport<'a> {
+    Done(&'a Report),
+    Failed(&'a FailedReport<'a>),
+}
+
 /// Inputs, settings and measurements of a run.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Report {
     /// Version of the program.
     pub glimray: &'static str,
@@ -53,8 +64,8 @@ pub struct Report {
     /// Present for `animate` and `turntable`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub animation: Option<AnimationReport>,
-    /// Null; the report of a failed run has the error here (see [`Draft`]).
-    pub error: Option<()>,
+    /// Null; the report of a failed run has the error here.
+    pub error: (),
 }
 
 impl Report {
@@ -63,7 +74,7 @@ impl Report {
 }
 
 /// Statistics of an animation's frames and video.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct AnimationReport {
     /// Number of the first frame.
     pub first: u32,
@@ -95,7 +106,7 @@ pub struct AnimationReport {
 }
 
 /// Existing frames that could not be reused.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Redone {
     /// The reason, such as "the scene has changed".
     pub why: &'static str,
@@ -104,7 +115,7 @@ pub struct Redone {
 }
 
 /// Counts of the scene's contents.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct SceneReport {
     pub path: String,
     pub spheres: usize,
@@ -121,7 +132,7 @@ pub struct SceneReport {
 }
 
 /// The picture and its main settings.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct ImageReport {
     /// `-` for standard output.
     pub path: String,
@@ -129,8 +140,8 @@ pub struct ImageReport {
     pub height: u32,
     /// Maximum number of samples per pixel.
     pub samples: u32,
-    /// Mean number of samples per pixel that were taken.
-    pub mean_samples: f64,
+    /// Mean number of samples per pixel that were taken; null if the run failed.
+    pub mean_samples: Option<f64>,
     pub integrator: &'static str,
     /// Bounces after the first hit.
     pub max_depth: u32,
@@ -162,7 +173,7 @@ impl ImageReport {
     }
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Adapter {
     pub name: String,
     pub backend: String,
@@ -171,7 +182,7 @@ pub struct Adapter {
 }
 
 /// Where kernels read the scene from.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct FetchReport {
     /// "image" or "buffer".
     pub storage: &'static str,
@@ -206,29 +217,29 @@ impl FetchReport {
 
 /// Wall-clock times in seconds. `total` runs from the start of the process until the file is on disk; the
 /// others are parts of it that do not overlap.
-#[derive(Clone, Debug, Default, Serialize)]
-pub struct Seconds {
-    pub total: f64,
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+pub struct Seconds<T = f64> {
+    pub total: T,
     /// Reading the scene.
-    pub load: f64,
+    pub load: T,
     /// Building the BVH.
-    pub bvh: f64,
+    pub bvh: T,
     /// Opening the adapter.
-    pub gpu: f64,
+    pub gpu: T,
     /// Compiling shaders.
-    pub compile: f64,
-    pub upload: f64,
-    pub trace: f64,
+    pub compile: T,
+    pub upload: T,
+    pub trace: T,
     /// Exposure, tone curve, transfer function and reading the picture back.
-    pub develop: f64,
+    pub develop: T,
     /// Denoising; present for path-traced and for denoised pictures.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub denoise: Option<f64>,
+    pub denoise: Option<T>,
     /// Encoding and writing the file.
-    pub write: f64,
+    pub write: T,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct RayCounts {
     pub primary: u64,
     pub primary_hits: u64,
@@ -241,13 +252,13 @@ pub struct RayCounts {
     pub refraction_hits: u64,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Submissions {
     pub count: u64,
     pub longest_ms: f64,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Memory {
     pub gpu_bytes: u64,
     /// Null if the system does not report it.
@@ -311,8 +322,8 @@ impl From<&Stats> for Submissions {
 ///
 /// # Errors
 /// The report cannot be written.
-pub fn write(path: &Path, report: &impl Serialize) -> Result<(), AppError> {
-    let mut text = serde_json::to_string_pretty(report)
+pub fn write(path: &Path, report: AnyReport) -> Result<(), AppError> {
+    let mut text = serde_json::to_string_pretty(&report)
         .map_err(|error| AppError::Internal(format!("report: {error}")))?;
     text.push('\n');
     let text = text::escape_json(&text);

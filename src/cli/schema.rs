@@ -1,15 +1,36 @@
-//! `glimray schema`: prints the JSON Schema of the native scene format, or of a farm's manifest.
+//! `glimray schema`: prints the JSON Schemas of the native scene format, of what commands print and write as JSON, and of a
+//! farm's manifest.
 
+use super::args::{SchemaArgs, Subject};
+use super::compare::ComparisonOutput;
+use super::inspect::Inspection;
+use super::report::AnyReport;
 use crate::app::console;
 use crate::app::error::AppError;
-use crate::cli::args::SchemaArgs;
+use crate::app::ray_text::Explanation;
 use crate::import;
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use serde_json::Value;
 
 pub fn run(arguments: &SchemaArgs) -> Result<(), AppError> {
     #[cfg(feature = "archive")]
     if arguments.manifest {
         return console::print_json(&crate::cli::farm::schema());
     }
-    let SchemaArgs { .. } = arguments;
-    console::print_json(&import::native_schema())
+    console::print_json(&match arguments.subject {
+        Subject::Scene => import::native_schema(),
+        Subject::Report => of::<AnyReport>("glimray report"),
+        Subject::Compare => of::<ComparisonOutput>("glimray compare --json"),
+        Subject::Inspect => of::<Inspection>("glimray inspect --json"),
+        Subject::Explain => of::<Explanation>("glimray explain --json"),
+    })
+}
+
+/// The schema of what is written of a type.
+fn of<T: JsonSchema>(title: &str) -> Value {
+    let settings = SchemaSettings::default().for_serialize();
+    let mut schema = settings.into_generator().into_root_schema_for::<T>();
+    schema.insert("title".to_owned(), title.into());
+    schema.to_value()
 }

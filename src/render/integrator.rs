@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// What a camera ray computes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Integrator {
     /// Phong's illumination with shadow rays, and recursive reflection and refraction.

@@ -1,10 +1,11 @@
 //! References to objects that rays can hit.
 
 use super::Scene;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// An object in a [`Scene`] that rays can hit, by its index.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, JsonSchema)]
 #[serde(tag = "kind", content = "index", rename_all = "lowercase")]
 pub enum ObjectRef {
     /// Index into [`Scene::instances`].

@@ -22,6 +22,7 @@ mod parts;
 mod refusals;
 mod render;
 mod report;
+mod schema;
 #[cfg(unix)]
 mod signals;
 mod streams;

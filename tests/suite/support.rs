@@ -6,6 +6,7 @@ pub mod effort;
 pub mod harness;
 pub mod program;
 pub mod random;
+pub mod schema;
 pub mod skip;
 pub mod statistics;
 pub mod types;

@@ -3,28 +3,45 @@
 use crate::app::console::quoted;
 use crate::cli::inspect::{list, number};
 use crate::scene::{Clip, Deformation, Scene};
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::fmt::{self, Write};
 
-/// `seconds` is null for clips that are not played.
-pub fn clips_json(scene: &Scene) -> Value {
-    let clips = scene.clips.iter();
-    clips
-        .map(|clip| json!({ "name": clip.name, "seconds": clip.seconds }))
-        .collect()
+/// A clip.
+#[derive(Serialize, JsonSchema)]
+pub struct ClipEntry {
+    name: String,
+    /// Duration; null for clips that are not played.
+    seconds: Option<f64>,
 }
 
-pub fn to_json(scene: &Scene) -> Value {
-    let deformations = scene.deformations.iter();
-    deformations
-        .map(|deformation| {
-            json!({
-                "mesh": scene.meshes[deformation.mesh].name,
-                "joints": deformation.skin.as_ref().map(|skin| skin.joints.len()),
-                "morph_targets": deformation.targets.len(),
-            })
-        })
-        .collect()
+/// A mesh that deforms.
+#[derive(Serialize, JsonSchema)]
+pub struct DeformationEntry {
+    /// The name of the mesh.
+    mesh: String,
+    /// Number of joints; null without a skin.
+    joints: Option<usize>,
+    morph_targets: usize,
+}
+
+impl From<&Clip> for ClipEntry {
+    fn from(clip: &Clip) -> Self {
+        Self {
+            name: clip.name.clone(),
+            seconds: clip.seconds,
+        }
+    }
+}
+
+impl DeformationEntry {
+    pub fn new(scene: &Scene, deformation: &Deformation) -> Self {
+        Self {
+            mesh: scene.meshes[deformation.mesh].name.clone(),
+            joints: deformation.skin.as_ref().map(|skin| skin.joints.len()),
+            morph_targets: deformation.targets.len(),
+        }
+    }
 }
 
 /// Nothing for scenes without.

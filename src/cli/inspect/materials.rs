@@ -4,62 +4,122 @@ use super::color;
 use crate::app::console::quoted;
 use crate::scene::{Coverage, Material, MetallicRoughness};
 use glam::Vec3;
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::fmt::{self, Write};
 
-pub fn material_json(material: &Material) -> Value {
-    let mut value = json!({
-        "name": material.name,
-        "diffuse": material.diffuse.to_array(),
-        "specular": material.specular.to_array(),
-        "shininess": material.shininess,
-        "ambient": material.ambient.to_array(),
-        "two_sided": material.two_sided,
-        "emission": material.emission.to_array(),
-        "two_sided_emission": material.two_sided_emission,
-        "reflect": material.reflect.to_array(),
-        "transmit": material.transmit.to_array(),
-        "ior": material.ior,
-        "thin": material.thin,
-        "absorption": material.absorption.to_array(),
-        "priority": material.priority,
-    });
-    if let Some(model) = &material.metallic_roughness {
-        value["physical"] = physical_json(material, model);
-    }
-    value
+/// A material.
+#[derive(Serialize, JsonSchema)]
+pub struct MaterialEntry {
+    name: String,
+    diffuse: [f32; 3],
+    specular: [f32; 3],
+    shininess: f32,
+    ambient: [f32; 3],
+    two_sided: bool,
+    emission: [f32; 3],
+    two_sided_emission: bool,
+    reflect: [f32; 3],
+    transmit: [f32; 3],
+    ior: f32,
+    thin: bool,
+    absorption: [f32; 3],
+    priority: i32,
+    /// Of physically based materials, whose other coefficients are made from these.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    physical: Option<PhysicalEntry>,
 }
 
-fn physical_json(material: &Material, model: &MetallicRoughness) -> Value {
-    json!({
-        "base_color": (model.base_color * material.tint).to_array(),
-        "alpha": model.alpha,
-        "coverage": coverage(model.coverage),
-        "metallic": model.metallic,
-        "roughness": model.roughness,
-        "emission": model.emission.to_array(),
-        "unlit": model.unlit,
-        "ior": model.ior,
-        "specular": model.specular,
-        "specular_color": model.specular_color.to_array(),
-        "transmission": model.transmission,
-        "thickness": model.thickness,
-        "attenuation_color": model.attenuation_color.to_array(),
-        // Infinite for a clear volume, which JSON writes as null.
-        "attenuation_distance": model.attenuation_distance,
-        "clearcoat": model.clearcoat,
-        "clearcoat_roughness": model.clearcoat_roughness,
-        "sheen_color": model.sheen_color.to_array(),
-        "sheen_roughness": model.sheen_roughness,
-        "anisotropy": model.anisotropy,
-        "anisotropy_rotation": model.anisotropy_rotation,
-        "iridescence": model.iridescence,
-        "iridescence_ior": model.iridescence_ior,
-        "iridescence_thickness": model.iridescence_thickness,
-        "dispersion": model.dispersion,
-        "diffuse_transmission": model.diffuse_transmission,
-        "diffuse_transmission_color": model.diffuse_transmission_color.to_array(),
-    })
+/// The parameters of a physically based material, as in glTF.
+#[derive(Serialize, JsonSchema)]
+struct PhysicalEntry {
+    base_color: [f32; 3],
+    alpha: f32,
+    /// `opaque`, `mask` or `blend`.
+    coverage: &'static str,
+    metallic: f32,
+    roughness: f32,
+    emission: [f32; 3],
+    unlit: bool,
+    ior: f32,
+    specular: f32,
+    specular_color: [f32; 3],
+    transmission: f32,
+    thickness: f32,
+    attenuation_color: [f32; 3],
+    /// Null if it is infinite: the volume is clear.
+    attenuation_distance: Option<f32>,
+    clearcoat: f32,
+    clearcoat_roughness: f32,
+    sheen_color: [f32; 3],
+    sheen_roughness: f32,
+    anisotropy: f32,
+    /// In radians.
+    anisotropy_rotation: f32,
+    iridescence: f32,
+    iridescence_ior: f32,
+    /// Least and largest, in nanometres.
+    iridescence_thickness: [f32; 2],
+    dispersion: f32,
+    diffuse_transmission: f32,
+    diffuse_transmission_color: [f32; 3],
+}
+
+impl From<&Material> for MaterialEntry {
+    fn from(material: &Material) -> Self {
+        let physical = material.metallic_roughness.as_ref();
+        Self {
+            name: material.name.clone(),
+            diffuse: material.diffuse.into(),
+            specular: material.specular.into(),
+            shininess: material.shininess,
+            ambient: material.ambient.into(),
+            two_sided: material.two_sided,
+            emission: material.emission.into(),
+            two_sided_emission: material.two_sided_emission,
+            reflect: material.reflect.into(),
+            transmit: material.transmit.into(),
+            ior: material.ior,
+            thin: material.thin,
+            absorption: material.absorption.into(),
+            priority: material.priority,
+            physical: physical.map(|model| PhysicalEntry::new(material, model)),
+        }
+    }
+}
+
+impl PhysicalEntry {
+    fn new(material: &Material, model: &MetallicRoughness) -> Self {
+        let distance = model.attenuation_distance;
+        Self {
+            base_color: (model.base_color * material.tint).into(),
+            alpha: model.alpha,
+            coverage: coverage(model.coverage),
+            metallic: model.metallic,
+            roughness: model.roughness,
+            emission: model.emission.into(),
+            unlit: model.unlit,
+            ior: model.ior,
+            specular: model.specular,
+            specular_color: model.specular_color.into(),
+            transmission: model.transmission,
+            thickness: model.thickness,
+            attenuation_color: model.attenuation_color.into(),
+            attenuation_distance: distance.is_finite().then_some(distance),
+            clearcoat: model.clearcoat,
+            clearcoat_roughness: model.clearcoat_roughness,
+            sheen_color: model.sheen_color.into(),
+            sheen_roughness: model.sheen_roughness,
+            anisotropy: model.anisotropy,
+            anisotropy_rotation: model.anisotropy_rotation,
+            iridescence: model.iridescence,
+            iridescence_ior: model.iridescence_ior,
+            iridescence_thickness: model.iridescence_thickness,
+            dispersion: model.dispersion,
+            diffuse_transmission: model.diffuse_transmission,
+            diffuse_transmission_color: model.diffuse_transmission_color.into(),
+        }
+    }
 }
 
 fn coverage(coverage: Coverage) -> &'static str {

@@ -3,20 +3,36 @@
 use crate::app::clock;
 use crate::cli::inspect::number;
 use crate::scene::{OutputDefaults, Scene, Shutter};
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::fmt::{self, Write};
 
-/// `duration` is in seconds, `shutter` in frames. `duration` and `frames` are null for a static scene.
-pub fn to_json(scene: &Scene) -> Value {
-    let OutputDefaults { fps, shutter, .. } = scene.output;
-    json!({
-        "nodes": scene.nodes.len(),
-        "tracks": scene.tracks.len(),
-        "duration": clock::duration(scene),
-        "fps": fps,
-        "frames": frames(scene),
-        "shutter": [shutter.open, shutter.close],
-    })
+/// The animation of a scene.
+#[derive(Serialize, JsonSchema)]
+pub struct MotionEntry {
+    nodes: usize,
+    tracks: usize,
+    /// In seconds; null for a static scene.
+    duration: Option<f64>,
+    fps: f64,
+    /// The number that `animate` renders by default; null for a static scene.
+    frames: Option<u64>,
+    /// Opening and closing times in frames, relative to a frame's time.
+    shutter: [f64; 2],
+}
+
+impl From<&Scene> for MotionEntry {
+    fn from(scene: &Scene) -> Self {
+        let OutputDefaults { fps, shutter, .. } = scene.output;
+        Self {
+            nodes: scene.nodes.len(),
+            tracks: scene.tracks.len(),
+            duration: clock::duration(scene),
+            fps,
+            frames: frames(scene),
+            shutter: [shutter.open, shutter.close],
+        }
+    }
 }
 
 pub fn write_text(out: &mut String, scene: &Scene) -> fmt::Result {

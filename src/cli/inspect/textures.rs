@@ -1,40 +1,100 @@
 //! Textures and pictures in the output of `inspect`.
 
-use crate::cli::inspect::{color, color_json};
+use crate::cli::inspect::color;
 use crate::scene::{Pattern, Picture, Space, Texels, Texture, Wrap};
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::fmt::{self, Write};
 
-pub fn texture_json(texture: &Texture) -> Value {
-    let pair = |a, b| json!({ "a": color_json(a), "b": color_json(b) });
-    let mut value = match texture.pattern {
-        Pattern::Checker { a, b } | Pattern::Stripes { a, b } | Pattern::Gradient { a, b } => {
-            pair(a, b)
-        }
-        Pattern::Noise { a, b, octaves } => {
-            let mut noise = pair(a, b);
-            noise["octaves"] = json!(octaves);
-            noise
-        }
-        Pattern::Picture {
-            picture,
-            nearest,
-            minify,
-            wrap,
-        } => json!({
-            "picture": picture,
-            "nearest": nearest,
-            "minify": minify.name(),
-            "wrap": wrap.map(Wrap::name),
-        }),
-    };
-    value["pattern"] = json!(pattern(texture));
-    value["space"] = json!(space(texture));
-    value
+/// A texture.
+#[derive(Serialize, JsonSchema)]
+pub struct TextureEntry {
+    #[serde(flatten)]
+    pattern: PatternEntry,
+    /// `world`, `uv` or `second uv`.
+    space: &'static str,
 }
 
-pub fn picture_json(picture: &Picture) -> Value {
-    json!({ "size": [picture.width, picture.height], "texels": kind(&picture.texels) })
+/// Colours are linear radiance.
+#[derive(Serialize, JsonSchema)]
+#[serde(tag = "pattern", rename_all = "lowercase")]
+enum PatternEntry {
+    Checker {
+        a: [f32; 3],
+        b: [f32; 3],
+    },
+    Stripes {
+        a: [f32; 3],
+        b: [f32; 3],
+    },
+    Gradient {
+        a: [f32; 3],
+        b: [f32; 3],
+    },
+    Noise {
+        a: [f32; 3],
+        b: [f32; 3],
+        octaves: u32,
+    },
+    Picture {
+        /// Index in `picture_list`.
+        picture: usize,
+        nearest: bool,
+        minify: &'static str,
+        /// Along u and v.
+        wrap: [&'static str; 2],
+    },
+}
+
+/// A picture.
+#[derive(Serialize, JsonSchema)]
+pub struct PictureEntry {
+    /// Width and height in texels.
+    size: [u32; 2],
+    /// How texels are kept: `srgb8`, `linear8` or `float`.
+    texels: &'static str,
+}
+
+impl From<&Texture> for TextureEntry {
+    fn from(texture: &Texture) -> Self {
+        let [a, b] = match texture.pattern {
+            Pattern::Checker { a, b }
+            | Pattern::Stripes { a, b }
+            | Pattern::Gradient { a, b }
+            | Pattern::Noise { a, b, .. } => [a.into(), b.into()],
+            Pattern::Picture { .. } => [[0.0; 3]; 2],
+        };
+        let pattern = match texture.pattern {
+            Pattern::Checker { .. } => PatternEntry::Checker { a, b },
+            Pattern::Stripes { .. } => PatternEntry::Stripes { a, b },
+            Pattern::Gradient { .. } => PatternEntry::Gradient { a, b },
+            Pattern::Noise { octaves, .. } => PatternEntry::Noise { a, b, octaves },
+            Pattern::Picture {
+                picture,
+                nearest,
+                minify,
+                wrap,
+            } => PatternEntry::Picture {
+                picture,
+                nearest,
+                minify: minify.name(),
+                wrap: wrap.map(Wrap::name),
+            },
+        };
+        Self {
+            pattern,
+            space: space(texture),
+        }
+    }
+}
+
+impl From<&Picture> for PictureEntry {
+    fn from(picture: &Picture) -> Self {
+        Self {
+            size: [picture.width, picture.height],
+            texels: kind(&picture.texels),
+        }
+    }
 }
 
 pub fn texture_text(out: &mut String, texture: &Texture) -> fmt::Result {

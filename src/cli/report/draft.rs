@@ -5,13 +5,13 @@ use crate::app::error::AppError;
 use crate::app::inputs::Inputs;
 use crate::cli::args::LogFlags;
 use crate::cli::report::{
-    Adapter, FetchReport, ImageReport, Report, SceneReport, Seconds, host_peak_bytes,
+    Adapter, AnyReport, FailedReport, FetchReport, ImageReport, SceneReport, Seconds,
 };
 use crate::cli::scene_file;
 use crate::import::Options;
 use crate::render::CatcherLight;
 use crate::scene::Scene;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -37,10 +37,10 @@ pub struct Draft<'a> {
     /// The share of the work that was in a checkpoint at the start, if there was one.
     pub resumed: Option<f64>,
     /// Output path.
-    image_path: PathBuf,
-    image: Option<ImageReport>,
+    pub(super) image_path: PathBuf,
+    pub(super) image: Option<ImageReport>,
     /// `None` until the scene and all its files are read.
-    scene: Option<SceneReport>,
+    pub(super) scene: Option<SceneReport>,
 }
 
 impl<'a> Draft<'a> {
@@ -107,7 +107,8 @@ impl<'a> Draft<'a> {
             && self.may_replace(path)
         {
             // The run's own error matters more than a failure to write its report.
-            let _ = crate::cli::report::write(path, &self.failed(error));
+            let report = FailedReport::new(&self, error);
+            let _ = crate::cli::report::write(path, AnyReport::Failed(&report));
         }
         outcome
     }
@@ -116,55 +117,6 @@ impl<'a> Draft<'a> {
     /// are unknown, and only an old report is safe to replace.
     fn may_replace(&self, path: &Path) -> bool {
         !self.inputs.contain(path) && (self.scene.is_some() || is_free(path) || is_report(path))
-    }
-
-    fn failed(&self, error: &AppError) -> Value {
-        let scene = match &self.scene {
-            Some(scene) => json!(scene),
-            None => json!({
-                "path": self.scene_path, "spheres": null, "triangles": null, "shapes": null,
-                "instances": null, "materials": null, "lights": null, "skipped": null,
-            }),
-        };
-        let mut image = match &self.image {
-            Some(image) => json!(image),
-            None => json!({
-                "path": self.image_path.display().to_string(), "width": null, "height": null,
-                "samples": null, "integrator": null, "max_depth": null, "seed": null,
-                "transparent_shadows": null, "clamp_indirect": null, "bsdf": null, "denoise": null,
-            }),
-        };
-        image["mean_samples"] = Value::Null;
-        let mut seconds = json!(self.seconds);
-        for part in seconds.as_object_mut().into_iter().flatten() {
-            // A part that took no time was not reached.
-            if *part.1 == json!(0.0) {
-                *part.1 = Value::Null;
-            }
-        }
-        seconds["total"] = json!(self.started.elapsed().as_secs_f64());
-        let mut report = json!({
-            "glimray": Report::VERSION,
-            "command": self.command,
-            "scene": scene,
-            "image": image,
-            "adapter": self.adapter,
-            "fetch": self.fetch,
-            "seconds": seconds,
-            "rays": null,
-            "submissions": { "count": null, "longest_ms": null },
-            "nonfinite_samples": null,
-            "cut_off_trees": null,
-            "memory": { "gpu_bytes": null, "host_peak_bytes": host_peak_bytes() },
-            "error": { "message": error.to_string(), "code": error.exit_code() },
-        });
-        if let Some(resumed) = self.resumed {
-            report["resumed"] = json!(resumed);
-        }
-        if matches!(self.command, "animate" | "turntable") {
-            report["animation"] = Value::Null;
-        }
-        report
     }
 }
 

@@ -8,10 +8,11 @@ use crate::{
     },
     scene::ObjectRef,
 };
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// How a path goes on at the surface that a ray hit.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PathStep {
     /// What becomes of the path.
     pub outcome: StepOutcome,
@@ -30,7 +31,7 @@ pub struct PathStep {
 }
 
 /// What becomes of a path at a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum StepOutcome {
     /// It goes on in the direction that it chose.
@@ -46,7 +47,7 @@ pub enum StepOutcome {
 }
 
 /// A part of a surface that scatters light in its own way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Lobe {
     /// Reflects or transmits light in all directions.
@@ -63,7 +64,7 @@ pub enum Lobe {
 
 /// How light samples and the directions of paths share the light that a ray found: the power heuristic of Veach
 /// and Guibas (1995). Densities are per steradian.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Sharing {
     /// The density with which a light sample has this direction; `None` if paths cannot find the light by
     /// themselves, or light samples do not find it.
@@ -77,7 +78,7 @@ pub struct Sharing {
 }
 
 /// The light sample at a surface.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct LightSample {
     /// What it chose.
     pub source: LightSource,
@@ -99,7 +100,7 @@ pub struct LightSample {
 }
 
 /// What a light sample chose.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum LightSource {
     /// A light of the scene.

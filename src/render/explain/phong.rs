@@ -1,11 +1,12 @@
 //! How a surface reflects the light of one lamp, in the terms of Phong's model.
 
 use crate::layout::{PackedRay, RAY_UNTRACED};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The terms of Phong's model for one light, or for one point of a light with an extent:
 /// `L (k_d max(l·n, 0) + k_s max(r·v, 0)^α)` with `r = 2 (l·n) n − l`, and 0 where `l·n` is not above 0.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PhongTerms {
     /// `L`: linear radiance that arrives without shadow, after fading with distance and a spot's cone.
     pub light: [f32; 3],

@@ -13,13 +13,14 @@ use crate::{
     scene::ObjectRef,
 };
 use glam::{DVec3, Vec3};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Distances beyond this, in scene units, are infinite: no scene is that large.
 const FAR: f32 = 1e30;
 
 /// The samples and rays of a pixel.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RayTree {
     /// Column and row in the picture.
     pub pixel: [u32; 2],
@@ -34,7 +35,7 @@ pub struct RayTree {
 }
 
 /// The rays of one sample.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SampleTree {
     /// Index of the sample in its pixel.
     pub sample: u32,
@@ -56,7 +57,7 @@ pub struct SampleTree {
 }
 
 /// A traced ray, in world space.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct TracedRay {
     /// Its kind.
     pub kind: RayKind,
@@ -98,7 +99,7 @@ pub struct TracedRay {
 }
 
 /// The kind of a ray.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum RayKind {
     /// From the camera.
@@ -114,7 +115,7 @@ pub enum RayKind {
 }
 
 /// A surface that a ray hit.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RayHit {
     /// Distance from the origin of the ray, in scene units.
     pub distance: f64,
@@ -146,7 +147,7 @@ pub struct RayHit {
 }
 
 /// How a surface divides light among local shading, a reflected and a refracted ray.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RaySplit {
     /// Reflected fraction.
     pub reflect: [f32; 3],
@@ -171,7 +172,7 @@ pub struct RaySplit {
 }
 
 /// The result of a shadow ray.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ShadowRay {
     /// Index into [`crate::scene::Scene::lights`]; `None` for emissive triangles and the background.
     pub light: Option<usize>,

@@ -35,7 +35,7 @@ fn help_documents_every_promised_flag_and_has_an_example() {
     let reading = "--strict --set --allow-dir";
     let size = "--size --samples";
     let motion = "--fps --shutter";
-    let frames = "--frames --step --loop --frames-dir --discard-frames --encode-only";
+    let frames = "--frames --step --loop --frames-dir --keep-frames --discard-frames --encode-only";
     let turn = "--seconds --axis --elevation --fov-y --margin --clockwise --background";
     let workspace = Workspace::new();
     for (command, flags) in [
@@ -83,14 +83,20 @@ fn help_documents_every_promised_flag_and_has_an_example() {
             .join(" "),
         ),
         ("doctor", ["--json", device].join(" ")),
-        ("compare", "--tolerance --max-share --diff --json".into()),
+        (
+            "compare",
+            "--tolerance --max-share --flip --diff --json".into(),
+        ),
         (
             "bench",
             ["--json --repeats --only --quick --compare", device].join(" "),
         ),
         ("completions", "bash zsh fish".into()),
         ("man", "<DIR>".into()),
-        ("schema", "--help".into()),
+        (
+            "schema",
+            "scene report compare inspect explain --help".into(),
+        ),
     ] {
         let help = workspace.run(&format!("{command} --help")).expect(0);
         let words: Vec<_> = help

@@ -110,3 +110,42 @@ fn a_scene_without_light_causes_one_warning() {
         assert_eq!(json.expect(0).json()["unlit"], count == 1);
     }
 }
+
+#[test]
+fn inspect_tells_the_parameters_of_physical_materials() {
+    let workspace = Workspace::new();
+    let text = "[materials]\n\
+        gold = { pbr = { base_color = [1, 0.75, 0.25], metallic = 1, roughness = 0.25, clearcoat = 0.5 } }\n\
+        water = { pbr = { roughness = 0, transmission = 1, ior = 1.25, thickness = 2, attenuation_distance = 4 } }\n\
+        chalk = { phong = { diffuse = [0.5, 0.5, 0.5], specular = [0, 0, 0], shininess = 2 } }\n\
+        [[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\nmaterial = \"gold\"\n\
+        [[objects]]\nsphere = { center = [3, 0, 0], radius = 1 }\nmaterial = \"water\"\n\
+        [[objects]]\nsphere = { center = [6, 0, 0], radius = 1 }\nmaterial = \"chalk\"\n";
+    fs::write(workspace.path("three.toml"), text).expect("a scene");
+    let run = workspace.run("inspect three.toml").expect(0);
+    for line in [
+        "`gold` base colour (1, 0.75, 0.25), metallic 1, roughness 0.25, clear coat 0.5\n",
+        "metallic 0, roughness 0, ior 1.25, transmission 1, thickness 2, attenuation distance 4\n",
+        "`chalk` diffuse (0.5, 0.5, 0.5), specular (0, 0, 0), shininess 2\n",
+    ] {
+        assert!(run.text().contains(line), "{line}: {}", run.text());
+    }
+    let scene = workspace.run("inspect three.toml --json").expect(0).json();
+    let materials = scene["material_list"].as_array().expect("a list");
+    let of = |name: &str| {
+        let mut found = materials.iter().filter(|material| material["name"] == name);
+        found.next().expect(name)["physical"].clone()
+    };
+    let (gold, water, chalk) = (of("gold"), of("water"), of("chalk"));
+    assert_eq!(gold["base_color"], serde_json::json!([1.0, 0.75, 0.25]));
+    assert_eq!(
+        (&gold["metallic"], &gold["clearcoat"]),
+        (&1.0.into(), &0.5.into())
+    );
+    assert_eq!(gold["attenuation_distance"], serde_json::Value::Null);
+    assert_eq!(
+        (&water["ior"], &water["attenuation_distance"]),
+        (&1.25.into(), &4.0.into())
+    );
+    assert_eq!(chalk, serde_json::Value::Null);
+}
