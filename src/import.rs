@@ -73,6 +73,7 @@ pub use folder::Folder;
 pub use formats::{FORMAT_KEYS, SCENE_FORMATS, SceneFormat};
 pub use gltf::{GLTF_EXTENSIONS, Support};
 pub use options::{Axis, Baking, Environment, EnvironmentSource, Ground, Options, Staging};
+pub use picture::{Pixels, pixels};
 pub use resolver::{FileError, Memory, Resolver};
 #[cfg(not(target_arch = "wasm32"))]
 pub use step::Step;

@@ -2,24 +2,24 @@
 
 use crate::app::error::AppError;
 use crate::image::Image;
-use crate::output;
-use ::image::{DynamicImage, ImageError, ImageReader, Limits};
+use crate::{import, output};
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
-/// Largest width or height, in pixels.
-const MAX_SIDE: u32 = 1 << 16;
-
-/// Largest allocation for decoding, in bytes: enough for 8192×8192 pixels of four floats.
-const MAX_BYTES: u64 = 3 << 29;
+/// Largest file, in bytes.
+const MAX_BYTES: u64 = 1 << 30;
 
 /// A decoded picture.
 pub struct Picture {
-    /// Values as stored; integers are scaled to 0..1.
+    /// Linear light in Rec. 709, or values as stored; integers are scaled to 0..1.
     pub image: Image,
     /// Whether the file stores linear radiance as floats.
     pub is_float: bool,
     /// Whether the file stores opacity.
     pub has_alpha: bool,
+    /// What the file says and the picture does not follow: sentences.
+    pub notes: Vec<String>,
 }
 
 impl Picture {
@@ -34,41 +34,39 @@ impl Picture {
 /// # Errors
 /// The file is missing, damaged, of another kind or too large.
 pub fn read(path: &Path) -> Result<Picture, AppError> {
-    let refused = |why: &str| {
-        AppError::Refused(format!(
-            "cannot read the picture ({}): {}. Give a PNG, JPEG, WebP, KTX2, OpenEXR or Radiance HDR file.",
-            path.display(),
-            why.trim_end_matches('.')
-        ))
+    let refused = |why: &str, todo: &str| {
+        let path = path.display();
+        AppError::Refused(format!("cannot read the picture ({path}): {why}. {todo}."))
     };
-    let decoded = decode(path).map_err(|error| match error {
-        ImageError::IoError(error) => refused(&output::reason(&error)),
-        error => refused(&error.to_string()),
+    let bytes = contents(path).map_err(|error| {
+        let todo = "Give a PNG, JPEG, WebP, KTX2, OpenEXR or Radiance HDR file";
+        refused(&output::reason(&error), todo)
     })?;
-    let (width, height) = (decoded.width(), decoded.height());
-    let color = decoded.color();
-    let is_float = matches!(
-        decoded,
-        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_)
-    );
-    let pixels = decoded.into_rgba32f().pixels().map(|p| p.0).collect();
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(refused("it has more than 1 GiB", "Give a smaller file"));
+    }
+    let pixels = import::pixels(path, &bytes).map_err(|error| {
+        let fault = error.fault();
+        refused(&fault.why, &fault.todo)
+    })?;
+    let note = |clause| format!("{} {clause}.", path.display());
     Ok(Picture {
         image: Image {
-            width,
-            height,
-            pixels,
+            width: pixels.width,
+            height: pixels.height,
+            pixels: pixels.values,
         },
-        is_float,
-        has_alpha: color.has_alpha(),
+        is_float: pixels.is_light,
+        has_alpha: pixels.has_alpha,
+        notes: pixels.ignored.into_iter().map(note).collect(),
     })
 }
 
-fn decode(path: &Path) -> Result<DynamicImage, ImageError> {
-    let mut reader = ImageReader::open(path)?.with_guessed_format()?;
-    let mut limits = Limits::default();
-    limits.max_image_width = Some(MAX_SIDE);
-    limits.max_image_height = Some(MAX_SIDE);
-    limits.max_alloc = Some(MAX_BYTES);
-    reader.limits(limits);
-    reader.decode()
+/// The bytes of a file, or one more than the limit.
+fn contents(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?
+        .take(MAX_BYTES + 1)
+        .read_to_end(&mut bytes)?;
+    Ok(bytes)
 }

@@ -89,10 +89,9 @@ struct Pair {
 
 impl Pair {
     fn read(a: &Path, b: &Path) -> Result<Self, AppError> {
-        Ok(Self {
-            a: picture_file::read(a)?,
-            b: picture_file::read(b)?,
-        })
+        let (a, b) = (picture_file::read(a)?, picture_file::read(b)?);
+        a.notes.iter().chain(&b.notes).for_each(console::warning);
+        Ok(Self { a, b })
     }
 
     /// The figures of two pictures of equal size, or how their sizes differ.

@@ -87,12 +87,11 @@ pub(super) fn read(
     let bytes = bytes.map_err(|error| paths::unreadable(file, &error, limit))?;
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     let name = source::quote(name.as_bytes());
-    let (picture, repairs) = picture::environment(&bytes, &name).map_err(|refused| {
+    let (picture, mut notes) = picture::environment(&bytes, &name).map_err(|refused| {
         refused.into_error(|why, todo| {
             ImportError::Malformed(fault("picture refused", file, &why, todo))
         })
     })?;
-    let mut notes = repairs.lines(&name);
     let (width, height) = (picture.width, picture.height);
     let picture = match options.texture_limit {
         Some(most) => picture.limited(most.get()),

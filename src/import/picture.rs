@@ -1,28 +1,33 @@
 //! Images that scenes refer to: PNG, JPEG, WebP, Radiance HDR and OpenEXR, recognised by their first bytes.
 //!
-//! PNG, JPEG and WebP are sRGB and keep their 8 bits, or become floats if they have 16; HDR and EXR are linear Rec.
-//! 709. A truncated file is refused even if its decoder would accept it.
+//! `opening.rs` says what the numbers of each format mean. A truncated file is refused even if its decoder would accept it.
 
 mod complete;
 mod height;
 #[cfg(feature = "basis")]
 mod ktx2;
-mod luminance;
+mod opened;
+mod opening;
+mod openexr;
+mod pixels;
+mod primaries;
+mod profile;
+mod radiance;
 mod repair;
 mod store;
+mod texels;
 
-pub(super) use repair::Repairs;
+pub use pixels::{Pixels, pixels};
 pub(super) use store::{Pictures, Place, Read};
 
 use super::error::{Fault, ImportError};
 use super::paths::{Files, Refusal};
 pub(super) use crate::scene::linear_from_srgb;
-use crate::scene::{Origin, Picture, Texels};
+use crate::scene::{Origin, Picture};
 use crate::text::one_line;
-use glam::Vec4;
-use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits};
+use opened::Unfit;
+use opening::Head;
 use std::borrow::Cow;
-use std::io::Cursor;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -38,9 +43,6 @@ const KINDS: &str = if cfg!(feature = "basis") {
 } else {
     "PNG, JPEG, WebP, HDR or EXR"
 };
-
-/// Memory limit for decoding: four floats per texel.
-const MAX_DECODED_BYTES: u64 = MAX_TEXELS * 16;
 
 /// What the values of an image stand for, which decides how those of PNG, JPEG and WebP are decoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -142,15 +144,28 @@ pub(super) fn reader(
     }
 }
 
-/// The pictures of the image in `bytes` for each role, and what was repaired; messages call it `name`.
-fn decode(bytes: &[u8], name: &str, roles: &[Role]) -> Result<Vec<(Picture, Repairs)>, Refused> {
-    let image = open(bytes, name)?;
-    let (width, height) = (image.width(), image.height());
+/// A picture in a role, and notes on its file.
+type Noted = (Picture, Vec<String>);
+
+/// The pictures of the image in `bytes` for each role; messages call it `name`.
+/// Notes on colour spaces are left out unless `has_profiles`.
+fn decode(
+    bytes: &[u8],
+    name: &str,
+    roles: &[Role],
+    has_profiles: bool,
+) -> Result<Vec<Noted>, Refused> {
+    let unfit = Unfit {
+        name,
+        most_texels: MAX_TEXELS,
+    };
+    let mut opened = opening::open(bytes, opening::head(bytes, &unfit)?, &unfit)?;
+    let (width, height) = (opened.width, opened.height);
     if roles.contains(&Role::Environment) && u64::from(width) != 2 * u64::from(height) {
         let why = format!(
             "has {width} × {height} texels, but an environment must be twice as wide as high"
         );
-        return Err(Unfit { name }.as_it_is(&why, "Name an equirectangular panorama"));
+        return Err(unfit.as_it_is(&why, "Name an equirectangular panorama"));
     }
     let plain = |texels| Picture {
         width,
@@ -158,13 +173,17 @@ fn decode(bytes: &[u8], name: &str, roles: &[Role]) -> Result<Vec<(Picture, Repa
         texels,
         origin: Origin::Texels,
     };
-    let picture = |image, role| {
-        let (texels, repairs) = texels(image, role);
+    let mut picture = |role, is_last| {
+        let (texels, repairs) = texels::of(&mut opened, role, is_last);
+        let has_colors = has_profiles && matches!(role, Role::Color | Role::Environment);
+        let told = (opened.ignored.iter()).filter(|it| has_colors || !it.is_of_colors);
+        let told = told.map(|it| format!("{name} {}", it.clause));
+        let notes = told.chain(repairs.lines(name)).collect();
         let amount = match role {
             Role::Height => 1.0,
             Role::Depth => -1.0,
             Role::Color | Role::Environment | Role::Data | Role::Alpha => {
-                return (plain(texels), repairs);
+                return (plain(texels), notes);
             }
         };
         let picture = match height::normals(&texels, [width, height], amount) {
@@ -177,181 +196,37 @@ fn decode(bytes: &[u8], name: &str, roles: &[Role]) -> Result<Vec<(Picture, Repa
                 ..plain(normals)
             },
         };
-        (picture, repairs)
+        (picture, notes)
     };
-    let Some((last, others)) = roles.split_last() else {
-        return Ok(Vec::new());
-    };
-    let mut pictures: Vec<_> = (others.iter())
-        .map(|&role| picture(image.clone(), role))
-        .collect();
-    pictures.push(picture(image, *last));
-    Ok(pictures)
+    let last = roles.len().saturating_sub(1);
+    let roles = roles.iter().enumerate();
+    Ok(roles
+        .map(|(index, &role)| picture(role, index == last))
+        .collect())
 }
 
-/// The picture of the environment in `bytes`, which messages call `name`, and what was repaired.
+/// The picture of the environment in `bytes`, which messages call `name`, and notes on it.
 ///
 /// # Errors
 /// It is empty, damaged, too large, of an unsupported kind, or not twice as wide as high.
 #[cfg(not(target_arch = "wasm32"))]
-pub(super) fn environment(bytes: &[u8], name: &str) -> Result<(Picture, Repairs), Refused> {
-    let mut pictures = decode(bytes, name, &[Role::Environment])?;
+pub(super) fn environment(bytes: &[u8], name: &str) -> Result<Noted, Refused> {
+    let mut pictures = decode(bytes, name, &[Role::Environment], true)?;
     let gone = || Refused::unreadable(format!("{name} was not decoded"));
     pictures.pop().ok_or_else(gone)
 }
 
 /// The number of texels that the header of an image announces, times four if it has floats; 0 if it is invalid.
 fn dimensions(bytes: &[u8]) -> u64 {
-    let texels = |(width, height)| u64::from(width) * u64::from(height);
-    #[cfg(feature = "basis")]
-    if bytes.starts_with(ktx2::MAGIC) {
-        return ktx2::dimensions(bytes).map_or(0, texels).min(MAX_TEXELS);
-    }
-    let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
-    let Ok(reader) = reader else { return 0 };
-    let has_floats = matches!(
-        reader.format(),
-        Some(ImageFormat::Hdr | ImageFormat::OpenExr)
-    );
-    let count = reader.into_dimensions().map_or(0, texels);
-    count.min(MAX_TEXELS) * if has_floats { 4 } else { 1 }
-}
-
-/// What is wrong with the image in a file.
-struct Unfit<'n> {
-    /// What messages call it.
-    name: &'n str,
-}
-
-impl Unfit<'_> {
-    fn as_it_is(&self, why: &str, todo: &str) -> Refused {
-        Refused::Unfit {
-            kind: ImportError::Malformed,
-            why: format!("{} {why}", self.name),
-            todo: todo.to_owned(),
-        }
-    }
-
-    fn too_big(&self, why: &str) -> Refused {
-        Refused::too_big(format!("{} {why}", self.name))
-    }
-
-    fn damaged(&self, why: &str) -> Refused {
-        self.as_it_is(why, "Check that it was written completely")
-    }
-
-    fn unsupported(&self, why: &str) -> Refused {
-        self.as_it_is(why, &format!("Save it as {KINDS}"))
-    }
-
-    /// The number of texels of a picture of this size.
-    fn count(&self, width: u32, height: u32) -> Result<u64, Refused> {
-        match u64::from(width) * u64::from(height) {
-            0 => Err(self.as_it_is("has no texels", "Save it again")),
-            count if count > MAX_TEXELS => Err(self.too_big(&format!(
-                "has {width} × {height} texels, but the limit is {MAX_TEXELS} of them"
-            ))),
-            count => Ok(count),
-        }
-    }
-}
-
-/// The image in `bytes`, which messages call `name`.
-fn open(bytes: &[u8], name: &str) -> Result<DynamicImage, Refused> {
-    let unfit = Unfit { name };
-    if bytes.is_empty() {
-        return Err(unfit.damaged("is empty"));
-    }
-    #[cfg(feature = "basis")]
-    if bytes.starts_with(ktx2::MAGIC) {
-        let refuse = |fault| match fault {
-            ktx2::Fault::Damaged(why) => unfit.damaged(&why),
-            ktx2::Fault::Unsupported(why) => unfit.unsupported(&why),
-        };
-        let (width, height) = ktx2::dimensions(bytes).map_err(refuse)?;
-        unfit.count(width, height)?;
-        return ktx2::decode(bytes, (width, height)).map_err(refuse);
-    }
-    if let Some(grey) = luminance::open(bytes, &unfit) {
-        return grey;
-    }
-    let reader = || {
-        let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
-        reader.ok().filter(|reader| reader.format().is_some())
+    let unfit = Unfit {
+        name: "",
+        most_texels: MAX_TEXELS,
     };
-    let explain = |error: ImageError| match error {
-        ImageError::Limits(_) => unfit.too_big("takes too much memory to decode"),
-        ImageError::Unsupported(_) => unfit.unsupported("is an image of an unsupported kind"),
-        error => unfit.damaged(&format!("is damaged: {}", clause(&error.to_string()))),
+    let count = |head: Head| {
+        let texels = u64::from(head.width) * u64::from(head.height);
+        texels * if head.has_floats { 4 } else { 1 }
     };
-    let (Some(head), Some(mut body)) = (reader(), reader()) else {
-        let todo = format!("Name a {KINDS} file");
-        return Err(unfit.as_it_is("is not a supported image", &todo));
-    };
-    // Check the header first: it may claim any size.
-    let (width, height) = head.into_dimensions().map_err(explain)?;
-    let count = unfit.count(width, height)?;
-    if let Some(format) = body.format() {
-        complete::check(format, bytes, count).map_err(|why| unfit.damaged(&why))?;
-    }
-    let mut limits = Limits::no_limits();
-    limits.max_alloc = Some(MAX_DECODED_BYTES);
-    body.limits(limits);
-    body.decode().map_err(explain)
-}
-
-/// The texels of `image`, row by row from the top left, and what was repaired. Floats are finite and 0 or more.
-fn texels(image: DynamicImage, role: Role) -> (Texels, Repairs) {
-    let channels = usize::from(image.color().channel_count());
-    let is_narrow = usize::from(image.color().bytes_per_pixel()) == channels;
-    if role == Role::Alpha {
-        let white = |alpha| [u8::MAX, u8::MAX, u8::MAX, alpha];
-        let texels = match image.color().has_alpha() {
-            true => image.into_rgba8().pixels().map(|p| white(p.0[3])).collect(),
-            false => image.into_luma8().pixels().map(|p| white(p.0[0])).collect(),
-        };
-        return (Texels::Linear8(texels), Repairs::default());
-    }
-    let texels = match image {
-        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
-            let width = image.width();
-            let pixels = image.into_rgba32f();
-            let mut texels: Vec<Vec4> = pixels.pixels().map(|p| Vec4::from(p.0)).collect();
-            let repairs = repair::repair(&mut texels, width, role);
-            return (Texels::Float(texels), repairs);
-        }
-        image if is_narrow => {
-            let texel = |p: &[u8]| match *p {
-                [r, g, b, a] => [r, g, b, a],
-                [r, g, b] => [r, g, b, u8::MAX],
-                [grey, alpha] => [grey, grey, grey, alpha],
-                _ => [p[0], p[0], p[0], u8::MAX],
-            };
-            let texels = image.as_bytes().chunks_exact(channels).map(texel);
-            match role {
-                Role::Color | Role::Environment => Texels::Srgb8(texels.collect()),
-                Role::Data | Role::Alpha | Role::Height | Role::Depth => {
-                    Texels::Linear8(texels.collect())
-                }
-            }
-        }
-        image => {
-            let value = |code: u16| f64::from(code) / f64::from(u16::MAX);
-            let curve: Vec<f32> = (0..=u16::MAX)
-                .map(|code| match role {
-                    Role::Color | Role::Environment => linear_from_srgb(value(code)) as f32,
-                    _ => value(code) as f32,
-                })
-                .collect();
-            let texel = |p: &image::Rgba<u16>| {
-                let [r, g, b, a] = p.0;
-                let [r, g, b] = [r, g, b].map(|code| curve[usize::from(code)]);
-                Vec4::new(r, g, b, value(a) as f32)
-            };
-            Texels::Float(image.into_rgba16().pixels().map(texel).collect())
-        }
-    };
-    (texels, Repairs::default())
+    opening::head(bytes, &unfit).map_or(0, count)
 }
 
 /// A decoder's message as a clause on one line.

@@ -18,6 +18,7 @@ mod nff;
 mod nodes_and_ply;
 mod obj;
 mod optics;
+mod picture_meaning;
 mod picture_store;
 mod pictures;
 mod ply;

@@ -26,7 +26,8 @@ type Image = Result<(Place, String), String>;
 impl Store {
     pub fn new(options: &Options) -> Self {
         Self {
-            pictures: Pictures::new(options),
+            // Section 3.8.3: colour spaces in image files must be ignored.
+            pictures: Pictures::new(options).without_profiles(),
             images: HashMap::new(),
         }
     }

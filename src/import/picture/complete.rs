@@ -73,6 +73,21 @@ fn png(bytes: &[u8]) -> Result<(), String> {
     }
 }
 
+/// What is in the first chunk of this name of a PNG file, before its texels.
+pub(super) fn png_chunk<'b>(bytes: &'b [u8], name: &[u8; 4]) -> Option<&'b [u8]> {
+    let mut rest = bytes.get(8..)?;
+    loop {
+        let (head, body) = rest.split_at_checked(8)?;
+        let length = u32::from_be_bytes([head[0], head[1], head[2], head[3]]) as usize;
+        match &head[4..] {
+            found if found == name => return body.get(..length),
+            b"IDAT" => return None,
+            // A checksum follows the data.
+            _ => rest = body.get(length..)?.get(4..)?,
+        }
+    }
+}
+
 /// Follows the markers of a JPEG file (ITU-T T.81, annex B) to the end of the image, and compares the
 /// length of its scans with the number of blocks, each of which takes at least one bit for its mean.
 fn jpeg(bytes: &[u8]) -> Result<(), String> {

@@ -4,7 +4,8 @@
 //! The container is read here, so that no size in it is believed; the blocks are decoded by the crate `basisu`, of
 //! which only the decoders to RGBA are used: the others would bring megabytes of tables.
 
-use super::complete;
+use super::opened::{Ignored, Unfit};
+use super::{Refused, complete};
 use crate::bytes::sizes;
 use basisu::basislz::etc1s::Etc1sTranscoder;
 use basisu::uastc::unpack::unpack_uastc;
@@ -19,6 +20,16 @@ pub(super) const MAGIC: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
 pub(super) enum Fault {
     Damaged(String),
     Unsupported(String),
+}
+
+impl Fault {
+    /// As a refusal of the picture that is `unfit`.
+    pub fn of(self, unfit: &Unfit) -> Refused {
+        match self {
+            Self::Damaged(why) => unfit.damaged(&why),
+            Self::Unsupported(why) => unfit.unsupported(&why),
+        }
+    }
 }
 
 /// A part of a file that has to be there.
@@ -49,6 +60,47 @@ fn damaged(why: &str) -> Fault {
 /// Width and height of the picture in `bytes`.
 pub(super) fn dimensions(bytes: &[u8]) -> Result<(u32, u32), Fault> {
     Ok((u32_at(bytes, 20)?, u32_at(bytes, 24)?))
+}
+
+/// What the file in `bytes` says beside its values and its picture does not follow.
+pub(super) fn ignored(bytes: &[u8]) -> Vec<Ignored> {
+    let section = |at| {
+        let (offset, length) = (u32_at(bytes, at)?, u32_at(bytes, at + 4)?);
+        part(bytes, offset.into(), length.into())
+    };
+    let mut ignored = Vec::new();
+    let mut add = |clause: &str, is_of_colors| {
+        ignored.push(Ignored {
+            clause: clause.to_owned(),
+            is_of_colors,
+        });
+    };
+    let words = section(48).and_then(|descriptor| u32_at(descriptor, 12));
+    let [_, primaries, _, flags] = words.unwrap_or_default().to_le_bytes();
+    // Unspecified, or those of Rec. 709.
+    if primaries > 1 {
+        add(
+            "has primaries of its own, which are not applied: sRGB is assumed",
+            true,
+        );
+    }
+    if flags & 1 != 0 {
+        add(
+            "has colours multiplied by alpha, which are taken as they are",
+            false,
+        );
+    }
+    let keys = section(56).unwrap_or_default();
+    let key = b"KTXorientation\0";
+    let value = keys.windows(key.len()).position(|part| part == key);
+    let value = value.map(|at| &keys[at + key.len()..]);
+    if value.is_some_and(|value| !value.starts_with(b"rd")) {
+        add(
+            "is turned or mirrored by its orientation, which is not applied",
+            false,
+        );
+    }
+    ignored
 }
 
 /// The picture in `bytes`, of this many texels, which are few enough to be held in memory.

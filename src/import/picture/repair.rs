@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 /// What was changed in the values of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in crate::import) struct Repairs {
+pub(super) struct Repairs {
     /// Number of texels.
     count: usize,
     /// Number of those with a value that was infinite, negative or not a number.
@@ -23,10 +23,13 @@ pub(in crate::import) struct Repairs {
     lost: f64,
     /// Number of texels of an environment that are not exact beside the brightest one.
     dark: usize,
+    /// Number of texels with colours outside of the gamut of Rec. 709.
+    outside: usize,
 }
 
-/// Repairs texels, row by row from the top left, of which a row has `width`.
-pub(super) fn repair(texels: &mut [Vec4], width: u32, role: Role) -> Repairs {
+/// Repairs texels, row by row from the top left, of which a row has `width`. So many of them as `outside` were cut to the
+/// gamut of Rec. 709 before.
+pub(super) fn repair(texels: &mut [Vec4], width: u32, role: Role, outside: usize) -> Repairs {
     let is_whole = role == Role::Environment;
     let mut repairs = Repairs {
         count: texels.len(),
@@ -36,6 +39,7 @@ pub(super) fn repair(texels: &mut [Vec4], width: u32, role: Role) -> Repairs {
             Role::Environment => range::RADIANCE,
             _ => LARGEST_TEXEL,
         },
+        outside,
         ..Repairs::default()
     };
     let height = texels.len() / (width as usize).max(1);
@@ -67,7 +71,7 @@ pub(super) fn repair(texels: &mut [Vec4], width: u32, role: Role) -> Repairs {
     if role == Role::Environment {
         repairs.dark = dark(texels);
     }
-    if repairs.invalid + repairs.cut + repairs.dark == 0 {
+    if repairs.invalid + repairs.cut + repairs.dark + repairs.outside == 0 {
         return Repairs::default();
     }
     if before > 0.0 {
@@ -109,6 +113,12 @@ impl Repairs {
                 "{texels} of {name} {were} cut to {}, the largest value, so that {} of its light is lost: make the picture darker, and what it multiplies brighter",
                 number(self.most),
                 percent(self.lost)
+            ));
+        }
+        if self.outside > 0 {
+            let (texels, were) = self.texels(self.outside);
+            lines.push(format!(
+                "{texels} of {name} {were} outside of the gamut of Rec. 709 and cut to it"
             ));
         }
         if self.dark > 0 {

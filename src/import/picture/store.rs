@@ -4,7 +4,7 @@
 //! What will be used is planned first ([`Pictures::plan`]). The first use of a planned picture decodes those that are
 //! planned after it as well, as many at a time as fit into a bounded memory.
 
-use super::{Repairs, Role, decode, dimensions};
+use super::{Role, decode, dimensions};
 use crate::import::Options;
 use crate::import::notes::Notes;
 use crate::import::picture::Refused;
@@ -61,12 +61,14 @@ pub(in crate::import) struct Pictures {
     decoded_bytes: u64,
     /// Length of the longest side that pictures may have.
     limit: u32,
+    /// Whether colour spaces of files count, so that it is said if they are not followed.
+    has_profiles: bool,
     /// Files whose pictures exceeded the limit.
     limited: HashSet<Place>,
     /// How many times pictures were halved for lack of memory.
     halved_count: usize,
-    /// What was repaired in pictures, by their names.
-    repairs: Vec<(String, Repairs)>,
+    /// On what was repaired in pictures, and on what their files say and they do not follow.
+    notes: Vec<String>,
 }
 
 impl Pictures {
@@ -80,9 +82,18 @@ impl Pictures {
             decoded: HashMap::new(),
             decoded_bytes: 0,
             limit: options.texture_limit.map_or(u32::MAX, Into::into),
+            has_profiles: true,
             limited: HashSet::new(),
             halved_count: 0,
-            repairs: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// For a format whose colours are sRGB whatever the files of its pictures say.
+    pub fn without_profiles(self) -> Self {
+        Self {
+            has_profiles: false,
+            ..self
         }
     }
 
@@ -193,10 +204,8 @@ impl Pictures {
             1 => "1 picture was".to_owned(),
             _ => format!("{count} pictures were"),
         };
-        for (name, repairs) in &self.repairs {
-            for line in repairs.lines(name) {
-                notes.add("repaired pictures", || line);
-            }
+        for note in &self.notes {
+            notes.add("notes on pictures", || note.clone());
         }
         if !self.limited.is_empty() {
             let (pictures, limit) = (pictures(self.limited.len()), self.limit);
@@ -237,17 +246,17 @@ impl Pictures {
             let next = at.and_then(|at| self.planned.range(at..).next());
             at = next.filter(|_| more).map(|(at, _)| *at);
         }
-        let limit = self.limit;
+        let (limit, has_profiles) = (self.limit, self.has_profiles);
         let decoded = threads::map(batch, |(planned, bytes)| {
             let made = match bytes {
-                Ok(bytes) => decode(&bytes, &planned.name, &planned.roles),
+                Ok(bytes) => decode(&bytes, &planned.name, &planned.roles, has_profiles),
                 Err(refused) => Err(refused),
             };
             let made = made.map(|pictures| {
                 let is_large = |it: &Picture| it.width.max(it.height) > limit;
                 let is_limited = pictures.iter().any(|(picture, _)| is_large(picture));
                 let limited = (pictures.into_iter())
-                    .map(|(picture, repairs)| (Arc::new(picture.limited(limit)), repairs));
+                    .map(|(picture, notes)| (Arc::new(picture.limited(limit)), notes));
                 (limited.collect::<Vec<_>>(), is_limited)
             });
             (planned, made)
@@ -265,10 +274,8 @@ impl Pictures {
             let mut pictures = pictures.into_iter();
             for role in planned.roles {
                 let made = match (pictures.next(), &why) {
-                    (Some((picture, repairs)), _) => {
-                        if repairs != Repairs::default() {
-                            self.repairs.push((planned.name.clone(), repairs));
-                        }
+                    (Some((picture, notes)), _) => {
+                        self.notes.extend(notes);
                         Ok(picture)
                     }
                     (None, Some(why)) => Err(why.clone()),

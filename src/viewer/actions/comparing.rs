@@ -127,7 +127,10 @@ pub fn update(session: &mut Session) {
     };
     match outcome {
         Ok(Ok(picture)) => {
-            let image = opaque(picture.image);
+            for note in picture.notes {
+                session.messages.warn(note);
+            }
+            let image = opaque(picture.image, picture.is_float);
             compare_with(session, &path, image, picture.is_float);
         }
         Ok(Err(error)) => session.messages.warn(error.to_string()),
@@ -148,10 +151,16 @@ fn compare_with(session: &mut Session, path: &Path, image: Image, is_radiance: b
     }
 }
 
-/// The picture without its transparency, which rendered pictures do not have.
-fn opaque(mut image: Image) -> Image {
-    for pixel in &mut image.pixels {
-        pixel[3] = 1.0;
+/// The picture without its transparency, which rendered pictures do not have. Light is seen in front of black.
+fn opaque(mut image: Image, is_radiance: bool) -> Image {
+    for [r, g, b, opacity] in &mut image.pixels {
+        // Without opacity there is no colour, only light that is added.
+        if is_radiance && *opacity > 0.0 {
+            for color in [r, g, b] {
+                *color *= *opacity;
+            }
+        }
+        *opacity = 1.0;
     }
     image
 }

@@ -232,7 +232,7 @@ picture refused (a.toml:2:26): `wide.png` has 100000 × 100000 texels, but the l
 picture refused (a.toml:2:26): `huge.png` takes too much memory to decode. Use a smaller picture.
 picture refused (a.toml:2:26): `flat.png` is damaged: Format error decoding Png: Invalid image dimensions. Check that it was written completely.
 picture refused (a.toml:2:26): `huge.hdr` has 60000 × 60000 texels, but the limit is 67108864 of them. Use a smaller picture.
-picture refused (a.toml:2:26): `cut.exr` is damaged: Format error decoding OpenExr: invalid: reference to missing bytes. Check that it was written completely.
+picture refused (a.toml:2:26): `cut.exr` is damaged: invalid: reference to missing bytes. Check that it was written completely.
 picture refused (a.toml:2:26): `a.gif` is an image of an unsupported kind. Save it as PNG, JPEG, WebP, KTX2, HDR or EXR.
 picture refused (a.toml:2:26): `gone.png` does not exist. Check the name and the folder.
 picture refused (a.toml:2:26): `sub` is not a plain file. Name a plain file in the scene folder.
@@ -405,21 +405,21 @@ fn an_exr_of_luminance_alone_is_grey_and_others_without_colors_are_named() {
     let read = picture("a.exr", &exr_of(&[("Y", [0.25, 3.0])]));
     assert_eq!((read.width, read.height), (2, 1));
     assert_near(&read, &[[0.25; 3], [3.0; 3]], 0.0);
-    let alone = exr_of(&[("Z", [0.25, 3.0])]);
+    let moves = exr_of(&[("U", [0.25, 3.0]), ("V", [0.25, 3.0])]);
     let whole = exr_of(&[("Y", [0.25, 3.0])]);
     let colored = [("Y", [0.5; 2]), ("BY", [0.5; 2]), ("RY", [0.5; 2])];
     let folder = folder(&[
-        ("depth.exr", &alone),
+        ("moves.exr", &moves),
         ("yuv.exr", &exr_of(&colored)),
         ("cut.exr", &whole[..whole.len() - 6]),
     ]);
-    let lines = ["depth.exr", "yuv.exr", "cut.exr"].map(|name| {
+    let lines = ["moves.exr", "yuv.exr", "cut.exr"].map(|name| {
         let text = format!("textures.t = {{ picture = '{name}' }}");
         std::fs::write(folder.path().join("a.toml"), text).expect("a scene");
         message_in(&folder, "a.toml", &Options::default())
     });
-    let todo = "Save it with R, G and B, or with Y alone for a grey picture.";
-    assert!(lines[0].contains("`depth.exr` has no channels R, G and B, but `Z`"));
+    let todo = "Save it with R, G and B, or with a single channel for a grey picture.";
+    assert!(lines[0].contains("`moves.exr` has no channels R, G and B, but `U`, `V`"));
     assert!(lines[0].ends_with(todo), "{}", lines[0]);
     assert!(lines[1].contains("but `BY`, `RY`, `Y`"), "{}", lines[1]);
     assert!(lines[2].contains("`cut.exr` is "), "{}", lines[2]);
