@@ -39,7 +39,8 @@ pub struct Channel {
     pub name: &'static str,
     /// Its values: row by row from the top left.
     pub values: Vec<f32>,
-    /// Whether they are stored as half floats, clamped to their range, and not as 32-bit floats.
+    /// Whether they may be stored as half floats: they are if the layer is neither brighter nor darker than those can be, and
+    /// otherwise as 32-bit floats.
     pub is_half: bool,
 }
 
@@ -75,6 +76,15 @@ pub fn save_layers_to_stdout(
 }
 
 impl ImageLayer {
+    /// Whether half floats keep its values to a part in 2048 of the largest.
+    fn fits_half(&self) -> bool {
+        let values = self.channels.iter().flat_map(|channel| &channel.values);
+        let finite = values.filter(|value| value.is_finite());
+        let largest = finite.fold(0.0, |most: f32, value| most.max(value.abs()));
+        let range = f16::MIN_POSITIVE.to_f32()..=f16::MAX.to_f32();
+        largest == 0.0 || range.contains(&largest)
+    }
+
     /// A layer of colours, multiplied by their opacity if it has that, as OpenEXR asks.
     pub fn color(name: &'static str, image: &Picture, opacity: bool, is_half: bool) -> Self {
         let names: &[&str] = match opacity {
@@ -138,8 +148,9 @@ pub(super) fn encode(image: &LayeredImage, place: Option<Place>) -> Result<Vec<u
                 } else {
                     layer.name
                 };
+                let fits = layer.fits_half();
                 let channels = layer.channels.iter();
-                let channels = channels.map(|channel| stored(channel.name.to_owned(), channel));
+                let channels = channels.map(|it| stored(it.name.to_owned(), it, fits));
                 part(Some(name), channels.collect())
             })
             .collect(),
@@ -150,8 +161,9 @@ pub(super) fn encode(image: &LayeredImage, place: Option<Place>) -> Result<Vec<u
             };
             let layers = image.layers.iter();
             let channels = layers.flat_map(|layer| {
+                let fits = layer.fits_half();
                 let channels = layer.channels.iter();
-                channels.map(move |channel| stored(named(layer, channel), channel))
+                channels.map(move |channel| stored(named(layer, channel), channel, fits))
             });
             vec![part(None, channels.collect())]
         }
@@ -168,15 +180,9 @@ pub(super) fn encode(image: &LayeredImage, place: Option<Place>) -> Result<Vec<u
     Ok(file.into_inner())
 }
 
-fn stored(name: String, channel: &Channel) -> AnyChannel<FlatSamples> {
-    let values = channel.values.iter();
-    let most = f16::MAX.to_f32();
-    let samples = match channel.is_half {
-        true => FlatSamples::F16(
-            values
-                .map(|v| f16::from_f32(v.clamp(-most, most)))
-                .collect(),
-        ),
+fn stored(name: String, channel: &Channel, fits_half: bool) -> AnyChannel<FlatSamples> {
+    let samples = match channel.is_half && fits_half {
+        true => FlatSamples::F16(channel.values.iter().map(|v| f16::from_f32(*v)).collect()),
         false => FlatSamples::F32(channel.values.clone()),
     };
     AnyChannel::new(name.as_str(), samples)

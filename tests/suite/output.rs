@@ -1,8 +1,11 @@
 //! Picture files: reading returns what was written, and a file is complete or absent.
 
 use crate::support::skip::{Need, skip};
+use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
 use glimray::image::Image;
-use glimray::output::{self, Format, OutputError, Place, SaveOptions};
+use glimray::output::{
+    self, Channel, Format, ImageLayer, LayeredImage, OutputError, Place, SaveOptions,
+};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -726,4 +729,86 @@ fn a_sheet_has_its_pictures_in_rows_and_black_where_there_is_none() {
     assert_eq!(sheet.pixels[7], [0.0, 0.0, 0.0, 1.0]);
     // A single one is no wider than it is.
     assert_eq!(Image::sheet(&pictures[..1], 4), pictures[0]);
+}
+
+/// Half floats end at 65504, have 11 bits from 2⁻¹⁴ on, and infinities and NaN.
+#[test]
+fn layers_beyond_half_floats_are_stored_as_32_bit_floats() {
+    let folder = folder();
+    let path = folder.path().join("a.exr");
+    let least = f32::powi(2.0, -14);
+    let rows: [(&str, [f32; 4], bool); 8] = [
+        ("largest", [65504.0, 0.5, -1.0, 0.0], true),
+        ("larger", [65505.0, 0.5, -1.0, 0.0], false),
+        ("below", [0.0, 0.5, -1e9, 0.0], false),
+        ("black", [0.0; 4], true),
+        ("dark", [0.7 * least, 0.0, 0.0, 0.0], false),
+        ("darkest", [least, 0.0, 0.0, 0.0], true),
+        ("beside bright", [1.0, 1e-9, 0.0, 0.0], true),
+        (
+            "not finite",
+            [f32::INFINITY, f32::NAN, f32::NEG_INFINITY, 2.0],
+            true,
+        ),
+    ];
+    let channel = |name, values: [f32; 4]| Channel {
+        name,
+        values: values.to_vec(),
+        is_half: true,
+    };
+    let image = LayeredImage {
+        width: 2,
+        height: 2,
+        // All channels of a layer are stored alike.
+        layers: (rows.iter())
+            .map(|(name, values, _)| ImageLayer {
+                name,
+                channels: vec![
+                    channel("A", [values[0].abs().min(0.5); 4]),
+                    channel("V", *values),
+                ],
+            })
+            .collect(),
+        in_parts: false,
+    };
+    for in_parts in [false, true] {
+        let image = LayeredImage {
+            in_parts,
+            ..image.clone()
+        };
+        output::save_layers(&path, &image, &SaveOptions::default()).expect("a file");
+        let file = exr::prelude::read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .all_layers()
+            .all_attributes()
+            .from_file(&path)
+            .expect("an OpenEXR file");
+        let channels: Vec<(String, FlatSamples)> = (file.layer_data.iter())
+            .flat_map(|part| {
+                let name = part.attributes.layer_name.as_ref().filter(|_| in_parts);
+                let prefix = name.map_or(String::new(), |name| format!("{name}."));
+                let list = part.channel_data.list.iter();
+                list.map(move |it| (format!("{prefix}{}", it.name), it.sample_data.clone()))
+            })
+            .collect();
+        for (name, values, fits) in &rows {
+            for end in ["A", "V"] {
+                let full = format!("{name}.{end}");
+                let found = channels.iter().find(|(name, _)| *name == full);
+                let (_, samples) = found.expect("the channel");
+                assert_eq!(matches!(samples, FlatSamples::F16(_)), *fits, "{full}");
+                let wanted = &values[..];
+                let stored: Vec<f32> = samples.values_as_f32().collect();
+                let is_kept = |(a, b): (&f32, &f32)| {
+                    a == b || (a.is_nan() && b.is_nan()) || (*fits && (a - b).abs() < 1e-8)
+                };
+                assert!(
+                    end == "A" || stored.iter().zip(wanted).all(is_kept),
+                    "{full}: {stored:?}"
+                );
+            }
+        }
+    }
 }
