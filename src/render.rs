@@ -419,7 +419,10 @@ fn planned_bytes(
         );
     }
     if settings.has_features() {
-        ledger.plan("denoised picture", pixels * Denoiser::PIXEL_BYTES);
+        ledger.plan(
+            "denoised picture",
+            pixels * Denoiser::pixel_bytes(settings.has_opacity()),
+        );
     }
     ledger.check(policy.memory_limit_bytes)?;
     Ok(ledger.total())

@@ -26,6 +26,11 @@ var bindings__surfaces: texture_2d<f32>;
 @group(3) @binding(10)
 var bindings__guides_out: texture_storage_2d<rgba32uint, write>;
 
+@group(3) @binding(14)
+var bindings__covers: texture_2d<f32>;
+
+override bindings__HAS_OPACITY: bool = false;
+
 const demodulation__LEAST_ALBEDO: f32 = 0.02;
 
 const demodulation__MOST_SIGNAL: f32 = 1000000000000000.0;
@@ -55,21 +60,28 @@ fn demodulation__packed_guide_at(p: vec2i, last: vec2i) -> vec4u {
 	let slope = max_f32(demodulation__least_step(surface.w, p, last, vec2i(1, 0)), demodulation__least_step(surface.w, p, last, vec2i(0, 1)));
 	let normal = vec3u(clamp_vec3f(0.5 + 0.5 * surface.xyz, vec3f(0.0), vec3f(1.0)) * 1023.0 + 0.5);
 	let albedo = vec3u(clamp_vec3f(textureLoad(bindings__albedos, p, 0).xyz, vec3f(0.0), vec3f(1.0)) * vec3f(31.0, 63.0, 31.0) + 0.5);
-	return vec4u(normal.x | (normal.y << 10u) | (normal.z << 20u), (bitcast<u32>(slope) & 4294901760u) | albedo.x | (albedo.y << 5u) | (albedo.z << 11u), pack4x8unorm(vec4f(demodulation__mean_albedo(p, last), 0.0)), bitcast<u32>(surface.w));
+	return vec4u(normal.x | (normal.y << 10u) | (normal.z << 20u), (bitcast<u32>(slope) & 4294901760u) | albedo.x | (albedo.y << 5u) | (albedo.z << 11u), pack4x8unorm(demodulation__means_at(p, last)), bitcast<u32>(surface.w));
 }
 
-fn demodulation__mean_albedo(p: vec2i, last: vec2i) -> vec3f {
+fn demodulation__means_at(p: vec2i, last: vec2i) -> vec4f {
 	var sum = vec3f(0.0);
+	var total = 0.0;
+	var opacity = 0.0;
 	var k = 0;
 	loop {
 		let offset = vec2i(k % 3, k / 3) - 1;
-		sum += textureLoad(bindings__albedos, clamp(p + offset, vec2i(0), last), 0).xyz;
+		let q = clamp(p + offset, vec2i(0), last);
+		let albedo = textureLoad(bindings__albedos, q, 0).xyz;
+		let presence = cover__presence_at(q, albedo);
+		sum += presence * albedo;
+		total += presence;
+		opacity += cover__cover_at(q).x;
 		continuing {
 			k += 1;
 			break if k >= 9;
 		}
 	}
-	return sum / 9.0;
+	return vec4f(sum / max_f32(total, 1e-6), select(0.0, opacity / 9.0, bindings__HAS_OPACITY));
 }
 
 fn demodulation__least_step(depth: f32, p: vec2i, last: vec2i, axis: vec2i) -> f32 {
@@ -86,6 +98,19 @@ fn numeric__is_finite(v: vec3f) -> bool {
 }
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+
+const cover__LEAST_OPACITY: f32 = 0.0001;
+
+fn cover__cover_at(p: vec2i) -> vec4f {
+	if (bindings__HAS_OPACITY) {
+		return textureLoad(bindings__covers, p, 0);
+	}
+	return vec4f(1.0, 0.0, 0.0, 0.0);
+}
+
+fn cover__presence_at(p: vec2i, albedo: vec3f) -> f32 {
+	return max_f32(cover__cover_at(p).x, select(0.0, cover__LEAST_OPACITY, any(albedo > vec3f(0.0))));
+}
 
 override bindings__EXTREMES_BY_SELECT: bool = false;
 

@@ -5,13 +5,14 @@ use super::{
     bindings::Buffers,
     develop::{add_film_pass, check_memory},
     layouts::{COLOR_FORMAT, GUIDE_FORMAT, Layouts, target},
+    luminance::luminance,
     opacity::straight,
     overrides, pipelines,
     policy::Storage,
     settings::RenderSettings,
 };
 use crate::{
-    gpu::{Gpu, GpuError, Kernel, Overrides, Source, Timer, Variant},
+    gpu::{Gpu, GpuError, Kernel, Source, Timer, Variant},
     image::Image,
     threads,
 };
@@ -33,8 +34,8 @@ pub struct Denoised {
 }
 
 impl Image {
-    /// Denoises linear radiance with the features of its pixels, and opacity where these have transparency. Pixels that are not finite are
-    /// replaced by what is around them.
+    /// Denoises linear radiance with the features of its pixels, and opacity if these have transparency. Pixels that are not
+    /// finite are replaced by what is around them.
     ///
     /// # Errors
     /// The device failed, or a side exceeds the adapter's textures. With the features of a picture of another size it is
@@ -56,34 +57,24 @@ impl Image {
                 pass_seconds: None,
             });
         }
-        check_memory(
-            width,
-            height,
-            Denoiser::PIXEL_BYTES + 2 * u64::from(TEXEL_BYTES),
-        )?;
         let pixels = &features.pixels;
+        let has_opacity = pixels.iter().any(|pixel| pixel.transparency > 0.0);
+        let pixel_bytes = Denoiser::pixel_bytes(has_opacity) + 4 * u64::from(TEXEL_BYTES);
+        check_memory(width, height, pixel_bytes)?;
         let variant = match Storage::usual(gpu) {
             Storage::Image => Variant::Image,
             Storage::Buffer => Variant::Buffer,
         };
-        let denoiser = Denoiser::new(gpu, variant, width, height)?;
+        let denoiser = Denoiser::new(gpu, variant, (width, height), has_opacity)?;
         denoiser.write(gpu, self, pixels)?;
-        let (colors, mut pass_seconds) = denoiser.filter(gpu, Start::Picture)?;
-        let clear = match pixels.iter().any(|pixel| pixel.transparency > 0.0) {
-            true => {
-                let signals = threads::collect(pixels.len(), |at| clear(&pixels[at]));
-                gpu.write_image(&denoiser.signal, 0, cast_slice(&signals))?;
-                let (clear, seconds) = denoiser.filter(gpu, Start::Signal)?;
-                pass_seconds = pass_seconds.zip(seconds).map(|(a, b)| a + b);
-                Some(clear)
-            }
-            false => None,
-        };
+        let Filtered {
+            colors,
+            covers,
+            pass_seconds,
+        } = denoiser.filter(gpu)?;
         let color = |at: usize| {
             let [r, g, b, _] = colors[at];
-            let opacity = (clear.as_ref()).map_or(self.pixels[at][3], |clear| {
-                1.0 - clear[at][0].clamp(0.0, 1.0)
-            });
+            let opacity = (covers.as_ref()).map_or(self.pixels[at][3], |covers| covers[at][0]);
             straight([r, g, b], opacity)
         };
         Ok(Denoised {
@@ -97,21 +88,52 @@ impl Image {
     }
 }
 
-/// The transparency of a pixel as a signal. Its variance is that of samples which are either opaque or not: the greatest
-/// that the mean allows, where samples of the light on a catcher are alike.
-fn clear(features: &PixelFeatures) -> [f32; 4] {
-    let clear = features.transparency;
-    let variance = clear * (1.0 - clear) / features.samples.max(1.0);
-    [clear, clear, clear, variance]
+/// What covers a pixel of a transparent picture.
+#[derive(Clone, Copy)]
+struct Cover {
+    opacity: f32,
+    /// Of the opacity, for samples which are either opaque or not: the greatest that the mean allows, where samples of the
+    /// light on a catcher are alike.
+    opacity_variance: f32,
+    albedo: [f32; 3],
+    albedo_variance: f32,
+    /// Of the luminance.
+    variance: f32,
 }
 
-/// What a filter starts with.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Start {
-    /// The picture with its features, which is also multiplied by the albedo in the end.
-    Picture,
-    /// A signal, with the guides of the picture that was filtered before.
-    Signal,
+impl Cover {
+    /// Of a pixel with these features. Those are means over all samples; of these only some met what covers it. Where nothing
+    /// does, all is 0.
+    fn of(features: &PixelFeatures) -> Self {
+        let opacity = 1.0 - features.transparency;
+        let opacity_variance = opacity * (1.0 - opacity) / (features.samples - 1.0).max(1.0);
+        let [r, g, b, _] = straight(features.radiance, opacity);
+        // Catchers without a shadow have an albedo and no opacity.
+        let most = |albedo: f32| (albedo / opacity.max(1e-4)).min(1.0);
+        let [red, green, blue] = features.albedo.map(most);
+        let of_cover = |variance: f32, color: [f32; 3]| {
+            let color = luminance(color.map(f64::from)) as f32;
+            let own = (variance - color * color * opacity_variance).max(0.0);
+            straight([own / opacity, 0.0, 0.0], opacity)[0]
+        };
+        Self {
+            opacity,
+            opacity_variance,
+            albedo: [red, green, blue],
+            albedo_variance: of_cover(features.albedo_variance, [red, green, blue]),
+            variance: of_cover(features.variance, [r, g, b]),
+        }
+    }
+}
+
+/// What the passes make of a picture.
+struct Filtered {
+    /// Radiance times opacity.
+    colors: Vec<[f32; 4]>,
+    /// Their first numbers are opacities; `None` if only colours were filtered.
+    covers: Option<Vec<[f32; 4]>>,
+    /// By the adapter's timestamps; `None` if it has none.
+    pass_seconds: Option<f64>,
 }
 
 /// The textures of a picture that is denoised. Bindings are those of group 3 in `bindings.wesl`.
@@ -125,16 +147,32 @@ pub struct Denoiser {
     guides: TextureView,
     /// The signal at first, and the result.
     signal: TextureView,
+    /// Opacity and the variance of its mean; every other one while filtering. `None` if only colours are filtered.
+    covers: Option<[TextureView; 2]>,
 }
 
 impl Denoiser {
     /// Bytes of its textures for a pixel.
-    pub const PIXEL_BYTES: u64 = 5 * TEXEL_BYTES as u64;
+    pub fn pixel_bytes(has_opacity: bool) -> u64 {
+        let texture_count = if has_opacity { 7 } else { 5 };
+        texture_count * u64::from(TEXEL_BYTES)
+    }
 
-    /// For a picture of this size, with this variant of the filter.
-    pub fn new(gpu: &Gpu, variant: Variant, width: u32, height: u32) -> Result<Self, GpuError> {
+    /// For a picture of this width and height, with this variant of the filter. `has_opacity` tells whether opacity is
+    /// filtered too.
+    pub fn new(
+        gpu: &Gpu,
+        variant: Variant,
+        (width, height): (u32, u32),
+        has_opacity: bool,
+    ) -> Result<Self, GpuError> {
         let texture = |format| gpu.allocate_screen(width, height, format);
+        let covers = match has_opacity {
+            true => Some([texture(COLOR_FORMAT)?, texture(COLOR_FORMAT)?]),
+            false => None,
+        };
         Ok(Self {
+            covers,
             variant,
             noisy: texture(COLOR_FORMAT)?,
             albedos: texture(COLOR_FORMAT)?,
@@ -162,21 +200,32 @@ impl Denoiser {
             gpu.write_image(target, 0, cast_slice(&texels))
         };
         let finite = |number: f32| if number.is_finite() { number } else { 0.0 };
+        let covers = (self.covers.as_ref())
+            .map(|_| threads::collect(pixels.len(), |at| Cover::of(&pixels[at])));
+        let covers = covers.as_deref();
         write(&self.noisy, &|at| {
             let ([r, g, b, opacity], features) = (image.pixels[at], &pixels[at]);
             let variance = match features.samples {
                 1.0 => UNKNOWN_VARIANCE,
-                _ => features.variance,
+                _ => covers.map_or(features.variance, |covers| covers[at].variance),
             };
             [r * opacity, g * opacity, b * opacity, variance]
         })?;
         write(&self.albedos, &|at| {
-            let [r, g, b] = (pixels[at].albedo).map(|it| match it.is_nan() {
+            let (albedo, variance) = match covers {
+                Some(covers) => (covers[at].albedo, covers[at].albedo_variance),
+                None => (pixels[at].albedo, pixels[at].albedo_variance),
+            };
+            let [r, g, b] = albedo.map(|it| match it.is_nan() {
                 true => 1.0,
                 false => it.clamp(-1.0, 1.0),
             });
-            [r, g, b, finite(pixels[at].albedo_variance).max(0.0)]
+            [r, g, b, finite(variance).max(0.0)]
         })?;
+        if let (Some([target, _]), Some(covers)) = (&self.covers, covers) {
+            let cover = |at: usize| [covers[at].opacity, 0.0, 0.0, covers[at].opacity_variance];
+            write(target, &cover)?;
+        }
         write(&self.surfaces, &|at| {
             let [x, y, z] = pixels[at].normal.map(finite);
             [x, y, z, finite(pixels[at].depth)]
@@ -209,45 +258,48 @@ impl Denoiser {
 
     /// Adds the steps from a picture to the result.
     pub fn denoise(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) -> Result<(), GpuError> {
-        self.add_steps(gpu, Start::Picture, None, encoder)
+        self.add_steps(gpu, None, encoder)
     }
 
     fn add_steps(
         &self,
         gpu: &Gpu,
-        start: Start,
         timer: Option<&Timer>,
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<(), GpuError> {
-        let is_picture = start == Start::Picture;
-        let mut steps = Vec::new();
-        if is_picture {
-            let resources = [
-                (6, View(&self.signal)),
-                (7, View(&self.noisy)),
-                (8, View(&self.albedos)),
-                (9, View(&self.surfaces)),
-                (10, View(&self.guides)),
-            ];
-            let (layout, group) = target(gpu, Variant::Buffer, &resources);
-            let kernel = (Kernel::DEMODULATE, Variant::Buffer);
-            let pipeline = pipelines::denoising(gpu, kernel, &layout, Overrides::new())?;
-            steps.push((pipeline, group));
-        }
+        let covers = self.covers.as_ref();
+        let mut resources = vec![
+            (6, View(&self.signal)),
+            (7, View(&self.noisy)),
+            (8, View(&self.albedos)),
+            (9, View(&self.surfaces)),
+            (10, View(&self.guides)),
+        ];
+        resources.extend(covers.map(|[first, _]| (14, View(first))));
+        let (layout, group) = target(gpu, Variant::Buffer, &resources);
+        let kernel = (Kernel::DEMODULATE, Variant::Buffer);
+        let overrides = overrides::of_demodulation(covers.is_some());
+        let pipeline = pipelines::denoising(gpu, kernel, &layout, overrides)?;
+        let mut steps = vec![(pipeline, group)];
         let variant = self.variant;
         let (mut from, mut to) = (&self.signal, &self.noisy);
+        let mut cover = covers.map(|[first, second]| (first, second));
         for (pass, stride) in [1].into_iter().chain(STRIDES).enumerate() {
-            let modulates = is_picture && pass == STRIDES.len();
+            let modulates = pass == STRIDES.len();
             let stride = gpu.upload("stride", bytes_of(&stride))?;
-            let resources = [
+            let mut resources = vec![
                 (3, stride.as_entire_binding()),
                 (4, View(from)),
                 (5, View(&self.guides)),
                 (6, View(to)),
-                (8, View(&self.albedos)),
             ];
-            let (layout, group) = target(gpu, variant, &resources[..4 + usize::from(modulates)]);
-            let overrides = overrides::of_filter(pass == 0, modulates);
+            resources.extend(modulates.then_some((8, View(&self.albedos))));
+            if let Some((from, to)) = &mut cover {
+                resources.extend([(14, View(from)), (15, View(to))]);
+                std::mem::swap(from, to);
+            }
+            let (layout, group) = target(gpu, variant, &resources);
+            let overrides = overrides::of_filter(pass == 0, modulates, covers.is_some());
             let kernel = (Kernel::DENOISE, variant);
             let pipeline = pipelines::denoising(gpu, kernel, &layout, overrides)?;
             steps.push((pipeline, group));
@@ -268,12 +320,21 @@ impl Denoiser {
         Ok(())
     }
 
-    /// Runs all steps. Returns the result, and the seconds of the passes if the adapter has timestamps.
-    fn filter(&self, gpu: &Gpu, start: Start) -> Result<(Vec<[f32; 4]>, Option<f64>), GpuError> {
+    /// Runs all steps.
+    fn filter(&self, gpu: &Gpu) -> Result<Filtered, GpuError> {
         let timer = gpu.timer()?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.add_steps(gpu, start, Some(&timer), &mut encoder)?;
-        read(gpu, encoder, &self.signal, &timer)
+        self.add_steps(gpu, Some(&timer), &mut encoder)?;
+        let (colors, pass_seconds) = read(gpu, encoder, &self.signal, &timer)?;
+        let cover = |[first, _]: &[TextureView; 2]| {
+            let encoder = gpu.device.create_command_encoder(&Default::default());
+            Ok(read(gpu, encoder, first, &timer)?.0)
+        };
+        Ok(Filtered {
+            colors,
+            covers: self.covers.as_ref().map(cover).transpose()?,
+            pass_seconds,
+        })
     }
 }
 

@@ -229,9 +229,15 @@ pub fn of_features(settings: &RenderSettings) -> Overrides {
     rows_of_film(settings).into()
 }
 
+/// The overrides of the first step of the denoiser.
+pub fn of_demodulation(has_opacity: bool) -> Overrides {
+    vec![("HAS_OPACITY", flag(has_opacity))]
+}
+
 /// The overrides of a pass of the denoiser's filter.
-pub fn of_filter(is_first: bool, modulates: bool) -> Overrides {
+pub fn of_filter(is_first: bool, modulates: bool, has_opacity: bool) -> Overrides {
     vec![
+        ("HAS_OPACITY", flag(has_opacity)),
         ("FIRST_PASS", flag(is_first)),
         ("MODULATES", flag(modulates)),
     ]

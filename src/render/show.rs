@@ -258,7 +258,10 @@ impl Renderer {
             let (width, height) = screen.size();
             let denoiser = device.denoiser.insert(match kept {
                 Some(kept) => kept,
-                None => Denoiser::new(gpu, pipelines::portable(device.fetch), width, height)?,
+                None => {
+                    let variant = pipelines::portable(device.fetch);
+                    Denoiser::new(gpu, variant, (width, height), false)?
+                }
             });
             denoiser.read_film(gpu, (layouts, buffers), &self.settings, grid, &mut encoder)?;
             denoiser.denoise(gpu, &mut encoder)?;

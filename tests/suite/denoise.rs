@@ -1,6 +1,8 @@
 //! The denoiser: closed forms of its filter, what it keeps, and what it gains on a rendered picture.
 
 use crate::reference::compare::{open_gpu, start};
+use crate::support::program::Workspace;
+use crate::support::random::Random;
 use crate::support::verdict::Verdict;
 use glimray::image::{Image, ScreenImage};
 use glimray::render::{
@@ -76,14 +78,22 @@ fn passes_take_a_part_of_the_time() {
 #[test]
 fn waves_fall_by_the_closed_form_factor_of_the_filter() {
     let strides = [1.0, 2.0, 4.0, 8.0, 16.0];
-    for (across, down) in [(0.02, 0.05), (0.1, 0.04), (0.15, 0.0)] {
+    for (across, down, opacity) in [
+        (0.02, 0.05, 1.0),
+        (0.1, 0.04, 1.0),
+        (0.15, 0.0, 1.0),
+        (0.1, 0.04, 0.5),
+    ] {
         let wave = |x: u32, y: u32| (across * f64::from(x)).cos() * (down * f64::from(y)).cos();
         let gain = |frequency: f64| -> f64 {
             let pass = |stride: &f64| (1.0 + (frequency * stride).cos()) / 2.0;
             strides.iter().map(pass).product()
         };
-        let given = picture(|x, y| [1.0 + 0.1 * wave(x, y) as f32; 3], 1e8);
-        let found = denoised(&given);
+        let (_, mut features) = picture(|x, y| [1.0 + 0.1 * wave(x, y) as f32; 3], 1e8);
+        for pixel in &mut features.pixels {
+            cover(pixel, opacity);
+        }
+        let found = denoised(&(features.picture(), features));
         // Beyond the reach of the filter from the borders, where it is cut.
         for (x, y) in (32..SIDE - 32).flat_map(|y| (32..SIDE - 32).map(move |x| (x, y))) {
             let wanted = 1.0 + 0.1 * gain(across) * gain(down) * wave(x, y);
@@ -93,6 +103,100 @@ fn waves_fall_by_the_closed_form_factor_of_the_filter() {
                 "{x},{y}: {value}, not {wanted}"
             );
         }
+    }
+}
+
+/// Leaves so much of a pixel, which shows nothing else.
+fn cover(pixel: &mut PixelFeatures, opacity: f32) {
+    pixel.transparency = 1.0 - opacity;
+    for value in (pixel.radiance.iter_mut())
+        .chain(&mut pixel.albedo)
+        .chain(&mut pixel.normal)
+    {
+        *value *= opacity;
+    }
+}
+
+/// A white disc that shines by itself in front of nothing, whose edge has this width: what of it samples find, and the
+/// exact opacity.
+fn disc(edge: f32, samples: u32) -> (Image, Features, Vec<f32>) {
+    let mut random = Random::new(7);
+    let middle = SIDE as f32 / 2.0;
+    let (_, mut features) = picture(|_, _| [1.0; 3], 0.0);
+    let mut exact = Vec::new();
+    for (index, pixel) in features.pixels.iter_mut().enumerate() {
+        let place = [index as u32 % SIDE, index as u32 / SIDE].map(|at| at as f32 + 0.5 - middle);
+        let distance = place[0].hypot(place[1]);
+        let opacity = ((50.0 - distance) / edge + 0.5).clamp(0.0, 1.0);
+        let hits = (0..samples).filter(|_| random.between(0.0, 1.0) < f64::from(opacity));
+        let found = hits.count() as f32 / samples as f32;
+        cover(pixel, found);
+        let variance = found * (1.0 - found) / (samples - 1) as f32;
+        (pixel.variance, pixel.albedo_variance) = (variance, variance);
+        pixel.samples = samples as f32;
+        pixel.depth = if distance < 50.0 { 2.0 } else { 0.0 };
+        exact.push(opacity);
+    }
+    (features.picture(), features, exact)
+}
+
+/// A disc of one colour has that colour at each pixel that shows anything of it, and smoother opacity than before.
+#[test]
+fn edges_of_transparent_pictures_have_no_fringe() {
+    let mut verdict = Verdict::on("edges");
+    for (edge, samples) in [(1.0, 4), (1.0, 64), (20.0, 4), (20.0, 64)] {
+        let (image, features, exact) = disc(edge, samples);
+        let found = denoised(&(image.clone(), features));
+        let name = format!("{edge} pixels, {samples} samples");
+        let seen = found.pixels.iter().filter(|pixel| pixel[3] > 1e-3);
+        let off = seen.flat_map(|[r, g, b, _]| [r, g, b].map(|value| (value - 1.0).abs()));
+        let off = off.fold(0.0, f32::max);
+        verdict.that(&name, off < 2e-3, || format!("a colour is off by {off}"));
+        let error = |image: &Image| {
+            let pairs = image.pixels.iter().zip(&exact);
+            let squares = pairs.map(|(pixel, exact)| (pixel[3] - exact).powi(2));
+            (squares.sum::<f32>() / exact.len() as f32).sqrt()
+        };
+        let (before, after) = (error(&image), error(&found));
+        // Features hold hard edges as they are.
+        let most = if edge > 1.0 { 0.7 } else { 1.1 };
+        verdict.that(&name, after <= most * before, || {
+            format!("opacity is off by {after}, and was by {before}")
+        });
+    }
+    verdict.close();
+}
+
+/// PNG has colours that were not multiplied by opacity, OpenEXR those that were.
+#[test]
+fn files_of_denoised_transparent_pictures_have_no_fringe() {
+    let workspace = Workspace::new();
+    workspace.write(
+        "disc.toml",
+        "[camera]\nlook_from = [0, 0, 4]\nlook_at = [0, 0, 0]\nfov_y_deg = 40\n\
+         [[objects]]\ndisc = { center = [0, 0, 0], normal = [0, 0, 1], radius = 1 }\n\
+         material = { phong = { emission = [1, 1, 1] } }\n",
+    );
+    let flags = "--integrator path --background transparent --samples 16 --denoise --size 48x48 \
+                 --tone none --exposure 0";
+    for layers in ["", " --layers beauty"] {
+        let run = workspace.run(&format!("render disc.toml {flags}{layers} -o o.exr"));
+        run.expect(0);
+        let picture = image::open(workspace.path("o.exr")).expect("a picture");
+        let pixels = picture.into_rgba32f();
+        let edges = pixels.pixels().filter(|p| p.0[3] > 0.02 && p.0[3] < 0.98);
+        assert!(edges.count() > 20);
+        for pixel in pixels.pixels() {
+            let [r, _, _, a] = pixel.0;
+            assert!((r - a).abs() < 2e-3, "{pixel:?}");
+        }
+    }
+    let run = workspace.run(&format!("render disc.toml {flags} -o o.png"));
+    run.expect(0);
+    let picture = image::open(workspace.path("o.png")).expect("a picture");
+    for pixel in picture.into_rgba8().pixels() {
+        let is_white = pixel.0[..3].iter().all(|value| *value >= 254);
+        assert!(pixel.0[3] == 0 || is_white, "{pixel:?}");
     }
 }
 
