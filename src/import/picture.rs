@@ -7,8 +7,8 @@ mod height;
 #[cfg(feature = "basis")]
 mod ktx2;
 mod opened;
-mod opening;
 mod openexr;
+mod opening;
 mod pixels;
 mod primaries;
 mod profile;
@@ -25,8 +25,8 @@ use super::paths::{Files, Refusal};
 pub(super) use crate::scene::linear_from_srgb;
 use crate::scene::{Origin, Picture};
 use crate::text::one_line;
+use glam::Vec4;
 use opened::Unfit;
-use opening::Head;
 use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
@@ -216,17 +216,40 @@ pub(super) fn environment(bytes: &[u8], name: &str) -> Result<Noted, Refused> {
     pictures.pop().ok_or_else(gone)
 }
 
-/// The number of texels that the header of an image announces, times four if it has floats; 0 if it is invalid.
-fn dimensions(bytes: &[u8]) -> u64 {
-    let unfit = Unfit {
-        name: "",
-        most_texels: MAX_TEXELS,
-    };
-    let count = |head: Head| {
-        let texels = u64::from(head.width) * u64::from(head.height);
-        texels * if head.has_floats { 4 } else { 1 }
-    };
-    opening::head(bytes, &unfit).map_or(0, count)
+/// What the header of an image announces; nothing if it is invalid.
+#[derive(Clone, Copy, Debug, Default)]
+struct Announced {
+    width: u32,
+    height: u32,
+    has_floats: bool,
+}
+
+impl Announced {
+    fn of(bytes: &[u8]) -> Self {
+        let unfit = Unfit {
+            name: "",
+            most_texels: MAX_TEXELS,
+        };
+        opening::head(bytes, &unfit).map_or_else(
+            |_| Self::default(),
+            |head| Self {
+                width: head.width,
+                height: head.height,
+                has_floats: head.has_floats,
+            },
+        )
+    }
+
+    /// Bytes of the texels of its picture in a role, halved so many times.
+    fn bytes(self, role: Role, halvings: u32) -> u64 {
+        let side = |side: u32| u64::from((side >> halvings).max(side.min(1)));
+        let is_relief = matches!(role, Role::Height | Role::Depth);
+        let texel_bytes = match self.has_floats || is_relief {
+            true => size_of::<Vec4>(),
+            false => size_of::<[u8; 4]>(),
+        };
+        side(self.width) * side(self.height) * texel_bytes as u64
+    }
 }
 
 /// A decoder's message as a clause on one line.

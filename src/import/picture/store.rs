@@ -2,9 +2,12 @@
 //! used; pictures that are too large are halved.
 //!
 //! What will be used is planned first ([`Pictures::plan`]). The first use of a planned picture decodes those that are
-//! planned after it as well, as many at a time as fit into a bounded memory.
+//! planned after it as well, as many at a time as fit into a bounded memory. How often each is halved so that all fit is
+//! known before from their headers ([`budget`]), so that no more is decoded and kept than fits.
 
-use super::{Role, decode, dimensions};
+mod budget;
+
+use super::{Announced, Role, decode};
 use crate::import::Options;
 use crate::import::notes::Notes;
 use crate::import::picture::Refused;
@@ -40,6 +43,14 @@ struct Planned {
     /// For messages.
     name: String,
     roles: Vec<Role>,
+    /// What the header of its file announces, once that was read.
+    announced: Option<Announced>,
+    /// The file, or why there is none, if it is kept from the reading of its header.
+    file: Option<Result<Vec<u8>, Refused>>,
+    /// Whether it is refused, because the files before it announced as much as all may.
+    is_beyond: bool,
+    /// How many times its picture is halved so that all fit into memory.
+    halvings: u32,
 }
 
 type Decoded = Result<Arc<Picture>, Refused>;
@@ -65,6 +76,9 @@ pub(in crate::import) struct Pictures {
     has_profiles: bool,
     /// Files whose pictures exceeded the limit.
     limited: HashSet<Place>,
+    /// Files whose headers were read, and the bytes of texels that these announced.
+    announced: HashSet<Place>,
+    announced_bytes: u64,
     /// How many times pictures were halved for lack of memory.
     halved_count: usize,
     /// On what was repaired in pictures, and on what their files say and they do not follow.
@@ -84,6 +98,8 @@ impl Pictures {
             limit: options.texture_limit.map_or(u32::MAX, Into::into),
             has_profiles: true,
             limited: HashSet::new(),
+            announced: HashSet::new(),
+            announced_bytes: 0,
             halved_count: 0,
             notes: Vec::new(),
         }
@@ -105,6 +121,10 @@ impl Pictures {
             place,
             name: name.to_owned(),
             roles: Vec::new(),
+            announced: None,
+            file: None,
+            is_beyond: false,
+            halvings: 0,
         });
         if !planned.roles.contains(&role) {
             planned.roles.push(role);
@@ -155,6 +175,16 @@ impl Pictures {
             .map(|(key, &index)| (index, key.clone()))
             .collect();
         missing.sort_unstable_by_key(|(index, _)| *index);
+        self.plan_sizes(read);
+        // Then nothing is decoded in vain.
+        let planned = |(_, key): &&(usize, (Place, Role))| {
+            let planned = self.order.get(&key.0).and_then(|at| self.planned.get(at));
+            planned.is_some_and(|planned| planned.is_beyond)
+        };
+        if let Some(beyond) = missing.iter().position(|it| planned(&it)) {
+            let beyond = missing.remove(beyond);
+            missing.insert(0, beyond);
+        }
         for (index, key) in missing {
             let planned = self.order.get(&key.0).and_then(|at| self.planned.get(at));
             let name = planned.map(|planned| planned.name.clone());
@@ -225,6 +255,7 @@ impl Pictures {
     /// Decodes the picture at `place` for `role`, and pictures that are planned after it.
     fn decode_from(&mut self, place: &Place, name: &str, role: Role, read: Read) {
         self.plan(place.clone(), name, role);
+        self.plan_sizes(read);
         let mut at = self.order.get(place).copied();
         if self.decoded_bytes > BATCH_BYTES {
             self.decoded.retain(|_, decoded| decoded.is_err());
@@ -237,10 +268,12 @@ impl Pictures {
         };
         let mut batch = Vec::new();
         let mut size = 0;
-        while let Some(planned) = at.and_then(|at| self.planned.remove(&at)) {
-            let bytes = read(&planned.place, &planned.name);
-            let texels = bytes.as_deref().map_or(0, dimensions);
-            size += texels * 4 * planned.roles.len() as u64;
+        while let Some(mut planned) = at.and_then(|at| self.planned.remove(&at)) {
+            let bytes = match planned.file.take() {
+                Some(kept) => kept.map(Cow::Owned),
+                None => read(&planned.place, &planned.name),
+            };
+            size += planned.bytes(u32::MAX, 0);
             batch.push((planned, bytes));
             let more = batch.len() < most && size < BATCH_BYTES;
             let next = at.and_then(|at| self.planned.range(at..).next());
@@ -255,9 +288,13 @@ impl Pictures {
             let made = made.map(|pictures| {
                 let is_large = |it: &Picture| it.width.max(it.height) > limit;
                 let is_limited = pictures.iter().any(|(picture, _)| is_large(picture));
-                let limited = (pictures.into_iter())
-                    .map(|(picture, notes)| (Arc::new(picture.limited(limit)), notes));
-                (limited.collect::<Vec<_>>(), is_limited)
+                let small = |picture: Picture| {
+                    let limited = picture.limited(limit);
+                    (0..planned.halvings).fold(limited, |picture, _| picture.halved())
+                };
+                let small = (pictures.into_iter())
+                    .map(|(picture, notes)| (Arc::new(small(picture)), notes));
+                (small.collect::<Vec<_>>(), is_limited)
             });
             (planned, made)
         });
@@ -276,6 +313,7 @@ impl Pictures {
                 let made = match (pictures.next(), &why) {
                     (Some((picture, notes)), _) => {
                         self.notes.extend(notes);
+                        self.halved_count += planned.halvings as usize;
                         Ok(picture)
                     }
                     (None, Some(why)) => Err(why.clone()),

@@ -7,11 +7,14 @@ use glam::DVec4;
 use glimray::import::{self, Memory, Options};
 use glimray::scene::{Picture, Scene, Texels};
 use glimray::threads;
+use image::{GrayImage, ImageFormat};
 use serde_json::json;
 use std::cell::RefCell;
+use std::io::Cursor;
 use std::num::NonZero;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// A picture of `width` × `height` texels of different colours and alphas.
 fn colorful(width: u32, height: u32) -> Vec<u8> {
@@ -239,6 +242,28 @@ fn a_height_map_is_planned_with_the_other_maps_unless_a_normal_map_replaces_it()
         reads("map_Kd a.png\nmap_Bump b.png\n"),
         ["a.png", "b.png"].map(PathBuf::from)
     );
+}
+
+/// 11 GiB are 44 pictures of 8192 × 8192 texels. The one after those is refused from its header, before any is decoded, which
+/// would take minutes.
+#[test]
+fn pictures_that_announce_too_much_together_are_refused_before_they_are_decoded() {
+    const SIDE: u32 = 8192;
+    let mut picture = Cursor::new(Vec::new());
+    let black = GrayImage::new(SIDE, SIDE);
+    (black.write_to(&mut picture, ImageFormat::Png)).expect("a picture");
+    let names: Vec<String> = (0..50).map(|i| format!("{i}.png")).collect();
+    let lines = names.iter().map(|name| format!("[[objects]]\nsphere = {{ center = [0, 0, 0], radius = 1 }}\nmaterial = {{ phong = {{ diffuse = {{ picture = '{name}' }} }} }}\n"));
+    let text = lines.collect::<String>();
+    let mut files: Vec<(&str, &[u8])> = vec![("a.toml", text.as_bytes())];
+    files.extend(names.iter().map(|name| (&name[..], &picture.get_ref()[..])));
+    let folder = folder(&files);
+    let started = Instant::now();
+    let error = import::load(&folder.path().join("a.toml")).expect_err("refused");
+    assert!(error.is_too_big());
+    assert!(started.elapsed().as_secs() < 60, "{:?}", started.elapsed());
+    let message = super::without_folder(&error, folder.path());
+    insta::assert_snapshot!(message, @"picture refused (a.toml:135:46): `44.png` is one picture too many: together they have more than 11 GiB of texels. Use a smaller picture.");
 }
 
 #[test]
