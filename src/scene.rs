@@ -102,8 +102,8 @@ pub struct Scene {
     pub background: Background,
     /// Linear radiance of the ambient term, multiplied by [`Material::ambient`].
     pub ambient: Vec3,
-    /// Whether lights, background, ambient light and ground were added to show a model that has no lights. All
-    /// its planes are that ground.
+    /// Whether lamps, background, ambient light and ground were added to show a model that has no lights or weak ones. All
+    /// its area lights are those lamps, and all its planes that ground.
     pub staged: bool,
     /// How transparent surfaces affect shadow rays.
     pub shadows: Shadows,

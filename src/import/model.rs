@@ -3,7 +3,8 @@
 use super::notes::Notes;
 use super::{Axis, Options, stage};
 use crate::scene::{
-    Geometry, Instance, Material, Mesh, OutputDefaults, Picture, Scene, Shadows, Shape, Texture,
+    Geometry, Instance, LightTransport, Material, Mesh, OutputDefaults, Picture, Scene, Shadows,
+    Shape, Texture,
 };
 use glam::{DAffine3, DVec3};
 use std::sync::Arc;
@@ -43,6 +44,8 @@ impl Model {
             pictures,
             output: OutputDefaults {
                 size: (800, 600),
+                integrator: LightTransport::Path,
+                max_depth: LightTransport::Path.max_depth(),
                 ..OutputDefaults::default()
             },
             remarks: self.notes.take_remarks(),

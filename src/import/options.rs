@@ -30,8 +30,8 @@ pub struct Options {
     /// Width and height of the picture that a model without a camera is framed for; `None` for the scene's
     /// own size.
     pub size: Option<(u32, u32)>,
-    /// The integrator that the scene will be rendered with, for which a model without lights is lit; `None` for the
-    /// scene's own.
+    /// The integrator that the scene will be rendered with; `None` for the scene's own. [`Self::environment`] takes the
+    /// place of added lamps where paths are traced.
     pub integrator: Option<LightTransport>,
     /// Whether the classical colours of materials with several maps are computed.
     pub baking: Baking,
@@ -107,14 +107,14 @@ impl Axis {
     }
 }
 
-/// What is added to a model to show it. Each part is added only where the model has none of its own.
+/// The studio that a model is shown in. Each part is added only where the model has none of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Staging {
     /// A camera that frames the model. Without it the camera is at the origin and looks along −Z.
     pub camera: bool,
-    /// Lights and ambient light; for path tracing, together with the background, a sky with a sun.
+    /// Lamps and ambient light, also if the model's own lights are weak.
     pub lights: bool,
-    /// A gradient behind the model, or that sky; black without it.
+    /// A gradient behind the model, whose light is a part of that of the studio; black without it.
     pub background: bool,
     /// A ground below the model.
     pub ground: Ground,
@@ -125,7 +125,7 @@ pub struct Staging {
 pub enum Ground {
     /// There is none.
     None,
-    /// A surface that receives the model's shadow, if the model has no lights.
+    /// A surface that receives the model's shadow, if the model has no lights or weak ones.
     Default,
     /// That surface in any case.
     Surface,

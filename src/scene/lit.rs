@@ -1,10 +1,33 @@
 //! Default samples per pixel, whether a scene has any light, and whether its materials make some.
 
 use super::{
-    Background, LightProperty, LightTransport, Material, MaterialProperty, OutputDefaults, Pattern,
-    Scene, Target,
+    Attenuation, Background, Light, LightKind, LightProperty, LightTransport, Material,
+    MaterialProperty, OutputDefaults, Pattern, Scene, Target, corners,
 };
-use glam::Vec3;
+use glam::{DVec3, Vec3};
+
+impl Light {
+    /// The radiance that it gives a white surface at `point` that faces it, in the brightest channel; an area light as if it
+    /// were small.
+    fn towards(&self, point: DVec3) -> f32 {
+        let brightest = self.color.max_element();
+        let Some((min, max)) = self.kind.bounds() else {
+            return brightest;
+        };
+        let way = point - min.midpoint(max);
+        let is_outside = match self.kind {
+            LightKind::Spot {
+                direction, outer, ..
+            } => way.dot(direction) < outer.cos() * way.length(),
+            _ => false,
+        };
+        match self.attenuation {
+            _ if is_outside => 0.0,
+            Attenuation::None => brightest,
+            Attenuation::InverseSquare => brightest / way.length_squared().max(1e-30) as f32,
+        }
+    }
+}
 
 impl Scene {
     /// Default samples per pixel: 64 of a scene for path tracing; 16 if a lens, an area light or an open shutter
@@ -60,6 +83,23 @@ impl Scene {
                 }));
         let has_surfaces = !(self.shapes.is_empty() && self.instances.is_empty());
         has_surfaces && !(has_lights || has_ambient || emits || shows_background)
+    }
+
+    /// The radiance that the lights give a white surface that faces each of them, unshadowed and at time 0: the mean over
+    /// the centre and the corners of the bounds, where it counts at most 1. 0 without bounds.
+    pub fn own_light(&self) -> f32 {
+        let Some(bounds) = self.bounds() else {
+            return 0.0;
+        };
+        let lights = self.frame(0.0).lights;
+        let points = corners(bounds)
+            .into_iter()
+            .chain([bounds.0.midpoint(bounds.1)]);
+        let at = |point: DVec3| -> f32 {
+            let sent = lights.iter().map(|light| light.towards(point));
+            sent.sum::<f32>().min(1.0)
+        };
+        points.map(at).sum::<f32>() / 9.0
     }
 
     /// Whether the background is not black.

@@ -54,7 +54,7 @@ impl Default for Turntable {
 /// is +Y. Returns `false` and leaves the scene as it is if nothing is bounded.
 ///
 /// Geometry that moves is in frame at many times of its animation, so that all of it is. A scene without lights,
-/// or with those of [`Scene::staged`], gets a soft three-light rig attached to the camera, as if the
+/// or with the lamps of [`Scene::staged`] in their place, gets a soft three-light rig attached to the camera, as if the
 /// scene turned on a table in front of it, and a grey background if its own is black or staged. The ground of
 /// a staged scene is removed, as it would not turn with it, unless it only catches the shadow.
 pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
@@ -116,15 +116,34 @@ pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
                 || materials[shape.material].shadow_catcher
         });
     }
-    if scene.staged || scene.lights.is_empty() {
-        light(scene, node, look_at, radius, axis);
+    let is_lamp = |light: &Light| light.kind.radiance().is_some();
+    let needs_rig = match scene.staged {
+        true => scene.lights.iter().any(is_lamp),
+        false => scene.lights.is_empty(),
+    };
+    if needs_rig {
+        scene.lights.retain(|light| !is_lamp(light));
+        light(scene, node, look_at, radius);
     }
+    let is_stage = scene.staged && matches!(scene.background, Background::Gradient { .. });
+    if is_stage || needs_rig && !scene.staged && scene.background == Background::default() {
+        // A gradient follows the world's y and would tilt with any other axis.
+        scene.background = if axis.x.hypot(axis.z) < 1e-9 {
+            Background::Gradient {
+                bottom: Vec3::splat(0.1),
+                top: Vec3::splat(0.5),
+            }
+        } else {
+            Background::Color(Vec3::splat(0.3))
+        };
+    }
+    scene.staged = false;
     true
 }
 
 /// A soft key light from the front right above, a fill light from the front left and a back light, for
 /// geometry within `radius` of `center`, which is in the space of `node`.
-fn light(scene: &mut Scene, node: usize, center: DVec3, radius: f64, axis: DVec3) {
+fn light(scene: &mut Scene, node: usize, center: DVec3, radius: f64) {
     // No attenuation, so that large and small models are lit alike.
     let soft = |towards: DVec3, size: f64, color: Vec3| {
         let normal = -towards.normalize();
@@ -141,24 +160,12 @@ fn light(scene: &mut Scene, node: usize, center: DVec3, radius: f64, axis: DVec3
             node: Some(node),
         }
     };
-    scene.lights = vec![
+    scene.lights.extend([
         soft(DVec3::new(0.7, 0.9, 0.9), 1.2, Vec3::new(0.74, 0.72, 0.68)),
         soft(DVec3::new(-1.0, 0.3, 0.8), 1.6, Vec3::new(0.24, 0.26, 0.29)),
         soft(DVec3::new(-0.2, 0.8, -1.0), 1.0, Vec3::splat(0.4)),
-    ];
+    ]);
     if scene.staged || scene.ambient == Vec3::ZERO {
         scene.ambient = Vec3::splat(0.12);
     }
-    if scene.staged || scene.background == Background::default() {
-        // A gradient follows the world's y and would tilt with any other axis.
-        scene.background = if axis.x.hypot(axis.z) < 1e-9 {
-            Background::Gradient {
-                bottom: Vec3::splat(0.1),
-                top: Vec3::splat(0.5),
-            }
-        } else {
-            Background::Color(Vec3::splat(0.3))
-        };
-    }
-    scene.staged = false;
 }

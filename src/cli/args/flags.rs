@@ -128,7 +128,7 @@ pub struct PictureFlags {
     /// Multiply the sample count of every area light by this, 0.001 to 1000 [default: the scene's, else 1]
     #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = values::light_samples)]
     pub light_samples: Option<f32>,
-    /// Integrator or debug view [default: the scene's, else path for glTF and whitted for other formats]
+    /// Integrator or debug view [default: the scene's, else path for models and whitted for scenes]
     #[arg(long, value_parser = values::one_of(&INTEGRATORS))]
     pub integrator: Option<Integrator>,
     /// Ray–triangle intersection algorithm [default: watertight]
@@ -253,17 +253,17 @@ pub struct SceneFlags {
     /// Add nothing to a model: no camera that frames it, no lights, no background, no ground
     #[arg(long)]
     pub bare: bool,
-    /// Add no lights to a model without lights, and no sky where paths are traced
+    /// Add no lamps to a model without lights, or with weak ones; its background still lights paths
     #[arg(long)]
     pub no_lights: bool,
-    /// Add no background to a model without lights; where paths are traced, lights take the place of the sky
+    /// Add no background to a model without lights, or with weak ones: it is black
     #[arg(long)]
     pub no_background: bool,
-    /// Add no ground to a model without lights; --background leaves it out too
+    /// Add no ground to a model without lights, or with weak ones; --background leaves it out too
     #[arg(long)]
     pub no_ground: bool,
     /// The ground below a model: a surface, or only the shadow on it, with a transparent background
-    /// [default: a surface below models without lights, if no background is given]
+    /// [default: a surface below models without lights or with weak ones, if no background is given]
     #[arg(long, value_parser = values::one_of(&GROUNDS), conflicts_with_all = ["no_ground", "bare"])]
     pub ground: Option<import::Ground>,
 }

@@ -67,7 +67,7 @@ pub(super) struct SceneFile {
     /// passes straight through them (filtered).
     #[serde(default)]
     pub shadows: ShadowsName,
-    /// Whether lights, background and ambient light only show a bare model, so that a turntable replaces
+    /// Whether area lights, background, ambient light and planes only show a bare model, so that a turntable replaces
     /// them; default false.
     #[serde(default)]
     pub staged: bool,
