@@ -65,8 +65,8 @@ pub struct PictureOverrides {
     pub seed: u32,
     /// Columns x0 to x1 − 1 and rows y0 to y1 − 1.
     pub crop: Option<[u32; 4]>,
-    /// Keep features in the film, to denoise it.
-    pub features: bool,
+    /// Keep features in the film, to denoise it; without a choice where the scene is denoised.
+    pub denoise: Option<bool>,
 }
 
 /// How a picture is developed.
@@ -79,7 +79,7 @@ pub struct ToneOverrides {
     /// Transfer function.
     pub transfer: Option<Transfer>,
     /// Denoise the picture.
-    pub denoise: bool,
+    pub denoise: Option<bool>,
 }
 
 /// An exposure as users give it.
@@ -144,7 +144,8 @@ impl PictureOverrides {
     pub fn settings(&self, scene: &OutputDefaults) -> RenderSettings {
         let integrator = self.integrator.unwrap_or(scene.integrator.into());
         let said = (scene.samples, scene.max_depth);
-        let (samples, max_depth) = scene.integrator.converted(integrator.into(), said);
+        let (samples, max_depth) = scene.integrator.converted(integrator.into(), said, scene.denoise);
+        let usual = Tone::of_scene(scene, integrator);
         let output = OutputDefaults {
             samples: self.samples.unwrap_or(samples),
             antialias: self.antialias.or(scene.antialias),
@@ -168,7 +169,7 @@ impl PictureOverrides {
             seed: self.seed,
             max_depth: self.max_depth.unwrap_or(max_depth),
             min_throughput: self.min_throughput.unwrap_or(defaults.min_throughput),
-            features: self.features,
+            features: self.denoise.unwrap_or(usual.denoise),
             transparent_shadows: self.transparent_shadows,
             bsdf: self.bsdf.unwrap_or(defaults.bsdf),
             clamp_indirect: self.clamp_indirect,
@@ -204,10 +205,11 @@ impl ToneOverrides {
         linear_format: bool,
     ) -> Tone {
         let shows = integrator.entry().shows;
+        let usual = Tone::of_scene(scene, integrator);
         let default = if linear_format || shows != Shows::Radiance {
             Tone::LINEAR
         } else {
-            Tone::of_scene(scene, integrator)
+            usual
         };
         let exposure = self.exposure.unwrap_or(Exposure {
             is_auto: default.auto_exposure,
@@ -225,7 +227,7 @@ impl ToneOverrides {
             curve: self.curve.unwrap_or(default.curve),
             transfer: self.transfer.unwrap_or(transfer),
             levels: Levels::Raw,
-            denoise: self.denoise,
+            denoise: self.denoise.unwrap_or(usual.denoise),
         };
         match (shows, self.exposure) {
             _ if linear_format => tone,

@@ -175,12 +175,8 @@ impl<'a> Sequence<'a> {
         draft.fetch = renderer.fetch();
         draft.catcher_light = renderer.catcher_light();
         draft.seconds.write = renderer.write_seconds();
-        draft.seconds.denoise = self
-            .job
-            .picture
-            .develop
-            .denoise
-            .then(|| renderer.denoise_seconds());
+        let is_denoised = self.job.tone(renderer.settings(), false).denoise;
+        draft.seconds.denoise = is_denoised.then(|| renderer.denoise_seconds());
         let encode_seconds = match &video {
             Some(options) => self.encode(options, &interrupt)?,
             None => 0.0,

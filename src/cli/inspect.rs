@@ -62,11 +62,12 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
     let output = &scene.output;
     writeln!(
         out,
-        "picture    {}×{}, integrator {}, {} sample(s), depth {}, exposure {}{} EV, tone {}, transfer {}",
+        "picture    {}×{}, integrator {}, {} sample(s){}, depth {}, exposure {}{} EV, tone {}, transfer {}",
         output.size.0,
         output.size.1,
         Integrator::from(output.integrator).entry().name,
         output.samples,
+        if output.denoise { " denoised" } else { "" },
         output.max_depth,
         if output.auto_exposure {
             "auto and "

@@ -133,7 +133,7 @@ impl Job<'_> {
         takes_layers: bool,
         takes_opacity: bool,
     ) -> Result<(), AppError> {
-        let denoise = self.picture.develop.denoise;
+        let denoise = self.picture.develop.denoise() == Some(true);
         (self.layers).check(denoise, settings.integrator, path, takes_layers)?;
         Self::check_backdrop(settings, path, takes_opacity)
     }
@@ -185,7 +185,7 @@ impl Job<'_> {
             transparent_shadows: of_paths.then_some(settings.transparent_shadows),
             clamp_indirect: settings.clamp_indirect.filter(|_| of_paths),
             bsdf: of_paths.then(|| BSDF_MODELS.name(&settings.bsdf)),
-            denoise: self.picture.develop.denoise,
+            denoise: self.tone(settings, false).denoise,
         }
     }
 

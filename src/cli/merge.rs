@@ -45,7 +45,7 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
         )));
     }
     arguments.layers.check(
-        arguments.develop.denoise,
+        arguments.develop.denoise() == Some(true),
         whole.header().integrator,
         destination.path(),
         destination.takes_layers(),
@@ -71,6 +71,8 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
         auto_exposure: tone.auto_exposure,
         tone: Some(tone.curve),
         transfer: tone.transfer,
+        integrator: (*integrator).into(),
+        denoise: tone.denoise,
         ..OutputDefaults::default()
     };
     let is_linear = destination.is_linear();

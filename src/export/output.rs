@@ -94,6 +94,7 @@ impl Writer<'_> {
             duration,
             shutter,
             backdrop,
+            denoise,
         } = self.scene.output.clone();
         let mut table = Table::default();
         let size_text = list([size.0.to_string(), size.1.to_string()]);
@@ -112,6 +113,7 @@ impl Writer<'_> {
                 },
             );
         }
+        table.put_if(denoise, "denoise", "true");
         table.put_if(noise != plain.noise, "noise", number32(noise));
         table.put_if(
             max_depth != integrator.max_depth(),

@@ -19,6 +19,9 @@ const ELEVATION_DEG: [f64; 2] = [10.0, 35.0];
 /// Margin around the model, as a fraction of half the image.
 const MARGIN: f64 = 0.1;
 
+/// Samples per pixel of pictures that are denoised.
+const SAMPLES: u32 = 8;
+
 /// Own lights that give white surfaces less than this radiance are helped by the lamps of the studio.
 const WEAK: f32 = 0.5;
 
@@ -39,7 +42,8 @@ pub(super) fn complete(scene: &mut Scene, options: &Options) {
     } else if matches!(staging.ground, Ground::Surface | Ground::Shadow) {
         add_ground(scene, staging.ground);
     }
-    scene.output.samples = scene.default_samples().max(4);
+    scene.output.samples = SAMPLES;
+    scene.output.denoise = true;
 }
 
 /// A camera that sees all of `scene` from the front, a little from the right and from above, for a picture of this size;

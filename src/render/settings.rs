@@ -113,6 +113,7 @@ impl From<&OutputDefaults> for RenderSettings {
             light_samples: output.light_samples,
             integrator: output.integrator.into(),
             max_depth: output.max_depth,
+            features: output.denoise,
             backdrop: output.backdrop,
             ..Self::default()
         }

@@ -4,8 +4,9 @@ use super::{Fingerprint, Integrator, Levels, fingerprint::Encoder};
 use crate::scene::{LightTransport, OutputDefaults, ToneCurve, Transfer};
 use std::fmt;
 
-/// The bit of [`Tone::auto_exposure`] in the number of [`Tone::levels`].
+/// The bits of [`Tone::auto_exposure`] and [`Tone::denoise`] in the number of [`Tone::levels`].
 const AUTO_EXPOSURE_BIT: u32 = 8;
+const DENOISE_BIT: u32 = 9;
 
 /// How linear radiance is developed to a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,11 +34,12 @@ impl fmt::Display for Tone {
             curve,
             transfer,
             levels,
-            denoise: _,
+            denoise,
         } = self;
         let auto = if *auto_exposure { "automatic " } else { "" };
         let names = format!("curve {curve:?}, transfer {transfer:?}").to_lowercase();
-        write!(f, "{auto}exposure {exposure_ev} EV, {names}")?;
+        let denoised = if *denoise { ", denoised" } else { "" };
+        write!(f, "{auto}exposure {exposure_ev} EV, {names}{denoised}")?;
         match levels {
             Levels::Raw => Ok(()),
             Levels::Found => write!(f, ", levels of the picture"),
@@ -77,6 +79,7 @@ impl Tone {
                 (None, LightTransport::Whitted, LightTransport::Path) => Transfer::Srgb,
                 _ => output.transfer,
             },
+            denoise: output.denoise && integrator == output.integrator.into(),
             ..Self::LINEAR
         }
     }
@@ -86,9 +89,6 @@ impl Tone {
         let mut encoder = Encoder::new("tone", 1);
         for number in self.numbers() {
             encoder.number(number);
-        }
-        if self.denoise {
-            encoder.bytes(b"denoise");
         }
         encoder.finish()
     }
@@ -101,7 +101,7 @@ impl Tone {
             curve,
             transfer,
             levels,
-            denoise: _,
+            denoise,
         } = *self;
         let curve = match curve {
             ToneCurve::None => 0,
@@ -123,7 +123,8 @@ impl Tone {
             exposure,
             curve,
             transfer,
-            kind | u32::from(auto_exposure) << AUTO_EXPOSURE_BIT,
+            kind | u32::from(auto_exposure) << AUTO_EXPOSURE_BIT
+                | u32::from(denoise) << DENOISE_BIT,
             least.to_bits(),
             most.to_bits(),
         ]
@@ -132,10 +133,10 @@ impl Tone {
     /// The tone with these numbers; `None` if [`Self::numbers`] gives them for no tone.
     pub(super) fn from_numbers(numbers: [u32; 6]) -> Option<Self> {
         let [exposure, curve, transfer, kinds, least, most] = numbers;
-        let kind = kinds & !(1 << AUTO_EXPOSURE_BIT);
+        let kind = kinds & !(1 << AUTO_EXPOSURE_BIT | 1 << DENOISE_BIT);
         let tone = Self {
             exposure_ev: f32::from_bits(exposure),
-            auto_exposure: kinds != kind,
+            auto_exposure: kinds & 1 << AUTO_EXPOSURE_BIT != 0,
             curve: match curve {
                 0 => ToneCurve::None,
                 1 => ToneCurve::Aces,
@@ -154,7 +155,7 @@ impl Tone {
                 2 => Levels::Fixed([least, most].map(f32::from_bits)),
                 _ => return None,
             },
-            denoise: false,
+            denoise: kinds & 1 << DENOISE_BIT != 0,
         };
         // A tone with a NaN would differ from itself.
         let numbers_are = [exposure, least, most].map(|bits| !f32::from_bits(bits).is_nan());

@@ -40,6 +40,8 @@ pub struct OutputDefaults {
     pub shutter: Shutter,
     /// What paths from the camera see where there is nothing.
     pub backdrop: Backdrop,
+    /// Whether pictures by [`Self::integrator`] are denoised.
+    pub denoise: bool,
 }
 
 /// What paths from the camera see where there is nothing, directly and straight or refracted through smooth
@@ -85,6 +87,7 @@ impl Default for OutputDefaults {
             duration: None,
             shutter: Shutter::default(),
             backdrop: Backdrop::Background,
+            denoise: false,
         }
     }
 }
@@ -120,12 +123,22 @@ impl LightTransport {
         }
     }
 
-    /// Samples per pixel and bounces for a scene that says these for `self`, if it is rendered with `other`.
-    pub fn converted(self, other: Self, (samples, max_depth): (u32, u32)) -> (u32, u32) {
+    /// Samples per pixel and bounces for a scene that says these for `self`, if it is rendered with `other`. Samples of
+    /// pictures that are denoised are too few for others.
+    pub fn converted(
+        self,
+        other: Self,
+        (samples, max_depth): (u32, u32),
+        is_denoised: bool,
+    ) -> (u32, u32) {
         match (self, other) {
             (Self::Whitted, Self::Path) => (samples.max(other.samples()), other.max_depth()),
             (Self::Path, Self::Whitted) => {
-                (samples.min(other.samples()), max_depth.min(MOST_BOUNCES))
+                let enough = match is_denoised {
+                    true => other.samples(),
+                    false => samples.min(other.samples()),
+                };
+                (enough, max_depth.min(MOST_BOUNCES))
             }
             _ => (samples, max_depth),
         }

@@ -77,8 +77,8 @@ pub struct SizeFlags {
     /// Width and height in pixels [default: the scene's, else 640x480]
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = values::size)]
     pub size: Option<(u32, u32)>,
-    /// Samples per pixel, 1 to 65536 [default: the scene's; else 64 for --integrator path, 16 with a lens, an area
-    /// light or motion blur; else 1]
+    /// Samples per pixel, 1 to 65536 [default: the scene's; 8 of models, which are denoised, also with more; else 64 for
+    /// --integrator path, 16 with a lens, an area light or motion blur; else 1]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub samples: Option<u32>,
 }
@@ -175,11 +175,15 @@ pub struct DevelopFlags {
     /// .exr, .hdr and debug views]
     #[arg(long, value_parser = values::one_of(&TRANSFERS))]
     pub transfer: Option<Transfer>,
-    /// Denoise the picture; films and, with --layers, the layer beauty keep the noise
+    /// Denoise the picture [default: that of models, as the scene says for others]; films and, with --layers, the layer
+    /// beauty keep the noise
     ///
     /// The filter is guided by albedo, normals, depth and the noise of each pixel.
-    #[arg(long)]
+    #[arg(long, overrides_with = "no_denoise")]
     pub denoise: bool,
+    /// Show the samples as they are, also of a model; --samples 64 then has less noise
+    #[arg(long, overrides_with = "denoise")]
+    pub no_denoise: bool,
 }
 
 /// Camera and background.
@@ -371,7 +375,7 @@ impl PictureFlags {
             brute_force: self.no_bvh,
             seed: self.seed,
             crop: self.crop,
-            features: self.develop.denoise,
+            denoise: self.develop.denoise(),
         }
     }
 }
@@ -382,8 +386,13 @@ impl DevelopFlags {
             exposure: self.exposure,
             curve: self.tone,
             transfer: self.transfer,
-            denoise: self.denoise,
+            denoise: self.denoise(),
         }
+    }
+
+    /// Whether the flags ask for denoising; `None` if they leave it to the scene.
+    pub fn denoise(&self) -> Option<bool> {
+        (self.denoise || self.no_denoise).then_some(self.denoise)
     }
 }
 

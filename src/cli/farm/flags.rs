@@ -24,12 +24,13 @@ const OWN: [&str; 16] = [
 ];
 
 /// Flags that matter when films become a picture.
-const FINISHING: [&str; 10] = [
+const FINISHING: [&str; 11] = [
     "crop",
     "exposure",
     "tone",
     "transfer",
     "denoise",
+    "no-denoise",
     "layers",
     "layers-parts",
     "adapter",

@@ -145,6 +145,8 @@ struct OutputEntry {
     integrator: &'static str,
     samples: u32,
     max_depth: u32,
+    /// Whether the picture is denoised.
+    denoise: bool,
     exposure_ev: f32,
     auto_exposure: bool,
     tone: &'static str,
@@ -283,6 +285,7 @@ impl From<&OutputDefaults> for OutputEntry {
             integrator: Integrator::from(output.integrator).entry().name,
             samples: output.samples,
             max_depth: output.max_depth,
+            denoise: output.denoise,
             exposure_ev: output.exposure_ev,
             auto_exposure: output.auto_exposure,
             tone: TONES.name(&Tone::from(output).curve),

@@ -265,6 +265,7 @@ fn output(table: &OutputTable) -> OutputDefaults {
         fps: table.fps.0,
         duration: table.duration.map(|duration| duration.0),
         shutter: Shutter { open, close },
+        denoise: table.denoise,
         backdrop: table.backdrop.map_or(Backdrop::Background, |it| it.0),
     }
 }

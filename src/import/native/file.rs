@@ -154,6 +154,8 @@ pub(super) struct OutputTable {
     /// How long the shutter is open: a fraction of the frame interval, an angle such as "180deg", or
     /// [open, close] in frames; default 0, without motion blur.
     pub shutter: ShutterTimes,
+    /// Whether pictures by `integrator` are denoised; default false.
+    pub denoise: bool,
     /// What paths from the camera see where there is nothing, directly and through smooth transparent surfaces: a colour,
     /// or "transparent"; default the background. All other light sees the background.
     pub backdrop: Option<BackdropValue>,
@@ -178,6 +180,7 @@ impl Default for OutputTable {
             fps: FrameRate(24.0),
             duration: None,
             shutter: ShutterTimes([0.0, 0.0]),
+            denoise: false,
             backdrop: None,
         }
     }

@@ -246,6 +246,7 @@ impl ViewSettings {
             duration: before.duration,
             shutter: playback.clock.shutter,
             backdrop: settings.backdrop,
+            denoise: self.tone.denoise,
         }
     }
 
@@ -280,7 +281,7 @@ impl ViewSettings {
             (own.samples, own.antialias, own.max_depth);
         // Another integrator than the scene's needs other samples and bounces, unless the user has chosen them.
         let from = LightTransport::from(usual.integrator);
-        let fitting = from.converted(integrator.into(), (samples, max_depth));
+        let fitting = from.converted(integrator.into(), (samples, max_depth), usual.features);
         if samples == usual.samples && antialias == usual.antialias {
             samples = fitting.0;
             if antialias == Antialias::None && samples > 1 {

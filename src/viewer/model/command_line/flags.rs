@@ -268,7 +268,7 @@ fn look(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
             "denoising",
             match wanted.denoise {
                 true => vec![("--denoise", String::new())],
-                false => Vec::new(),
+                false => vec![("--no-denoise", String::new())],
             },
         ),
         one(
