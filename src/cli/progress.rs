@@ -1,6 +1,6 @@
-//! Progress of a picture or an animation: a bar on a terminal, JSON lines, or nothing.
+//! Progress of a picture or an animation: a bar on a terminal, JSON lines, or nothing; and once how long it will take.
 
-use crate::app::console;
+use crate::app::console::{self, Console};
 use crate::cli::args::{LogFlags, ProgressMode};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -15,6 +15,7 @@ const JSON_INTERVAL: Duration = Duration::from_millis(100);
 /// Shows progress on standard error. Dropping it clears the bar.
 pub struct Progress {
     display: Display,
+    estimate: Estimate,
     started: Instant,
 }
 
@@ -23,6 +24,7 @@ impl Progress {
         let template = "{wide_bar} {percent:>3} %  {elapsed} of {duration}";
         Self {
             display: Display::new(flags, template),
+            estimate: Estimate::new(flags),
             started: Instant::now(),
         }
     }
@@ -32,12 +34,16 @@ impl Progress {
         let seconds = self.started.elapsed().as_secs_f64();
         let json = || serde_json::json!({ "progress": done, "seconds": seconds });
         self.display.show(done, String::new, json);
+        if let Some(left) = self.estimate.left(done, FIRST_SECOND) {
+            self.display.say(&self.estimate, &format!("about {left} left"));
+        }
     }
 }
 
 /// Shows the progress of an animation. Dropping it clears the bar.
 pub struct FrameProgress {
     display: Display,
+    estimate: Estimate,
     /// Total number of frames.
     count: usize,
     /// Number of frames reused from earlier runs.
@@ -53,6 +59,7 @@ impl FrameProgress {
         let template = "{wide_bar} {percent:>3} %  {msg}";
         Self {
             display: Display::new(flags, template),
+            estimate: Estimate::new(flags),
             count,
             reused,
             rendered: 0,
@@ -88,11 +95,24 @@ impl FrameProgress {
             })
         };
         self.display.show(fraction, message, json);
+        self.say_left(part, LONG_FRAME);
     }
 
     /// Counts a finished frame.
     pub fn finish_frame(&mut self) {
         self.rendered += 1;
+        self.say_left(0.0, FIRST_SECOND);
+    }
+
+    /// Says how long the frames will take, if frames have been measured for `least`; `part` of the present one is done.
+    fn say_left(&mut self, part: f64, least: Duration) {
+        let missing = self.count - self.reused;
+        let done = (self.rendered as f64 + part) / missing as f64;
+        if let Some(left) = self.estimate.left(done, least) {
+            let frames = missing - self.rendered;
+            let text = format!("about {left} left for {frames} frame(s)");
+            self.display.say(&self.estimate, &text);
+        }
     }
 
     /// Shows that the frame at `index` is being encoded.
@@ -104,6 +124,53 @@ impl FrameProgress {
         let json =
             || serde_json::json!({ "encoded": fraction, "seconds": seconds, "frames": count });
         self.display.show(fraction, message, json);
+    }
+}
+
+/// Time after which the rest of a picture is estimated, and that of frames after one that takes less than the second time.
+const FIRST_SECOND: Duration = Duration::from_secs(1);
+const LONG_FRAME: Duration = Duration::from_secs(10);
+
+/// Seconds that are worth a line.
+const LEAST_LEFT: f64 = 10.0;
+
+/// How long a job will take, said once.
+struct Estimate {
+    console: Console,
+    /// When the first part of the work was done, after kernels were compiled, and which.
+    first: Option<(Instant, f64)>,
+    is_said: bool,
+}
+
+impl Estimate {
+    fn new(flags: &LogFlags) -> Self {
+        Self {
+            console: Console::new(flags.quiet, flags.verbose),
+            first: None,
+            is_said: false,
+        }
+    }
+
+    /// The time that is left, once, after `least` has passed; `None` if it is short. `done` is the finished fraction.
+    fn left(&mut self, done: f64, least: Duration) -> Option<String> {
+        let (started, before) = *self.first.get_or_insert((Instant::now(), done));
+        let elapsed = started.elapsed();
+        if self.is_said || elapsed < least || done <= before {
+            return None;
+        }
+        self.is_said = true;
+        let left = elapsed.as_secs_f64() * (1.0 - done) / (done - before);
+        (left >= LEAST_LEFT).then(|| spoken(left))
+    }
+}
+
+/// A time in seconds in words, rounded to what an estimate can tell.
+fn spoken(seconds: f64) -> String {
+    let minutes = (seconds / 60.0).round() as u64;
+    match minutes {
+        0 | 1 => format!("{} s", (seconds / 5.0).round() as u64 * 5),
+        2..90 => format!("{minutes} min"),
+        _ => format!("{} h {} min", minutes / 60, minutes % 60),
     }
 }
 
@@ -123,6 +190,14 @@ impl Display {
                 next: Instant::now(),
             },
             ProgressMode::Auto | ProgressMode::None => Self::Nothing,
+        }
+    }
+
+    /// Prints a line above the bar, unless the job is to be quiet.
+    fn say(&self, estimate: &Estimate, text: &str) {
+        match self {
+            Self::Bar(bar) => bar.suspend(|| estimate.console.status(text)),
+            Self::Nothing | Self::Json { .. } => estimate.console.status(text),
         }
     }
 
