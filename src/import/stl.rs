@@ -1,7 +1,7 @@
 //! STL: the triangles of CAD programs and 3D printers, as text or binary.
 //!
 //! The format repeats the corners of every facet, so equal corners become one vertex, exactly. The normals in
-//! the file are not used: they are derived from the corners, smooth where facets meet at less than 30°. The
+//! the file are not used: they are derived from the corners, smooth where facets meet at less than 45°. The
 //! format does not name an up axis; its programs take +Z. Sources: the StereoLithography Interface
 //! Specification (3D Systems, 1989), and of binary files the colours of VisCAM and SolidView and those of
 //! Materialise Magics, as their vendors' users describe them.
@@ -34,7 +34,7 @@ pub(super) const KEYS: [&str; 7] = [
 ];
 
 /// Facets that meet at less than this angle, in radians, are smooth across their edge.
-const CREASE: f64 = std::f64::consts::FRAC_PI_6;
+const CREASE: f64 = std::f64::consts::FRAC_PI_4;
 
 /// The cosine of the angle by which the normal of a facet in the file may differ from that of its corners: 60°.
 const MOST_TILT: f64 = 0.5;

@@ -2,8 +2,7 @@
 //!
 //! A face is flat after `s off`. In a smoothing group, the normal of a corner is the area-weighted mean over
 //! the faces of the group around its vertex, restricted to faces within the crease angle of 60° of the corner's
-//! own face: a cube keeps its edges, and a tube of seven sides is smooth. Faces before the first `s` are a group
-//! with a crease angle of 30°: nothing says whether such a model is meant to be smooth.
+//! own face: a cube keeps its edges, and a tube of seven sides is smooth. Faces before the first `s` are a group too.
 
 use super::Reader;
 use super::face::{self, Corner};
@@ -13,13 +12,8 @@ use glam::{DVec3, Vec3};
 /// The group before the first `s` statement.
 pub(super) const UNSTATED: u32 = u32::MAX;
 
-/// The cosine of the crease angle of a group.
-fn crease(group: u32) -> f64 {
-    match group {
-        UNSTATED => 0.866_025_403_784_438_6,
-        _ => 0.5,
-    }
-}
+/// The cosine of the crease angle.
+const CREASE: f64 = 0.5;
 
 /// If more faces of a group meet in a vertex, all of them are averaged: comparing all pairs would take
 /// quadratic time.
@@ -91,9 +85,8 @@ impl Reader<'_> {
             let first = means.len();
             for (i, &corner) in round.iter().enumerate() {
                 let own = face(corner).normal;
-                let crease = crease(face(corner).group);
                 let near = |other: &DVec3| {
-                    round.len() > MANY || own.dot(*other) >= crease * own.length() * other.length()
+                    round.len() > MANY || own.dot(*other) >= CREASE * own.length() * other.length()
                 };
                 let around = round.iter().map(|&other| face(other).normal).filter(near);
                 let mean = around.sum::<DVec3>().normalize_or_zero().as_vec3();

@@ -48,7 +48,7 @@ fn every_statement_of_obj_files_counts() {
             "fo" => "fo 1 3 2",
             "usemtl" => "usemtl other",
             "mtllib" => "mtllib gone.mtl",
-            "s" => "s 1",
+            "s" => "s off",
             "o" => "o part",
             "g" => "g part",
             other => &format!("{other} 1 2 3"),

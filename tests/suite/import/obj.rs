@@ -151,9 +151,9 @@ fn faces_without_normals_are_flat_unless_smoothed() {
 }
 
 #[test]
-fn models_without_any_smoothing_group_are_smooth_up_to_thirty_degrees() {
-    // The sides of prisms of 13 and of 11 meet at 27.7° and at 32.7°.
-    for (sides, is_smooth) in [(13, true), (11, false)] {
+fn models_without_any_smoothing_group_are_smooth_up_to_sixty_degrees() {
+    // The sides of prisms of 7 and of 5 meet at 51.4° and at 72°.
+    for (sides, is_smooth) in [(7, true), (5, false)] {
         let scene = scene("a.obj", prism(sides));
         let positions = &scene.meshes[0].positions;
         let corner = positions.iter().find(|p| p.x == 1.0 && p.y == 1.0);
