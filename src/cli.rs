@@ -8,6 +8,7 @@ mod checkpoint;
 mod compare;
 mod completions;
 mod convert;
+mod darkness;
 mod demo;
 mod destination;
 mod device;

@@ -31,6 +31,7 @@ mod physical;
 mod picture;
 mod posed;
 mod shape;
+mod sight;
 pub mod sky;
 mod tangents;
 mod texture;
@@ -62,6 +63,7 @@ pub use picture::{
 };
 pub(crate) use picture::{SMALLEST_TEXEL, scale_of};
 pub use shape::{CanonicalShape, Geometry, Shape};
+pub use sight::Sight;
 pub use texture::{Minify, Pattern, Space, Texture, UvTransform, Wrap};
 pub use transform::{Transform, angles, rotation};
 pub use turntable::{MAX_ELEVATION, Turntable, turntable};
@@ -92,6 +94,8 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// Index into `cameras` of the default camera.
     pub camera_index: usize,
+    /// How many cameras come before the default one because they see nothing that is lit.
+    pub blind_cameras: usize,
     /// The point in world space near which packed f32 coordinates are most precise; `None` is the rest
     /// position of the default camera. Importers set it to that position and it stays there when another
     /// camera is used, so that the same geometry is always packed to the same bytes. A point at distance

@@ -144,7 +144,10 @@ impl PictureOverrides {
     pub fn settings(&self, scene: &OutputDefaults) -> RenderSettings {
         let integrator = self.integrator.unwrap_or(scene.integrator.into());
         let said = (scene.samples, scene.max_depth);
-        let (samples, max_depth) = scene.integrator.converted(integrator.into(), said, scene.denoise);
+        let (samples, max_depth) =
+            scene
+                .integrator
+                .converted(integrator.into(), said, scene.denoise);
         let usual = Tone::of_scene(scene, integrator);
         let output = OutputDefaults {
             samples: self.samples.unwrap_or(samples),
@@ -254,6 +257,7 @@ impl CameraOverrides {
     pub fn apply(&self, scene: &mut Scene) -> Result<(), AppError> {
         if let Some(name) = &self.name {
             scene.camera_index = camera_index(&scene.cameras, name)?;
+            scene.blind_cameras = 0;
         }
         match self.background {
             Some(BackgroundChoice::Transparent) => scene.output.backdrop = Backdrop::Transparent,
@@ -362,7 +366,8 @@ fn camera_index(cameras: &[Camera], name: &str) -> Result<usize, AppError> {
     })
 }
 
-fn label((index, camera): (usize, &Camera)) -> String {
+/// How a camera is named in messages: by its number, and its name if it has one.
+pub fn label((index, camera): (usize, &Camera)) -> String {
     if camera.name.is_empty() {
         index.to_string()
     } else {

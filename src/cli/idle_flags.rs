@@ -47,6 +47,7 @@ pub fn check(given: &SceneFlags, path: &Path) -> Result<(), AppError> {
         )));
     }
     for (flag, is_given) in [
+        ("--fit", given.fit),
         ("--bare", given.bare),
         ("--no-lights", given.no_lights),
         ("--no-background", given.no_background),

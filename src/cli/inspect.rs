@@ -93,6 +93,8 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
         |out, index, camera| {
             let used = if index == scene.camera_index {
                 " (used)"
+            } else if index < scene.blind_cameras {
+                " (sees nothing that is lit)"
             } else {
                 ""
             };

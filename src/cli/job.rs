@@ -5,6 +5,7 @@ use crate::app::console;
 use crate::app::console::Console;
 use crate::app::error::AppError;
 use crate::app::inputs;
+use crate::app::overrides;
 use crate::app::value_names::{BSDF_MODELS, INTEGRATORS};
 use crate::bytes::size;
 use crate::cli::args::{DeviceFlags, LayerFlags, LogFlags, PictureFlags};
@@ -66,13 +67,20 @@ impl Job<'_> {
         for remark in &self.scene.remarks {
             self.console().detail(remark);
         }
+        if self.scene.blind_cameras > 0 {
+            let of = |index: usize| overrides::label((index, &self.scene.cameras[index]));
+            self.console().status(format_args!(
+                "camera {} takes the place of camera {}, which sees nothing that is lit; --camera 0 shows that",
+                of(self.scene.camera_index),
+                of(0)
+            ));
+        }
         idle_flags::warn(self.picture, &self.settings());
-        // Only paths find the light of the background on every surface.
-        let is_path = self.settings().integrator == Integrator::Path;
-        if self.scene.is_unlit() && !(is_path && self.scene.background_shines()) {
+        if self.is_unlit() {
             console::warning(UNLIT);
         }
         self.warn_of_depth();
+        let is_path = self.settings().integrator == Integrator::Path;
         let mut gaining = self.scene.materials_that_gain_light();
         if is_path && let Some(first) = gaining.next() {
             let others = match gaining.count() {
@@ -85,6 +93,12 @@ impl Job<'_> {
                 console::quoted(&first.name)
             ));
         }
+    }
+
+    /// Whether all surfaces are black for lack of light. Only paths find that of the background on every surface.
+    pub fn is_unlit(&self) -> bool {
+        let is_path = self.settings().integrator == Integrator::Path;
+        self.scene.is_unlit() && !(is_path && self.scene.background_shines())
     }
 
     /// Warns of mirrors and glass at a depth of 0 that nobody asked for: that of course scenes.

@@ -226,6 +226,9 @@ fn develop(
     let tone = job.tone(settings, destination.is_linear());
     let image = job.finish(renderer, &tone, destination.takes_layers())?;
     interrupt.check()?;
+    if job.is_black(&image.image, &tone, settings) {
+        job.warn_of_darkness(&tone, settings);
+    }
     if let (Levels::Found, Some(quantity)) = (tone.levels, settings.integrator.quantity())
         && let Some(range) = renderer.range()?
     {

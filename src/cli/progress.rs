@@ -35,7 +35,8 @@ impl Progress {
         let json = || serde_json::json!({ "progress": done, "seconds": seconds });
         self.display.show(done, String::new, json);
         if let Some(left) = self.estimate.left(done, FIRST_SECOND) {
-            self.display.say(&self.estimate, &format!("about {left} left"));
+            self.display
+                .say(&self.estimate, &format!("about {left} left"));
         }
     }
 }

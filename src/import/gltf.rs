@@ -59,6 +59,9 @@ use std::path::Path;
 use std::sync::Arc;
 use store::Store;
 
+/// Width and height of a picture, in pixels.
+const SIZE: (u32, u32) = (800, 600);
+
 /// Bytes that an object of the JSON may take in memory.
 const PER_OBJECT: u64 = 400;
 
@@ -78,6 +81,8 @@ struct Reader<'a> {
     /// The first fault for which a part of the model was left out.
     fault: Option<ImportError>,
     scene: Scene,
+    /// Width of the picture over its height. A camera made for a wider one shows as much to the sides, and more above.
+    aspect: f64,
     /// From the file's axes to those of the scene, in which +Y is up.
     turn: DAffine3,
     /// The number of the chosen variant.
@@ -178,6 +183,7 @@ pub(super) fn read(
         held: Cell::new(buffers.total() as u64),
         is_exceeded: Cell::new(false),
     };
+    let (width, height) = options.size.unwrap_or(SIZE);
     let mut reader = Reader {
         document: &document,
         buffers: &buffers,
@@ -191,13 +197,14 @@ pub(super) fn read(
             shadows: Shadows::Filtered,
             remarks,
             output: OutputDefaults {
-                size: (800, 600),
+                size: SIZE,
                 integrator: LightTransport::Path,
                 max_depth: LightTransport::Path.max_depth(),
                 ..OutputDefaults::default()
             },
             ..Scene::default()
         },
+        aspect: f64::from(width.max(1)) / f64::from(height.max(1)),
         turn: options.up.map_or(DAffine3::IDENTITY, Axis::turn),
         variant: None,
         animated: Vec::new(),

@@ -110,8 +110,11 @@ impl Axis {
 /// The studio that a model is shown in. Each part is added only where the model has none of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Staging {
-    /// A camera that frames the model. Without it the camera is at the origin and looks along −Z.
+    /// A camera that frames the model, also if its own see nothing that is lit. Without it the camera is at the origin and
+    /// looks along −Z.
     pub camera: bool,
+    /// That camera in place of the model's own.
+    pub fit: bool,
     /// Lamps and ambient light, also if the model's own lights are weak.
     pub lights: bool,
     /// A gradient behind the model, whose light is a part of that of the studio; black without it.
@@ -137,6 +140,7 @@ impl Staging {
     /// Nothing is added.
     pub const NONE: Self = Self {
         camera: false,
+        fit: false,
         lights: false,
         background: false,
         ground: Ground::None,
@@ -148,6 +152,7 @@ impl Default for Staging {
     fn default() -> Self {
         Self {
             camera: true,
+            fit: false,
             lights: true,
             background: true,
             ground: Ground::Default,

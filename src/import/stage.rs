@@ -3,7 +3,7 @@
 use super::{Ground, Options, visibility};
 use crate::scene::{
     Attenuation, Backdrop, Background, Camera, Framing, Geometry, Light, LightKind, LightTransport,
-    Material, Scene, Shape,
+    Material, Scene, Shape, Sight,
 };
 use glam::{DVec3, Vec3};
 
@@ -30,20 +30,43 @@ const WEAK: f32 = 0.5;
 pub(super) fn complete(scene: &mut Scene, options: &Options) {
     visibility::note(scene);
     let staging = options.staging;
-    if scene.cameras.is_empty() {
-        let size = options.size.unwrap_or(scene.output.size);
-        scene.cameras = vec![match staging.camera {
-            true => camera(scene, size),
-            false => Camera::default(),
-        }];
-    }
-    if scene.lights.is_empty() || scene.own_light() < WEAK {
+    let is_dark = scene.lights.is_empty() || scene.own_light() < WEAK;
+    choose_camera(scene, options, is_dark);
+    if is_dark {
         light(scene, options);
     } else if matches!(staging.ground, Ground::Surface | Ground::Shadow) {
         add_ground(scene, staging.ground);
     }
     scene.output.samples = SAMPLES;
     scene.output.denoise = true;
+}
+
+/// Makes the first camera that sees something lit the default, or else one that frames `scene`. `is_dark` tells whether light
+/// is to be added.
+fn choose_camera(scene: &mut Scene, options: &Options, is_dark: bool) {
+    let staging = options.staging;
+    let size = options.size.unwrap_or(scene.output.size);
+    if staging.fit || staging.camera && scene.cameras.is_empty() {
+        scene.camera_index = scene.cameras.len();
+        scene.cameras.push(camera(scene, size));
+    } else if scene.cameras.is_empty() {
+        scene.cameras.push(Camera::default());
+    } else if staging.camera {
+        let adds_light = is_dark && (staging.lights || staging.background);
+        let sight = Sight::new(scene, adds_light || options.environment.source.is_some());
+        let aspect = f64::from(size.0.max(1)) / f64::from(size.1.max(1));
+        let cameras = scene.cameras_at(0.0);
+        let sees = |camera: &Camera| sight.sees(camera, aspect);
+        let first = cameras.iter().position(sees).unwrap_or(cameras.len());
+        if first == cameras.len() {
+            scene.cameras.push(Camera {
+                name: "framed".to_owned(),
+                ..camera(scene, size)
+            });
+        }
+        scene.camera_index = first;
+        scene.blind_cameras = first;
+    }
 }
 
 /// A camera that sees all of `scene` from the front, a little from the right and from above, for a picture of this size;

@@ -91,7 +91,7 @@ impl Scene {
         let Some(bounds) = self.bounds() else {
             return 0.0;
         };
-        let lights = self.frame(0.0).lights;
+        let lights = self.lights_at(0.0, 0.0, &self.nodes_at(0.0, 0.0));
         let points = corners(bounds)
             .into_iter()
             .chain([bounds.0.midpoint(bounds.1)]);

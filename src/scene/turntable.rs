@@ -106,6 +106,7 @@ pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
         ..Camera::default()
     }];
     scene.camera_index = 0;
+    scene.blind_cameras = 0;
     scene.output.duration = Some(options.seconds);
     if scene.staged {
         let Scene {

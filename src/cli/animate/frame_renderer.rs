@@ -42,6 +42,8 @@ pub struct FrameRenderer<'a> {
     write_seconds: f64,
     denoise_seconds: f64,
     catcher_light: CatcherLight,
+    /// How many of the frames are black.
+    black: usize,
     /// `None` before a frame is rendered.
     fetch: Option<FetchReport>,
 }
@@ -76,6 +78,7 @@ impl<'a> FrameRenderer<'a> {
             write_seconds: 0.0,
             denoise_seconds: 0.0,
             catcher_light: CatcherLight::default(),
+            black: 0,
             fetch: None,
         })
     }
@@ -189,6 +192,9 @@ impl<'a> FrameRenderer<'a> {
         if let Some(sink) = sink {
             sink.finish()?;
         }
+        if rendered > 0 && self.black == rendered {
+            (self.sequence.job).warn_of_darkness(&self.tone, &self.settings);
+        }
         Ok(Frames {
             rendered,
             seconds: started.elapsed().as_secs_f64(),
@@ -237,6 +243,8 @@ impl<'a> FrameRenderer<'a> {
         let takes_layers = self.sequence.target.takes_layers();
         let picture = (self.sequence.job).finish(renderer, &self.tone, takes_layers)?;
         self.denoise_seconds += picture.denoise_seconds().unwrap_or_default();
+        let is_black = (self.sequence.job).is_black(&picture.image, &self.tone, &self.settings);
+        self.black += usize::from(is_black);
         Ok(picture)
     }
 

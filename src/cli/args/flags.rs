@@ -254,6 +254,9 @@ pub struct SceneFlags {
     /// Turn the picture of the background about +y by this angle in degrees, counter-clockwise seen from above
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = values::angle)]
     pub environment_rotation: Option<f64>,
+    /// Frame the model, whatever its own cameras show
+    #[arg(long, conflicts_with = "bare")]
+    pub fit: bool,
     /// Add nothing to a model: no camera that frames it, no lights, no background, no ground
     #[arg(long)]
     pub bare: bool,
@@ -293,6 +296,7 @@ impl SceneFlags {
     ) -> import::Options {
         let staging = import::Staging {
             camera: !self.bare,
+            fit: self.fit,
             lights: !self.bare && !self.no_lights,
             background: !self.bare && !self.no_background,
             ground: match self.ground {

@@ -22,6 +22,8 @@ pub struct Inspection {
     bounds: Option<BoundsEntry>,
     /// The camera that is used.
     camera_index: usize,
+    /// How many cameras come before that one because they see nothing that is lit.
+    blind_cameras: usize,
     cameras: Vec<CameraEntry>,
     light_list: Vec<LightEntry>,
     material_list: Vec<MaterialEntry>,
@@ -162,6 +164,7 @@ impl Inspection {
                 max: max.into(),
             }),
             camera_index: scene.camera_index,
+            blind_cameras: scene.blind_cameras,
             cameras: scene.cameras_at(0.0).iter().map(Into::into).collect(),
             light_list: scene.frame(0.0).lights.iter().map(Into::into).collect(),
             material_list: scene.materials.iter().map(Into::into).collect(),

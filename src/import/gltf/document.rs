@@ -307,9 +307,11 @@ pub struct Camera {
 }
 
 #[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Perspective {
     #[serde(default)]
     pub yfov: f64,
+    pub aspect_ratio: Option<f64>,
     #[serde(default)]
     pub znear: f64,
     #[serde(default)]
@@ -320,6 +322,8 @@ pub struct Perspective {
 pub struct Orthographic {
     #[serde(default)]
     pub ymag: f64,
+    #[serde(default)]
+    pub xmag: f64,
     #[serde(default)]
     pub znear: f64,
     #[serde(default)]

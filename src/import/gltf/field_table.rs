@@ -2,10 +2,8 @@
 
 use super::field_forms::Form::*;
 use super::field_forms::Use::{Idle, Read, Unused};
-use super::field_forms::{Form, Object, Use, objects};
+use super::field_forms::{Form, Object, objects};
 use super::material_fields::{MATERIAL, NO_EXTENSIONS};
-
-const PICTURE_SIZE: Use = Unused("the size of the picture decides");
 
 /// A model.
 pub(super) static ROOT: Object = Object {
@@ -157,14 +155,14 @@ objects! {
     }
     object PERSPECTIVE {
         yfov: Number;
-        aspectRatio: Number, PICTURE_SIZE;
+        aspectRatio: Number;
         znear: Number;
         zfar: Number;
         extensions: One(&NO_EXTENSIONS);
     }
     object ORTHOGRAPHIC {
         ymag: Number;
-        xmag: Number, PICTURE_SIZE;
+        xmag: Number;
         znear: Number;
         zfar: Number;
         extensions: One(&NO_EXTENSIONS);

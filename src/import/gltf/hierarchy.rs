@@ -9,6 +9,9 @@ use crate::import::error::ImportError;
 use crate::scene::{Camera, Instance, Node};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
+/// The widest pictures that cameras are made for, in heights.
+const MOST_RATIO: f64 = 32.0;
+
 /// A node of the file that is to be visited.
 struct Visit {
     index: usize,
@@ -323,11 +326,20 @@ impl Reader<'_> {
         };
         match (&camera.perspective, &camera.orthographic) {
             (Some(lens), _) if lens.yfov > 0.0 && lens.yfov < std::f64::consts::PI => {
-                seen.fov_y = lens.yfov;
+                let high = (lens.yfov / 2.0).tan();
+                let wide = lens
+                    .aspect_ratio
+                    .map_or(0.0, |ratio| high * ratio.min(MOST_RATIO));
+                if wide > high * self.aspect {
+                    seen.fov_y = 2.0 * (wide / self.aspect).atan();
+                } else {
+                    seen.fov_y = lens.yfov;
+                }
                 seen.clip = self.clip(lens.znear, lens.zfar, &place);
             }
             (None, Some(lens)) if lens.ymag != 0.0 && lens.ymag.abs() < 1e18 => {
-                seen.orthographic_height = Some(2.0 * lens.ymag.abs());
+                let wide = lens.xmag.abs().min(MOST_RATIO * lens.ymag.abs());
+                seen.orthographic_height = Some(2.0 * lens.ymag.abs().max(wide / self.aspect));
                 seen.clip = self.clip(lens.znear, lens.zfar, &place);
             }
             _ => {

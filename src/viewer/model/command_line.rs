@@ -125,6 +125,7 @@ pub fn copy(shown: &Shown) -> CommandLine {
     let staging = shown.options.staging;
     let is_bare = staging == Staging::NONE;
     for (flag, is_given) in [
+        ("--fit", staging.fit),
         ("--bare", is_bare),
         ("--no-lights", !is_bare && !staging.lights),
         ("--no-background", !is_bare && !staging.background),
@@ -139,9 +140,10 @@ pub fn copy(shown: &Shown) -> CommandLine {
         arguments.extend(["--up".to_owned(), up]);
     }
     let mut scene = scene;
-    if shown.scene.staged && shown.settings.size != shown.options.size.unwrap_or(scene.output.size)
-    {
-        // With another size the model is framed again, so the camera is written in full.
+    let usual_size = shown.options.size.unwrap_or(scene.output.size);
+    if may_be_model(shown.path) && shown.settings.size != usual_size {
+        // With another size the model is framed again, and the views of its own cameras widen, so the camera is written in
+        // full.
         scene.cameras.fill(Camera::default());
     }
     let mut tried: Vec<&str> = Vec::new();
