@@ -17,6 +17,7 @@ mod help;
 mod inspect;
 mod library;
 mod merge;
+mod models;
 #[cfg(unix)]
 mod parts;
 mod refusals;

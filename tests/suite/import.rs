@@ -1,6 +1,7 @@
 //! Importers: the meaning of each format, and the message for every error.
 
 mod assets;
+pub mod cameras;
 mod course;
 mod defaults;
 mod encoded;

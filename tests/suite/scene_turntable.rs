@@ -291,15 +291,38 @@ fn lights_of_the_file_are_kept_and_staged_ones_are_replaced() {
     lit.background = Background::Color(Vec3::ONE);
     let mut staged = Scene {
         staged: true,
+        background: Background::Gradient {
+            bottom: Vec3::ONE,
+            top: Vec3::ONE,
+        },
         ..lit.clone()
+    };
+    let lamp = LightKind::Disc {
+        center: DVec3::Y,
+        normal: DVec3::NEG_Y,
+        radius: 1.0,
+    };
+    staged.lights.push(Light {
+        kind: lamp,
+        ..Light::default()
+    });
+    let unlit = Scene {
+        lights: Vec::new(),
+        ..staged.clone()
     };
     let before = lit.clone();
     assert!(turntable(&mut lit, &Turntable::default()));
     assert_eq!(lit.lights, before.lights);
     assert_eq!(lit.background, before.background);
     assert!(turntable(&mut staged, &Turntable::default()));
-    assert_eq!(staged.lights.len(), 3);
+    assert_eq!(staged.lights.len(), 4, "its own weak light and the three");
+    assert_eq!(staged.lights[0], before.lights[0]);
+    assert!(staged.background != unlit.background);
     assert!(!staged.staged);
+    // One whose lamps are left out has none here either.
+    let mut turned = unlit.clone();
+    assert!(turntable(&mut turned, &Turntable::default()));
+    assert!(turned.lights.is_empty());
 }
 
 #[test]

@@ -72,7 +72,7 @@ fn gltf_models_are_path_traced_unless_the_command_line_says_otherwise() {
         report["image"].clone()
     };
     for (command, integrator, samples, depth) in [
-        ("m.glb", "path", 64, 16),
+        ("m.glb", "path", 8, 16),
         ("m.glb --integrator whitted", "whitted", 16, 8),
         ("m.glb --samples 2 --max-depth 3", "path", 2, 3),
         ("a.scene", "whitted", 1, 0),

@@ -1,8 +1,10 @@
 //! View and light of models that have none.
 
+use super::gltf::model::Model;
 use glam::{DMat3, DVec3};
-use glimray::import::{self, Ground, Memory, Options, Staging};
-use glimray::scene::{Background, Camera, Geometry, LightTransport, Scene, sky};
+use glimray::import::{self, Environment, EnvironmentSource, Ground, Memory, Options, Staging};
+use glimray::scene::{Background, Camera, Geometry, LightKind, LightTransport, Scene};
+use serde_json::json;
 
 /// A box with this minimum and maximum.
 fn cuboid(min: DVec3, max: DVec3) -> String {
@@ -113,34 +115,157 @@ fn the_ground_is_just_below_the_model() {
     assert!(point.y < 1.0 && point.y > 0.99, "{point}");
 }
 
+/// A model of one triangle in each format.
+fn one_triangle() -> [(&'static str, Vec<u8>); 5] {
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+               element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    let stl = "solid a\nfacet normal 0 -1 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\n\
+               endfacet\nendsolid a\n";
+    let gltf = Model::triangle(json!({}));
+    [
+        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_vec()),
+        ("a.ply", ply.into()),
+        ("a.stl", stl.into()),
+        ("a.glb", gltf.glb()),
+        ("a.gltf", gltf.gltf("a.bin").into()),
+    ]
+}
+
 #[test]
-fn a_model_for_path_tracing_stands_under_a_sky_with_a_sun() {
+fn models_of_all_formats_stand_in_the_same_studio() {
+    let gltf = Model::triangle(json!({}));
+    let scenes = one_triangle().map(|(name, bytes)| {
+        let files = Memory::from_iter([(name, &bytes[..]), ("a.bin", &gltf.bin[..])]);
+        import::load_from(&files, name, &Options::default()).expect(name)
+    });
+    let first = &scenes[0];
+    assert!(first.staged && !first.is_unlit());
+    assert_eq!(first.lights.len(), 2);
+    assert_eq!(first.output.integrator, LightTransport::Path);
+    assert_eq!(
+        first.output.exposure_ev, 0.0,
+        "unlit colours stay as they are"
+    );
+    for scene in &scenes[1..] {
+        assert_eq!(scene.cameras, first.cameras);
+        assert_eq!(scene.lights, first.lights);
+        assert_eq!(scene.background, first.background);
+        assert_eq!((scene.ambient, &scene.shapes.len()), (first.ambient, &1));
+        assert_eq!(scene.output, first.output);
+        let ground = |scene: &Scene| scene.materials[scene.shapes[0].material].diffuse;
+        assert_eq!(ground(scene), ground(first));
+    }
+}
+
+/// The backdrop shows above the ground, and is brighter, behind models that are not flat.
+#[test]
+fn the_horizon_is_in_the_picture() {
+    let scene = load(&cuboid(DVec3::ZERO, DVec3::ONE), &Options::default());
+    let camera = &scene.cameras[0];
+    let forward = (camera.look_at - camera.look_from).normalize();
+    let above = camera.fov_y / 2.0 + forward.y.asin();
+    assert!(above > 5_f64.to_radians(), "{above}");
+    let Background::Gradient { bottom, top } = scene.background else {
+        panic!("{:?}", scene.background);
+    };
+    // The light of the lamps and of the upper half of the backdrop on a level surface.
+    let lamps: f32 = (scene.lights.iter())
+        .map(|light| match light.kind {
+            LightKind::Disc { normal, .. } => light.color.y * -normal.y as f32,
+            other => panic!("{other:?}"),
+        })
+        .sum();
+    let sky = bottom.y + (top.y - bottom.y) * 5.0 / 6.0;
+    let ground = scene.materials[scene.shapes[0].material].diffuse.y * (lamps + sky);
+    let horizon = bottom.midpoint(top).y;
+    assert!(
+        ground > 0.1 && 1.2 * ground < horizon && horizon < 0.8,
+        "{ground} {horizon}"
+    );
+}
+
+#[test]
+fn flat_models_are_seen_from_higher_up() {
+    let elevation = |max: DVec3| {
+        let camera = &load(&cuboid(DVec3::ZERO, max), &Options::default()).cameras[0];
+        let towards = (camera.look_from - camera.look_at).normalize();
+        towards.y.asin().to_degrees()
+    };
+    for upright in [
+        DVec3::ONE,
+        DVec3::new(2.0, 1.0, 1.0),
+        DVec3::new(1.0, 9.0, 1.0),
+    ] {
+        let degrees = elevation(upright);
+        assert!((8.0..15.0).contains(&degrees), "{upright}: {degrees}");
+    }
+    let plate = elevation(DVec3::new(2.0, 0.0, 2.0));
+    assert!((30.0..40.0).contains(&plate), "{plate}");
+    let board = elevation(DVec3::new(2.0, 0.5, 2.0));
+    assert!(board < plate && board > 15.0, "{board}");
+}
+
+#[test]
+fn an_environment_takes_the_place_of_the_lamps_where_paths_are_traced() {
     let model = cuboid(DVec3::ZERO, DVec3::ONE);
-    let with = |staging, integrator| {
+    let folder = super::folder(&[("a.obj", model.as_bytes())]);
+    let with = |integrator| {
         let options = Options {
-            staging,
             integrator,
+            environment: Environment {
+                source: Some(EnvironmentSource::Sky {
+                    elevation_deg: 45.0,
+                    azimuth_deg: 0.0,
+                }),
+                ..Environment::default()
+            },
             ..Options::default()
         };
-        load(&model, &options)
+        import::load_with(&folder.path().join("a.obj"), &options).expect("a scene")
     };
-    let under_sky = with(Staging::default(), Some(LightTransport::Path));
-    assert!(under_sky.lights.is_empty() && under_sky.staged && under_sky.shapes.len() == 1);
-    let Background::Picture { picture, .. } = under_sky.background else {
-        panic!("{:?}", under_sky.background);
+    assert!(with(None).lights.is_empty() && with(None).staged);
+    assert_eq!(with(Some(LightTransport::Whitted)).lights.len(), 2);
+}
+
+/// A model with one light, before its centre at twice its size.
+fn lit_by(intensity: f64, staging: Staging) -> Scene {
+    let model = Model::triangle(json!({})).with(json!({
+        "scenes": [{ "nodes": [0, 1] }],
+        "nodes": [
+            { "mesh": 0 },
+            { "translation": [0.5, 0.5, 2], "extensions": { "KHR_lights_punctual": { "light": 0 } } },
+        ],
+        "extensionsUsed": ["KHR_lights_punctual"],
+        "extensions": { "KHR_lights_punctual": { "lights": [{ "type": "point", "intensity": intensity }] } },
+    }));
+    let files = Memory::from_iter([("a.glb", &model.glb()[..])]);
+    let options = Options {
+        staging,
+        ..Options::default()
     };
-    let sun = sky::sun_of(&under_sky.pictures[picture]).expect("a sun");
-    assert!(sun.radiance.y > 1000.0, "{}", sun.radiance);
-    // Without the sky, the lights of the classical integrator.
-    let no_background = Staging {
-        background: false,
-        ..Staging::default()
-    };
-    let lamps = with(no_background, Some(LightTransport::Path));
-    assert_eq!(lamps.lights.len(), 2);
-    assert_eq!(lamps.background, Background::default());
-    let classical = with(Staging::default(), None);
-    assert_eq!(classical.lights.len(), 2, "OBJ models are ray-traced");
+    import::load_from(&files, "a.glb", &options).expect("a scene")
+}
+
+#[test]
+fn weak_lights_of_a_model_are_helped_by_lamps() {
+    let strong = lit_by(100.0, Staging::default());
+    assert_eq!((strong.lights.len(), strong.shapes.len()), (1, 0));
+    assert!(!strong.staged && strong.background == Background::default());
+    let weak = lit_by(0.5, Staging::default());
+    assert!(weak.staged && matches!(weak.background, Background::Gradient { .. }));
+    assert_eq!((weak.lights.len(), weak.shapes.len()), (3, 1));
+    assert!(
+        matches!(weak.lights[0].kind, LightKind::Point { .. }),
+        "its own comes first and stays"
+    );
+    let alone = lit_by(
+        0.5,
+        Staging {
+            lights: false,
+            ..Staging::default()
+        },
+    );
+    assert_eq!(alone.lights.len(), 1);
 }
 
 #[test]

@@ -494,7 +494,7 @@ fn pointers_animate_what_they_point_at() {
     let node = scene.instances[0].node.expect("a node");
     let place = frame.nodes[node].world_from_node.translation;
     assert_eq!(place, DVec3::new(0.25, 0.5, 0.125));
-    assert!(near(frame.camera.fov_y, 0.75));
+    assert!(near(scene.cameras_at(1.0)[0].fov_y, 0.75));
     let material = &frame.materials[0];
     let emission = material.emission.as_dvec3();
     assert!(emission.abs_diff_eq(DVec3::new(1.25, 2.5, 0.625), 1e-5));
