@@ -356,31 +356,67 @@ fn cargo(arguments: &[&str]) -> Output {
 }
 
 #[test]
-fn the_package_has_what_its_pages_and_tests_need_and_nothing_else() {
-    const PARTS: [&str; 9] = [
-        ".github/",
-        "assets/gallery/",
-        "assets/scenes/",
-        "benches/",
-        "docs/",
-        "examples/",
-        "shaders/",
-        "src/",
-        "tests/",
-    ];
-    const FILES: [&str; 14] = [
-        ".cargo_vcs_info.json",
-        ".dockerignore",
-        ".gitignore",
+fn links_of_pages_lead_to_files_and_pictures_of_the_gallery_are_on_pages() {
+    let mut names: Vec<String> = [
+        "README.md",
         "CHANGELOG.md",
         "CONTRIBUTING.md",
+        "Cargo.toml",
+        "Makefile",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    for folder in [
+        "assets", "benches", "docs", "examples", "shaders", "src", "tests",
+    ] {
+        names.extend(all_files(Path::new(folder)));
+    }
+    names.extend(
+        [
+            ".github/workflows/ci.yml",
+            "Dockerfile",
+            "LICENSE-APACHE",
+            "LICENSE-MIT",
+        ]
+        .map(str::to_owned),
+    );
+    let read = |name: &String| match name.ends_with(".md") {
+        true => fs::read(name).expect(name),
+        false => Vec::new(),
+    };
+    let files: BTreeMap<_, _> = names
+        .iter()
+        .map(|name| (name.clone(), read(name)))
+        .collect();
+    let mut verdict = Verdict::on("pages");
+    let pages: String = files
+        .values()
+        .map(|bytes| String::from_utf8_lossy(bytes))
+        .collect();
+    for picture in files
+        .keys()
+        .filter(|name| name.starts_with("assets/gallery/"))
+    {
+        verdict.that(picture, pages.contains(&**picture), || "is on no page");
+    }
+    check_links(&mut verdict, &files);
+    verdict.close();
+}
+
+/// Bytes that the package may have before it is compressed: twice what source, shaders and scenes need.
+const MOST_PACKED: u64 = 12 << 20;
+
+#[test]
+fn the_package_has_what_is_built_and_shown_and_nothing_else() {
+    const PARTS: [&str; 4] = ["assets/scenes/", "examples/", "shaders/", "src/"];
+    const FILES: [&str; 9] = [
+        ".cargo_vcs_info.json",
+        "CHANGELOG.md",
         "Cargo.lock",
         "Cargo.toml",
         "Cargo.toml.orig",
-        "Dockerfile",
         "LICENSE-APACHE",
         "LICENSE-MIT",
-        "Makefile",
         "README.md",
         "build.rs",
     ];
@@ -396,22 +432,50 @@ fn the_package_has_what_its_pages_and_tests_need_and_nothing_else() {
         let is_known = FILES.contains(&&**name) || PARTS.iter().any(|part| name.starts_with(part));
         verdict.that(name, is_known, || "has no business there");
     }
-    for name in [
-        "LICENSE-MIT",
-        "tests/golden/depth.png",
-        "tests/suite/main.rs",
-    ] {
-        verdict.that(name, has(files.keys(), name), || "is missing");
+    // All that the compiler reads is there.
+    for folder in ["src", "shaders", "examples"] {
+        for name in all_files(Path::new(folder)) {
+            verdict.that(&name, has(files.keys(), &name), || "is missing");
+        }
     }
-    let pages = files.iter().filter(|(name, _)| name.ends_with(".md"));
-    let pages = pages.map(|(_, bytes)| String::from_utf8_lossy(bytes));
-    let pages = pages.collect::<String>();
-    for picture in files
-        .keys()
-        .filter(|name| name.starts_with("assets/gallery/"))
-    {
-        verdict.that(picture, pages.contains(&**picture), || "is on no page");
+    let mut read_by_sources = 0;
+    for (name, text) in files.iter().filter(|(name, _)| name.ends_with(".rs")) {
+        let text = String::from_utf8_lossy(text);
+        for (_, rest) in text
+            .match_indices("assets/")
+            .map(|(at, _)| text.split_at(at))
+        {
+            let path: String = rest
+                .chars()
+                .take_while(|c| c.is_alphanumeric() || "/._".contains(*c))
+                .collect();
+            if path.ends_with(".toml") || path.ends_with(".scene") {
+                read_by_sources += 1;
+                verdict.that(
+                    format!("{name}: {path}"),
+                    has(files.keys(), &path),
+                    || "is missing",
+                );
+            }
+        }
     }
-    check_links(&mut verdict, &files);
+    assert!(read_by_sources > 3, "{read_by_sources}");
+    let size: usize = files.values().map(Vec::len).sum();
+    verdict.that("size", (size as u64) < MOST_PACKED, || {
+        format!("{size} bytes")
+    });
     verdict.close();
+}
+
+/// The files below a folder, by their paths with `/`.
+fn all_files(folder: &Path) -> Vec<String> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        match path.is_dir() {
+            true => found.extend(all_files(&path)),
+            false => found.push(path.to_str().expect("UTF-8").replace('\\', "/")),
+        }
+    }
+    found
 }

@@ -9,6 +9,7 @@ pub mod model;
 mod motion;
 mod moving_maps;
 mod nodes;
+mod properties;
 mod tangents;
 mod uv_sets;
 
