@@ -13,10 +13,12 @@ use std::sync::Arc;
 /// them.
 const COEFFICIENT: f32 = 1e3;
 
-/// Limit of radiance: of the background and its picture (`picture/repair.rs`), ambient light, emission, lights without
-/// attenuation, and others at the far end of the scene. Its product with a coefficient is below 2^40, beyond which samples
-/// count as not finite.
-pub(super) const RADIANCE: f32 = 1e9;
+/// Limit of radiance: of colours of the background, ambient light, emission, lights without attenuation, and others at the
+/// far end of the scene. Its product with a coefficient is below 2^40, beyond which samples count as not finite.
+const RADIANCE: f32 = 1e9;
+
+/// Limit of the texels of the picture of a background (`picture/repair.rs`), whose suns are small.
+pub(super) const SUN: f32 = 1e12;
 
 /// Limit of lights with attenuation, however far they are, and of the surfaces of area lights. The Sun at its distance in
 /// metres needs 2e25.
@@ -66,8 +68,8 @@ pub(super) fn limit(scene: &mut Scene) {
             strength, picture, ..
         } => {
             // Its brightest texel is in proportion to its scale.
-            let most = RADIANCE / scene.pictures[*picture].texels.scale();
-            lower_number(strength, most, &mut counts.radiances);
+            let most = SUN / scene.pictures[*picture].texels.scale();
+            lower_number(strength, most, &mut counts.suns);
         }
     }
     counts.tracks(scene, &most);
@@ -80,6 +82,7 @@ struct Counts {
     coefficients: usize,
     colors: usize,
     radiances: usize,
+    suns: usize,
     intensities: usize,
     indices: usize,
 }
@@ -217,6 +220,12 @@ impl Counts {
                 format!("colours of vertices clamped to 0 to {COEFFICIENT}"),
             ),
             (self.radiances, format!("radiances clamped to {RADIANCE:e}")),
+            (
+                self.suns,
+                format!(
+                    "strengths of backgrounds clamped, so that their texels are at most {SUN:e}"
+                ),
+            ),
             (
                 self.intensities,
                 format!("lights clamped to a radiance of {RADIANCE:e} at the far end of the scene"),

@@ -43,8 +43,8 @@ pub(super) fn normal_matrix(transform: DAffine3) -> DMat3 {
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
 }
 
-/// Whether `matrix` is safely invertible: its axes are in range, and they are far from coplanar or its inverse is exact to a
-/// millionth, as below very uneven scales.
+/// Whether `matrix` is safely invertible: its axes are in range, and they are far from coplanar or its condition number is
+/// small enough for f64, as below very uneven scales.
 pub(super) fn is_invertible(matrix: DMat3) -> bool {
     let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     let is_good = |axis: &DVec3| {
@@ -52,7 +52,14 @@ pub(super) fn is_invertible(matrix: DMat3) -> bool {
         length >= f64::from(f32::MIN_POSITIVE) && in_range(axis.abs().max_element())
     };
     let [x, y, z] = axes.map(DVec3::normalize_or_zero);
-    let error = (matrix * matrix.inverse() - DMat3::IDENTITY).to_cols_array();
-    let is_exact = error.iter().all(|error| error.abs() < 1e-6);
-    axes.iter().all(is_good) && (x.cross(y).dot(z).abs() > 1e-12 || is_exact)
+    let norm = |matrix: DMat3| {
+        matrix
+            .to_cols_array()
+            .map(|c| c * c)
+            .iter()
+            .sum::<f64>()
+            .sqrt()
+    };
+    let condition = norm(matrix) * norm(matrix.inverse());
+    axes.iter().all(is_good) && (x.cross(y).dot(z).abs() > 1e-12 || condition < 1e12)
 }

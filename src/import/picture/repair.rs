@@ -36,7 +36,7 @@ pub(super) fn repair(texels: &mut [Vec4], width: u32, role: Role, outside: usize
         is_whole,
         most: match role {
             // Its texels are scaled for the GPU.
-            Role::Environment => range::RADIANCE,
+            Role::Environment => range::SUN,
             _ => LARGEST_TEXEL,
         },
         outside,
