@@ -98,11 +98,15 @@ impl Sight {
             // `along` is one unit of depth.
             let (near, far) = camera.clip;
             let from = from + near * along;
-            let seen = self.nearest(from, along);
+            let seen = self.nearest(from, along, |triangle| triangle.stops_light);
             match seen.filter(|(distance, _)| near + distance < far) {
                 Some((_, true)) => return true,
                 Some((distance, false)) if self.is_lit(from, distance * along) => return true,
                 Some(_) => {}
+                // Clear surfaces are seen before what is lit behind them.
+                None if self.is_open && self.nearest(from, along, |_| true).is_some() => {
+                    return true;
+                }
                 None => is_enclosed = false,
             }
             if self.tests.get() > MOST_TESTS {
@@ -134,7 +138,8 @@ impl Sight {
     fn is_lit(&self, from: DVec3, way: DVec3) -> bool {
         let point = from + way * (1.0 - 1e3 * NEAR);
         let is_free = |along: DVec3, most: f64| {
-            (self.nearest(point, along)).is_none_or(|(distance, _)| distance > most)
+            let nearest = self.nearest(point, along, |triangle| triangle.stops_light);
+            nearest.is_none_or(|(distance, _)| distance > most)
         };
         let mut towards = self.lights.iter().map(|light| match light.kind {
             LightKind::Directional { direction } => (-direction, f64::INFINITY),
@@ -152,15 +157,20 @@ impl Sight {
             DVec3::new(side(0), side(1), side(2))
         });
         let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter();
-        let all = directions.chain(axes.flat_map(|axis| [axis, -axis]));
-        self.is_open && all.into_iter().any(|along| is_free(along, f64::INFINITY))
+        let mut all = directions.chain(axes.flat_map(|axis| [axis, -axis]));
+        self.is_open && all.any(|along| is_free(along, f64::INFINITY))
     }
 
-    /// The nearest triangle along a ray: its distance in lengths of `along`, and whether it shines.
-    fn nearest(&self, from: DVec3, along: DVec3) -> Option<(f64, bool)> {
+    /// The nearest of some triangles along a ray: its distance in lengths of `along`, and whether it shines.
+    fn nearest(
+        &self,
+        from: DVec3,
+        along: DVec3,
+        counts: fn(&Triangle) -> bool,
+    ) -> Option<(f64, bool)> {
         self.tests.set(self.tests.get() + self.triangles.len());
         let mut nearest: Option<(f64, bool)> = None;
-        for triangle in (self.triangles.iter()).filter(|triangle| triangle.stops_light) {
+        for triangle in self.triangles.iter().filter(|triangle| counts(triangle)) {
             let [corner, b, c] = triangle.sides;
             // Möller and Trumbore 1997.
             let across = along.cross(c);
@@ -170,7 +180,9 @@ impl Sight {
             let other = from_corner.cross(b);
             let v = along.dot(other) / determinant;
             let distance = c.dot(other) / determinant;
-            let is_hit = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > NEAR;
+            // No ray slips between neighbours.
+            let is_inside = u > -NEAR && v > -NEAR && u + v < 1.0 + NEAR;
+            let is_hit = is_inside && distance > NEAR;
             if is_hit && nearest.is_none_or(|(best, _)| distance < best) {
                 nearest = Some((distance, triangle.shines));
             }
