@@ -158,8 +158,12 @@ fn edges_of_transparent_pictures_have_no_fringe() {
             (squares.sum::<f32>() / exact.len() as f32).sqrt()
         };
         let (before, after) = (error(&image), error(&found));
-        // Features hold hard edges as they are.
-        let most = if edge > 1.0 { 0.7 } else { 1.1 };
+        // Features hold hard edges as they are, and guide less well where few samples make them noisy.
+        let most = match (edge > 1.0, samples) {
+            (false, _) => 1.1,
+            (true, 4) => 0.9,
+            (true, _) => 0.7,
+        };
         verdict.that(&name, after <= most * before, || {
             format!("opacity is off by {after}, and was by {before}")
         });
@@ -175,7 +179,7 @@ fn files_of_denoised_transparent_pictures_have_no_fringe() {
         "disc.toml",
         "[camera]\nlook_from = [0, 0, 4]\nlook_at = [0, 0, 0]\nfov_y_deg = 40\n\
          [[objects]]\ndisc = { center = [0, 0, 0], normal = [0, 0, 1], radius = 1 }\n\
-         material = { phong = { emission = [1, 1, 1] } }\n",
+         material = { phong = {}, emission = [1, 1, 1] }\n",
     );
     let flags = "--integrator path --background transparent --samples 16 --denoise --size 48x48 \
                  --tone none --exposure 0";
