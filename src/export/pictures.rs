@@ -87,7 +87,7 @@ fn encode(picture: &Picture, role: Role) -> Result<(&'static str, Vec<u8>), Imag
                 return Ok(("png", bytes));
             }
         }
-        // A PNG would be decoded otherwise, and an OpenEXR file is linear in every role.
+        // A PNG would be decoded otherwise, and an OpenEXR file is linear in every role; see `Writer::role` for its alpha.
         _ => {}
     }
     let values = picture.linear().flat_map(|texel| texel.to_array());
@@ -98,7 +98,7 @@ fn encode(picture: &Picture, role: Role) -> Result<(&'static str, Vec<u8>), Imag
 }
 
 /// The 16-bit codes of sRGB and alpha that decode to exactly these texels, if there are such codes.
-fn codes(texels: &[Vec4]) -> Option<Vec<u16>> {
+pub(super) fn codes(texels: &[Vec4]) -> Option<Vec<u16>> {
     let value = |code: u16| f64::from(code) / f64::from(u16::MAX);
     let colors: Vec<f32> = (0..=u16::MAX)
         .map(|code| linear_from_srgb(value(code)) as f32)

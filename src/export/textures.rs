@@ -1,6 +1,6 @@
 //! The textures of a scene.
 
-use super::pictures::Role;
+use super::pictures::{Role, codes};
 use super::text::{self, Table, color, key, string};
 use super::{ExportError, Writer, exact};
 use crate::scene::{Minify, Origin, Pattern, Space, Texels, Texture, Transform, Wrap};
@@ -106,10 +106,17 @@ impl Writer<'_> {
         Some(table.inline())
     }
 
-    /// What an image holds: values that are no colours are linear in 8 bits.
+    /// What an image holds: values that are no colours are linear in 8 bits. Colours of OpenEXR are divided by alpha when they
+    /// are read, and numbers are not.
     pub fn role(&self, picture: usize) -> Role {
-        match self.scene.pictures[picture].texels {
+        match &self.scene.pictures[picture].texels {
             Texels::Linear8(_) => Role::Data,
+            Texels::Float(texels) if texels.iter().any(|texel| texel.w != 1.0) => {
+                match codes(texels) {
+                    None => Role::Data,
+                    Some(_) => Role::Color,
+                }
+            }
             Texels::Srgb8(_) | Texels::Float(_) => Role::Color,
         }
     }

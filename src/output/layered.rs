@@ -39,8 +39,8 @@ pub struct Channel {
     pub name: &'static str,
     /// Its values: row by row from the top left.
     pub values: Vec<f32>,
-    /// Whether they may be stored as half floats: they are if the layer is neither brighter nor darker than those can be, and
-    /// otherwise as 32-bit floats.
+    /// Whether they may be stored as half floats: they are if no value of the layer is beyond the range of those, and otherwise
+    /// as 32-bit floats.
     pub is_half: bool,
 }
 
@@ -76,13 +76,11 @@ pub fn save_layers_to_stdout(
 }
 
 impl ImageLayer {
-    /// Whether half floats keep its values to a part in 2048 of the largest.
+    /// Whether its values are in the range of half floats.
     fn fits_half(&self) -> bool {
         let values = self.channels.iter().flat_map(|channel| &channel.values);
-        let finite = values.filter(|value| value.is_finite());
-        let largest = finite.fold(0.0, |most: f32, value| most.max(value.abs()));
-        let range = f16::MIN_POSITIVE.to_f32()..=f16::MAX.to_f32();
-        largest == 0.0 || range.contains(&largest)
+        let mut finite = values.filter(|value| value.is_finite());
+        finite.all(|value| value.abs() <= f16::MAX.to_f32())
     }
 
     /// A layer of colours, multiplied by their opacity if it has that, as OpenEXR asks.

@@ -222,6 +222,8 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (3, 11, "noisy_out", "colors out"),
     (3, 12, "albedos_out", "colors out"),
     (3, 13, "surfaces_out", "colors out"),
+    (3, 14, "covers", "color texture"),
+    (3, 15, "covers_out", "colors out"),
 ];
 
 /// What a binding is, as `BINDINGS` calls it.

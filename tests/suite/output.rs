@@ -737,13 +737,12 @@ fn layers_beyond_half_floats_are_stored_as_32_bit_floats() {
     let folder = folder();
     let path = folder.path().join("a.exr");
     let least = f32::powi(2.0, -14);
-    let rows: [(&str, [f32; 4], bool); 8] = [
+    let rows: [(&str, [f32; 4], bool); 7] = [
         ("largest", [65504.0, 0.5, -1.0, 0.0], true),
         ("larger", [65505.0, 0.5, -1.0, 0.0], false),
         ("below", [0.0, 0.5, -1e9, 0.0], false),
         ("black", [0.0; 4], true),
-        ("dark", [0.7 * least, 0.0, 0.0, 0.0], false),
-        ("darkest", [least, 0.0, 0.0, 0.0], true),
+        ("dark", [least, 0.0, 0.0, 0.0], true),
         ("beside bright", [1.0, 1e-9, 0.0, 0.0], true),
         (
             "not finite",

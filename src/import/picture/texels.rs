@@ -33,7 +33,7 @@ fn convert(light: &mut [Vec4], opened: &Opened, role: Role) -> usize {
         let mut converted = match role {
             Role::Color => opened.straight(own),
             // Light in front of nothing is light multiplied by alpha.
-            Role::Environment => opened.rec709(own.truncate()).extend(1.0),
+            Role::Environment => opened.rec709(own.truncate()).extend(own.w),
             Role::Alpha if opened.has_alpha => Vec3::ONE.extend(own.w),
             Role::Alpha => Vec3::ONE.extend(own.truncate().dot(LUMINANCE.as_vec3())),
             Role::Data | Role::Height | Role::Depth => own,
