@@ -363,6 +363,7 @@ fn links_of_pages_lead_to_files_and_pictures_of_the_gallery_are_on_pages() {
         "CONTRIBUTING.md",
         "Cargo.toml",
         "Makefile",
+        "build.rs",
     ]
     .map(str::to_owned)
     .to_vec();

@@ -105,7 +105,7 @@ fn part(workspace: &Workspace) -> Option<PathBuf> {
 fn a_second_signal_in_the_midst_of_a_write_leaves_no_part_of_the_file() {
     let workspace = Workspace::moving();
     let line = "animate a.toml --size 1024x768 --samples 1 --frames 0..7 --quiet -o v.y4m";
-    workspace.run(line).expect(0);
+    workspace.run(&format!("{line} --keep-frames")).expect(0);
     for _ in 0..20 {
         let mut child = workspace.start(&format!("{line} --encode-only"));
         while part(&workspace).is_none() && child.try_wait().expect("a process").is_none() {

@@ -9,7 +9,6 @@ pub mod model;
 mod motion;
 mod moving_maps;
 mod nodes;
-mod properties;
 mod tangents;
 mod uv_sets;
 
