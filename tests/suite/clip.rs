@@ -191,7 +191,7 @@ fn what_lies_outside_of_the_planes_is_not_seen() {
         scene.cameras[0].orthographic_height = orthographic;
         let balls = [(1.0, 0.3), (4.0, 0.8), (30.0, 20.0)];
         for (index, (distance, radius)) in (0..).zip(balls) {
-            if shown[index as usize] {
+            if shown[index] {
                 scene.add_sphere(EYE - distance * DVec3::Z, radius, index);
             }
         }

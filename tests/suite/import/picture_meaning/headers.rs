@@ -228,12 +228,9 @@ fn pictures_that_their_exif_data_turns_are_said() {
         bytes.splice(2..2, segment);
         bytes
     };
-    let note = "`a.jpg` is turned or mirrored by its Exif data, which is not applied".to_owned();
+    let note = "`a.jpg` is turned or mirrored by its Exif data, which is not applied";
     for more in ["", ", linear = true"] {
-        assert_eq!(
-            with_texture("a.jpg", &turned(6), more).skipped,
-            [note.clone()]
-        );
+        assert_eq!(with_texture("a.jpg", &turned(6), more).skipped, [note]);
         assert_eq!(
             with_texture("a.jpg", &turned(1), more).skipped,
             [] as [&str; 0]
