@@ -314,12 +314,13 @@ fn single_sided_lamps_of_gltf_do_not_light_the_ceiling_above_them() {
             let settings = paths(samples, (24, 16), depth);
             let found = mean_from(scene, &settings, from) * PI / ALBEDO;
             let what = format!("{name}, {how}");
+            // One of 400,000 samples may carry the rounding error of a product of f32 shares.
             near(
                 &mut verdict,
                 what,
                 found,
                 expected,
-                tolerance * expected + 1e-12,
+                tolerance * expected + 1e-10,
             );
         };
         measure("table", &scene, (512, 0), usize::MAX, 0.005);
