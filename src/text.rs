@@ -32,6 +32,7 @@ pub(crate) fn escape(text: &str, keep: impl Fn(char) -> bool) -> String {
 
 /// `json` with JSON's own escapes (`\u202e`) for the characters that [`is_control`]. They stand in strings only, but for the
 /// line feeds between values.
+#[cfg(feature = "cli")]
 pub(crate) fn escape_json(json: &str) -> String {
     let mut escaped = String::with_capacity(json.len());
     for c in json.chars() {
