@@ -19,6 +19,7 @@ pub(crate) fn one_line(text: &str) -> String {
 }
 
 /// `text` with an escape (`\u{202e}`) for each character that [`is_control`], except those to `keep`.
+#[cfg(not(target_arch = "wasm32"))]
 pub(crate) fn escape(text: &str, keep: impl Fn(char) -> bool) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
