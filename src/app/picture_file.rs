@@ -18,7 +18,7 @@ pub struct Picture {
     pub is_float: bool,
     /// Whether the file stores opacity.
     pub has_alpha: bool,
-    /// What the file says and the picture does not follow: sentences.
+    /// Sentences on all that the file says and the picture does not follow.
     pub notes: Vec<String>,
 }
 

@@ -21,7 +21,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::Path;
 
-/// What `--json` prints: of two pictures or of two folders.
+/// The output of `--json`, for two pictures or for two folders.
 #[derive(Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ComparisonOutput {

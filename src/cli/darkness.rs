@@ -10,7 +10,7 @@ use crate::scene::{Camera, Sight};
 /// A pixel whose channels are all below this is black to the eye: five levels of 255.
 const BLACK: f32 = 0.02;
 
-/// The same in linear light.
+/// [`BLACK`] in linear light, before the transfer function of sRGB.
 const BLACK_LINEAR: f32 = 0.0015;
 
 /// The share of pixels that need not be black.

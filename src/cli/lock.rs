@@ -1,5 +1,5 @@
-//! Allows one run at a time per folder of frames and per checkpoint. The system releases the lock when a process ends, however it ends, so
-//! a killed run blocks nobody.
+//! Allows one run at a time per folder of frames and per checkpoint. The system releases the lock when a process ends,
+//! however it ends, so a killed run blocks nobody.
 
 use crate::app::console;
 use crate::app::error::AppError;

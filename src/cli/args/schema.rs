@@ -13,18 +13,18 @@ pub struct SchemaArgs {
     pub manifest: bool,
 }
 
-/// What there is a schema of.
+/// Documents with a schema.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
 pub enum Subject {
     /// Native scenes (.toml)
     #[default]
     Scene,
-    /// What --report writes
+    /// The file of --report
     Report,
-    /// What `compare --json` prints
+    /// The output of `compare --json`
     Compare,
-    /// What `inspect --json` prints
+    /// The output of `inspect --json`
     Inspect,
-    /// What `explain --json` prints
+    /// The output of `explain --json`
     Explain,
 }

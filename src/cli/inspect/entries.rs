@@ -1,4 +1,4 @@
-//! What `inspect --json` prints.
+//! The output of `inspect --json`.
 
 use super::attenuation;
 use super::deforming::{ClipEntry, DeformationEntry};
@@ -38,7 +38,7 @@ pub struct Inspection {
     deforming: Vec<DeformationEntry>,
     /// Whether nothing in the scene emits light.
     unlit: bool,
-    /// What says nothing about the picture or is decided otherwise.
+    /// Properties of the file that say nothing about the picture or are decided otherwise.
     remarks: Vec<String>,
 }
 

@@ -23,7 +23,7 @@ pub struct Pixels {
     pub is_light: bool,
     /// Whether the file has alpha.
     pub has_alpha: bool,
-    /// What the file says and the values do not follow: clauses whose subject is the file.
+    /// Clauses whose subject is the file, on all that it says and the values do not follow.
     pub ignored: Vec<String>,
 }
 

@@ -314,13 +314,13 @@ fn single_sided_lamps_of_gltf_do_not_light_the_ceiling_above_them() {
             let settings = paths(samples, (24, 16), depth);
             let found = mean_from(scene, &settings, from) * PI / ALBEDO;
             let what = format!("{name}, {how}");
-            // One of 400,000 samples may carry the rounding error of a product of f32 shares.
+            // Behind glass 1.1e-12 was measured where nothing is expected.
             near(
                 &mut verdict,
                 what,
                 found,
                 expected,
-                tolerance * expected + 1e-10,
+                tolerance * expected + 2e-12,
             );
         };
         measure("table", &scene, (512, 0), usize::MAX, 0.005);
