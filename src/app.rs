@@ -17,6 +17,6 @@ pub mod ray_lines;
 pub mod ray_text;
 pub mod scene_file;
 pub mod showcase;
-pub mod tuning;
+pub mod storage;
 pub mod value_names;
 pub mod window;

@@ -36,13 +36,12 @@ mod stats;
 mod sums;
 mod task;
 mod tone;
-mod tune;
 mod work;
 
 pub use crate::scene::{Antialias, Filter};
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use denoise::Denoised;
-pub use effort::{LongPath, least_rays};
+pub use effort::LongPath;
 pub use error::RenderError;
 pub use explain::{
     LightSample, LightSource, Lobe, PathStep, PhongTerms, RayHit, RayKind, RaySplit, RayTree,
@@ -63,7 +62,6 @@ pub use show::Screen;
 pub use stats::{Rays, Stats, Uploads};
 pub use sums::SAMPLE_BLOCK;
 pub use tone::Tone;
-pub use tune::StorageTimes;
 pub use work::Status;
 
 use crate::{

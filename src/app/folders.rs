@@ -6,21 +6,13 @@ use std::{env, path::PathBuf};
 /// The environment variable that overrides the settings folder.
 pub const SETTINGS_VARIABLE: &str = "GLIMRAY_SETTINGS";
 
-/// The environment variable that overrides the cache folder.
-pub const CACHE_VARIABLE: &str = "GLIMRAY_CACHE";
-
 /// The folder of settings; `None` if the platform has none.
 pub fn settings() -> Option<PathBuf> {
     named(SETTINGS_VARIABLE).or_else(|| Some(of_platform()?.config_dir().to_owned()))
 }
 
-/// The folder of what only saves time; `None` if the platform has none.
+/// The folder of data that only saves time; `None` if the platform has none.
 pub fn cache() -> Option<PathBuf> {
-    named(CACHE_VARIABLE).or_else(platform_cache)
-}
-
-/// The same, whatever the environment variable says.
-pub fn platform_cache() -> Option<PathBuf> {
     Some(of_platform()?.cache_dir().to_owned())
 }
 

@@ -157,10 +157,8 @@ pub enum Command {
     ///
     /// If there is no adapter, it names the driver packages to install.
     #[command(after_help = "Example: glimray doctor --backend vulkan\n\n\
-            Before the first long render on an adapter, glimray measures whether kernels read scenes faster from images \
-            or from buffers. It keeps the result in adapters.toml in the user's cache folder, or in the folder that \
-            GLIMRAY_CACHE names. The variable GLIMRAY_FETCH decides instead: image, buffer, off (what is usual on such \
-            adapters, without measuring) or auto.")]
+            Kernels read scenes from images on software adapters and from buffers on others. The variable GLIMRAY_FETCH \
+            decides instead: image, buffer or auto.")]
     Doctor(DoctorArgs),
     /// Compare two pictures, or those of two folders: RMSE, PSNR, FLIP, largest difference.
     ///

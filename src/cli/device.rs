@@ -2,12 +2,13 @@
 
 use crate::app::console;
 use crate::app::error::AppError;
-use crate::app::tuning::{self, Tuning};
+use crate::app::storage;
 use crate::cli::args::DeviceFlags;
 use crate::cli::memory;
+use crate::cli::report::FetchReport;
 use crate::gpu::{AdapterChoice, AdapterReport, Backend, Gpu};
 use crate::pack::{self, PackedScene, PackedView};
-use crate::render::{self, ExecutionPolicy, RenderSettings, Renderer, Tone};
+use crate::render::{ExecutionPolicy, RenderSettings, Renderer, Tone};
 use crate::scene::Scene;
 use std::panic::resume_unwind;
 use std::sync::Arc;
@@ -54,12 +55,6 @@ impl Drop for Opening {
     }
 }
 
-/// A renderer of a picture, and how it came about.
-pub struct Prepared {
-    pub renderer: Renderer,
-    pub tuning: Tuning,
-}
-
 /// Opens the adapter that the flags choose, after a look at the environment: nothing is then announced that a wrong
 /// value would stop.
 pub fn open(flags: &DeviceFlags) -> Result<Gpu, AppError> {
@@ -67,36 +62,30 @@ pub fn open(flags: &DeviceFlags) -> Result<Gpu, AppError> {
 }
 
 fn chosen(choice: &AdapterChoice) -> Result<Gpu, AppError> {
-    tuning::check()?;
+    storage::requested()?;
     Ok(Gpu::new(choice)?)
 }
 
-/// A renderer of a packed scene. If the picture is worth it, the adapter is measured first.
+/// A renderer of a packed scene; `tone` is compiled beside it.
 pub fn prepared(
     gpu: Gpu,
     (packed, view): (Arc<PackedScene>, PackedView),
     settings: RenderSettings,
     policy: ExecutionPolicy,
     tone: Option<Tone>,
-) -> Result<Prepared, AppError> {
-    let rays = render::least_rays(&view, &settings, policy.picture_count);
-    let tuning = tuning::tuned(&gpu, rays)?;
-    let policy = ExecutionPolicy {
-        storage: Some(tuning.storage),
-        ..policy
-    };
-    let renderer = thread::scope(|scope| {
+) -> Result<Renderer, AppError> {
+    let policy = storage::with_requested(policy)?;
+    thread::scope(|scope| {
         if let Some(tone) = tone {
             let (gpu, integrator) = (gpu.clone(), settings.integrator);
             // Developing meets the same error, if there is one.
             scope.spawn(move || tone.prepare(&gpu, integrator));
         }
-        Renderer::new(gpu, packed, &view, settings, policy)
-    })?;
-    Ok(Prepared { renderer, tuning })
+        Ok(Renderer::new(gpu, packed, &view, settings, policy)?)
+    })
 }
 
-/// A renderer of a few pixels of `scene`: the adapter is not measured.
+/// A renderer of `scene` while the shutter is open, from `shutter.0` to `shutter.1` in seconds.
 pub fn renderer(
     gpu: Gpu,
     scene: &Scene,
@@ -105,7 +94,7 @@ pub fn renderer(
     policy: ExecutionPolicy,
 ) -> Result<Renderer, AppError> {
     let (packed, view) = packed(scene, shutter)?;
-    let policy = tuning::with_known(&gpu, policy)?;
+    let policy = storage::with_requested(policy)?;
     Ok(Renderer::new(gpu, packed, &view, settings, policy)?)
 }
 
@@ -119,11 +108,16 @@ pub fn packed(
     Ok((packed, view))
 }
 
-/// Warns if the environment asks for another storage than the renderer reads the scene from.
-pub fn warn_of_storage(renderer: &Renderer, tuning: &Tuning) {
-    if let Some(refusal) = tuning.refusal(renderer.storage()) {
+/// Where the renderer reads the scene from. Warns if the environment requests another storage.
+///
+/// # Errors
+/// As [`storage::requested`].
+pub fn fetch_report(renderer: &Renderer) -> Result<FetchReport, AppError> {
+    let requested = storage::requested()?;
+    if let Some(refusal) = storage::refusal(renderer, requested) {
         console::warning(refusal);
     }
+    Ok(FetchReport::new(renderer, requested))
 }
 
 /// Describes the adapter in a status line: `NAME [BACKEND, KIND]`.

@@ -4,11 +4,12 @@ mod self_test;
 
 use crate::app::console;
 use crate::app::error::AppError;
-use crate::app::tuning::{self, Tuning};
+use crate::app::storage::{self, Reason};
 use crate::bytes::size;
 use crate::cli::args::DoctorArgs;
 use crate::cli::device;
 use crate::gpu::{self, AdapterChoice, AdapterReport, Gpu};
+use crate::render::Storage;
 use self_test::Outcome;
 use serde_json::{Value, json};
 use std::fmt::{self, Write};
@@ -21,7 +22,12 @@ pub fn run(arguments: &DoctorArgs) -> Result<(), AppError> {
     });
     let opened = Gpu::new(&choice);
     let chosen = opened.as_ref().ok().map(|gpu| gpu.adapter().clone());
-    let tuning = opened.as_ref().ok().map(tuning::known).transpose()?;
+    let requested = storage::requested()?;
+    let fetch = opened.as_ref().ok().map(|gpu| {
+        let usual = Storage::usual(gpu);
+        let used = requested.unwrap_or(usual);
+        (storage::name(used), Reason::of(used, requested, usual))
+    });
     let outcome = opened
         .map_err(AppError::from)
         .and_then(|gpu| self_test::run(gpu, arguments.device.memory_limit_bytes()));
@@ -29,11 +35,11 @@ pub fn run(arguments: &DoctorArgs) -> Result<(), AppError> {
     let advice = (adapters.is_empty()).then(|| device::advice(choice.backend));
     if arguments.json {
         let passed = outcome.as_ref().ok();
-        console::print_json(&to_json(&adapters, chosen.as_ref(), tuning, passed, advice))?;
+        console::print_json(&to_json(&adapters, chosen.as_ref(), fetch, passed, advice))?;
     } else {
         let mut text = String::new();
         let outcome = outcome.as_ref().ok();
-        write_text(&mut text, &adapters, chosen.as_ref(), tuning, outcome)
+        write_text(&mut text, &adapters, chosen.as_ref(), fetch, outcome)
             .map_err(|error| AppError::Internal(format!("doctor: {error}")))?;
         if let Some(advice) = advice {
             text = text + advice + "\n";
@@ -58,16 +64,14 @@ fn verdict(chosen: Option<&AdapterReport>, outcome: Outcome) -> Result<(), AppEr
 fn to_json(
     adapters: &[AdapterReport],
     chosen: Option<&AdapterReport>,
-    tuning: Option<Tuning>,
+    fetch: Option<(&str, Reason)>,
     outcome: Option<&Outcome>,
     advice: Option<&str>,
 ) -> Value {
     json!({
         "adapters": adapters.iter().map(adapter_json).collect::<Value>(),
         "chosen": chosen.map(|adapter| adapter.index),
-        "fetch": tuning.map(|tuning| json!({
-            "storage": tuning::name(tuning.storage), "reason": tuning.reason,
-        })),
+        "fetch": fetch.map(|(storage, reason)| json!({ "storage": storage, "reason": reason })),
         "self_test": outcome.map(|outcome| json!({
             "passed": outcome.is_right(), "found": outcome.found, "expected": outcome.expected,
         })),
@@ -93,7 +97,7 @@ fn write_text(
     out: &mut String,
     adapters: &[AdapterReport],
     chosen: Option<&AdapterReport>,
-    tuning: Option<Tuning>,
+    fetch: Option<(&str, Reason)>,
     outcome: Option<&Outcome>,
 ) -> fmt::Result {
     writeln!(out, "adapters   {}", adapters.len())?;
@@ -112,12 +116,12 @@ fn write_text(
     if let Some(adapter) = chosen {
         writeln!(out, "used       {}  {}", adapter.index, adapter.name)?;
     }
-    if let Some(Tuning {
-        storage, reason, ..
-    }) = tuning
-    {
-        let (name, why) = (tuning::name(storage), reason.phrase());
-        writeln!(out, "reads      scenes from {name}s, {why}")?;
+    if let Some((storage, reason)) = fetch {
+        writeln!(
+            out,
+            "reads      scenes from {storage}s, {}",
+            reason.phrase()
+        )?;
     }
     match outcome {
         Some(outcome) if outcome.is_right() => writeln!(

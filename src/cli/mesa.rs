@@ -94,7 +94,7 @@ fn kernel_folder(width: Option<&str>, set: Option<&Path>) -> Option<PathBuf> {
     match set {
         Some(set) if set.file_name() == Some(name.as_ref()) => Some(set.to_owned()),
         Some(set) => Some(set.join(name)),
-        None => Some(folders::platform_cache()?.join("mesa").join(name)),
+        None => Some(folders::cache()?.join("mesa").join(name)),
     }
 }
 

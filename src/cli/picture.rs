@@ -12,7 +12,7 @@ use crate::cli::job::{Job, Outcome};
 use crate::cli::layers::Finished;
 use crate::cli::memory;
 use crate::cli::progress::Progress;
-use crate::cli::report::{Draft, FetchReport};
+use crate::cli::report::Draft;
 use crate::render::{self, FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK};
 use std::ops::Range;
 use std::panic::resume_unwind;
@@ -78,10 +78,8 @@ pub fn run(
     draft.seconds.gpu = (started.elapsed().as_secs_f64() - draft.seconds.bvh).max(0.0);
     let tone = job.tone(&settings, destination.is_linear());
     let tone = (!destination.is_film()).then_some(tone);
-    let prepared = device::prepared(gpu, packed, settings.clone(), job.policy(), tone)?;
-    let mut renderer = prepared.renderer;
-    device::warn_of_storage(&renderer, &prepared.tuning);
-    draft.fetch = Some(FetchReport::new(&renderer, &prepared.tuning));
+    let mut renderer = device::prepared(gpu, packed, settings.clone(), job.policy(), tone)?;
+    draft.fetch = Some(device::fetch_report(&renderer)?);
     if let Some(checkpoint) = &mut checkpoint {
         draft.resumed = checkpoint.resume(&mut renderer, job.console())?;
     }

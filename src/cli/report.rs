@@ -8,10 +8,10 @@ pub use failed::FailedReport;
 
 use crate::app::console;
 use crate::app::error::AppError;
-use crate::app::tuning::{self, Reason, Tuning};
+use crate::app::storage::{self, Reason};
 use crate::gpu::AdapterReport;
 use crate::output;
-use crate::render::{Rays, Renderer, Stats};
+use crate::render::{Rays, Renderer, Stats, Storage};
 use crate::scene::{Geometry, Scene};
 use crate::text;
 use schemars::JsonSchema;
@@ -186,25 +186,17 @@ pub struct Adapter {
 pub struct FetchReport {
     /// "image" or "buffer".
     pub storage: &'static str,
-    /// Why: "device_type", "environment", "cache", "measurement" or "limits".
+    /// Why: "device_type", "environment" or "limits".
     pub reason: Reason,
-    /// Time to measure the adapter in this run; 0 if it was not measured.
-    pub seconds: f64,
-    /// Times to trace the same rays, from a measurement now or before; null without one.
-    pub image_seconds: Option<f64>,
-    pub buffer_seconds: Option<f64>,
 }
 
 impl FetchReport {
-    /// That of a renderer that was prepared with this tuning.
-    pub fn new(renderer: &Renderer, tuning: &Tuning) -> Self {
-        let storage = renderer.storage();
+    /// The storage of a renderer, if the environment requested one or none.
+    pub fn new(renderer: &Renderer, requested: Option<Storage>) -> Self {
+        let used = renderer.storage();
         Self {
-            storage: tuning::name(storage),
-            reason: tuning.reason_for(storage),
-            seconds: tuning.seconds,
-            image_seconds: tuning.times.map(|times| times.image),
-            buffer_seconds: tuning.times.map(|times| times.buffer),
+            storage: storage::name(used),
+            reason: Reason::of(used, requested, Storage::usual(renderer.gpu())),
         }
     }
 

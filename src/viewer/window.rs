@@ -5,7 +5,7 @@ mod presses;
 pub mod viewer;
 
 use crate::app::error::AppError;
-use crate::app::{console, scene_file, tuning};
+use crate::app::{console, scene_file, storage};
 use crate::gpu::{AdapterChoice, Gpu, GpuError};
 use crate::viewer::actions::settings;
 use crate::viewer::model::preferences::Preferences;
@@ -31,13 +31,10 @@ pub fn run(session: Session, choice: &AdapterChoice) -> Result<(), AppError> {
     let mut events = events.map_err(|error| no_display(reason(&error.to_string())))?;
     let mut losses = Vec::new();
     loop {
+        session.borrow_mut().request.policy.storage = storage::requested()?;
         let shown = Gpu::with_all_limits(choice)
             .map_err(AppError::from)
-            .and_then(|gpu| {
-                let storage = tuning::known(&gpu)?.storage;
-                session.borrow_mut().request.policy.storage = Some(storage);
-                show(&mut events, &session, &gpu)
-            });
+            .and_then(|gpu| show(&mut events, &session, &gpu));
         if let Err(error) = shown {
             return Err(rescued(&session.borrow(), error));
         }

@@ -108,12 +108,12 @@ mod shader_warp;
 mod soft_shadows;
 mod spd;
 mod stack;
+mod storage;
 mod support;
 mod tangents;
 mod textures;
 mod thin_walls;
 mod trees;
-mod tuning;
 mod uv_view;
 mod vertex_colors;
 #[cfg(feature = "video")]

@@ -1,7 +1,7 @@
 //! Renders frames. All of them share one renderer, so that only moving geometry is uploaded per frame.
 
 use crate::app::error::AppError;
-use crate::app::tuning;
+use crate::app::storage;
 use crate::cli::animate::fingerprint;
 use crate::cli::animate::fingerprint::Fingerprint;
 use crate::cli::animate::journal::{Journal, Origin};
@@ -219,17 +219,13 @@ impl<'a> FrameRenderer<'a> {
             (empty, Some(gpu)) => {
                 let settings = self.settings.clone();
                 let picture_count = u32::try_from(self.missing.max(1)).unwrap_or(u32::MAX);
-                let rays = render::least_rays(view, &settings, picture_count);
-                let tuning = tuning::tuned(&gpu, rays)?;
-                let policy = ExecutionPolicy {
+                let policy = storage::with_requested(ExecutionPolicy {
                     picture_count,
-                    storage: Some(tuning.storage),
                     ..self.sequence.job.policy()
-                };
+                })?;
                 let scene = self.scene.clone();
                 let renderer = Renderer::new(gpu, scene, view, settings, policy)?;
-                device::warn_of_storage(&renderer, &tuning);
-                self.fetch = Some(FetchReport::new(&renderer, &tuning));
+                self.fetch = Some(device::fetch_report(&renderer)?);
                 empty.insert(renderer)
             }
             (None, None) => return Err(AppError::Internal("there is no adapter".into())),

@@ -3,7 +3,7 @@
 use super::figure::Figure;
 use super::scenes::parts::Builder;
 use crate::app::error::AppError;
-use crate::app::tuning;
+use crate::app::storage;
 use crate::cli::args::BenchArgs;
 use crate::cli::job;
 use crate::gpu::Gpu;
@@ -171,7 +171,7 @@ impl Playing {
     /// # Errors
     /// The device failed.
     pub fn run(&mut self, gpu: &Gpu, arguments: &BenchArgs) -> Result<(), AppError> {
-        let policy = tuning::with_known(gpu, job::policy(&arguments.device, false))?;
+        let policy = storage::with_requested(job::policy(&arguments.device, false))?;
         let settings = RenderSettings {
             size: SIZE,
             ..RenderSettings::default()

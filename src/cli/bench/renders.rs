@@ -3,7 +3,7 @@
 use super::figure::Figure;
 use super::workloads::Workload;
 use crate::app::error::AppError;
-use crate::app::tuning;
+use crate::app::storage;
 use crate::app::window::median;
 use crate::cli::args::BenchArgs;
 use crate::cli::job;
@@ -163,7 +163,7 @@ pub fn render(
         ..RenderSettings::from(&scene.output)
     };
     let policy = job::policy(&arguments.device, purpose == Purpose::Count);
-    let policy = tuning::with_known(&gpu, policy)?;
+    let policy = storage::with_requested(policy)?;
     let packed = Arc::new(pack::scene_with(scene, workload.most_baked)?);
     let view = packed.view(&scene.motion_samples(shutter_interval.0, shutter_interval.1))?;
     let mut renderer = Renderer::new(gpu, packed.clone(), &view, settings, policy)?;

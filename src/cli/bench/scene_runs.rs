@@ -6,7 +6,7 @@ use super::renders::{self, Purpose, Times};
 use super::scenes::{Detail, Procedural};
 use super::workloads::Workload;
 use crate::app::error::AppError;
-use crate::app::tuning;
+use crate::app::storage;
 use crate::cli::args::BenchArgs;
 use crate::cli::job;
 use crate::gpu::Gpu;
@@ -173,7 +173,7 @@ impl SceneRuns {
         let rendered = renders::render(&self.workload, arguments, Purpose::Time)?;
         self.times.push(rendered.times);
         let (packed, view) = (rendered.packed, rendered.view);
-        let policy = tuning::with_known(gpu, job::policy(&arguments.device, false))?;
+        let policy = storage::with_requested(job::policy(&arguments.device, false))?;
         let query = RayQuery::new(gpu.clone(), packed.clone(), &view, policy)?;
         (self.tree_bytes, self.all_bytes) = bytes(&packed, &view, query.node_bytes());
         self.sets.iter_mut().try_for_each(|set| set.run(&query))

@@ -1,7 +1,7 @@
 //! Measures what a picture or an animation costs, by rendering a few rows with few samples.
 
 use crate::app::error::AppError;
-use crate::app::tuning;
+use crate::app::storage;
 use crate::cli::device;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::job::Job;
@@ -116,7 +116,7 @@ impl<'a> Meter<'a> {
         let view = packed.view(&job.scene.motion_samples(shutter.0, shutter.1))?;
         let [_, top, ..] = settings.region();
         let first = strip(&settings, top, 1);
-        let policy = tuning::with_known(&gpu, job.policy())?;
+        let policy = storage::with_requested(job.policy())?;
         let renderer = Renderer::new(gpu, packed.clone(), &view, first, policy)?;
         let mut meter = Self {
             job,

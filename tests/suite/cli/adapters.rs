@@ -213,9 +213,7 @@ fn on_a_full_disk_kernels_are_compiled_without_a_shader_cache() {
             .args(line.get_args())
             .current_dir(workspace.path("."))
             .env("HOME", workspace.path("home"))
-            .envs(
-                ["GLIMRAY_CACHE", "XDG_CACHE_HOME", "MESA_SHADER_CACHE_DIR"].map(|name| (name, "")),
-            );
+            .envs(["XDG_CACHE_HOME", "MESA_SHADER_CACHE_DIR"].map(|name| (name, "")));
         command.output()
     };
     let mount = "mount -t tmpfs -o size=300k tmpfs \"$HOME\"";

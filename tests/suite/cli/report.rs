@@ -26,7 +26,7 @@ fn the_report_has_the_promised_fields() {
     let text = fs::read_to_string(workspace.path("r.json")).expect("a report");
     let report: Value = serde_json::from_str(&text).expect("JSON");
     let promised = "adapter.backend adapter.device_type adapter.driver adapter.name command \
-        cut_off_trees error fetch.buffer_seconds fetch.image_seconds fetch.reason fetch.seconds fetch.storage \
+        cut_off_trees error fetch.reason fetch.storage \
         glimray image.bsdf image.clamp_indirect image.denoise image.height image.integrator image.max_depth \
         image.mean_samples image.path image.samples image.seed image.transparent_shadows image.width memory.gpu_bytes memory.host_peak_bytes nonfinite_samples rays.primary \
         rays.primary_hits rays.reflection rays.reflection_hits rays.refraction \

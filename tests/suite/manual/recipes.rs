@@ -71,7 +71,6 @@ impl Checkout {
         bash.args(["-e", "-c", script]);
         bash.env("PATH", format!("{}:{path}", bin.display()));
         bash.env("GITHUB_PATH", self.workspace.path("github-path"));
-        bash.env("GLIMRAY_FETCH", "off");
         bash.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
         bash.current_dir(self.workspace.path("."));
         Run::from(bash.output().expect("bash runs"))

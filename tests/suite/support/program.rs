@@ -107,8 +107,6 @@ impl Workspace {
         for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
             command.env_remove(name);
         }
-        // Neither read nor written: what was measured on this machine.
-        command.env("GLIMRAY_FETCH", "off");
         command
     }
 
