@@ -21,7 +21,8 @@ const VARIANTS: [(&str, &[&str]); 3] = [
 
 /// Names of kernels, the modules in `shaders/kernels` they are made of, the features that all their variants
 /// have, and their variants.
-const KERNELS: [(&str, &str, &[&str], &[&str]); 11] = [
+const KERNELS: [(&str, &str, &[&str], &[&str]); 12] = [
+    ("lecture", "lecture", &[], &["image", "buffer"]),
     ("whitted", "whitted", &[], &["image", "buffer", "packet"]),
     ("path_trace", "path_trace", &[], &["image", "buffer"]),
     ("debug_view", "debug_view", &[], &["image", "buffer"]),

@@ -21,6 +21,7 @@ mod fingerprint;
 mod integrator;
 mod layers;
 mod layouts;
+mod lecture;
 mod levels;
 mod losses;
 mod luminance;
@@ -156,6 +157,7 @@ impl Renderer {
         policy: ExecutionPolicy,
     ) -> Result<Self, RenderError> {
         effort::check(view, &settings)?;
+        lecture::check(&scene, view, &settings)?;
         let view = view.with_aspect(settings.size.0, settings.size.1);
         let order = GroupOrder::of(&gpu);
         let mut tiles = FilmTiles::new(&settings, policy.slicing.tile_side, order);
@@ -230,6 +232,7 @@ impl Renderer {
         policy: ExecutionPolicy,
     ) -> Result<(), RenderError> {
         effort::check(view, &settings)?;
+        lecture::check(&scene, view, &settings)?;
         self.work = None;
         let view = view.with_aspect(settings.size.0, settings.size.1);
         let order = GroupOrder::of(&self.device.gpu);

@@ -42,6 +42,7 @@ pub fn render(error: &RenderError) -> String {
     let cause = match error {
         RenderError::Gpu(error) => return gpu(error),
         RenderError::Film(error) => return error.to_string(),
+        RenderError::BeyondLecture { .. } => return format!("{error} Use --integrator whitted."),
         RenderError::PathTooLong(cause) => *cause,
         RenderError::TooManyShadowRays { lights, rays, .. } => LongPath::ShadowRays {
             lights: *lights,
@@ -49,7 +50,7 @@ pub fn render(error: &RenderError) -> String {
         },
     };
     let remedy = match cause {
-        LongPath::BruteForce { .. } => "Omit --no-bvh.",
+        LongPath::BruteForce { .. } => "Use --integrator whitted, without --no-bvh.",
         LongPath::ShadowRays { .. } => {
             "Use fewer lights, or fewer samples of area lights (--light-samples 0.1) and more --samples."
         }

@@ -116,7 +116,7 @@ impl AppError {
             Self::Different(_) | Self::Missing(_) => 8,
             Self::Gpu(error) | Self::Render(RenderError::Gpu(error)) => gpu_exit_code(error),
             Self::Render(RenderError::PathTooLong(_) | RenderError::TooManyShadowRays { .. }) => 7,
-            Self::Render(RenderError::Film(_)) => 3,
+            Self::Render(RenderError::Film(_) | RenderError::BeyondLecture { .. }) => 3,
             Self::Part { code, .. } => *code,
             Self::Interrupted { exit_code } => *exit_code,
         }

@@ -6,7 +6,7 @@ use crate::cli::args::LayerFlags;
 use crate::gpu::Gpu;
 use crate::image::Image;
 use crate::output::{self, ImageLayer, LayeredImage, OutputError, Place, SaveOptions};
-use crate::render::{Features, Film, Integrator, Shows, Tone};
+use crate::render::{Features, Film, Integrator, Tone};
 use std::path::Path;
 use std::time::Instant;
 
@@ -87,9 +87,9 @@ impl LayerFlags {
             return Ok(());
         }
         let refused = |why: String| Err(AppError::Usage(why));
-        if integrator.entry().shows != Shows::Radiance {
+        if !integrator.entry().has_layers {
             return refused(format!(
-                "cannot render layers (--integrator {}): a debug view has none. Choose whitted or path.",
+                "cannot render layers (--integrator {}): it has none. Choose whitted or path.",
                 integrator.entry().name
             ));
         }

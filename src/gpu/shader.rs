@@ -91,6 +91,8 @@ macro_rules! kernels {
 
 impl Kernel {
     kernels! {
+        /// Adds samples of [`crate::render::Integrator::Lecture`] to the film.
+        LECTURE "lecture" Image "image", Buffer "buffer";
         /// Adds samples of [`crate::render::Integrator::Whitted`] to the film.
         WHITTED "whitted" Image "image", Buffer "buffer", Packet "packet";
         /// Adds samples of [`crate::render::Integrator::Path`] to the film.

@@ -52,7 +52,8 @@ impl LongPath {
             false => u64::from(bounces) + 1,
         };
         let rays = tree.saturating_mul(1 + shadow);
-        if settings.brute_force && primitives.saturating_mul(rays) > MANY_PRIMITIVES {
+        let is_exhaustive = settings.brute_force || settings.integrator == Integrator::Lecture;
+        if is_exhaustive && primitives.saturating_mul(rays) > MANY_PRIMITIVES {
             Self::BruteForce { primitives }
         } else if rays <= MANY_RAYS {
             Self::Crowded

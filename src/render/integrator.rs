@@ -18,6 +18,8 @@ pub enum Integrator {
     Whitted,
     /// Path tracing: light that comes from everywhere, by the rendering equation (Kajiya 1986).
     Path,
+    /// The exercise alone: spheres and triangles, each tested by each ray, and Phong's illumination with shadow rays.
+    Lecture,
     /// Shading normals, with components mapped from -1..1 to 0..1; black without a hit.
     Normals,
     /// Distance along the ray in scene units; 0 without a hit.
@@ -53,6 +55,8 @@ pub struct IntegratorEntry {
     /// Whether it computes shading: lights, reflection and refraction matter, and adaptive sampling can judge
     /// its pixels.
     pub is_lit: bool,
+    /// Whether its films may hold layers besides radiance, such as those that the denoiser needs.
+    pub has_layers: bool,
     /// Whether it needs texture coordinates even without textures.
     pub needs_uvs: bool,
     /// Whether it counts traversal steps.
@@ -71,11 +75,12 @@ pub enum Shows {
 }
 
 /// All integrators, in menu order.
-pub const TABLE: [IntegratorEntry; 8] = [
+pub const TABLE: [IntegratorEntry; 9] = [
     IntegratorEntry {
         kernel: Kernel::WHITTED,
         shows: Shows::Radiance,
         is_lit: true,
+        has_layers: true,
         ..debug_view(
             Integrator::Whitted,
             ("whitted", "Full render"),
@@ -87,10 +92,22 @@ pub const TABLE: [IntegratorEntry; 8] = [
         kernel: Kernel::PATH_TRACE,
         shows: Shows::Radiance,
         is_lit: true,
+        has_layers: true,
         ..debug_view(
             Integrator::Path,
             ("path", "Path tracing"),
             "unbiased global illumination with physically based materials",
+            VIEW_NORMALS,
+        )
+    },
+    IntegratorEntry {
+        kernel: Kernel::LECTURE,
+        shows: Shows::Radiance,
+        is_lit: true,
+        ..debug_view(
+            Integrator::Lecture,
+            ("lecture", "Lecture"),
+            "the exercise alone: spheres and triangles, Phong shading with shadows",
             VIEW_NORMALS,
         )
     },
@@ -163,6 +180,7 @@ const fn debug_view(
         view,
         shows: Shows::Colors,
         is_lit: false,
+        has_layers: false,
         needs_uvs: false,
         counts_steps: false,
     }

@@ -1,6 +1,6 @@
 //! Render settings.
 
-use super::{Fingerprint, Integrator, Shows, fingerprint::Encoder};
+use super::{Fingerprint, Integrator, fingerprint::Encoder};
 use crate::scene::{Antialias, Backdrop, Filter, LightTransport, OutputDefaults};
 use std::{fmt, ops::Range, str::FromStr};
 
@@ -126,9 +126,9 @@ impl RenderSettings {
         self.antialias == Antialias::Adaptive && self.integrator.entry().is_lit
     }
 
-    /// Whether the film keeps features: debug views have none.
+    /// Whether the film keeps features.
     pub fn has_features(&self) -> bool {
-        self.features && self.integrator.entry().shows == Shows::Radiance
+        self.features && self.integrator.entry().has_layers
     }
 
     /// Whether the film keeps opacity: what paths from the camera see is transparent where there is nothing.

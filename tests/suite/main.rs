@@ -42,6 +42,7 @@ mod kernels;
 mod lanes;
 mod layers;
 mod layout;
+mod lecture;
 mod lens;
 mod levels;
 mod manual;

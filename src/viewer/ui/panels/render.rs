@@ -12,7 +12,7 @@ use crate::app::layers::{LAYERS, PictureLayer};
 use crate::app::value_names::{
     ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
 };
-use crate::render::{Integrator, Shows};
+use crate::render::Integrator;
 use crate::scene::Antialias;
 use crate::viewer::model::view_settings::{MAX_SAMPLES, ViewSettings};
 use crate::viewer::ui::context::PanelContext;
@@ -79,7 +79,7 @@ fn shown(ui: &mut Ui, context: &mut PanelContext) {
 /// The layer of a path-traced picture; of a classical one if a key has chosen it.
 fn layer(ui: &mut Ui, look: &mut ViewSettings) {
     let integrator = look.settings.integrator;
-    let is_layered = integrator.entry().shows == Shows::Radiance;
+    let is_layered = integrator.entry().has_layers;
     if !is_layered || integrator != Integrator::Path && look.layer == PictureLayer::Beauty {
         return;
     }
