@@ -1,16 +1,7 @@
 //! Importers: scene files to [`Scene`]s. [`load`] and [`load_from`] choose the format by the file
 //! extension.
 //!
-//! | extension | format | module |
-//! |---|---|---|
-//! | `.toml` | glimray's own | `native.rs` |
-//! | `.scene` | the course's | `course.rs` |
-//! | `.nff` | Haines' Neutral File Format | `nff.rs` |
-//! | `.obj` | Wavefront OBJ with MTL | `obj.rs` |
-//! | `.gltf`, `.glb` | glTF 2.0 | `gltf.rs` |
-//! | `.ply` | Stanford PLY, text or binary; also meshes and point sets of native scenes | `ply.rs` |
-//! | `.stl` | STL, text or binary | `stl.rs` |
-//! | `.zip` | an archive of any of these with its files (feature `archive`) | `zipped.rs` |
+//! `formats.rs` lists the formats; `toml` files are glimray's own.
 //!
 //! `picture.rs` reads the images that scenes and models refer to. `model.rs` and `stage.rs` make a scene of a model.
 //!
@@ -70,7 +61,7 @@ pub use archive::Archive;
 pub use error::{Excerpt, Fault, ImportError, Position};
 #[cfg(not(target_arch = "wasm32"))]
 pub use folder::Folder;
-pub use formats::{FORMAT_KEYS, SCENE_FORMATS, SceneFormat};
+pub use formats::{FORMAT_KEYS, SCENE_ENDINGS, SCENE_FORMATS, SceneFormat};
 pub use gltf::{GLTF_EXTENSIONS, Support};
 pub use options::{Axis, Baking, Environment, EnvironmentSource, Ground, Options, Staging};
 pub use picture::{Pixels, pixels};
@@ -82,26 +73,12 @@ pub use zipped::SCENE_MEMBER;
 
 use crate::scene::{LightTransport, Picture, Scene};
 use error::fault;
+use formats::MAX_GEOMETRY_BYTES;
 use paths::Files;
-use source::Source;
 use std::path::Path;
 #[cfg(not(target_arch = "wasm32"))]
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// The extensions of the files that [`load`] reads, in lower case.
-pub const SCENE_ENDINGS: &[&str] = &[
-    "toml",
-    "scene",
-    "nff",
-    "obj",
-    "gltf",
-    "glb",
-    "ply",
-    "stl",
-    #[cfg(feature = "archive")]
-    "zip",
-];
 
 /// The usual extensions of the files that [`picture()`] reads.
 pub const PICTURE_ENDINGS: &[&str] = &[
@@ -114,141 +91,6 @@ pub const PICTURE_ENDINGS: &[&str] = &[
     #[cfg(feature = "basis")]
     "ktx2",
 ];
-
-/// Size limit of a geometry file (`.scene`, `.nff`, `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`) in bytes.
-const MAX_GEOMETRY_BYTES: u64 = 2 << 30;
-
-/// The scene formats.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Format {
-    Native,
-    Course,
-    Nff,
-    Obj,
-    Gltf,
-    Ply,
-    Stl,
-    #[cfg(feature = "archive")]
-    Zip,
-}
-
-impl Format {
-    /// The format of a file extension.
-    fn of(path: &Path) -> Result<Self, ImportError> {
-        let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-        match ending.to_str() {
-            Some("toml") => Ok(Self::Native),
-            Some("scene") => Ok(Self::Course),
-            Some("nff") => Ok(Self::Nff),
-            Some("obj") => Ok(Self::Obj),
-            Some("gltf" | "glb") => Ok(Self::Gltf),
-            Some("ply") => Ok(Self::Ply),
-            Some("stl") => Ok(Self::Stl),
-            #[cfg(feature = "archive")]
-            Some("zip") => Ok(Self::Zip),
-            _ => Err(formats::unknown(path)),
-        }
-    }
-
-    /// Whether files have a model rather than a whole scene.
-    fn is_model(self) -> bool {
-        !matches!(self, Self::Native | Self::Course | Self::Nff)
-    }
-
-    /// Whether files have scenes of other formats in them.
-    fn is_archive(self) -> bool {
-        match self {
-            #[cfg(feature = "archive")]
-            Self::Zip => true,
-            _ => false,
-        }
-    }
-
-    /// The format's size limit for files, in bytes.
-    fn limit(self) -> u64 {
-        match self {
-            Self::Native => native::MAX_BYTES,
-            _ => MAX_GEOMETRY_BYTES,
-        }
-    }
-
-    /// The error for a scene file that could not be read.
-    fn unreadable(self, path: &Path, error: &FileError) -> ImportError {
-        match paths::unreadable(path, error, self.limit()) {
-            // The size limit belongs to the format; it is not for lack of memory.
-            ImportError::TooBig(fault) if self == Self::Native => ImportError::Malformed(fault),
-            error => error,
-        }
-    }
-
-    /// The scene in `bytes`, the contents of the file at `path`.
-    fn scene(
-        self,
-        path: &Path,
-        bytes: Vec<u8>,
-        options: &Options,
-        files: &Files,
-    ) -> Result<Scene, ImportError> {
-        let has_keys = self == Self::Native || self.is_archive();
-        if !has_keys && !options.overrides.is_empty() {
-            let why = "only native scenes (.toml) have keys to set";
-            let fault = fault("override refused", path, why, "Leave out the overrides");
-            return Err(ImportError::Malformed(fault));
-        }
-        options.check_model_flags(self, path)?;
-        if !self.is_model() && options.up.is_some() {
-            let why = "only models have an axis that points up";
-            let todo = "Leave it out, or give the camera an up direction";
-            return Err(ImportError::Malformed(fault(
-                "up axis refused",
-                path,
-                why,
-                todo,
-            )));
-        }
-        let what = match self {
-            Self::Obj => "bad model",
-            _ => "bad scene",
-        };
-        let source = |bytes| match self {
-            Self::Native => Source::new(what, path, bytes),
-            _ => Source::of_any_encoding(what, path, bytes),
-        };
-        let mut scene = match self {
-            Self::Native => native::read(&source(bytes)?, options, files),
-            Self::Course => course::read(&source(bytes)?),
-            Self::Nff => nff::read(&source(bytes)?),
-            Self::Obj => obj::read_scene(&source(bytes)?, files, options),
-            Self::Gltf => gltf::read(path, bytes, options, files),
-            Self::Ply => ply::read_scene(path, &bytes, options),
-            Self::Stl => stl::read_scene(path, bytes, options),
-            #[cfg(feature = "archive")]
-            // It is already limited.
-            Self::Zip => return zipped::read_scene(path, bytes, options),
-        }?;
-        finish(&mut scene, options);
-        Ok(scene)
-    }
-}
-
-impl Options {
-    /// Refuses the options for glTF models where there is no such model.
-    fn check_model_flags(&self, format: Format, path: &Path) -> Result<(), ImportError> {
-        let given = [
-            ("scene", &self.scene),
-            ("clip", &self.clip),
-            ("variant", &self.variant),
-        ];
-        match given.iter().find(|(_, value)| value.is_some()) {
-            Some((what, _)) if !(format == Format::Gltf || format.is_archive()) => {
-                let why = format!("only glTF models have a {what} to choose");
-                let fault = fault("choice refused", path, &why, "Leave out the choice");
-                Err(ImportError::Malformed(fault))
-            }
-            _ => Ok(()),
-        }
-    }
-}
 
 /// Loads the scene file at `path` with default [`Options`].
 ///
@@ -290,8 +132,8 @@ fn load_seen(
     seen: &mut Vec<PathBuf>,
     report: &dyn Fn(Step),
 ) -> Result<Scene, ImportError> {
-    let format = Format::of(path)?;
-    let bytes = step::read(path, report, || folder::read(path, format.limit()));
+    let format = SceneFormat::required(path)?;
+    let bytes = step::read(path, report, || folder::read(path, format.max_bytes));
     let bytes = bytes.map_err(|error| format.unreadable(path, &error))?;
     let folder = Folder::of(path)?.allowing(&options.allow_dirs)?;
     let files = step::Reporting {
@@ -331,13 +173,13 @@ pub fn load_from(
     name: &str,
     options: &Options,
 ) -> Result<Scene, ImportError> {
-    let format = Format::of(Path::new(name))?;
+    let format = SceneFormat::required(Path::new(name))?;
     let path = Files::of(resolver).resolve(name).map_err(|refusal| {
         refusal.into_error("scene", |why, todo| {
             ImportError::Malformed(fault("bad scene", Path::new(name), &why, todo))
         })
     })?;
-    let bytes = resolver.read(&path, format.limit());
+    let bytes = resolver.read(&path, format.max_bytes);
     let bytes = bytes.map_err(|error| format.unreadable(&path, &error))?;
     let files = Files::of(resolver).named_in(&path);
     let options = Options {
@@ -354,14 +196,9 @@ pub fn load_from(
 /// `text` is malformed or refers to a file, or an override is invalid.
 pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportError> {
     let path = Path::new(name);
-    let source = Source::new("bad scene", path, text.as_bytes().to_vec())?;
-    let mut scene = match path.extension().and_then(|ending| ending.to_str()) {
-        Some("scene") => course::read(&source),
-        Some("nff") => nff::read(&source),
-        _ => native::read(&source, options, &Files::none()),
-    }?;
-    finish(&mut scene, options);
-    Ok(scene)
+    let known = SceneFormat::of(path).filter(|format| !format.is_model);
+    let format = known.unwrap_or(&SCENE_FORMATS[0]);
+    format.scene(path, text.as_bytes().to_vec(), options, &Files::none())
 }
 
 /// What all scenes need at last.

@@ -1,6 +1,7 @@
 //! The files that a run reads. No output may overwrite them, also not through links.
 
 use super::error::AppError;
+use crate::import::SceneFormat;
 use std::path::{Path, PathBuf};
 
 /// Files that were read, or that were looked for and not found.
@@ -94,7 +95,5 @@ pub fn is_same(a: &Path, b: &Path) -> bool {
 
 /// Whether a file of this name may be a model, to which what it lacks is added, and not a whole scene. An archive may.
 pub fn may_be_model(path: &Path) -> bool {
-    let ending = path.extension().unwrap_or_default();
-    let is = |other: &&str| ending.eq_ignore_ascii_case(other);
-    !["toml", "scene", "nff"].iter().any(is)
+    SceneFormat::of(path).is_none_or(|format| format.is_model)
 }

@@ -5,14 +5,11 @@ use super::error::{ImportError, fault};
 use super::paths::{self, Files};
 use super::resolver::{FileError, Resolver};
 use super::source::quote;
-use super::{Format, Options, SCENE_ENDINGS};
+use super::{Options, SCENE_ENDINGS, SceneFormat};
 use crate::scene::Scene;
 use crate::text::one_line;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
-
-/// The ending of archives.
-const ENDING: &str = "zip";
 
 /// A file of an archive that names the archive's scene, for archives with several.
 pub const SCENE_MEMBER: &str = ".glimray-scene";
@@ -87,9 +84,9 @@ pub(super) fn read_scene(
         archive,
         left: Cell::new(ALWAYS + PER_BYTE.saturating_mul(length)),
     };
-    let format = Format::of(&name)?;
-    let limit = format.limit().min(files.left.get());
-    let bytes = files.read(&name, format.limit());
+    let format = SceneFormat::required(&name)?;
+    let limit = format.max_bytes.min(files.left.get());
+    let bytes = files.read(&name, format.max_bytes);
     let bytes = bytes.map_err(|error| paths::unreadable(&name, &error, limit))?;
     let mut scene = format.scene(&name, bytes, options, &Files::of(&files).named_in(&name))?;
     if scenes.len() > 1 {
@@ -121,7 +118,7 @@ fn rank(name: &Path) -> Option<usize> {
     if parts.any(|part| part.starts_with('.') || part == "__MACOSX") {
         return None;
     }
-    let ending = name.extension()?.to_str()?.to_ascii_lowercase();
-    let place = SCENE_ENDINGS.iter().position(|known| *known == ending);
-    place.filter(|_| ending != ENDING)
+    let ending = name.extension()?;
+    let place = (SCENE_ENDINGS.iter()).position(|known| ending.eq_ignore_ascii_case(known));
+    place.filter(|_| SceneFormat::of(name).is_some_and(|format| !format.is_archive()))
 }
