@@ -1,4 +1,4 @@
-# For a fresh Debian or Ubuntu with Rust: `make demo` renders a picture, `make test` runs every check.
+# For a fresh Debian or Ubuntu with Rust: `make demo` renders a picture, `make test` runs every test.
 
 CARGO ?= cargo
 TARGET := $(or $(CARGO_TARGET_DIR),target)
@@ -29,11 +29,12 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint features headless wasm
+.PHONY: help demo test test-all farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint features headless wasm
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
-	@echo 'make test      format, lints, documentation, all tests (about 45 minutes the first time)'
+	@echo 'make test      format, lints, documentation, all tests (about 40 minutes the first time)'
+	@echo 'make test-all  the same, and other sets of features, and WebAssembly (about 50 minutes the first time)'
 	@echo 'make farm-test render on a Slurm of its own, which it installs (Debian, as root), and compare the bytes'
 	@echo 'make drivers   test on Mesa of Debian 13 and unstable and on SwiftShader, which it fetches (Debian)'
 	@echo 'make bench     measure speed on built-in scenes'
@@ -57,10 +58,13 @@ demo: linker shaders
 	$(GLIMRAY) demo -o glimray.png
 
 # Tests are built first, the program with them: `driver` needs it.
-test: lint features headless wasm
+test: lint
 	$(CARGO) test $(FLAGS) --no-run
 	@$(MAKE) --no-print-directory driver opengl display GLIMRAY=$(GLIMRAY)
 	$(CARGO) test $(FLAGS)
+
+# Checks that take long and seldom fail after a change that passes the tests.
+test-all: test features headless wasm
 
 # Skipped where it cannot be installed or started: it needs Debian or Ubuntu and root.
 farm-test: build driver
