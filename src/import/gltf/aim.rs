@@ -194,7 +194,7 @@ impl Reader<'_> {
                     return Ok(Vec::new());
                 };
                 // A light that is dark at first has its colour with an intensity of 1.
-                let at_rest = source.intensity.unwrap_or(1.0).clamp(0.0, 1e30);
+                let at_rest = source.intensity.unwrap_or(1.0).max(0.0);
                 let is_dark = at_rest == 0.0 && is_lit(index);
                 let unit = if is_dark { 1.0 } else { at_rest };
                 let factor = match property {

@@ -11,8 +11,8 @@ use crate::scene::{Attenuation, Light, LightKind};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-/// Least and most of the intensity of a light.
-const INTENSITY: [f64; 2] = [0.0, 1e30];
+/// The range of the intensity of a light: `import/range.rs` limits what it sends into the scene.
+const INTENSITY: [f64; 2] = [0.0, f64::MAX];
 
 /// The narrowest cone in radians whose cosine as f32 is not 1.
 const NARROWEST: f64 = 1e-3;
@@ -53,8 +53,7 @@ impl Reader<'_> {
         };
         let intensity = values.number("intensity", light.intensity, 1.0, INTENSITY);
         let color = values.numbers("color", light.color.unwrap_or([1.0; 3]), INTENSITY);
-        let color = color.map(|channel| channel * intensity / PI);
-        let color = values.numbers("color times intensity / π", color, INTENSITY);
+        let color = color.map(|channel| (channel * intensity / PI).min(f32::MAX.into()));
         self.scene.lights.push(Light {
             kind,
             color: DVec3::from(color).as_vec3(),
