@@ -5,13 +5,10 @@ use crate::app::overrides::label;
 use crate::cli::job::Job;
 use crate::image::Image;
 use crate::render::{RenderSettings, Shows, Tone};
-use crate::scene::{Camera, Sight};
+use crate::scene::{Camera, Sight, linear_from_srgb};
 
 /// A pixel whose channels are all below this is black to the eye: five levels of 255.
 const BLACK: f32 = 0.02;
-
-/// [`BLACK`] in linear light, before the transfer function of sRGB.
-const BLACK_LINEAR: f32 = 0.0015;
 
 /// The share of pixels that need not be black.
 const BRIGHT_SHARE: f64 = 0.001;
@@ -67,7 +64,7 @@ fn is_black(image: &Image, tone: &Tone) -> bool {
         ..Tone::LINEAR
     };
     let least = match *tone == linear {
-        true => BLACK_LINEAR,
+        true => linear_from_srgb(BLACK.into()) as f32,
         false => BLACK,
     };
     let is_bright = |pixel: &&[f32; 4]| pixel[..3].iter().any(|channel| *channel > least);
