@@ -101,7 +101,7 @@ pub struct SequenceFlags {
     /// Keep the frames of a video after it is written, as --frames-dir and --encode-only do
     #[arg(long)]
     pub keep_frames: bool,
-    /// Remove the frames after the video is written, those in --frames-dir too
+    /// Remove the frames after the video is written even with --frames-dir or --encode-only
     #[arg(long, conflicts_with = "keep_frames")]
     pub discard_frames: bool,
     /// Encode the video from existing frames without rendering
