@@ -11,6 +11,9 @@ const SIZES: [f64; 2] = [1e-9, 1e9];
 /// The relative error of emitted light from which on it is noted.
 const TOLERANCE: f64 = 0.05;
 
+/// The part of their area, after an even scale, that squashed emissive triangles keep at most.
+const SQUASHED: f64 = 1e-4;
+
 /// Notes what rounding does to the light of a scene.
 pub(super) fn note(scene: &mut Scene) {
     let mut notes = Notes::default();
@@ -47,19 +50,40 @@ fn of_slivers(scene: &Scene, notes: &mut Notes) {
     if !emits.contains(&true) || scene.cameras.is_empty() {
         return;
     }
-    let origin = scene.render_origin_at(&scene.frame(0.0));
+    let rest = scene.frame(0.0);
+    let origin = scene.render_origin_at(&rest);
+    let moving = scene.moving_nodes();
     let mut copies = vec![0; scene.meshes.len()];
     scene.instances.iter().for_each(|it| copies[it.mesh] += 1);
     for instance in &scene.instances {
-        // Others keep their shape in a space of their own.
-        let is_still = scene.node_of(instance).is_none();
-        let is_placed = is_still && scene.deformation_of(instance.mesh).is_none();
-        if !is_placed || copies[instance.mesh] > 1 {
+        let node = scene.node_of(instance);
+        let is_seen = (instance.node).is_none_or(|node| !moving[node] && rest.nodes[node].visible);
+        if !is_seen || scene.deformation_of(instance.mesh).is_some() {
             continue;
         }
         let mesh = &scene.meshes[instance.mesh];
-        let [true_area, area] = emissive_areas(mesh, &emits, instance.placement, origin);
-        if (area - true_area).abs() > TOLERANCE * true_area {
+        let above = node.map_or(DAffine3::IDENTITY, |node| rest.nodes[node].world_from_node);
+        let world_from_object = above * instance.placement;
+        let [own_area, true_area, area] = emissive_areas(mesh, &emits, world_from_object, origin);
+        let matrix = world_from_object.matrix3;
+        let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+        let most = axes
+            .into_iter()
+            .map(DVec3::length_squared)
+            .fold(0.0, f64::max);
+        if true_area < SQUASHED * most * own_area {
+            notes.add("slivers", || {
+                format!(
+                    "emissive triangles of mesh `{}` are squashed by their transform to {:.0e} of their area and light. \
+                     Scale them evenly",
+                    mesh.name,
+                    true_area / (most * own_area)
+                )
+            });
+            continue;
+        }
+        // Others keep their shape in a space of their own.
+        if copies[instance.mesh] == 1 && (area - true_area).abs() > TOLERANCE * true_area {
             notes.add("slivers", || {
                 format!(
                     "emissive triangles of mesh `{}` are so thin for their distance from the camera that rounding gives \
@@ -72,24 +96,22 @@ fn of_slivers(scene: &Scene, notes: &mut Notes) {
     }
 }
 
-/// The area of all emissive triangles as they are and as they are packed.
+/// The area of all emissive triangles in their own space, in the world, and as they are packed.
 fn emissive_areas(
     mesh: &Mesh,
     emits: &[bool],
     world_from_object: DAffine3,
     origin: DVec3,
-) -> [f64; 2] {
-    let mut sums = [0.0; 2];
+) -> [f64; 3] {
+    let mut sums = [0.0; 3];
     for triangle in &mesh.triangles {
         if !emits[mesh.materials[triangle[0] as usize] as usize] {
             continue;
         }
-        let corners = triangle.map(|i| {
-            let position = mesh.positions[i as usize].as_dvec3();
-            world_from_object.transform_point3(position) - origin
-        });
+        let own = triangle.map(|i| mesh.positions[i as usize].as_dvec3());
+        let corners = own.map(|corner| world_from_object.transform_point3(corner) - origin);
         let rounded = corners.map(|corner| corner.as_vec3().as_dvec3());
-        for (sum, [a, b, c]) in sums.iter_mut().zip([corners, rounded]) {
+        for (sum, [a, b, c]) in sums.iter_mut().zip([own, corners, rounded]) {
             *sum += (b - a).cross(c - a).length() / 2.0;
         }
     }

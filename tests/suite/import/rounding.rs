@@ -1,8 +1,10 @@
 //! Scenes whose light f32 would change are warned of, and others are not.
 
+use super::gltf::model::Model;
 use super::{folder, scene};
 use crate::support::verdict::Verdict;
 use glimray::import;
+use serde_json::json;
 
 /// A scene of this size with a mesh: a triangle and a lamp of this width in its plane, scaled by `thin` across it.
 fn sized(size: f64, thin: f64) -> String {
@@ -63,4 +65,34 @@ fn emissive_slivers_that_lose_their_light_are_warned_of() {
         notes.len() == 1 && notes[0].contains("so thin for their distance"),
         "{notes:?}"
     );
+}
+
+/// A triangle in the plane z = 0 keeps its area under a scale of 0 along z, and loses it under one along x or y.
+#[test]
+fn emissive_meshes_that_a_transform_squashes_are_warned_of() {
+    let mut verdict = Verdict::on("scales of a glowing triangle");
+    for (scale, is_squashed) in [
+        ([1.0, 1.0, 1.0], false),
+        ([1e-6, 1e-6, 1e-6], false),
+        ([1.0, 1.0, 0.0], false),
+        ([1.0, 0.01, 1.0], false),
+        ([-1.0, 2.0, 1.0], false),
+        ([0.0, 1.0, 1.0], true),
+        ([1.0, 0.0, 1.0], true),
+    ] {
+        for emission in [0.0, 1.0] {
+            let scene = Model::triangle(json!({ "material": 0 }))
+                .with(json!({
+                    "materials": [{ "emissiveFactor": [emission, 0, 0] }],
+                    "nodes": [{ "mesh": 0, "scale": scale }],
+                }))
+                .scene();
+            let is_said = scene.skipped.iter().any(|note| note.contains("squashed"));
+            let name = format!("{scale:?}, emission {emission}");
+            verdict.that(name, is_said == (is_squashed && emission > 0.0), || {
+                format!("{:?}", scene.skipped)
+            });
+        }
+    }
+    verdict.close();
 }
