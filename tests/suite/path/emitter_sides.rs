@@ -8,12 +8,12 @@ use crate::import::gltf::model::Model;
 use crate::motion_blur::track;
 use crate::reference::scenes::{Build, quad};
 use crate::support::verdict::Verdict;
-use glam::{DAffine3, DVec3, Vec3, dvec3};
+use glam::{DAffine3, DMat3, DVec3, Vec3, dvec3};
 use glimray::pack;
 use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{
-    Background, Camera, CanonicalShape, Deformation, Geometry, Light, Material, MorphTarget, Scene,
-    Shape, Target, Values,
+    Attenuation, Background, Camera, CanonicalShape, Deformation, Geometry, Light, LightKind,
+    Material, MorphTarget, Node, NodeProperty, Scene, Shape, Target, Values,
 };
 use serde_json::{Value, json};
 use std::f64::consts::PI;
@@ -357,6 +357,74 @@ fn mirrored_lamps_of_gltf_shine_from_their_fronts() {
             let expected = if is_lit { lit } else { 0.0 };
             let name = format!("{scale:?}, normals {has_normals}");
             near(&mut verdict, name, found, expected, 0.01 * expected);
+        }
+    }
+    verdict.close();
+}
+
+/// A lamp below a node becomes its image and shines to the side to which its normal is mapped, whether the node mirrors, moves
+/// or scales unevenly. A lamp keeps its intensity, of which a patch of area A has the radiance π/A along its normal; a glowing
+/// mesh keeps its radiance.
+#[test]
+fn lamps_below_any_transform_shine_to_the_side_of_their_normal() {
+    let mut verdict = Verdict::on("lamps below nodes over a floor");
+    let place = dvec3(0.9, 0.8, -0.9);
+    for (scale, is_lit) in [
+        (DVec3::ONE, true),
+        (dvec3(-1.0, 1.0, 1.0), true),
+        (dvec3(1.0, -1.0, 1.0), false),
+        (dvec3(-1.0, -1.0, -1.0), false),
+        (dvec3(-1.0, -1.0, 1.0), false),
+        (dvec3(2.0, 0.01, -0.5), true),
+        (dvec3(0.3, -7.0, 1.5), false),
+    ] {
+        for moves in [false, true] {
+            let below_node = |scene: &mut Scene| {
+                scene.nodes.push(Node {
+                    translation: place,
+                    scale,
+                    ..Node::default()
+                });
+                if moves {
+                    let stay = Values::Vector(vec![place; 2]);
+                    let target = Target::Node(0, NodeProperty::Translation);
+                    scene.tracks.push(track(target, stay));
+                }
+            };
+            let world_from_node = DAffine3 {
+                matrix3: DMat3::from_diagonal(scale),
+                translation: place,
+            };
+            let corners = square(world_from_node * DAffine3::from_scale(DVec3::splat(0.4)));
+            let area = (corners[1] - corners[0])
+                .cross(corners[3] - corners[0])
+                .length();
+            let normal = scale.y.signum() * DVec3::NEG_Y;
+            for (kind, radiance) in [("rectangle", 2.0 * PI / area), ("mesh", 3.0)] {
+                let mut scene = dark_floor();
+                below_node(&mut scene);
+                match kind {
+                    "mesh" => {
+                        glowing_square(&mut scene, DAffine3::from_scale(DVec3::splat(0.4)), 3.0);
+                        scene.instances.last_mut().expect("a square").node = Some(0);
+                    }
+                    _ => scene.lights.push(Light {
+                        kind: LightKind::Rectangle {
+                            center: DVec3::ZERO,
+                            edge_u: 0.4 * DVec3::X,
+                            edge_v: 0.4 * DVec3::Z,
+                        },
+                        color: Vec3::splat(2.0),
+                        attenuation: Attenuation::InverseSquare,
+                        node: Some(0),
+                        ..Light::default()
+                    }),
+                }
+                let lit = mean_irradiance(&scene, |p| radiance * from_front(&corners, normal, p));
+                assert_eq!(lit > 0.0, is_lit, "{scale}");
+                let name = format!("{kind}, {scale}, moves {moves}");
+                check(&mut verdict, &name, &scene, lit);
+            }
         }
     }
     verdict.close();
