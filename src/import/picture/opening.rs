@@ -13,7 +13,9 @@ use super::ktx2;
 use super::opened::{Opened, Unfit, Values};
 use super::{KINDS, Refused, complete, openexr, profile, radiance};
 use glam::Vec4;
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use image::{
+    ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, ImageResult, Limits, RgbaImage,
+};
 use std::io::Cursor;
 
 /// What the header of an image says.
@@ -123,10 +125,10 @@ impl Special {
 /// It is damaged, or takes too much memory.
 pub(super) fn open(bytes: &[u8], head: Head, unfit: &Unfit) -> Result<Opened, Refused> {
     let (width, height) = (head.width, head.height);
-    let codes = |image: DynamicImage, ignored| Opened {
+    let codes = |image: DynamicImage, has_alpha, ignored| Opened {
         width,
         height,
-        has_alpha: image.color().has_alpha(),
+        has_alpha,
         values: Values::Codes(image),
         is_premultiplied: false,
         rec709_from_own: None,
@@ -138,7 +140,8 @@ pub(super) fn open(bytes: &[u8], head: Head, unfit: &Unfit) -> Result<Opened, Re
         #[cfg(feature = "basis")]
         Some(Special::Ktx2) => {
             let image = ktx2::decode(bytes, (width, height)).map_err(|fault| fault.of(unfit))?;
-            Ok(codes(image, ktx2::ignored(bytes)))
+            let has_alpha = image.color().has_alpha();
+            Ok(codes(image, has_alpha, ktx2::ignored(bytes)))
         }
         None => {
             let gone = || unfit.damaged("is damaged");
@@ -150,8 +153,33 @@ pub(super) fn open(bytes: &[u8], head: Head, unfit: &Unfit) -> Result<Opened, Re
             let explain = |error| unfit.explain(error);
             let mut decoder = reader.into_decoder().map_err(explain)?;
             let ignored = profile::ignored(bytes, format, &mut decoder);
-            let image = DynamicImage::from_decoder(decoder).map_err(explain)?;
-            Ok(codes(image, ignored))
+            let has_alpha = decoder.color_type().has_alpha();
+            let image = match decoder.color_type() {
+                ColorType::Rgb8 => with_alpha(decoder),
+                _ => DynamicImage::from_decoder(decoder),
+            };
+            Ok(codes(image.map_err(explain)?, has_alpha, ignored))
         }
     }
+}
+
+/// The image of red, green and blue, with full alpha. Its colours are decoded to the end of their memory and then spread
+/// over it, so that a large picture is not in memory twice.
+fn with_alpha(decoder: impl ImageDecoder) -> ImageResult<DynamicImage> {
+    let (width, height) = decoder.dimensions();
+    let count = width as usize * height as usize;
+    let mut bytes = vec![0; 4 * count];
+    decoder.read_image(&mut bytes[count..])?;
+    let texels = &mut bytes[..];
+    let (mut from, mut to) = (count, 0);
+    while to < texels.len() {
+        let [r, g, b] = [texels[from], texels[from + 1], texels[from + 2]];
+        texels[to] = r;
+        texels[to + 1] = g;
+        texels[to + 2] = b;
+        texels[to + 3] = u8::MAX;
+        (from, to) = (from + 3, to + 4);
+    }
+    let image = RgbaImage::from_raw(width, height, bytes);
+    Ok(image.unwrap_or_default().into())
 }

@@ -4,6 +4,7 @@ use super::opened::{Opened, Values};
 use super::repair::{self, Repairs};
 use super::{Role, linear_from_srgb};
 use crate::scene::{LUMINANCE, Texels};
+use bytemuck::allocation::try_cast_vec;
 use glam::{Vec3, Vec4};
 use image::DynamicImage;
 
@@ -15,7 +16,13 @@ const GAMUT_TOLERANCE: f32 = 1.0 / 128.0;
 /// last role the image has no values.
 pub(super) fn of(opened: &mut Opened, role: Role, is_last: bool) -> (Texels, Repairs) {
     let mut light = match &mut opened.values {
-        Values::Codes(image) => return (coded(image, role), Repairs::default()),
+        Values::Codes(image) => {
+            let texels = match role {
+                Role::Alpha => mask(image, opened.has_alpha),
+                _ => codes(image, role, is_last),
+            };
+            return (texels, Repairs::default());
+        }
         Values::Floats(light) if is_last => std::mem::take(light),
         Values::Floats(light) => light.clone(),
     };
@@ -78,47 +85,64 @@ fn spread(texels: &mut [Vec4], width: usize) {
     }
 }
 
-/// Texels of codes: 8 bits stay as they are.
-fn coded(image: &DynamicImage, role: Role) -> Texels {
+/// Texels of codes: 8 bits stay as they are. After the last role the image may be empty.
+fn codes(image: &mut DynamicImage, role: Role, is_last: bool) -> Texels {
+    let is_color = matches!(role, Role::Color | Role::Environment);
     let channels = usize::from(image.color().channel_count());
-    let has_alpha = image.color().has_alpha();
     if let Some(words) = image.as_flat_samples_u16() {
-        return Texels::Float(wide(image, words.samples, channels, role));
+        return Texels::Float(wide(words.samples, channels, is_color));
     }
-    let bytes = image.as_bytes().chunks_exact(channels);
     let texel = |p: &[u8]| match *p {
         [r, g, b, a] => [r, g, b, a],
         [r, g, b] => [r, g, b, u8::MAX],
         [grey, alpha] => [grey, grey, grey, alpha],
         _ => [p[0], p[0], p[0], u8::MAX],
     };
-    let white = |alpha| [u8::MAX, u8::MAX, u8::MAX, alpha];
-    match role {
-        Role::Color | Role::Environment => Texels::Srgb8(bytes.map(texel).collect()),
-        Role::Data | Role::Height | Role::Depth => Texels::Linear8(bytes.map(texel).collect()),
-        Role::Alpha if has_alpha => {
-            Texels::Linear8(bytes.map(|p| white(p[channels - 1])).collect())
+    let spread = |bytes: &[u8]| bytes.chunks_exact(channels).map(texel).collect();
+    let texels = match image {
+        DynamicImage::ImageRgba8(own) if is_last => {
+            let bytes = std::mem::take(own).into_raw();
+            try_cast_vec(bytes).unwrap_or_else(|(_, bytes)| spread(&bytes))
         }
-        Role::Alpha => {
-            let grey = image.to_luma8();
-            Texels::Linear8(grey.pixels().map(|p| white(p.0[0])).collect())
-        }
+        _ => spread(image.as_bytes()),
+    };
+    match is_color {
+        true => Texels::Srgb8(texels),
+        false => Texels::Linear8(texels),
     }
 }
 
-/// Texels of codes of 16 bits.
-fn wide(image: &DynamicImage, words: &[u16], channels: usize, role: Role) -> Vec<Vec4> {
-    let value = |code: u16| f64::from(code) / f64::from(u16::MAX);
-    if role == Role::Alpha && !image.color().has_alpha() {
-        let grey = image.to_luma16();
-        let texel = |p: &image::Luma<u16>| Vec3::ONE.extend(value(p.0[0]) as f32);
-        return grey.pixels().map(texel).collect();
+/// White with the image's alpha, or else its brightness, as alpha.
+fn mask(image: &DynamicImage, has_alpha: bool) -> Texels {
+    let channels = usize::from(image.color().channel_count());
+    let white = |alpha: &u8| [u8::MAX, u8::MAX, u8::MAX, *alpha];
+    let wide_white = |alpha: &u16| Vec3::ONE.extend(value(*alpha) as f32);
+    let alphas = channels - 1;
+    match image.as_flat_samples_u16() {
+        Some(words) if has_alpha => {
+            let alphas = words.samples.iter().skip(alphas).step_by(channels);
+            Texels::Float(alphas.map(wide_white).collect())
+        }
+        Some(_) => Texels::Float(image.to_luma16().iter().map(wide_white).collect()),
+        None if has_alpha => {
+            let alphas = image.as_bytes().iter().skip(alphas).step_by(channels);
+            Texels::Linear8(alphas.map(white).collect())
+        }
+        None => Texels::Linear8(image.to_luma8().iter().map(white).collect()),
     }
+}
+
+/// The number from 0 to 1 that a code of 16 bits stands for.
+fn value(code: u16) -> f64 {
+    f64::from(code) / f64::from(u16::MAX)
+}
+
+/// Texels of codes of 16 bits.
+fn wide(words: &[u16], channels: usize, is_color: bool) -> Vec<Vec4> {
     let curve: Vec<f32> = (0..=u16::MAX)
-        .map(|code| match role {
-            Role::Color | Role::Environment => linear_from_srgb(value(code)) as f32,
-            Role::Alpha => 1.0,
-            Role::Data | Role::Height | Role::Depth => value(code) as f32,
+        .map(|code| match is_color {
+            true => linear_from_srgb(value(code)) as f32,
+            false => value(code) as f32,
         })
         .collect();
     let texel = |p: &[u16]| {
