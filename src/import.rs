@@ -16,6 +16,7 @@
 #[cfg(feature = "archive")]
 mod archive;
 mod budget;
+mod corners;
 mod course;
 mod crease;
 mod encoding;
@@ -205,6 +206,7 @@ pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportE
 fn finish(scene: &mut Scene, options: &Options) {
     range::limit(scene);
     rounding::note(scene);
+    corners::note(scene);
     scene.complete_tangents();
     let shows_maps = match options.baking {
         Baking::Never => false,

@@ -2,6 +2,7 @@
 //! files that a scene depends on.
 
 use super::{folder, message_in, messages, scene};
+use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, Vec3};
 use glimray::import::{self, Options};
 use glimray::scene::{Geometry, Mixing, NodeProperty, Target};
@@ -86,6 +87,54 @@ fn ply_files_are_read_as_text_and_binary_alike_with_materials_by_number() {
         assert_eq!(mesh.normals, [Vec3::Z; 4]);
         assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
     }
+}
+
+/// Colours are interpolated between the corners of a triangle; what else its materials differ in is said once.
+#[test]
+fn triangles_between_materials_that_differ_in_more_than_colours_are_noted() {
+    let mut verdict = Verdict::on("materials at the corners of triangles");
+    let note = "triangles between different materials, of which only colours are interpolated: all else, such as emission \
+        and alpha, is that of the first corner: 1";
+    let paths = "output = { integrator = 'path' }\n";
+    for (name, head, one, other, is_said) in [
+        ("the same", "", "{}", "{}", false),
+        (
+            "colours",
+            "",
+            "{ phong = { diffuse = [1, 0, 0], specular = [1, 1, 1], shininess = 9 } }",
+            "{ phong = { diffuse = [0, 0, 1] } }",
+            false,
+        ),
+        ("emission", "", "{}", "{ emission = [1, 1, 1] }", true),
+        ("coverage", "", "{}", "{ coverage = { alpha = 0.5 } }", true),
+        (
+            "diffuse colours for paths",
+            paths,
+            "{ phong = { diffuse = [1, 0, 0] } }",
+            "{ phong = { diffuse = [0, 0, 1] } }",
+            false,
+        ),
+        (
+            "highlights for paths",
+            paths,
+            "{ phong = { shininess = 9 } }",
+            "{ phong = { shininess = 90 } }",
+            true,
+        ),
+    ] {
+        let text = format!(
+            "{CAMERA}{head}materials = {{ a = {one}, b = {other} }}\nobjects = [{{ mesh = {{ file = 'm.ply', materials = ['a', 'b'] }} }}]"
+        );
+        // One of the two triangles has both materials in it, and the other one has a single one.
+        let ply = PLY.replace("1 1 0 1", "1 1 0 0");
+        let folder = folder(&[("a.toml", text.as_bytes()), ("m.ply", ply.as_bytes())]);
+        let scene = import::load(&folder.path().join("a.toml")).expect("a scene");
+        let expected: &[&str] = if is_said { &[note] } else { &[] };
+        verdict.that(name, scene.skipped == expected, || {
+            format!("{:?}", scene.skipped)
+        });
+    }
+    verdict.close();
 }
 
 #[test]
