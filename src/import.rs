@@ -65,6 +65,8 @@ pub use folder::Folder;
 pub use formats::{FORMAT_KEYS, SCENE_ENDINGS, SCENE_FORMATS, SceneFormat};
 pub use gltf::{GLTF_EXTENSIONS, Support};
 pub use options::{Axis, Baking, Environment, EnvironmentSource, Ground, Options, Staging};
+#[cfg(feature = "viewer")]
+pub(crate) use picture::smaller_pictures;
 pub use picture::{Pixels, pixels};
 pub use resolver::{FileError, Memory, Resolver};
 #[cfg(not(target_arch = "wasm32"))]

@@ -61,7 +61,7 @@ pub use picture::{
     LARGEST_TEXEL, LUMINANCE, MAX_PICTURE_BYTES, Origin, Picture, SrgbCurve, Texels,
     linear_from_srgb,
 };
-pub(crate) use picture::{SMALLEST_TEXEL, scale_of};
+pub(crate) use picture::{SMALLEST_TEXEL, fit, scale_of};
 pub use shape::{CanonicalShape, Geometry, Shape};
 pub use sight::Sight;
 pub use texture::{Minify, Pattern, Space, Texture, UvTransform, Wrap};
@@ -250,14 +250,16 @@ impl Default for Camera {
 }
 
 impl Scene {
-    /// Makes `picture` the background, with strength 1 and without rotation.
-    pub fn set_environment(&mut self, picture: Arc<Picture>) {
+    /// Makes `picture` the background, with strength 1 and without rotation. The largest pictures are halved until all of the
+    /// scene take at most [`MAX_PICTURE_BYTES`]; returns how many times that was.
+    pub fn set_environment(&mut self, picture: Arc<Picture>) -> usize {
         self.background = Background::Picture {
             picture: self.pictures.len(),
             strength: 1.0,
             rotation: 0.0,
         };
         self.pictures.push(picture);
+        picture::fit(&mut self.pictures)
     }
 
     /// Makes the background a sky, whose arguments are those of [`sky::picture`]. If it is a sky already, only its sun
@@ -270,7 +272,7 @@ impl Scene {
             {
                 self.pictures[picture] = new;
             }
-            _ => self.set_environment(new),
+            _ => _ = self.set_environment(new),
         }
     }
 

@@ -45,7 +45,10 @@ pub(super) fn apply(
         }
     };
     if let Some(picture) = picture {
-        scene.set_environment(Arc::new(picture));
+        let halvings = scene.set_environment(Arc::new(picture));
+        if halvings > 0 {
+            scene.skipped.push(picture::smaller_pictures(halvings));
+        }
     }
     if let Some(factor) = wanted.strength {
         match &mut scene.background {

@@ -18,6 +18,8 @@ mod store;
 mod texels;
 
 pub use pixels::{Pixels, pixels};
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) use store::smaller_pictures;
 pub(super) use store::{Pictures, Place, Read};
 
 use super::error::{Fault, ImportError};

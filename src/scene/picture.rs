@@ -90,6 +90,25 @@ impl Picture {
     }
 }
 
+/// Halves the largest pictures until all fit into [`MAX_PICTURE_BYTES`]. Returns how many times that was.
+pub(crate) fn fit<'p>(pictures: impl IntoIterator<Item = &'p mut Arc<Picture>>) -> usize {
+    let size = |picture: &Arc<Picture>| picture.texels.byte_len();
+    let mut pictures: Vec<_> = pictures.into_iter().collect();
+    let mut bytes: usize = pictures.iter().map(|picture| size(picture)).sum();
+    let mut count = 0;
+    while bytes > MAX_PICTURE_BYTES {
+        let largest = pictures.iter_mut().max_by_key(|picture| size(picture));
+        let Some(largest) = largest.filter(|picture| picture.texels.len() > 1) else {
+            break;
+        };
+        let before = size(largest);
+        **largest = largest.halved().into();
+        bytes -= before - size(largest);
+        count += 1;
+    }
+    count
+}
+
 impl Texels {
     /// Number of texels.
     pub fn len(&self) -> usize {

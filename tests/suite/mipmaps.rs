@@ -10,8 +10,8 @@ use glimray::layout::{PICTURE_FIRST_MASK, PICTURE_HALF, PICTURE_SRGB};
 use glimray::pack;
 use glimray::render::{Antialias, Fetch, RenderSettings};
 use glimray::scene::{
-    Camera, Geometry, Instance, Material, Minify, Pattern, Picture, Scene, Shape, Space, Texels,
-    Texture, Textures, Wrap, linear_from_srgb,
+    Camera, Geometry, Instance, MAX_PICTURE_BYTES, Material, Minify, Origin, Pattern, Picture,
+    Scene, Shape, Space, SrgbCurve, Texels, Texture, Textures, Wrap, linear_from_srgb,
 };
 use half::f16;
 use std::sync::Arc;
@@ -445,4 +445,33 @@ fn every_way_to_fetch_gives_the_same_filtered_picture() {
         &of(Fetch::Image),
         &of(Fetch::Buffer),
     )]);
+}
+
+/// 44 pictures of 64 MiB take all of the memory for pictures; the same one many times takes little of it here.
+#[test]
+fn an_environment_counts_with_the_other_pictures_of_a_scene() {
+    const SIDE: u32 = 4096;
+    let large = Arc::new(Picture {
+        width: SIDE,
+        height: SIDE,
+        texels: Texels::Linear8(vec![[7; 4]; (SIDE * SIDE) as usize]),
+        origin: Origin::Texels,
+    });
+    let environment = Arc::new(Picture::opaque(2, 1, [Vec3::ONE; 2]));
+    let bytes = |scene: &Scene| -> usize {
+        let sizes = scene.pictures.iter().map(|it| it.texels.byte_len());
+        sizes.sum()
+    };
+    for (count, halvings) in [(43, 0), (44, 1)] {
+        let mut scene = Scene {
+            pictures: vec![large.clone(); count],
+            ..Scene::default()
+        };
+        assert!(bytes(&scene) <= MAX_PICTURE_BYTES);
+        assert_eq!(scene.set_environment(environment.clone()), halvings);
+        assert!(bytes(&scene) <= MAX_PICTURE_BYTES, "{}", bytes(&scene));
+        assert_eq!(scene.pictures[count], environment);
+        let is_half = |picture: &&Arc<Picture>| picture.width == SIDE / 2;
+        assert_eq!(scene.pictures.iter().filter(is_half).count(), halvings);
+    }
 }

@@ -11,7 +11,7 @@ use super::{Announced, Role, decode};
 use crate::import::Options;
 use crate::import::notes::Notes;
 use crate::import::picture::Refused;
-use crate::scene::{MAX_PICTURE_BYTES, Picture};
+use crate::scene::{MAX_PICTURE_BYTES, Picture, fit};
 use crate::threads;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -244,10 +244,7 @@ impl Pictures {
             ));
         }
         if self.halved_count > 0 {
-            notes.add("smaller pictures", || {
-                let count = self.halved_count;
-                format!("pictures were halved {count} times to fit into memory")
-            });
+            notes.add("smaller pictures", || smaller_pictures(self.halved_count));
         }
         self.pictures.into_iter().flatten().collect()
     }
@@ -334,22 +331,17 @@ impl Pictures {
 
     /// Halves the largest pictures until all fit into memory.
     fn fit(&mut self) {
-        let bytes = |picture: &Arc<Picture>| picture.texels.byte_len();
-        while self.bytes > MAX_PICTURE_BYTES {
-            let largest = self
-                .pictures
-                .iter_mut()
-                .flatten()
-                .max_by_key(|it| bytes(it));
-            let Some(largest) = largest.filter(|picture| picture.texels.len() > 1) else {
-                break;
-            };
-            self.bytes -= bytes(largest);
-            *largest = largest.halved().into();
-            self.bytes += bytes(largest);
-            self.halved_count += 1;
+        if self.bytes > MAX_PICTURE_BYTES {
+            self.halved_count += fit(self.pictures.iter_mut().flatten());
+            let pictures = self.pictures.iter().flatten();
+            self.bytes = pictures.map(|picture| picture.texels.byte_len()).sum();
         }
     }
+}
+
+/// The note on pictures that were halved so many times for lack of memory.
+pub(crate) fn smaller_pictures(count: usize) -> String {
+    format!("pictures were halved {count} times to fit into memory")
 }
 
 fn bytes_of(decoded: &Decoded) -> u64 {

@@ -200,15 +200,17 @@ fn take_environment(session: &mut Session) {
         Ok(Err(error)) => session.messages.warn(advice::import(&error)),
         Ok(Ok((picture, notes))) => {
             session.view.background = None;
+            let mut halvings = 0;
             session.edit("change the background", |scene| {
-                scene.set_environment(picture);
+                halvings = scene.set_environment(picture);
             });
             session.moved();
             let name = short(&path);
             session
                 .messages
                 .notify(format!("{name} is now the environment"));
-            for note in notes {
+            let smaller = (halvings > 0).then(|| import::smaller_pictures(halvings));
+            for note in notes.into_iter().chain(smaller) {
                 session.messages.warn(note);
             }
             session.files.surroundings.push(path);
