@@ -30,16 +30,30 @@ impl Picture {
     /// The levels after the first, which is the picture itself.
     pub fn levels(&self) -> Vec<Texels> {
         let light = Light::of(self);
-        let mut levels = Vec::new();
+        let mut levels: Vec<Texels> = Vec::new();
         let mut before: Vec<Vec4> = Vec::new();
         for level in 1..self.level_count() {
             let sizes = (self.level_size(level - 1), self.level_size(level));
             let count = sizes.1[0] * sizes.1[1];
-            before = match level {
-                1 => threads::collect(count, |i| mean(sizes, i, |index| light.of_texel(index))),
-                _ => threads::collect(count, |i| mean(sizes, i, |index| before[index])),
+            let stored = levels.last().unwrap_or(&self.texels);
+            let values = &before[..];
+            let value = |index: usize| match level {
+                1 => light.of_texel(index),
+                _ => values[index],
             };
-            levels.push(light.stored(count, |index| before[index]));
+            let even = |index| {
+                even(sizes, index, |a, b| match level {
+                    1 => are_same(stored, a, b),
+                    _ => values[a] == values[b],
+                })
+            };
+            let means = threads::collect(count, |index| match even(index) {
+                Some(first) => value(first),
+                None => mean(sizes, index, value),
+            });
+            let next = light.stored(stored, count, even, |index| means[index]);
+            levels.push(next);
+            before = means;
         }
         levels
     }
@@ -49,11 +63,12 @@ impl Picture {
         let light = Light::of(self);
         let sizes = (self.level_size(0), self.level_size(1));
         let [width, height] = sizes.1;
-        let texel = |i: usize| mean(sizes, i, |index| light.of_texel(index));
+        let even = |index| even(sizes, index, |a, b| are_same(&self.texels, a, b));
+        let value = |index| mean(sizes, index, |index| light.of_texel(index));
         Self {
             width: width as u32,
             height: height as u32,
-            texels: light.stored(width * height, texel),
+            texels: light.stored(&self.texels, width * height, even, value),
             // The sun of a sky is not in its texels.
             origin: match self.origin {
                 Origin::Sky { .. } => self.origin.clone(),
@@ -92,26 +107,74 @@ impl<'a> Light<'a> {
         (texel.truncate() * self.weight(texel.w)).extend(texel.w)
     }
 
-    /// Averaged values with the precision of the picture.
-    fn stored(&self, count: usize, value: impl Fn(usize) -> Vec4 + Sync) -> Texels {
+    /// Averaged values with the precision of the picture. `even` returns a texel of the level `before` for one that has its
+    /// value.
+    fn stored(
+        &self,
+        before: &Texels,
+        count: usize,
+        even: impl Fn(usize) -> Option<usize> + Sync,
+        value: impl Fn(usize) -> Vec4 + Sync,
+    ) -> Texels {
         let plain = |index: usize| {
             let mean = value(index);
             (mean.truncate() / self.weight(mean.w)).extend(mean.w)
         };
         let code = |value: f32| (value * 255.0).round() as u8;
-        match self.texels {
-            Texels::Srgb8(_) => Texels::Srgb8(threads::collect(count, |index| {
-                let texel = plain(index);
-                let [r, g, b] = texel.truncate().to_array().map(|c| self.curve.code(c));
-                [r, g, b, code(texel.w)]
-            })),
-            Texels::Linear8(_) => Texels::Linear8(threads::collect(count, |index| {
+        let srgb = |index: usize| {
+            let texel = plain(index);
+            let [r, g, b] = texel.truncate().to_array().map(|c| self.curve.code(c));
+            [r, g, b, code(texel.w)]
+        };
+        fn filled<T: Copy + Send + Sync>(
+            before: &[T],
+            count: usize,
+            even: impl Fn(usize) -> Option<usize> + Sync,
+            mean: impl Fn(usize) -> T + Sync,
+        ) -> Vec<T> {
+            threads::collect(count, |index| match even(index) {
+                Some(first) => before[first],
+                None => mean(index),
+            })
+        }
+        match before {
+            Texels::Srgb8(before) => Texels::Srgb8(filled(before, count, even, srgb)),
+            Texels::Linear8(before) => Texels::Linear8(filled(before, count, even, |index| {
                 plain(index).to_array().map(code)
             })),
-            Texels::Float(_) => {
-                Texels::Float(threads::collect(count, |index| plain(index).min(Vec4::MAX)))
-            }
+            Texels::Float(before) => Texels::Float(filled(before, count, even, |index| {
+                plain(index).min(Vec4::MAX)
+            })),
         }
+    }
+}
+
+/// Whether two texels are equal.
+fn are_same(texels: &Texels, a: usize, b: usize) -> bool {
+    match texels {
+        Texels::Srgb8(texels) | Texels::Linear8(texels) => {
+            let texels = &texels[..];
+            u32::from_ne_bytes(texels[a]) == u32::from_ne_bytes(texels[b])
+        }
+        Texels::Float(texels) => texels[a] == texels[b],
+    }
+}
+
+/// The first texel of those that texel `index` of a level covers if they are all the same, so that their mean need not be
+/// computed: large areas of a picture often are. `None` beside odd sizes.
+fn even(
+    ([width, height], [half_width, half_height]): ([usize; 2], [usize; 2]),
+    index: usize,
+    are_same: impl Fn(usize, usize) -> bool,
+) -> Option<usize> {
+    if width != 2 * half_width || height != 2 * half_height {
+        return None;
+    }
+    let first = 2 * (index / half_width * width + index % half_width);
+    let below = first + width;
+    match are_same(first, first + 1) && are_same(first, below) && are_same(first, below + 1) {
+        true => Some(first),
+        false => None,
     }
 }
 
@@ -124,28 +187,36 @@ fn mean(
     let columns = covered(width, half_width, index % half_width);
     let rows = covered(height, half_height, index / half_width);
     let mut sum = Vec4::ZERO;
-    for (row, share) in rows {
-        for (column, part) in columns {
+    for (row, share) in (rows.first..).zip(&rows.shares[..rows.count]) {
+        for (column, part) in (columns.first..).zip(&columns.shares[..columns.count]) {
             sum += share * part * texel(row * width + column);
         }
     }
     sum
 }
 
-/// The texels that texel `index` of `half` covers of `count`, and the share of each: two, or three where `count` is
-/// odd. A share may be 0.
-fn covered(count: usize, half: usize, index: usize) -> [(usize, f32); 3] {
-    if count == 1 {
-        return [(0, 1.0), (0, 0.0), (0, 0.0)];
+/// Neighbouring texels and the share of each.
+struct Covered {
+    first: usize,
+    count: usize,
+    /// Of `count` texels, together 1.
+    shares: [f32; 3],
+}
+
+/// The texels that texel `index` of `half` covers of `count`: two, or three where `count` is odd.
+fn covered(count: usize, half: usize, index: usize) -> Covered {
+    let (covers, shares) = if count == 1 {
+        (1, [1.0, 0.0, 0.0])
+    } else if count == 2 * half {
+        (2, [0.5, 0.5, 0.0])
+    } else {
+        let (whole, place) = (count as f32, half as f32);
+        let (before, after) = ((half - index) as f32, (index + 1) as f32);
+        (3, [before, place, after].map(|part| part / whole))
+    };
+    Covered {
+        first: 2 * index,
+        count: covers,
+        shares,
     }
-    let first = 2 * index;
-    if count == 2 * half {
-        return [(first, 0.5), (first + 1, 0.5), (first, 0.0)];
-    }
-    let (whole, place) = (count as f32, half as f32);
-    [
-        (first, (half - index) as f32 / whole),
-        (first + 1, place / whole),
-        (first + 2, (index + 1) as f32 / whole),
-    ]
 }

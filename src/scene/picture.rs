@@ -184,18 +184,37 @@ pub(crate) fn scale_of(values: impl Iterator<Item = f32>) -> f32 {
 pub struct SrgbCurve {
     /// The linear value of each code.
     values: [f32; 256],
+    /// For each number of [`SrgbCurve::STEPS`]ths the first code of at least that value.
+    codes: [u8; Self::STEPS],
 }
 
 impl Default for SrgbCurve {
     fn default() -> Self {
         let value = |code: usize| linear_from_srgb(code as f64 / 255.0) as f32;
-        Self {
-            values: std::array::from_fn(value),
+        let values = std::array::from_fn(value);
+        let mut codes = [0; Self::STEPS];
+        let mut code = 0;
+        for (step, first) in codes.iter_mut().enumerate() {
+            code = first_from(&values, code, step as f32 / Self::STEPS as f32);
+            *first = code;
         }
+        Self { values, codes }
     }
 }
 
+/// The first code from `start` on whose linear value is not below `value`, or the last one.
+fn first_from(values: &[f32; 256], start: u8, value: f32) -> u8 {
+    let mut code = start;
+    while code < u8::MAX && values[usize::from(code)] < value {
+        code += 1;
+    }
+    code
+}
+
 impl SrgbCurve {
+    /// So fine that only a few codes are between one step and the next.
+    const STEPS: usize = 4096;
+
     /// The linear value of a code.
     pub fn value(&self, code: u8) -> f32 {
         self.values[usize::from(code)]
@@ -203,11 +222,12 @@ impl SrgbCurve {
 
     /// The code whose linear value is nearest to `value`.
     pub fn code(&self, value: f32) -> u8 {
-        let above = (self.values.partition_point(|known| *known < value)).min(255);
+        let step = ((value * Self::STEPS as f32) as usize).min(Self::STEPS - 1);
+        let above = first_from(&self.values, self.codes[step], value);
         let below = above.saturating_sub(1);
-        match value - self.values[below] < self.values[above] - value {
-            true => below as u8,
-            false => above as u8,
+        match value - self.value(below) < self.value(above) - value {
+            true => below,
+            false => above,
         }
     }
 }
