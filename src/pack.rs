@@ -249,9 +249,9 @@ fn pack(
     let environment = environment::of_scene(scene, &packed_pictures, before);
     let table = environment.as_ref().and_then(Environment::table);
     let table = table.map(|table| table.words.clone());
-    let words = packed_pictures.iter().map(|packed| packed.words.clone());
-    let albedos = [albedo::shared_words()];
-    let texels: Segments<u32> = words.chain(albedos).chain(table).collect();
+    let mut texels = Segments::default();
+    (packed_pictures.iter()).for_each(|packed| texels.append(&packed.words));
+    texels.append(&[albedo::shared_words()].into_iter().chain(table).collect());
     let bounded = joint.shapes.iter().chain(&*instanced_shapes);
     let features = Features {
         shape_kinds: bounded.fold(0, |kinds, shape| kinds | 1 << shape.kind),

@@ -1,11 +1,13 @@
 //! Packs pictures: their texels are words of one array on the GPU.
 
 use super::PackError;
+use super::segments::{Run, Segments};
 use crate::{
     layout::{PICTURE_HALF, PICTURE_SRGB},
     scene::{LARGEST_TEXEL, Pattern, Picture, Scene, Texels},
+    threads,
 };
-use glam::Vec4;
+use bytemuck::try_cast_slice;
 use half::f16;
 use std::sync::Arc;
 
@@ -16,9 +18,9 @@ const MAX_WORDS: usize = 1 << 30;
 #[derive(Clone, Debug)]
 pub struct PackedPicture {
     pub picture: Arc<Picture>,
-    /// Where each level of its mipmap starts, then its texels level by level: one word for each of 8 bits per channel,
-    /// two for half floats.
-    pub words: Arc<[u32]>,
+    /// Where each level of its mipmap starts, then its texels level by level: one word for each of 8 bits per channel, which
+    /// is that of the picture, two for half floats.
+    pub words: Segments<u32>,
     /// 1 without a mipmap.
     level_count: u32,
     /// Whether no texture shows it, so that its colours may be divided by a scale.
@@ -99,45 +101,81 @@ fn word_count(picture: &Picture, level_count: u32) -> usize {
         1 => picture.texels.len(),
         _ => picture.mipmap_len(),
     };
-    let each = match picture.texels {
+    texel_words(&picture.texels) * texel_count + level_count as usize - 1
+}
+
+/// The number of words of a texel.
+fn texel_words(texels: &Texels) -> usize {
+    match texels {
         Texels::Srgb8(_) | Texels::Linear8(_) => 1,
         Texels::Float(_) => 2,
-    };
-    each * texel_count + level_count as usize - 1
+    }
 }
 
 /// The words of a picture: see [`PackedPicture::words`].
-fn words(picture: &Picture, level_count: u32, scale: f32) -> Arc<[u32]> {
-    if level_count == 1 {
-        return texel_words(&picture.texels, scale).collect();
-    }
-    let levels = picture.levels();
+fn words(picture: &Arc<Picture>, level_count: u32, scale: f32) -> Segments<u32> {
+    let levels = match level_count {
+        1 => Vec::new(),
+        _ => picture.levels(),
+    };
     let mut starts = Vec::with_capacity(levels.len());
-    let mut words = vec![0; levels.len()];
-    words.reserve_exact(word_count(picture, level_count) - words.len());
-    words.extend(texel_words(&picture.texels, scale));
-    for level in &levels {
-        starts.push((words.len() - levels.len()) as u32);
-        words.extend(texel_words(level, scale));
+    let mut start = 0;
+    for level in [&picture.texels]
+        .into_iter()
+        .chain(&levels)
+        .take(levels.len())
+    {
+        start += level.len() * texel_words(level);
+        starts.push(start as u32);
     }
-    for (word, start) in words.iter_mut().zip(starts.into_iter().rev()) {
-        *word = start;
+    starts.reverse();
+    let mut words = Segments::default();
+    words.push(Arc::new(Arc::<[u32]>::from(starts)));
+    words.push(match picture.texels.elements() {
+        [] => Arc::new(copied(&picture.texels, scale)),
+        _ => picture.clone(),
+    });
+    for level in levels {
+        words.push(match level.elements() {
+            [] => Arc::new(copied(&level, scale)),
+            _ => Arc::new(level),
+        });
     }
-    words.into()
+    words
+}
+
+impl Run<u32> for Picture {
+    fn elements(&self) -> &[u32] {
+        self.texels.elements()
+    }
+}
+
+impl Run<u32> for Texels {
+    /// None if words are not what is in memory: floats become half floats.
+    fn elements(&self) -> &[u32] {
+        match self {
+            Self::Srgb8(texels) | Self::Linear8(texels) if cfg!(target_endian = "little") => {
+                try_cast_slice(texels).unwrap_or_default()
+            }
+            _ => &[],
+        }
+    }
 }
 
 /// The words of texels whose colours are divided by `scale`.
-fn texel_words(texels: &Texels, scale: f32) -> impl Iterator<Item = u32> {
+fn copied(texels: &Texels, scale: f32) -> Arc<[u32]> {
     let half = |value: f32| u32::from(f16::from_f32(value.min(LARGEST_TEXEL)).to_bits());
-    let halves = move |texel: &Vec4| {
-        let color = texel.truncate() / scale;
-        let [r, g, b, a] = color.extend(texel.w).to_array().map(half);
-        [r | g << 16, b | a << 16]
-    };
-    let (bytes, floats) = match texels {
-        Texels::Srgb8(texels) | Texels::Linear8(texels) => (&texels[..], &[][..]),
-        Texels::Float(texels) => (&[][..], &texels[..]),
-    };
-    let bytes = bytes.iter().map(|texel| u32::from_le_bytes(*texel));
-    bytes.chain(floats.iter().flat_map(halves))
+    match texels {
+        Texels::Srgb8(texels) | Texels::Linear8(texels) => {
+            (texels.iter().copied()).map(u32::from_le_bytes).collect()
+        }
+        Texels::Float(texels) => threads::collect_shared(2 * texels.len(), |index| {
+            let texel = texels[index / 2];
+            let [low, high] = match index % 2 {
+                0 => [texel.x / scale, texel.y / scale],
+                _ => [texel.z / scale, texel.w],
+            };
+            half(low) | half(high) << 16
+        }),
+    }
 }

@@ -4,10 +4,22 @@
 use bytemuck::Pod;
 use std::{fmt, ops::Index, sync::Arc};
 
+/// What has the elements of a segment.
+pub trait Run<T>: Send + Sync {
+    /// Always the same ones.
+    fn elements(&self) -> &[T];
+}
+
+impl<T: Send + Sync> Run<T> for Arc<[T]> {
+    fn elements(&self) -> &[T] {
+        self
+    }
+}
+
 /// Segments that form one array. A clone shares them.
 #[derive(Clone)]
 pub struct Segments<T> {
-    runs: Vec<Arc<[T]>>,
+    runs: Vec<Arc<dyn Run<T>>>,
     /// Index of the first element of each segment.
     starts: Vec<usize>,
     len: usize,
@@ -15,13 +27,18 @@ pub struct Segments<T> {
 
 impl<T> Segments<T> {
     /// Appends a segment; empty ones are skipped.
-    pub(super) fn push(&mut self, run: Arc<[T]>) {
-        if run.is_empty() {
-            return;
+    pub(super) fn push(&mut self, run: Arc<dyn Run<T>>) {
+        let len = run.elements().len();
+        if len > 0 {
+            self.starts.push(self.len);
+            self.len += len;
+            self.runs.push(run);
         }
-        self.starts.push(self.len);
-        self.len += run.len();
-        self.runs.push(run);
+    }
+
+    /// Appends the segments of another array.
+    pub(super) fn append(&mut self, other: &Self) {
+        other.runs.iter().for_each(|run| self.push(run.clone()));
     }
 
     /// Number of elements.
@@ -36,14 +53,14 @@ impl<T> Segments<T> {
 
     /// All elements in order.
     pub fn iter(&self) -> impl Iterator<Item = &T> {
-        self.runs.iter().flat_map(|run| run.iter())
+        self.runs.iter().flat_map(|run| run.elements())
     }
 
     /// The element at `index`; `None` beyond the end.
     pub fn get(&self, index: usize) -> Option<&T> {
         let run = self.starts.partition_point(|start| *start <= index);
         let run = run.checked_sub(1)?;
-        self.runs[run].get(index - self.starts[run])
+        self.runs[run].elements().get(index - self.starts[run])
     }
 
     /// Size of all elements in bytes.
@@ -60,7 +77,7 @@ impl<T: Pod> Segments<T> {
 
     /// The bytes of each segment.
     pub fn bytes(&self) -> impl Iterator<Item = &[u8]> {
-        self.runs.iter().map(|run| bytemuck::cast_slice(run))
+        (self.runs.iter()).map(|run| bytemuck::cast_slice(run.elements()))
     }
 }
 
@@ -74,10 +91,10 @@ impl<T> Default for Segments<T> {
     }
 }
 
-impl<T> FromIterator<Arc<[T]>> for Segments<T> {
+impl<T: Send + Sync + 'static> FromIterator<Arc<[T]>> for Segments<T> {
     fn from_iter<I: IntoIterator<Item = Arc<[T]>>>(runs: I) -> Self {
         let mut segments = Self::default();
-        runs.into_iter().for_each(|run| segments.push(run));
+        (runs.into_iter()).for_each(|run| segments.push(Arc::new(run)));
         segments
     }
 }
@@ -87,7 +104,7 @@ impl<T> Index<usize> for Segments<T> {
 
     fn index(&self, index: usize) -> &T {
         let run = self.starts.partition_point(|start| *start <= index) - 1;
-        &self.runs[run][index - self.starts[run]]
+        &self.runs[run].elements()[index - self.starts[run]]
     }
 }
 

@@ -183,6 +183,55 @@ fn only_pictures_of_minified_textures_have_a_mipmap() {
     );
 }
 
+/// The words of 8 bits per channel are the texels themselves: a scene of large pictures has them in memory once.
+#[test]
+fn texels_of_8_bits_are_packed_without_a_copy() {
+    let codes: Vec<[u8; 4]> = (0..64_u8).map(|i| [i, 2, 3, 255]).collect();
+    for texels in [Texels::Srgb8(codes.clone()), Texels::Linear8(codes)] {
+        for minify in [Minify::Nearest, Minify::default()] {
+            let mut scene = showing(vec![Picture {
+                width: 8,
+                height: 8,
+                texels: texels.clone(),
+                origin: Origin::Texels,
+            }]);
+            if let Pattern::Picture { minify: own, .. } = &mut scene.textures[0].pattern {
+                *own = minify;
+            }
+            let (Texels::Srgb8(own) | Texels::Linear8(own)) = &scene.pictures[0].texels else {
+                panic!("of 8 bits");
+            };
+            let packed = pack::scene(&scene).expect("a packed scene");
+            let place = own.as_ptr().cast();
+            let is_shared = packed.texels.bytes().any(|run| run.as_ptr() == place);
+            assert!(is_shared, "{minify:?}");
+        }
+    }
+}
+
+/// The code of a linear value is that of the nearest one, by the definition of sRGB in f64.
+#[test]
+fn codes_of_srgb_are_the_nearest_ones() {
+    let curve = SrgbCurve::default();
+    let linear = |code: u8| linear_from_srgb(f64::from(code) / 255.0);
+    let mut random = Random::new(9);
+    let between = (0..255).flat_map(|code| {
+        let (low, high) = (linear(code), linear(code + 1));
+        [0.0, 0.01, 0.49, 0.51, 0.99].map(|part| low + part * (high - low))
+    });
+    let anywhere = (0..10_000).map(|_| random.below(1 << 20) as f64 / f64::from(1 << 20));
+    for value in between.chain(anywhere).chain([-1.0, 1.0, 2.0]) {
+        let off = |code: u8| (linear(code) - value).abs();
+        let best = (0..=255).map(off).fold(f64::INFINITY, f64::min);
+        let found = curve.code(value as f32);
+        assert!(
+            off(found) - best < 1e-7 * value.abs().max(1e-3),
+            "{value}: {found}"
+        );
+    }
+    assert_eq!(curve.code(f32::NAN), 0);
+}
+
 /// A picture of 64×64 texels of random grey.
 fn noise() -> Picture {
     let mut random = Random::new(4);
