@@ -3,9 +3,9 @@
 use super::PackError;
 use super::segments::{Run, Segments};
 use crate::{
+    bvh::threads,
     layout::{PICTURE_HALF, PICTURE_SRGB},
     scene::{LARGEST_TEXEL, Pattern, Picture, Scene, Texels},
-    threads,
 };
 use bytemuck::try_cast_slice;
 use half::f16;
