@@ -534,7 +534,7 @@ packed! {
     PackedTone {
         /// Factor on linear radiance, above 0.
         exposure_scale: f32,
-        /// [`TONE_NONE`], [`TONE_ACES`], [`TONE_AGX`] or [`TONE_REINHARD`].
+        /// [`TONE_NONE`], [`TONE_ACES`], [`TONE_AGX`], [`TONE_REINHARD`] or [`TONE_NEUTRAL`].
         curve: u32,
         /// [`TRANSFER_SRGB`] or [`TRANSFER_LINEAR`].
         transfer: u32,

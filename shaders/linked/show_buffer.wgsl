@@ -121,6 +121,8 @@ const types__TONE_AGX: u32 = 2u;
 
 const types__TONE_REINHARD: u32 = 3u;
 
+const types__TONE_NEUTRAL: u32 = 4u;
+
 const types__TRANSFER_SRGB: u32 = 0u;
 
 struct types__PackedDispatch {
@@ -260,6 +262,23 @@ fn tone__agx(x: vec3f) -> vec3f {
 	return pow(max_vec3f(outset * curve, vec3f(0.0)), vec3f(2.2));
 }
 
+fn tone__neutral(x: vec3f) -> vec3f {
+	let reflected = 0.04;
+	let knee = 0.8 - reflected;
+	let desaturation = 0.15;
+	let least = max_f32(min_f32(x.r, min_f32(x.g, x.b)), 0.0);
+	let offset = select(reflected, least - least * least / (4.0 * reflected), least < 2.0 * reflected);
+	let color = x - offset;
+	let peak = max_f32(color.r, max_f32(color.g, color.b));
+	if (peak < knee) {
+		return color;
+	}
+	let room = 1.0 - knee;
+	let shown = 1.0 - room * room / (peak + room - knee);
+	let saturation = 1.0 / (desaturation * (peak - shown) + 1.0);
+	return mix(vec3f(shown), color * (shown / peak), saturation);
+}
+
 fn tone__srgb_from_linear(x: vec3f) -> vec3f {
 	let power = 1.055 * pow(max_vec3f(x, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
 	return select(power, 12.92 * x, x <= vec3f(0.0031308));
@@ -275,6 +294,9 @@ fn tone__develop(radiance: vec3f, tone: types__PackedTone) -> vec3f {
 	}
 	else if (tone.curve == types__TONE_AGX) {
 		color = tone__agx(color);
+	}
+	else if (tone.curve == types__TONE_NEUTRAL) {
+		color = tone__neutral(color);
 	}
 	else if (tone.curve == types__TONE_REINHARD) {
 		color = tone__reinhard(color);

@@ -95,6 +95,11 @@ pub static TONES: ValueNames<ToneCurve> = ValueNames(&[
     ("aces", "filmic, Narkowicz 2015", ToneCurve::Aces),
     ("agx", "filmic, Sobotka's AgX", ToneCurve::Agx),
     ("reinhard", "x / (1 + x) on luminance", ToneCurve::Reinhard),
+    (
+        "neutral",
+        "Khronos PBR Neutral, keeps base colours",
+        ToneCurve::Neutral,
+    ),
 ]);
 
 /// Transfer functions.

@@ -154,6 +154,7 @@ impl Writer<'_> {
                     ToneCurve::Aces => "\"aces\"",
                     ToneCurve::Agx => "\"agx\"",
                     ToneCurve::Reinhard => "\"reinhard\"",
+                    ToneCurve::Neutral => "\"neutral\"",
                 },
             );
         }

@@ -1,9 +1,9 @@
 //! The studio that models are shown in: a camera that frames the model, two soft lamps, a backdrop and a ground.
 
-use super::{Ground, Options, visibility};
+use super::{Ground, Options, Staging, visibility};
 use crate::scene::{
     Attenuation, Backdrop, Background, Camera, Framing, Geometry, Light, LightKind, LightTransport,
-    Material, Scene, Shape, Sight,
+    Material, Scene, Shape, Sight, ToneCurve,
 };
 use glam::{DVec3, Vec3};
 
@@ -26,7 +26,7 @@ const SAMPLES: u32 = 8;
 const WEAK: f32 = 0.5;
 
 /// Adds what `scene`, which is a model, lacks: a camera; and if its own lights are weak, lamps, a background and a
-/// ground. `options` may leave out each.
+/// ground. `options` may leave out each. The tone curve keeps base colours, and where nothing is added, all colours up to white.
 pub(super) fn complete(scene: &mut Scene, options: &Options) {
     visibility::note(scene);
     let staging = options.staging;
@@ -39,6 +39,10 @@ pub(super) fn complete(scene: &mut Scene, options: &Options) {
     }
     scene.output.samples = SAMPLES;
     scene.output.denoise = true;
+    scene.output.tone = Some(match staging == Staging::NONE {
+        true => ToneCurve::None,
+        false => ToneCurve::Neutral,
+    });
 }
 
 /// Makes the first camera that sees something lit the default, or else one that frames `scene`. `is_dark` tells whether light

@@ -274,6 +274,8 @@ pub const TONE_ACES: u32 = 1;
 pub const TONE_AGX: u32 = 2;
 /// [`super::PackedTone::curve`]: [`crate::scene::ToneCurve::Reinhard`].
 pub const TONE_REINHARD: u32 = 3;
+/// [`super::PackedTone::curve`]: [`crate::scene::ToneCurve::Neutral`].
+pub const TONE_NEUTRAL: u32 = 4;
 
 /// [`super::PackedTone::transfer`]: [`crate::scene::Transfer::Srgb`].
 pub const TRANSFER_SRGB: u32 = 0;

@@ -14,8 +14,8 @@ use crate::{
     gpu::{Gpu, GpuError, Kernel, Ledger, MEMORY_LIMIT_BYTES, Source},
     image::Image,
     layout::{
-        PackedDispatch, PackedFrame, PackedLight, PackedTone, TONE_ACES, TONE_AGX, TONE_NONE,
-        TONE_REINHARD, TRANSFER_LINEAR, TRANSFER_SRGB,
+        PackedDispatch, PackedFrame, PackedLight, PackedTone, TONE_ACES, TONE_AGX, TONE_NEUTRAL,
+        TONE_NONE, TONE_REINHARD, TRANSFER_LINEAR, TRANSFER_SRGB,
     },
     scene::{ToneCurve, Transfer},
 };
@@ -70,6 +70,7 @@ impl Tone {
                 ToneCurve::Aces => TONE_ACES,
                 ToneCurve::Agx => TONE_AGX,
                 ToneCurve::Reinhard => TONE_REINHARD,
+                ToneCurve::Neutral => TONE_NEUTRAL,
             },
             transfer: match self.transfer {
                 Transfer::Srgb => TRANSFER_SRGB,

@@ -108,6 +108,7 @@ impl Tone {
             ToneCurve::Aces => 1,
             ToneCurve::Agx => 2,
             ToneCurve::Reinhard => 3,
+            ToneCurve::Neutral => 4,
         };
         let transfer = match transfer {
             Transfer::Srgb => 0,
@@ -142,6 +143,7 @@ impl Tone {
                 1 => ToneCurve::Aces,
                 2 => ToneCurve::Agx,
                 3 => ToneCurve::Reinhard,
+                4 => ToneCurve::Neutral,
                 _ => return None,
             },
             transfer: match transfer {

@@ -166,6 +166,8 @@ pub enum ToneCurve {
     Agx,
     /// x / (1 + x) on luminance (Reinhard et al. 2002).
     Reinhard,
+    /// Khronos PBR Neutral (2024), which shows base colours under white light as they are.
+    Neutral,
 }
 
 /// From display-linear [0, 1] to stored values.

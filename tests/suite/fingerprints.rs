@@ -78,6 +78,7 @@ fn every_part_of_a_tone_changes_its_fingerprint() {
         |tone| tone.curve = ToneCurve::Aces,
         |tone| tone.curve = ToneCurve::Agx,
         |tone| tone.curve = ToneCurve::Reinhard,
+        |tone| tone.curve = ToneCurve::Neutral,
         |tone| tone.transfer = Transfer::Srgb,
         |tone| tone.levels = Levels::Found,
         |tone| tone.levels = Levels::Fixed([0.0, 0.0]),

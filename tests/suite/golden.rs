@@ -279,6 +279,7 @@ fn goldens() -> Vec<Golden> {
         golden("tone-aces", bright.clone()).toned(0.0, ToneCurve::Aces),
         golden("tone-agx", bright.clone()).toned(0.0, ToneCurve::Agx),
         golden("tone-reinhard", bright.clone()).toned(0.0, ToneCurve::Reinhard),
+        golden("tone-neutral", bright.clone()).toned(0.0, ToneCurve::Neutral),
         golden("exposure", bright).toned(-2.5, ToneCurve::None),
         golden("lobes", lobes::scene()).set(|s| *s = lobes::settings()),
     ]

@@ -144,7 +144,7 @@ fn with_progress_in_json_every_line_is_a_json_object() {
     verdict.close();
     let run = workspace.run("render a.scene --tone acse --progress json");
     let error: Value = serde_json::from_str(&run.expect(2).stderr).expect("JSON");
-    let message = "invalid value 'acse' for '--tone <TONE>' [possible values: none, aces, agx, reinhard] tip: a \
+    let message = "invalid value 'acse' for '--tone <TONE>' [possible values: none, aces, agx, reinhard, neutral] tip: a \
                    similar value exists: 'aces'";
     assert_eq!(error["error"], message);
 }

@@ -837,6 +837,7 @@ fn very_bright_pixels_develop_to_finite_values_under_every_curve() {
             ToneCurve::Aces,
             ToneCurve::Agx,
             ToneCurve::Reinhard,
+            ToneCurve::Neutral,
         ]
         .map(|curve| {
             let tone = Tone {

@@ -5,7 +5,8 @@ use crate::support::{
     verdict::{Tolerance, Verdict},
 };
 use glimray::layout::{
-    PackedTone, TONE_ACES, TONE_AGX, TONE_NONE, TONE_REINHARD, TRANSFER_LINEAR, TRANSFER_SRGB,
+    PackedTone, TONE_ACES, TONE_AGX, TONE_NEUTRAL, TONE_NONE, TONE_REINHARD, TRANSFER_LINEAR,
+    TRANSFER_SRGB,
 };
 
 fn tone(exposure_scale: f32, curve: u32, transfer: u32) -> PackedTone {
@@ -108,6 +109,69 @@ fn agx_of_greys_is_its_published_polynomial() {
     verdict.close();
 }
 
+/// Values of the definition (https://github.com/KhronosGroup/ToneMapping, PBR_Neutral).
+#[test]
+fn neutral_shifts_colours_by_the_reflection_of_a_dielectric_up_to_its_knee() {
+    // The largest channel p is shown as 1 − 0.24²/(p − 0.52) above the knee at 0.76.
+    let compressed = |p: f64| 1.0 - 0.0576 / (p - 0.52);
+    let faded = |p: f64| 1.0 / (1.0 + 0.15 * (p - compressed(p)));
+    let red = |p: f64| {
+        [
+            compressed(p),
+            compressed(p) * (1.0 - faded(p)),
+            compressed(p) * (1.0 - faded(p)),
+        ]
+    };
+    #[rustfmt::skip]
+    gpu().check("lib::tone::neutral", Tolerance::Absolute(1e-6), &[
+        ("black stays black", [0f32; 3], [0.0; 3]),
+        ("medium grey loses 4 %", [0.18; 3], [0.14; 3]),
+        ("a base colour of half with 4 % reflected", [0.54, 0.29, 0.165], [0.5, 0.25, 0.125]),
+        ("the knee", [0.8; 3], [0.76; 3]),
+        ("the toe ends at 8 %", [0.08; 3], [0.04; 3]),
+        ("grey in the toe is squared", [0.04; 3], [0.01; 3]),
+        ("pure colours below the knee stay", [0.0, 0.75, 0.0], [0.0, 0.75, 0.0]),
+        ("a channel that a filter made negative", [-0.25, 0.5, 0.5], [-0.25, 0.5, 0.5]),
+        ("white", [1.0; 3], [compressed(0.96); 3]),
+        ("a white of 100", [100.04; 3], [compressed(100.0); 3]),
+        ("pure red of 1", [1.0, 0.0, 0.0], red(1.0)),
+        ("pure red of 8", [8.0, 0.0, 0.0], red(8.0)),
+    ]);
+}
+
+/// Fading to white, scaling and offsets leave the place of the middle channel between the others.
+#[test]
+fn neutral_keeps_hues_of_saturated_light_and_never_exceeds_white() {
+    let levels = [0.0, 0.02, 0.07, 0.1, 0.3, 0.6, 0.9, 1.5, 4.0, 20.0, 500.0];
+    let mut inputs = Vec::new();
+    for [r, g, b] in levels.iter().flat_map(|r| levels.map(|g| [*r, g, 0.7])) {
+        inputs.extend([[r, g, b], [g, b, r], [b, r, g]]);
+    }
+    let shown: Vec<[f32; 3]> = gpu().map("lib::tone::neutral", &inputs);
+    let ordered = |mut c: [f32; 3]| {
+        c.sort_by(f32::total_cmp);
+        c.map(f64::from)
+    };
+    let mut verdict = Verdict::on("neutral");
+    for (input, shown) in inputs.iter().zip(&shown) {
+        let ([low, mid, high], [least, middle, most]) = (ordered(*input), ordered(*shown));
+        verdict.that(
+            format!("{input:?} in range"),
+            least >= 0.0 && most <= 1.0,
+            || format!("{shown:?}"),
+        );
+        let place = (mid - low) / (high - low);
+        // Where all but white is lost, the rest is rounding.
+        let is_kept = (middle - least - place * (most - least)).abs() < 1e-5;
+        let has_order =
+            (0..3).all(|a| (0..3).all(|b| input[a] >= input[b] || shown[a] <= shown[b]));
+        verdict.that(format!("hue of {input:?}"), is_kept && has_order, || {
+            format!("{shown:?}")
+        });
+    }
+    verdict.close();
+}
+
 #[test]
 fn tone_curves_never_fall_and_stay_in_range() {
     let stops: Vec<f32> = (0..400)
@@ -119,6 +183,7 @@ fn tone_curves_never_fall_and_stay_in_range() {
         ("aces", TONE_ACES),
         ("agx", TONE_AGX),
         ("reinhard", TONE_REINHARD),
+        ("neutral", TONE_NEUTRAL),
     ] {
         let inputs: Vec<_> = stops
             .iter()
@@ -148,6 +213,8 @@ fn develop_exposes_then_curves_then_transfers() {
         ("exposure comes before the curve", (grey(0.25), tone(4.0, TONE_REINHARD, TRANSFER_LINEAR)), [0.5; 3]),
         ("the curve comes before the transfer", (grey(1.0), tone(1.0, TONE_REINHARD, TRANSFER_SRGB)), [0.735_356_98; 3]),
         ("aces by its tag", (grey(1.0), tone(1.0, TONE_ACES, TRANSFER_LINEAR)), [254.0 / 316.0; 3]),
+        ("neutral by its tag", (grey(0.36), tone(0.5, TONE_NEUTRAL, TRANSFER_LINEAR)), [0.14; 3]),
+        ("black stays black with neutral", (grey(0.0), tone(1.0, TONE_NEUTRAL, TRANSFER_SRGB)), [0.0; 3]),
         ("black stays black with agx", (grey(0.0), tone(1.0, TONE_AGX, TRANSFER_SRGB)), [0.0; 3]),
         ("no light, no exposure", (grey(0.0), tone(0.0, TONE_NONE, TRANSFER_SRGB)), [0.0; 3]),
     ]);

@@ -168,7 +168,8 @@ pub struct DevelopFlags {
     /// auto makes the picture's average a medium grey, frame by frame; auto+1 is a stop brighter, auto-1 darker.
     #[arg(long, value_name = "EV|auto", allow_hyphen_values = true, value_parser = values::exposure)]
     pub exposure: Option<Exposure>,
-    /// Tone curve [default: the scene's, else agx for paths and none for whitted; none for .exr, .hdr and debug views]
+    /// Tone curve [default: the scene's, neutral for models, none for --bare ones, else agx for paths and none for whitted; none
+    /// for .exr, .hdr and debug views]
     #[arg(long, value_parser = values::one_of(&TONES))]
     pub tone: Option<ToneCurve>,
     /// Transfer function [default: the scene's, else srgb; srgb too where paths bring agx to a scene for whitted; linear for
@@ -257,7 +258,7 @@ pub struct SceneFlags {
     /// Frame the model, whatever its own cameras show
     #[arg(long, conflicts_with = "bare")]
     pub fit: bool,
-    /// Add nothing to a model: no camera that frames it, no lights, no background, no ground
+    /// Add nothing to a model: no camera that frames it, no lights, no background, no ground, no tone curve
     #[arg(long)]
     pub bare: bool,
     /// Add no lamps to a model without lights, or with weak ones; its background still lights paths

@@ -195,7 +195,8 @@ impl ViewSettings {
             ToneCurve::None => ToneCurve::Aces,
             ToneCurve::Aces => ToneCurve::Agx,
             ToneCurve::Agx => ToneCurve::Reinhard,
-            ToneCurve::Reinhard => ToneCurve::None,
+            ToneCurve::Reinhard => ToneCurve::Neutral,
+            ToneCurve::Neutral => ToneCurve::None,
         };
     }
 

@@ -76,6 +76,38 @@ fn the_raw_picture_stays_in_films_and_layers() {
 }
 
 #[test]
+fn colours_of_models_are_those_of_their_materials() {
+    let workspace = Workspace::new();
+    workspace.write(
+        "a.mtl",
+        "newmtl lamp\nKd 0 1 0\nillum 0\nnewmtl paint\nKd 0.6 0 0\nKs 0 0 0\nillum 1\n",
+    );
+    let square = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
+    for material in ["lamp", "paint"] {
+        workspace.write(
+            &format!("{material}.obj"),
+            format!("mtllib a.mtl\nusemtl {material}\n{square}"),
+        );
+    }
+    let middle = |line: &str| {
+        let line = format!("render {line} --look-from 0,0,5 --look-at 0,0,0 --size 9x9 -o a.png");
+        workspace.run(&line).expect(0);
+        let picture = image::load_from_memory(&workspace.read("a.png")).expect("a picture");
+        picture.into_rgb8().get_pixel(4, 4).0
+    };
+    assert_eq!(middle("lamp.obj --bare"), [0, 255, 0], "an unlit colour");
+    for integrator in ["path", "whitted"] {
+        let [red, green, blue] = middle(&format!("paint.obj --integrator {integrator}"));
+        assert!(
+            red > 100 && green < 10 && blue < 10,
+            "{integrator}: {red} {green} {blue}"
+        );
+    }
+    let washed = middle("paint.obj --tone agx");
+    assert!(washed[1] > 50, "{washed:?}");
+}
+
+#[test]
 fn a_black_picture_is_warned_of_with_its_reason() {
     let workspace = workspace();
     workspace.write("ship.glb", ship(json!({})).glb());

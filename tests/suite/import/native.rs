@@ -448,7 +448,7 @@ bad scene (a.toml:1:15): expected two numbers [width, height], found more. See `
 bad scene (a.toml:1:18): 0 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:18): 100000 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:22): 99 is not between -32 and 32. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:15): unknown value `filmic`. Allowed here: `none`, `aces`, `agx`, `reinhard`.
+bad scene (a.toml:1:15): unknown value `filmic`. Allowed here: `none`, `aces`, `agx`, `reinhard`, `neutral`.
 bad scene (a.toml:1:19): unknown value `sRGB`, did you mean `srgb`? Allowed here: `srgb`, `linear`.
 bad scene (a.toml:1:68): 180 is not an angle between 0.001 and 179.999 degrees. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:56): unknown key `fov`. Allowed here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `near`, `far`, `default`, `lens`.

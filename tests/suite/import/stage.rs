@@ -3,7 +3,7 @@
 use super::gltf::model::Model;
 use glam::{DMat3, DVec3};
 use glimray::import::{self, Environment, EnvironmentSource, Ground, Memory, Options, Staging};
-use glimray::scene::{Background, Camera, Geometry, LightKind, LightTransport, Scene};
+use glimray::scene::{Background, Camera, Geometry, LightKind, LightTransport, Scene, ToneCurve};
 use serde_json::json;
 
 /// A box with this minimum and maximum.
@@ -146,6 +146,7 @@ fn models_of_all_formats_stand_in_the_same_studio() {
         first.output.exposure_ev, 0.0,
         "unlit colours stay as they are"
     );
+    assert_eq!(first.output.tone, Some(ToneCurve::Neutral));
     for scene in &scenes[1..] {
         assert_eq!(scene.cameras, first.cameras);
         assert_eq!(scene.lights, first.lights);
@@ -299,6 +300,7 @@ fn each_part_can_be_left_out() {
     );
     assert_eq!(bare.cameras, [Camera::default()]);
     assert_eq!(bare.background, Background::default());
+    assert_eq!(bare.output.tone, Some(ToneCurve::None));
 
     let no_lights = with(Staging {
         lights: false,

@@ -77,6 +77,8 @@ pub(in crate::import::native) enum ToneName {
     Agx,
     /// x / (1 + x) on luminance.
     Reinhard,
+    /// Keeps base colours under white light, compresses highlights alone: Khronos PBR Neutral.
+    Neutral,
 }
 
 impl From<ToneName> for ToneCurve {
@@ -86,6 +88,7 @@ impl From<ToneName> for ToneCurve {
             ToneName::Aces => Self::Aces,
             ToneName::Agx => Self::Agx,
             ToneName::Reinhard => Self::Reinhard,
+            ToneName::Neutral => Self::Neutral,
         }
     }
 }

@@ -161,6 +161,7 @@ fn defaults(ui: &mut egui::Ui, session: &mut Session) {
                 ToneCurve::Aces,
                 ToneCurve::Agx,
                 ToneCurve::Reinhard,
+                ToneCurve::Neutral,
             ] {
                 ui.selectable_value(&mut preferences.tone, Some(curve), name(Some(curve)));
             }
