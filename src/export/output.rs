@@ -89,6 +89,7 @@ impl Writer<'_> {
             exposure_ev,
             auto_exposure,
             tone,
+            path_tone,
             transfer,
             fps,
             duration,
@@ -147,17 +148,10 @@ impl Writer<'_> {
         );
         table.put_if(auto_exposure, "auto_exposure", "true");
         if let Some(tone) = tone {
-            table.put(
-                "tone",
-                match tone {
-                    ToneCurve::None => "\"none\"",
-                    ToneCurve::Aces => "\"aces\"",
-                    ToneCurve::Agx => "\"agx\"",
-                    ToneCurve::Reinhard => "\"reinhard\"",
-                    ToneCurve::Neutral => "\"neutral\"",
-                },
-            );
+            table.put("tone", tone_name(tone));
         }
+        let path_name = tone_name(path_tone);
+        table.put_if(path_tone != plain.path_tone, "path_tone", path_name);
         table.put_if(
             transfer != plain.transfer,
             "transfer",
@@ -205,4 +199,14 @@ fn sky(origin: &Origin) -> Option<Table> {
         table.put_if(degrees != default, key, number(degrees));
     }
     Some(table)
+}
+
+fn tone_name(tone: ToneCurve) -> &'static str {
+    match tone {
+        ToneCurve::None => "\"none\"",
+        ToneCurve::Aces => "\"aces\"",
+        ToneCurve::Agx => "\"agx\"",
+        ToneCurve::Reinhard => "\"reinhard\"",
+        ToneCurve::Neutral => "\"neutral\"",
+    }
 }

@@ -39,10 +39,10 @@ pub(super) fn complete(scene: &mut Scene, options: &Options) {
     }
     scene.output.samples = SAMPLES;
     scene.output.denoise = true;
-    scene.output.tone = Some(match staging == Staging::NONE {
+    scene.output.path_tone = match staging == Staging::NONE {
         true => ToneCurve::None,
         false => ToneCurve::Neutral,
-    });
+    };
 }
 
 /// Makes the first camera that sees something lit the default, or else one that frames `scene`. `is_dark` tells whether light
@@ -93,13 +93,14 @@ pub(super) fn camera(scene: &Scene, (width, height): (u32, u32)) -> Camera {
 const DISTANCE: f64 = 1e5;
 
 /// Lamps: towards them, their radius by their distance, samples and colour. A warm key light from the left
-/// above, and a cool fill light from the right.
+/// above, and a cool fill light from the right. With the backdrop they give white surfaces a radiance of about 1, most of which
+/// the tone curve does not compress: shapes show on white too.
 const LAMPS: [(DVec3, f64, u32, Vec3); 2] = [
     (
         DVec3::new(-0.75, 1.25, 0.85),
         0.175,
         2,
-        Vec3::new(1.05, 1.0, 0.94),
+        Vec3::new(0.84, 0.80, 0.75),
     ),
     (
         DVec3::new(1.0, 0.55, 0.55),

@@ -72,8 +72,8 @@ impl Tone {
         Self {
             exposure_ev: output.exposure_ev,
             auto_exposure: output.auto_exposure,
-            curve: output.tone.unwrap_or(transport.tone()),
-            // AgX is made for sRGB. A scene for the classical integrator that names no curve has its transfer function for
+            curve: output.tone.unwrap_or(output.tone_of(transport)),
+            // Curves of paths are made for sRGB. A scene for the classical integrator that names no curve has its transfer function for
             // pictures without one, as in the course's format.
             transfer: match (output.tone, output.integrator, transport) {
                 (None, LightTransport::Whitted, LightTransport::Path) => Transfer::Srgb,

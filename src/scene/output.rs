@@ -27,10 +27,12 @@ pub struct OutputDefaults {
     pub exposure_ev: f32,
     /// Whether the exposure adds to one that makes the picture's average a medium grey.
     pub auto_exposure: bool,
-    /// Tone curve, applied after the exposure; `None`: [`LightTransport::tone`].
+    /// Tone curve, applied after the exposure; `None`: that of [`Self::tone_of`].
     pub tone: Option<ToneCurve>,
+    /// The tone curve of paths without [`Self::tone`]: AgX, and for models Khronos PBR Neutral.
+    pub path_tone: ToneCurve,
     /// Transfer function, applied last. Without [`Self::tone`] it belongs to the tone curve of [`Self::integrator`]: paths
-    /// that are traced in place of classical rays are shown with AgX and sRGB.
+    /// that are traced in place of classical rays are shown with [`Self::path_tone`] and sRGB.
     pub transfer: Transfer,
     /// Frames per second of an animation, above 0.
     pub fps: f64,
@@ -82,12 +84,24 @@ impl Default for OutputDefaults {
             exposure_ev: 0.0,
             auto_exposure: false,
             tone: None,
+            path_tone: ToneCurve::Agx,
             transfer: Transfer::Srgb,
             fps: 24.0,
             duration: None,
             shutter: Shutter::default(),
             backdrop: Backdrop::Background,
             denoise: false,
+        }
+    }
+}
+
+impl OutputDefaults {
+    /// The tone curve of pictures by `transport` where [`Self::tone`] gives none: clamping for the classical integrator, as in
+    /// the course; [`Self::path_tone`] for paths, whose light has a much wider range.
+    pub fn tone_of(&self, transport: LightTransport) -> ToneCurve {
+        match transport {
+            LightTransport::Whitted => ToneCurve::None,
+            LightTransport::Path => self.path_tone,
         }
     }
 }
@@ -141,15 +155,6 @@ impl LightTransport {
                 (enough, max_depth.min(MOST_BOUNCES))
             }
             _ => (samples, max_depth),
-        }
-    }
-
-    /// The tone curve of pictures whose scene has none: clamping for the classical integrator, as in the course; AgX
-    /// for paths, whose light has a much wider range.
-    pub fn tone(self) -> ToneCurve {
-        match self {
-            Self::Whitted => ToneCurve::None,
-            Self::Path => ToneCurve::Agx,
         }
     }
 }

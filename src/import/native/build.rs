@@ -261,6 +261,7 @@ fn output(table: &OutputTable) -> OutputDefaults {
         exposure_ev: table.exposure_ev.0,
         auto_exposure: table.auto_exposure,
         tone: table.tone.map(Into::into),
+        path_tone: table.path_tone.into(),
         transfer: table.transfer.into(),
         fps: table.fps.0,
         duration: table.duration.map(|duration| duration.0),

@@ -142,8 +142,10 @@ pub(super) struct OutputTable {
     pub exposure_ev: Stops,
     /// Whether `exposure_ev` adds to an exposure that makes the picture's average a medium grey; default false.
     pub auto_exposure: bool,
-    /// The tone curve; default agx for paths, otherwise none.
+    /// The tone curve; default `path_tone` for paths, otherwise none.
     pub tone: Option<ToneName>,
+    /// The tone curve of paths where there is no `tone`; default agx.
+    pub path_tone: ToneName,
     /// The transfer function of stored values; default srgb.
     pub transfer: TransferName,
     /// Frames per second of an animation; default 24.
@@ -176,6 +178,7 @@ impl Default for OutputTable {
             exposure_ev: Stops(0.0),
             auto_exposure: false,
             tone: None,
+            path_tone: ToneName::Agx,
             transfer: TransferName::Srgb,
             fps: FrameRate(24.0),
             duration: None,

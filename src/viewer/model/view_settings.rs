@@ -241,7 +241,8 @@ impl ViewSettings {
             exposure_ev: self.tone.exposure_ev,
             auto_exposure: self.tone.auto_exposure,
             tone: Some(self.tone.curve)
-                .filter(|curve| before.tone.is_some() || *curve != integrator.tone()),
+                .filter(|curve| before.tone.is_some() || *curve != before.tone_of(integrator)),
+            path_tone: before.path_tone,
             transfer: self.tone.transfer,
             fps: playback.clock.fps,
             duration: before.duration,

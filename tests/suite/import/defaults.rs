@@ -3,7 +3,7 @@
 use super::scene;
 use glimray::export;
 use glimray::import::{self, Options};
-use glimray::render::Tone;
+use glimray::render::{Integrator, Tone};
 use glimray::scene::{LightTransport, Scene, ToneCurve};
 
 const BALL: &str = "[[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n";
@@ -70,7 +70,11 @@ fn scenes_for_path_tracing_have_its_samples_bounces_and_tone_curve() {
     assert_eq!((said.samples, said.max_depth), (4, 2));
     let tone = Tone::from(&said);
     assert_eq!((tone.curve, tone.auto_exposure), (ToneCurve::None, true));
-    for output in [plain, path, said] {
+    let other = of("[output]\npath_tone = 'neutral'");
+    let curve_by = |integrator: Integrator| Tone::of_scene(&other, integrator).curve;
+    assert_eq!(curve_by(Integrator::Path), ToneCurve::Neutral);
+    assert_eq!(curve_by(Integrator::Whitted), ToneCurve::None);
+    for output in [plain, path, said, other.clone()] {
         let scene = Scene {
             output,
             ..native(BALL)

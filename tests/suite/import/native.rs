@@ -60,7 +60,7 @@ fn every_key_is_heard() {
         r##"
         background = [0.5, 0.25, 2]
         ambient = "#ffffff"
-        output = { size = [320, 200], samples = 9, exposure_ev = -1.5, tone = "agx", transfer = "linear" }
+        output = { size = [320, 200], samples = 9, exposure_ev = -1.5, tone = "agx", path_tone = "neutral", transfer = "linear" }
         [[cameras]]
         name = "a"
         look_from = [1, 2, 3]
@@ -99,6 +99,7 @@ fn every_key_is_heard() {
         samples: 9,
         exposure_ev: -1.5,
         tone: Some(ToneCurve::Agx),
+        path_tone: ToneCurve::Neutral,
         transfer: Transfer::Linear,
         ..OutputDefaults::default()
     };

@@ -146,7 +146,7 @@ fn models_of_all_formats_stand_in_the_same_studio() {
         first.output.exposure_ev, 0.0,
         "unlit colours stay as they are"
     );
-    assert_eq!(first.output.tone, Some(ToneCurve::Neutral));
+    assert_eq!(first.output.path_tone, ToneCurve::Neutral);
     for scene in &scenes[1..] {
         assert_eq!(scene.cameras, first.cameras);
         assert_eq!(scene.lights, first.lights);
@@ -300,7 +300,7 @@ fn each_part_can_be_left_out() {
     );
     assert_eq!(bare.cameras, [Camera::default()]);
     assert_eq!(bare.background, Background::default());
-    assert_eq!(bare.output.tone, Some(ToneCurve::None));
+    assert_eq!(bare.output.path_tone, ToneCurve::None);
 
     let no_lights = with(Staging {
         lights: false,
