@@ -168,7 +168,7 @@ pub struct DevelopFlags {
     /// auto makes the picture's average a medium grey, frame by frame; auto+1 is a stop brighter, auto-1 darker.
     #[arg(long, value_name = "EV|auto", allow_hyphen_values = true, value_parser = values::exposure)]
     pub exposure: Option<Exposure>,
-    /// Tone curve [default: the scene's, else for paths neutral in models, none in --bare ones, agx in scenes; none for whitted,
+    /// Tone curve [default: the scene's, else for paths neutral in models, none in bare ones, agx in scenes; none for whitted,
     /// .exr, .hdr and debug views]
     #[arg(long, value_parser = values::one_of(&TONES))]
     pub tone: Option<ToneCurve>,
