@@ -34,6 +34,7 @@ mod store;
 mod textures;
 mod uv_sets;
 mod values;
+mod version;
 
 use super::budget::Budget;
 use super::error::ImportError;
@@ -288,23 +289,8 @@ fn parse(
             (document.map_err(refuse)?, Vec::new())
         }
     };
-    let asset = document.asset.as_ref();
-    let needed = asset.map(|asset| asset.min_version.as_ref().unwrap_or(&asset.version));
-    match needed.map(String::as_str) {
-        Some(version) if version.starts_with('2') => Ok((document, remarks)),
-        Some(version) => {
-            let version = quote(version.as_bytes());
-            let why = format!("it is glTF {version}, but only version 2.0 is read");
-            Err(blame.file(&why, "Convert it to glTF 2.0"))
-        }
-        None if !document.meshes.is_empty() => {
-            notes.add("models without a version", || {
-                "it has no `asset`, and is read as glTF 2.0".to_owned()
-            });
-            Ok((document, remarks))
-        }
-        None => Err(blame.file("it has no `asset`", "Check that it is a glTF 2.0 file")),
-    }
+    version::check(&document, notes, blame)?;
+    Ok((document, remarks))
 }
 
 /// The number of the entry that `wanted` names, by its name or number.
