@@ -10,6 +10,7 @@ mod aim;
 mod animation;
 mod blame;
 mod buffers;
+mod cameras;
 mod compressed;
 mod container;
 mod deform;

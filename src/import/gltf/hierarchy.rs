@@ -6,11 +6,8 @@ use super::document::{Kind, Node as Source};
 use super::node_transform::{extended, is_invertible, linear, thickened, unit};
 use crate::import::budget;
 use crate::import::error::ImportError;
-use crate::scene::{Camera, Instance, Node};
+use crate::scene::{Instance, Node};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
-
-/// The widest pictures that cameras are made for, in heights.
-const MOST_RATIO: f64 = 32.0;
 
 /// A node of the file that is to be visited.
 struct Visit {
@@ -302,74 +299,6 @@ impl Reader<'_> {
             }
         }
         Ok(())
-    }
-
-    /// Adds `cameras[index]` at the node `source`, which is node `added` of the scene.
-    fn camera(
-        &mut self,
-        index: usize,
-        source: &Source,
-        added: usize,
-        here: &str,
-    ) -> Result<(), ImportError> {
-        let cameras = &self.document.cameras;
-        let camera = self.blame.get(cameras, index, "cameras", here)?;
-        let place = format!("cameras[{index}]");
-        let mut named = [&camera.name, &source.name].into_iter().flatten();
-        let mut seen = Camera {
-            name: named
-                .find(|name| !name.is_empty())
-                .cloned()
-                .unwrap_or_default(),
-            node: Some(added),
-            ..Camera::default()
-        };
-        match (&camera.perspective, &camera.orthographic) {
-            (Some(lens), _) if lens.yfov > 0.0 && lens.yfov < std::f64::consts::PI => {
-                let high = (lens.yfov / 2.0).tan();
-                let wide = lens
-                    .aspect_ratio
-                    .map_or(0.0, |ratio| high * ratio.min(MOST_RATIO));
-                if wide > high * self.aspect {
-                    seen.fov_y = 2.0 * (wide / self.aspect).atan();
-                } else {
-                    seen.fov_y = lens.yfov;
-                }
-                seen.clip = self.clip(lens.znear, lens.zfar, &place);
-            }
-            (None, Some(lens)) if lens.ymag != 0.0 && lens.ymag.abs() < 1e18 => {
-                let wide = lens.xmag.abs().min(MOST_RATIO * lens.ymag.abs());
-                seen.orthographic_height = Some(2.0 * lens.ymag.abs().max(wide / self.aspect));
-                seen.clip = self.clip(lens.znear, lens.zfar, &place);
-            }
-            _ => {
-                let why = "it needs a yfov between 0 and π, or a ymag other than 0";
-                return Err(self.blame.bad(place, why));
-            }
-        }
-        self.scene.cameras.push(seen);
-        self.cameras.push(index);
-        Ok(())
-    }
-
-    /// The planes between which the camera at `place` sees. One that the specification excludes does not clip.
-    fn clip(&mut self, znear: f64, zfar: Option<f64>, place: &str) -> (f64, f64) {
-        let (mut near, mut far) = Camera::UNCLIPPED;
-        let mut refuse = |value: f64, name: &str, why: &str| {
-            self.notes.add("clipping planes that do not clip", || {
-                format!("{place}: {name} {value} does not clip: it must be {why}")
-            });
-        };
-        match (0.0..1e18).contains(&znear) {
-            true => near = znear,
-            false => refuse(znear, "znear", "0 or more"),
-        }
-        match zfar {
-            Some(zfar) if zfar > near => far = zfar,
-            Some(zfar) => refuse(zfar, "zfar", "greater than znear"),
-            None => {}
-        }
-        (near, far)
     }
 
     /// The places of a mesh in the space of its node: one, or those of `EXT_mesh_gpu_instancing`.

@@ -188,7 +188,7 @@ fn references_and_values_out_of_range_are_left_out_and_named() {
                 it["nodes"][0]["camera"] = json!(0);
                 it["cameras"] = json!([{ "perspective": { "yfov": 0 } }]);
             },
-            "cameras[0]: it needs a yfov between 0 and π, or a ymag other than 0",
+            "cameras[0]: perspective.yfov is 0, but it must be between 0 and π: π/4 is used",
         ),
         (
             &|it| it["asset"]["version"] = json!("1.0"),
