@@ -288,6 +288,9 @@ impl Reader<'_> {
             } else if let Some(mesh) = mesh {
                 for placement in self.placements(source, here)? {
                     if !is_invertible(&placement) {
+                        self.notes.add("hidden copies", || {
+                            format!("{here}: copies are hidden whose transform is out of range")
+                        });
                         continue;
                     }
                     self.scene.instances.push(Instance {
