@@ -177,6 +177,11 @@ impl Reader<'_> {
             }
             Aim::WeightsOfNode(_) | Aim::WeightsOfMesh(_) => Ok(Vec::new()),
             Aim::Camera(index, property) => {
+                let lens = &self.document.cameras[index];
+                let is_flat = lens.perspective.is_none() && lens.orthographic.is_some();
+                if is_flat != (property == CameraProperty::OrthographicHeight) {
+                    return Err("a lens that the camera has not");
+                }
                 // The height of a view is twice that of its half.
                 let factor = match property {
                     CameraProperty::OrthographicHeight => 2.0,
@@ -360,6 +365,18 @@ impl Reader<'_> {
             .filter(|(_, (node, _))| is_meant(*node))
             .map(|(deformation, _)| deformation)
             .collect()
+    }
+
+    /// Whether `aim` is weights of a mesh that has no morph targets.
+    pub(super) fn lacks_targets(&self, aim: Aim) -> bool {
+        let mesh = match aim {
+            Aim::WeightsOfNode(node) => self.document.nodes[node].mesh,
+            Aim::WeightsOfMesh(mesh) => Some(mesh),
+            _ => return false,
+        };
+        let mesh = mesh.and_then(|mesh| self.document.meshes.get(mesh));
+        let primitives = mesh.map_or(&[][..], |mesh| &mesh.primitives);
+        primitives.iter().all(|it| it.targets.is_empty())
     }
 
     /// Checks that what a channel animates exists.

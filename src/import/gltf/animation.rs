@@ -102,15 +102,24 @@ impl Reader<'_> {
         for (i, channel) in clip.channels.iter().enumerate() {
             let target = &channel.target;
             let Some(aim) = Aim::of(target) else {
-                if target.node.is_some() || target.path == "pointer" {
-                    self.skip(index, &described(target));
+                match target.node {
+                    None if target.path != "pointer" => {
+                        let place = here(i);
+                        self.notes.add("animations that are not shown", || {
+                            format!("{place} moves nothing: its target has no node")
+                        });
+                    }
+                    _ => self.skip(index, &described(target)),
                 }
                 continue;
             };
+            let place = here(i);
             if !seen.insert(aim) {
+                self.notes.add("animations that are not shown", || {
+                    format!("{place} moves what an earlier channel of its clip moves")
+                });
                 continue;
             }
-            let place = here(i);
             let exists = self.check_aim(aim, &place);
             let sampler = self
                 .blame
@@ -149,6 +158,10 @@ impl Reader<'_> {
                 }
                 Ok(_) => {
                     let Some(width) = width.filter(|width| *width > 0) else {
+                        if self.lacks_targets(aim) {
+                            let what = "the weights of a mesh without morph targets";
+                            self.skip(index, what);
+                        }
                         continue;
                     };
                     let all = self.keys(sampler, Kind::Scalar, width, &place);
