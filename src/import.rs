@@ -63,7 +63,7 @@ pub use error::{Excerpt, Fault, ImportError, Position};
 #[cfg(not(target_arch = "wasm32"))]
 pub use folder::Folder;
 pub use formats::{FORMAT_KEYS, SCENE_ENDINGS, SCENE_FORMATS, SceneFormat};
-pub use gltf::{GLTF_EXTENSIONS, Support};
+pub use gltf::{GLTF_EXTENSIONS, Support, gltf_properties};
 pub use options::{Axis, Baking, Environment, EnvironmentSource, Ground, Options, Staging};
 #[cfg(feature = "viewer")]
 pub(crate) use picture::smaller_pictures;

@@ -8,6 +8,7 @@
 mod accessor;
 mod aim;
 mod animation;
+mod beside;
 mod blame;
 mod buffers;
 mod cameras;
@@ -30,9 +31,11 @@ mod materials;
 mod mesh;
 mod meshopt;
 mod node_transform;
+mod references;
 mod skins;
 mod store;
 mod textures;
+mod unused;
 mod uv_sets;
 mod values;
 mod version;
@@ -51,6 +54,7 @@ use buffers::Buffers;
 use deform::Deformable;
 use document::{Document, Primitive, TextureInfo};
 pub use extensions::{GLTF_EXTENSIONS, Support};
+pub use fields::gltf_properties;
 use glam::DAffine3;
 use materials::{MaterialKey, Surface};
 use mesh::MeshKey;
@@ -60,6 +64,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 use store::Store;
+use unused::Unused;
 
 /// Width and height of a picture, in pixels.
 const SIZE: (u32, u32) = (800, 600);
@@ -80,6 +85,7 @@ struct Reader<'a> {
     /// Whether the model will be path-traced, so that nothing is to be noted that only paths show.
     traces_paths: bool,
     notes: Notes,
+    unused: Unused,
     /// The first fault for which a part of the model was left out.
     fault: Option<ImportError>,
     scene: Scene,
@@ -165,10 +171,12 @@ pub(super) fn read(
     let blame = Blame { path };
     let parts = container::parts(&bytes, blame)?;
     let mut notes = Notes::default();
-    let (mut document, remarks) = parse(&bytes[parts.json.clone()], &mut notes, blame)?;
+    let (mut document, mut unused) = parse(&bytes[parts.json.clone()], &mut notes, blame)?;
     let integrator = options.integrator.unwrap_or(LightTransport::Path);
     let traces_paths = integrator == LightTransport::Path;
     extensions::check(&document, traces_paths, &mut notes, blame)?;
+    beside::find(&document, &mut unused, &mut notes);
+    references::find_parts(&document, &mut unused);
     let mut faults: Vec<ImportError> = parts.cut.into_iter().collect();
     let report = &mut |fault| faults.push(fault);
     let mut buffers = Buffers::read(&document, bytes, parts.bin, files, blame, report)?;
@@ -194,10 +202,10 @@ pub(super) fn read(
         ledger: &ledger,
         traces_paths,
         notes,
+        unused,
         fault: faults.into_iter().next(),
         scene: Scene {
             shadows: Shadows::Filtered,
-            remarks,
             output: OutputDefaults {
                 size: SIZE,
                 integrator: LightTransport::Path,
@@ -235,6 +243,7 @@ pub(super) fn read(
     let (roots, place) = reader.chosen_scene(options.scene.as_deref())?;
     reader.plan_images();
     reader.nodes(&roots, &place)?;
+    reader.find_unshown(&roots);
     reader.bind_skins();
     let all = document.animations.iter().map(|clip| Clip {
         name: clip.name.clone().unwrap_or_default(),
@@ -248,12 +257,8 @@ pub(super) fn read(
     reader.finish(options)
 }
 
-/// The JSON in `bytes`, and remarks on what says nothing about the picture.
-fn parse(
-    bytes: &[u8],
-    notes: &mut Notes,
-    blame: Blame,
-) -> Result<(Document, Vec<String>), ImportError> {
+/// The JSON in `bytes`, and what of it says nothing about the picture.
+fn parse(bytes: &[u8], notes: &mut Notes, blame: Blame) -> Result<(Document, Unused), ImportError> {
     let source = Source::new("bad model", blame.path, bytes.to_vec())?;
     let budget = Budget::of(bytes.len());
     let count = |marks: &[u8]| bytes.iter().filter(|byte| marks.contains(byte)).count() as u64;
@@ -276,22 +281,22 @@ fn parse(
     let is_small = budget
         .check(size, |why, todo| blame.file(&why, todo))
         .is_ok();
-    let (document, remarks): (Document, Vec<String>) = match is_small {
+    let (document, unused): (Document, Unused) = match is_small {
         true => {
             let mut json = serde_json::from_slice(&source.bytes).map_err(refuse)?;
-            let remarks = fields::check(&mut json, notes);
-            (serde_json::from_value(json).map_err(refuse)?, remarks)
+            let unused = fields::check(&mut json, notes);
+            (serde_json::from_value(json).map_err(refuse)?, unused)
         }
         false => {
             notes.add("properties that were not checked", || {
                 "the model has too many properties to tell which are not used".to_owned()
             });
             let document = serde_json::from_slice(&source.bytes);
-            (document.map_err(refuse)?, Vec::new())
+            (document.map_err(refuse)?, Unused::default())
         }
     };
     version::check(&document, notes, blame)?;
-    Ok((document, remarks))
+    Ok((document, unused))
 }
 
 /// The number of the entry that `wanted` names, by its name or number.
@@ -324,9 +329,18 @@ fn named<'n>(
 }
 
 impl Reader<'_> {
-    fn chosen_variant(&self, wanted: Option<&str>) -> Result<Option<usize>, ImportError> {
+    fn chosen_variant(&mut self, wanted: Option<&str>) -> Result<Option<usize>, ImportError> {
         let variants = self.document.extensions.variants.as_ref();
         let names = variants.map_or(&[][..], |it| &it.variants);
+        if wanted.is_none() && !names.is_empty() {
+            let shown = names.iter().take(8).map(|it| quote(it.name.as_bytes()));
+            let shown: Vec<String> = shown.collect();
+            self.notes.remark(format!(
+                "no variant of its materials is chosen, of which it has {}: {}",
+                names.len(),
+                shown.join(", ")
+            ));
+        }
         let names = names.iter().map(|variant| Some(variant.name.as_str()));
         wanted
             .map(|wanted| named("variant", wanted, names, self.blame))
@@ -357,10 +371,15 @@ impl Reader<'_> {
         };
         let place = format!("scenes[{index}].nodes");
         let scene = self.blame.get(scenes, index, "scenes", "scene");
-        match self.spared(scene)? {
-            Some(scene) => Ok((scene.nodes.clone(), place)),
-            None => Ok((scenes[0].nodes.clone(), "scenes[0].nodes".to_owned())),
+        let (index, place) = match self.spared(scene)? {
+            Some(_) => (index, place),
+            None => (0, "scenes[0].nodes".to_owned()),
+        };
+        for other in (0..scenes.len()).filter(|other| *other != index) {
+            let why = "another scene is shown";
+            self.unused.of("scenes", other, "", why);
         }
+        Ok((scenes[index].nodes.clone(), place))
     }
 
     /// The scene.
@@ -376,6 +395,7 @@ impl Reader<'_> {
         if scene.materials.is_empty() {
             scene.materials.push(crate::scene::Material::default());
         }
+        scene.remarks.extend(self.unused.into_lines());
         scene.remarks.extend(self.notes.take_remarks());
         scene.skipped = self.notes.into_lines();
         if scene.instances.is_empty() {

@@ -20,7 +20,7 @@ pub struct Material {
     pub emissive_factor: Option<[f64; 3]>,
     pub alpha_mode: AlphaMode,
     pub alpha_cutoff: Option<f64>,
-    pub double_sided: bool,
+    pub double_sided: Option<bool>,
     pub extensions: Option<Box<Extensions>>,
 }
 
@@ -49,7 +49,7 @@ pub struct TextureInfo {
     #[serde(default = "absent")]
     pub index: usize,
     #[serde(default)]
-    pub tex_coord: u32,
+    pub tex_coord: Option<u32>,
     /// Of normal textures.
     #[serde(default)]
     pub scale: Option<f64>,
@@ -95,7 +95,6 @@ extension! {
     Transmission { transmission_factor: f64, transmission_texture: Map, }
     Volume {
         thickness_factor: f64,
-        thickness_texture: Map,
         attenuation_distance: f64,
         attenuation_color: [f64; 3],
     }

@@ -4,6 +4,7 @@
 use super::extensions::{LONGEST_NAME, support};
 use super::field_forms::{Form, Object, Use};
 use super::field_table::ROOT;
+use super::unused::Unused;
 use crate::import::notes::Notes;
 use crate::import::source::quote_up_to;
 use serde_json::{Map, Number, Value};
@@ -65,57 +66,63 @@ struct Alike {
 /// The findings of the check.
 struct Check<'n> {
     unknown: BTreeMap<String, Alike>,
-    unused: BTreeMap<String, (Alike, &'static str)>,
-    idle: BTreeMap<String, usize>,
-    /// Properties beyond [`MOST`] different ones.
+    /// Unknown properties beyond [`MOST`] different ones.
     more: usize,
+    unused: Unused,
     notes: &'n mut Notes,
 }
 
-/// Repairs `json`, a model, so that it has the types of the specification, and notes what is repaired, unknown or
-/// not used. Returns remarks on what says nothing about the picture or is decided otherwise.
-pub(super) fn check(json: &mut Value, notes: &mut Notes) -> Vec<String> {
+/// The names of all properties of glTF 2.0 and its extensions that are known, such as `nodes[].translation`: `[]` is
+/// any entry of a list. Vertex attributes are not among them.
+pub fn gltf_properties() -> Vec<String> {
+    fn add(object: &Object, place: &str, names: &mut Vec<String>) {
+        for (name, form, _) in object.fields {
+            let name = match place {
+                "" => (*name).to_owned(),
+                _ => format!("{place}.{name}"),
+            };
+            match form {
+                Form::One(inner) if inner.is_extensions => add(inner, &name, names),
+                Form::One(inner) => {
+                    add(inner, &name, names);
+                    names.push(name);
+                }
+                Form::Many(inner) => {
+                    add(inner, &format!("{name}[]"), names);
+                    names.push(name);
+                }
+                _ => names.push(name),
+            }
+        }
+    }
+    let mut names = Vec::new();
+    add(&ROOT, "", &mut names);
+    names
+}
+
+/// Repairs `json`, a model, so that it has the types of the specification, and notes what is repaired or unknown.
+/// Returns what says nothing about the picture or is decided otherwise.
+pub(super) fn check(json: &mut Value, notes: &mut Notes) -> Unused {
     let mut check = Check {
         unknown: BTreeMap::new(),
-        unused: BTreeMap::new(),
-        idle: BTreeMap::new(),
         more: 0,
+        unused: Unused::default(),
         notes,
     };
     check.object(json, &ROOT, Place::Root);
-    let more = |count: usize| match count {
-        1 => String::new(),
-        _ => format!(" ({count} times)"),
-    };
     let mut lines = Vec::new();
     for Alike { first, count } in check.unknown.into_values() {
-        lines.push(format!(
-            "{first} is not known and was ignored{}",
-            more(count)
-        ));
+        let more = match count {
+            1 => String::new(),
+            _ => format!(" ({count} times)"),
+        };
+        lines.push(format!("{first} is not known and was ignored{more}"));
     }
     if check.more > 0 {
-        lines.push(format!(
-            "{} more properties are not known or not used",
-            check.more
-        ));
+        lines.push(format!("{} more properties are not known", check.more));
     }
     check.notes.keep("unknown properties", lines);
-    let unused = check.unused.into_values();
-    let mut remarks: Vec<String> = unused
-        .map(|(Alike { first, count }, why)| format!("{first} is not used: {why}{}", more(count)))
-        .collect();
-    if !check.idle.is_empty() {
-        let names = check.idle.into_iter();
-        let names: Vec<String> = names
-            .map(|(name, count)| format!("{name}{}", more(count)))
-            .collect();
-        remarks.push(format!(
-            "without effect on the picture: {}",
-            names.join(", ")
-        ));
-    }
-    remarks
+    check.unused
 }
 
 impl Check<'_> {
@@ -126,7 +133,7 @@ impl Check<'_> {
         members.retain(|key, value| {
             let here = Place::Key(&place, key);
             if key == "extras" {
-                *self.idle.entry("extras".to_owned()).or_default() += 1;
+                self.unused.idle("extras".to_owned());
                 return false;
             }
             let known = object.fields.iter().find(|(name, ..)| name == key);
@@ -139,8 +146,8 @@ impl Check<'_> {
             }
             match used {
                 Use::Read => return self.value(value, *form, here),
-                Use::Idle => self.idle(here),
-                Use::Unused(why) => self.unused(here, why),
+                Use::Idle => self.unused.idle(here.pattern()),
+                Use::Unused(why) => self.unused.add(here.pattern(), || here.to_string(), why),
             }
             false
         });
@@ -160,28 +167,6 @@ impl Check<'_> {
         } else if self.unknown.len() < MOST {
             let first = here.to_string();
             self.unknown.insert(pattern, Alike { first, count: 1 });
-        } else {
-            self.more += 1;
-        }
-    }
-
-    fn idle(&mut self, here: Place) {
-        let pattern = here.pattern();
-        if self.idle.len() < MOST || self.idle.contains_key(&pattern) {
-            *self.idle.entry(pattern).or_default() += 1;
-        } else {
-            self.more += 1;
-        }
-    }
-
-    fn unused(&mut self, here: Place, why: &'static str) {
-        let pattern = here.pattern();
-        if let Some((alike, _)) = self.unused.get_mut(&pattern) {
-            alike.count += 1;
-        } else if self.unused.len() < MOST {
-            let first = here.to_string();
-            self.unused
-                .insert(pattern, (Alike { first, count: 1 }, why));
         } else {
             self.more += 1;
         }
@@ -275,7 +260,8 @@ impl Check<'_> {
                 || matches!(&**name, "TRANSLATION" | "ROTATION" | "SCALE")
                 || ["TEXCOORD_", "JOINTS_", "WEIGHTS_"].into_iter().any(set);
             if !is_read {
-                self.unused(here, "no picture shows this attribute");
+                let why = "no picture shows this attribute";
+                self.unused.add(here.pattern(), || here.to_string(), why);
             }
             self.value(value, Form::Whole, here)
         });

@@ -13,7 +13,7 @@ pub(super) enum ShownBy {
 }
 
 macro_rules! map_kinds {
-    ($($kind:ident $name:literal $shown_by:ident $role:ident,)*) => {
+    ($($kind:ident $owner:literal $name:literal $shown_by:ident $role:ident,)*) => {
         /// A map of a material.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum MapKind { $($kind,)* }
@@ -24,6 +24,11 @@ macro_rules! map_kinds {
             /// The property of the material that has it.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$kind => $name,)* }
+            }
+
+            /// Where in the material it is.
+            pub const fn path(self) -> &'static str {
+                match self { $(Self::$kind => concat!($owner, $name),)* }
             }
 
             pub const fn shown_by(self) -> ShownBy {
@@ -39,28 +44,26 @@ macro_rules! map_kinds {
 }
 
 map_kinds! {
-    BaseColor "baseColorTexture" All Color,
-    MetallicRoughness "metallicRoughnessTexture" All Data,
-    Normal "normalTexture" All Data,
-    Occlusion "occlusionTexture" All Data,
-    Emissive "emissiveTexture" All Color,
-    Transmission "transmissionTexture" All Data,
-    // A volume has one thickness, whatever its map.
-    Thickness "thicknessTexture" All Data,
-    Specular "specularTexture" Paths Data,
-    SpecularColor "specularColorTexture" Paths Color,
-    Clearcoat "clearcoatTexture" Paths Data,
-    ClearcoatRoughness "clearcoatRoughnessTexture" Paths Data,
-    ClearcoatNormal "clearcoatNormalTexture" Paths Data,
-    SheenColor "sheenColorTexture" Paths Color,
-    SheenRoughness "sheenRoughnessTexture" Paths Data,
-    Anisotropy "anisotropyTexture" Paths Data,
-    Iridescence "iridescenceTexture" Paths Data,
-    IridescenceThickness "iridescenceThicknessTexture" Paths Data,
-    DiffuseTransmission "diffuseTransmissionTexture" Paths Data,
-    DiffuseTransmissionColor "diffuseTransmissionColorTexture" Paths Color,
-    Diffuse "diffuseTexture" All Color,
-    SpecularGlossiness "specularGlossinessTexture" None Data,
+    BaseColor "pbrMetallicRoughness." "baseColorTexture" All Color,
+    MetallicRoughness "pbrMetallicRoughness." "metallicRoughnessTexture" All Data,
+    Normal "" "normalTexture" All Data,
+    Occlusion "" "occlusionTexture" All Data,
+    Emissive "" "emissiveTexture" All Color,
+    Transmission "extensions.KHR_materials_transmission." "transmissionTexture" All Data,
+    Specular "extensions.KHR_materials_specular." "specularTexture" Paths Data,
+    SpecularColor "extensions.KHR_materials_specular." "specularColorTexture" Paths Color,
+    Clearcoat "extensions.KHR_materials_clearcoat." "clearcoatTexture" Paths Data,
+    ClearcoatRoughness "extensions.KHR_materials_clearcoat." "clearcoatRoughnessTexture" Paths Data,
+    ClearcoatNormal "extensions.KHR_materials_clearcoat." "clearcoatNormalTexture" Paths Data,
+    SheenColor "extensions.KHR_materials_sheen." "sheenColorTexture" Paths Color,
+    SheenRoughness "extensions.KHR_materials_sheen." "sheenRoughnessTexture" Paths Data,
+    Anisotropy "extensions.KHR_materials_anisotropy." "anisotropyTexture" Paths Data,
+    Iridescence "extensions.KHR_materials_iridescence." "iridescenceTexture" Paths Data,
+    IridescenceThickness "extensions.KHR_materials_iridescence." "iridescenceThicknessTexture" Paths Data,
+    DiffuseTransmission "extensions.KHR_materials_diffuse_transmission." "diffuseTransmissionTexture" Paths Data,
+    DiffuseTransmissionColor "extensions.KHR_materials_diffuse_transmission." "diffuseTransmissionColorTexture" Paths Color,
+    Diffuse "extensions.KHR_materials_pbrSpecularGlossiness." "diffuseTexture" All Color,
+    SpecularGlossiness "extensions.KHR_materials_pbrSpecularGlossiness." "specularGlossinessTexture" None Data,
 }
 
 impl MapKind {
@@ -96,7 +99,6 @@ pub(super) fn all_maps(source: &Source) -> Vec<(MapKind, &TextureInfo)> {
         return maps;
     };
     list!(extensions.transmission.as_ref(), Transmission transmission_texture);
-    list!(extensions.volume.as_ref(), Thickness thickness_texture);
     list!(
         extensions.specular.as_ref(),
         Specular specular_texture,

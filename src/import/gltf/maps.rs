@@ -12,6 +12,20 @@ const LINEAR_MIPMAP_NEAREST: u32 = 9985;
 const NEAREST_MIPMAP_LINEAR: u32 = 9986;
 const CLAMP: u32 = 33071;
 const MIRROR: u32 = 33648;
+const REPEAT: u32 = 10497;
+const LINEAR_MIPMAP_LINEAR: u32 = 9987;
+
+/// The codes of samplers. The first of each is used in place of unknown ones.
+pub(super) const MAG_FILTERS: &[u32] = &[LINEAR, NEAREST];
+pub(super) const MIN_FILTERS: &[u32] = &[
+    LINEAR_MIPMAP_LINEAR,
+    NEAREST,
+    LINEAR,
+    NEAREST_MIPMAP_NEAREST,
+    LINEAR_MIPMAP_NEAREST,
+    NEAREST_MIPMAP_LINEAR,
+];
+pub(super) const WRAPS: &[u32] = &[REPEAT, CLAMP, MIRROR];
 
 /// A use of an image.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,7 +82,7 @@ impl Reader<'_> {
         }
         let mut found = FoundMap {
             image,
-            uv_set: info.tex_coord,
+            uv_set: info.tex_coord.unwrap_or(0),
             transform: transform(info),
             nearest: false,
             minify: Minify::default(),

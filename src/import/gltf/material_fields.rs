@@ -1,7 +1,7 @@
 //! The properties of glTF's materials, with the `KHR_materials_*` extensions.
 
 use super::field_forms::Form::*;
-use super::field_forms::Use::Read;
+use super::field_forms::Use::{Read, Unused};
 use super::field_forms::{Form, Object, objects};
 
 const ALPHA_MODES: Form = Word(&["OPAQUE", "MASK", "BLEND"]);
@@ -74,7 +74,7 @@ objects! {
     object TRANSMISSION { transmissionFactor: Number; transmissionTexture: One(&MAP); }
     object VOLUME {
         thicknessFactor: Number;
-        thicknessTexture: One(&MAP);
+        thicknessTexture: One(&MAP), Unused("a volume is as thick as its mesh");
         attenuationDistance: Number;
         attenuationColor: Numbers(3);
     }

@@ -130,7 +130,7 @@ impl Reader<'_> {
     /// Notes the maps of a material that are not shown.
     fn note_maps(&mut self, source: &Source, here: &str) -> Result<(), ImportError> {
         for (kind, info) in all_maps(source) {
-            let place = format!("{here}.{}", kind.name());
+            let mut place = format!("{here}.{}", kind.name());
             if self.map(info, &place)?.is_none() {
                 continue;
             }
@@ -138,7 +138,10 @@ impl Reader<'_> {
                 ShownBy::All => continue,
                 ShownBy::Paths if self.traces_paths => continue,
                 ShownBy::Paths => "is shown by path tracing only",
-                ShownBy::None => "is not shown",
+                ShownBy::None => {
+                    place = format!("{here}.{}", kind.path());
+                    "is not shown"
+                }
             };
             self.notes
                 .add("maps that are not shown", || format!("{place} {what}"));

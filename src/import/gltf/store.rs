@@ -35,7 +35,7 @@ impl Store {
 
 /// Whether the scene has this map.
 fn is_used(kind: MapKind) -> bool {
-    kind != MapKind::Thickness && kind.shown_by() != ShownBy::None
+    kind.shown_by() != ShownBy::None
 }
 
 impl Reader<'_> {

@@ -69,7 +69,11 @@ impl Reader<'_> {
             material.layer_textures = None;
         }
         // Unlit surfaces are seen from both sides.
-        material.two_sided_emission = source.double_sided || !can_emit;
+        material.two_sided_emission = source.double_sided == Some(true) || !can_emit;
+        if source.double_sided == Some(false) && !can_emit {
+            let why = "surfaces are seen from both sides";
+            self.unused.of("materials", index, "doubleSided", why);
+        }
         if material.has_classical_maps() && !self.traces_paths {
             self.note_means(&layers, here);
         }

@@ -152,6 +152,6 @@ fn rank(map: MapKind, source: &Source, model: &MetallicRoughness, can_emit: bool
         MapKind::DiffuseTransmission | MapKind::DiffuseTransmissionColor => {
             layer(model.diffuse_transmission > 0.0)
         }
-        MapKind::Thickness | MapKind::SpecularGlossiness => None,
+        MapKind::SpecularGlossiness => None,
     }
 }
