@@ -9,7 +9,9 @@ pub mod model;
 mod motion;
 mod moving_maps;
 mod nodes;
+mod properties;
 mod tangents;
+mod unused;
 mod uv_sets;
 
 use super::{folder, load, message_in, scene};
