@@ -14,6 +14,7 @@ mod mtl;
 mod native;
 mod native_animation;
 mod native_groups;
+mod native_keys;
 mod native_light_and_lens;
 mod nff;
 mod nodes_and_ply;
