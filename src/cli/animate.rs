@@ -92,6 +92,11 @@ fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<
         log: &arguments.log,
         layers: &arguments.layers,
     };
+    if let Some(end) = timeline.ends_before_last(&job.scene) {
+        job.console().status(format_args!(
+            "the animation ends at frame {end}: in later frames clips begin again, and the rest stays as it is"
+        ));
+    }
     let flags = &arguments.output;
     Sequence {
         job,

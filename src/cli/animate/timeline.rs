@@ -71,6 +71,12 @@ impl Timeline {
         self.first + self.step * (self.count as u32 - 1)
     }
 
+    /// The frame at which the animation of `scene` ends, if later ones are asked for.
+    pub fn ends_before_last(&self, scene: &Scene) -> Option<u32> {
+        let end = clock::last_frame(clock::duration(scene)?, self.clock.fps, false);
+        (self.last() > end).then_some(end)
+    }
+
     /// Frame rate of a video that lasts as long as the animation.
     pub fn video_fps(&self) -> f64 {
         self.clock.fps / f64::from(self.step)

@@ -37,6 +37,19 @@ fn an_animation_ends_at_its_last_key_and_all_its_frames_differ() {
 }
 
 #[test]
+fn frames_after_the_end_of_the_animation_are_said() {
+    let workspace = Workspace::moving();
+    let said = "the animation ends at frame 6";
+    let run = workspace.animate("--frames 5..8 -o f_%d.png", 0);
+    run.says(said);
+    assert_eq!(span(&run), [5, 8, 4]);
+    for flags in ["--frames 5..6 -o g_%d.png", "--frames 5.. -o h_%d.png"] {
+        let run = workspace.animate(flags, 0);
+        assert!(!run.stderr.contains(said), "{flags}: {}", run.stderr);
+    }
+}
+
+#[test]
 fn a_loop_drops_the_frame_that_equals_the_first() {
     let workspace = Workspace::moving();
     let there_and_back = "keys = [[0, [-1.5, 0, 0]], [0.125, [0.5, 0.2, 0]], [0.25, [-1.5, 0, 0]]]";
