@@ -534,7 +534,7 @@ fn layers_that_cannot_be_are_refused() {
         (
             "render a.scene --layers depth --integrator normals -o a.exr",
             2,
-            "debug view",
+            "(--integrator normals): it has none",
         ),
         ("render a.scene --layers-parts -o a.exr", 2, "--layers"),
     ] {

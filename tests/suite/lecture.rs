@@ -67,11 +67,8 @@ fn scenes_with_more_than_the_exercise_are_refused_by_the_names_of_the_parts() {
         scene
     };
     for (scene, depth, parts) in [
-        (
-            course("shapes.toml"),
-            0,
-            "planes, shapes other than spheres",
-        ),
+        (course("shapes.toml"), 0, "planes"),
+        (course("solids.toml"), 0, "shapes other than spheres"),
         (course("soft_shadows.toml"), 0, "lights with area"),
         (course("patterns.toml"), 0, "textures"),
         (glowing, 0, "emissive surfaces"),

@@ -50,7 +50,7 @@ fn bad_command_lines_exit_2_and_say_why() {
         ),
         (
             "--integrator rays",
-            "[possible values: whitted, path, normals, depth, ids, uv, heat, samples]",
+            "[possible values: whitted, path, lecture, normals, depth, ids, uv, heat, samples]",
         ),
         (
             "--filter lanczos",
