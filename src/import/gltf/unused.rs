@@ -1,4 +1,4 @@
-//! What a model has and no picture shows, by name: properties of the same name in the entries of a list share one line.
+//! Parts of a model that no picture shows, by name: properties of the same name in the entries of a list share one line.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ pub(super) struct Unused {
     found: BTreeMap<String, Alike>,
     /// By the pattern, how often a property is there that says nothing about the picture.
     idle: BTreeMap<String, usize>,
-    /// Those beyond [`MOST`] different ones.
+    /// Properties beyond [`MOST`] different ones.
     more: usize,
 }
 

@@ -22,7 +22,7 @@ fn numbers(text: &str) -> Option<(u32, u32)> {
 /// was written for, of which every minor one can be read.
 ///
 /// # Errors
-/// It needs another version than 2.0, or says nothing about it and has no meshes.
+/// The model needs another version than 2.0, or says nothing about it and has no meshes.
 pub(super) fn check(
     document: &Document,
     notes: &mut Notes,

@@ -1,4 +1,4 @@
-//! What a model has and no picture shows is told by name, and what contradicts the specification is told with what is
+//! Parts of a model that no picture shows are told by name, and what contradicts the specification is told with what is
 //! used instead.
 
 use super::load;
