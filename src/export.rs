@@ -4,8 +4,8 @@
 //! Nothing is lost: [`crate::import`] turns the text and its companion files into a scene that is packed
 //! to the same bytes, and exporting that scene gives the same text. Numbers are written in the fewest
 //! digits that preserve all bits. Angles, scales and corners replace a matrix if they give exactly that
-//! matrix. Deforming meshes stay in their pose at time 0. Not preserved are [`Scene::skipped`], the grouping of tracks, unused images, and missing or
-//! duplicate names, which are replaced by generated ones.
+//! matrix. Deforming meshes stay in their pose at time 0. Not preserved are [`Scene::skipped`], the grouping of
+//! tracks, unused images, and missing or duplicate names, which are replaced by generated ones.
 //!
 //! This module does not access the disk: the caller writes the files, companion files first.
 
@@ -44,9 +44,9 @@ pub struct Export {
 /// A companion file of a scene file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExportFile {
-    /// Its name without a folder.
+    /// File name without a folder.
     pub name: String,
-    /// Its contents.
+    /// Contents of the file.
     pub bytes: Vec<u8>,
 }
 

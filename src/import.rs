@@ -204,7 +204,7 @@ pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportE
     format.scene(path, text.as_bytes().to_vec(), options, &Files::none())
 }
 
-/// What all scenes need at last.
+/// Applies the last steps that all scenes need.
 fn finish(scene: &mut Scene, options: &Options) {
     range::limit(scene);
     rounding::note(scene);

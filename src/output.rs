@@ -114,7 +114,7 @@ pub fn save_to_stdout(image: &Image, options: &SaveOptions) -> Result<(), Output
 /// (`.NAME.part-PID-…`) that killed processes left for `path`.
 ///
 /// # Errors
-/// Those of [`save_with`] that can be detected in advance.
+/// The errors of [`save_with`] that can be detected in advance.
 pub fn check(
     path: impl AsRef<Path>,
     options: &SaveOptions,
@@ -129,7 +129,7 @@ pub fn check(
 /// Like [`check`], for a file that is not an image.
 ///
 /// # Errors
-/// Those of [`write()`] that can be detected in advance.
+/// The errors of [`write()`] that can be detected in advance.
 pub fn check_file(path: impl AsRef<Path>, clobber: bool) -> Result<(), OutputError> {
     atomic::check(path.as_ref(), clobber, true)
 }
@@ -157,7 +157,7 @@ pub fn set_aside(path: &Path) -> Result<PathBuf, String> {
 /// a symbolic link, except to a pipe or a device.
 ///
 /// # Errors
-/// Those of [`write_own`] that can be detected in advance.
+/// The errors of [`write_own`] that can be detected in advance.
 pub fn check_own(path: impl AsRef<Path>) -> Result<(), OutputError> {
     atomic::check(path.as_ref(), true, false)
 }

@@ -120,11 +120,11 @@ pub struct Scene {
     pub clips: Vec<Clip>,
     /// The file's output settings; command-line flags override them.
     pub output: OutputDefaults,
-    /// What the importer skipped or repaired: the first few of each kind, a sentence each, and how many
-    /// more there were.
+    /// Parts of the file that the importer skipped or repaired: the first few of each kind, a sentence each, and how
+    /// many more there were.
     pub skipped: Vec<String>,
-    /// What is neither: properties of the file on which the picture does not depend, or which are decided otherwise, and
-    /// what was asked for; a sentence each.
+    /// Properties of the file on which the picture does not depend, or which are decided otherwise, and what was asked
+    /// for; a sentence each.
     pub remarks: Vec<String>,
 }
 

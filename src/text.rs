@@ -1,6 +1,6 @@
 //! Text of scene files, file names and systems in messages.
 
-/// What stands for a character that is not shown.
+/// Replacement for a character that is not shown.
 const REPLACEMENT: &str = "\u{fffd}";
 
 /// Whether `c` shows nothing itself and acts on a terminal or on the text around it: control characters, line and

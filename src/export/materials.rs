@@ -18,7 +18,7 @@ impl Writer<'_> {
         }
         for (index, material) in scene.materials.iter().enumerate() {
             let mut table = Table::default();
-            // What an importer would make of it without the keys that follow.
+            // The material as an importer reads it without the keys that follow.
             let mut plain = Material {
                 emission: Vec3::ZERO,
                 ..Material::default()
@@ -176,7 +176,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Its transmission, if `refract` expresses it exactly, beside a mirror or with its own Fresnel term.
+    /// The `refract` table, if one expresses the transmission exactly, beside a mirror or with its own Fresnel term.
     fn refract(&self, material: &Material) -> Option<Table> {
         let opacity = material.opacity.to_bits();
         let gives = |amount: f32| (1.0 - amount).to_bits() == opacity;

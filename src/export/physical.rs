@@ -27,7 +27,7 @@ pub(super) fn plain(material: &Material, model: &Arc<MetallicRoughness>) -> Mate
 }
 
 impl Writer<'_> {
-    /// What the classical integrators show, where it is not what they show of `plain`.
+    /// Adds keys for the classical integrators, where these show `material` otherwise than `plain`.
     pub fn classical(
         &self,
         table: &mut Table,

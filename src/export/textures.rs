@@ -106,8 +106,8 @@ impl Writer<'_> {
         Some(table.inline())
     }
 
-    /// What an image holds: values that are no colours are linear in 8 bits. Colours of OpenEXR are divided by alpha when they
-    /// are read, and numbers are not.
+    /// The role of a picture: values that are no colours are linear in 8 bits. Colours of OpenEXR are divided by alpha
+    /// when they are read, and numbers are not.
     pub fn role(&self, picture: usize) -> Role {
         match &self.scene.pictures[picture].texels {
             Texels::Linear8(_) => Role::Data,

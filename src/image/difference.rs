@@ -7,8 +7,8 @@ use super::ScreenImage;
 pub struct Placed<'a> {
     /// The image.
     pub image: &'a ScreenImage,
-    /// Its edges as fractions of the picture's width and height: left, top, right, bottom. They may lie outside the
-    /// picture.
+    /// Edges of the image as fractions of the picture's width and height: left, top, right, bottom. They may lie
+    /// outside the picture.
     pub edges: [f64; 4],
 }
 

@@ -39,7 +39,7 @@ impl Archive {
         })
     }
 
-    /// Its files, sorted by name.
+    /// Names of the files in the archive, sorted.
     pub fn names(&self) -> impl Iterator<Item = &Path> {
         self.files.keys().map(PathBuf::as_path)
     }

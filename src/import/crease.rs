@@ -30,7 +30,7 @@ pub(super) struct Facets {
 
 /// One corner at the vertex that is looked at.
 struct Corner {
-    /// Its index among all corners.
+    /// Index among all corners.
     index: u32,
     /// The unit normal of its face, scaled by the angle of the face at the vertex.
     weighted: DVec3,
@@ -159,7 +159,7 @@ fn means(round: &[Corner], crease: f64) -> Vec<Vec3> {
     round.iter().map(mean).collect()
 }
 
-/// The same for many corners, whose faces are grouped by direction.
+/// The normal of each of many corners, whose faces are grouped by direction.
 fn means_of_many(round: &[Corner], crease: f64) -> Vec<Vec3> {
     let mut groups: Vec<Corner> = Vec::new();
     let mut group_of = Vec::with_capacity(round.len());

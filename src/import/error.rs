@@ -29,7 +29,7 @@ pub enum ImportError {
 /// One error in its parts. A program may change the wording before it shows the fault.
 #[derive(Clone, Debug)]
 pub struct Fault {
-    /// What failed: "bad scene".
+    /// The failure, such as "bad scene".
     pub what: String,
     /// The file at fault; empty if an override is ([`super::Options::overrides`]).
     pub path: PathBuf,
@@ -37,7 +37,7 @@ pub struct Fault {
     pub position: Option<Position>,
     /// Why, as a clause without a full stop.
     pub why: String,
-    /// What the user can do, as a sentence without a full stop.
+    /// The remedy for the user, as a sentence without a full stop.
     pub todo: String,
     /// The line at fault; `None` if `position` is.
     pub excerpt: Option<Excerpt>,

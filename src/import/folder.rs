@@ -26,7 +26,7 @@ impl Folder {
     /// The folder at `path`.
     ///
     /// # Errors
-    /// It does not exist.
+    /// The folder does not exist.
     pub fn new(path: &Path) -> Result<Self, ImportError> {
         Ok(Self {
             root: real("cannot find the scene folder", path)?,
@@ -38,7 +38,7 @@ impl Folder {
     /// The folder that contains the file at `path`.
     ///
     /// # Errors
-    /// It does not exist.
+    /// The folder does not exist.
     pub fn of(path: &Path) -> Result<Self, ImportError> {
         match path.parent() {
             Some(parent) if parent != Path::new("") => Self::new(parent),

@@ -17,7 +17,7 @@ use std::path::Path;
 pub struct SceneFormat {
     /// Extensions of its files, in lower case.
     pub endings: &'static [&'static str],
-    /// Its name.
+    /// Name of the format.
     pub name: &'static str,
     /// The parts that are shown.
     pub shown: &'static str,

@@ -160,8 +160,8 @@ impl<'a> Reader<'a> {
 /// The model in `bytes`, the contents of the file at `path`, as a scene.
 ///
 /// # Errors
-/// It is malformed, requires an unknown extension, names files that may not be read, is too large, or has
-/// not the scene, clip or variant that `options` names.
+/// The model is malformed, requires an unknown extension, names files that may not be read, is too large, or has not
+/// the scene, clip or variant that `options` names.
 pub(super) fn read(
     path: &Path,
     bytes: Vec<u8>,

@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// The contents of a model file.
 #[derive(Default)]
 pub(super) struct Model {
-    /// Its materials are indices into `materials`.
+    /// Mesh whose materials are indices into `materials`.
     pub mesh: Mesh,
     /// World from mesh: the translation to the position in the file.
     pub offset: DVec3,

@@ -35,7 +35,7 @@ pub struct Options {
     pub integrator: Option<LightTransport>,
     /// Whether the classical colours of materials with several maps are computed.
     pub baking: Baking,
-    /// What is added to a model that lacks it.
+    /// Parts of a studio added to a model that lacks them.
     pub staging: Staging,
     /// Replaces or changes the background.
     pub environment: Environment,
@@ -53,7 +53,7 @@ pub enum Baking {
     Always,
 }
 
-/// What replaces or changes the background of a scene.
+/// A replacement or change of a scene's background.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Environment {
     /// Replaces the background; `None` keeps it.

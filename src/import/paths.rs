@@ -20,9 +20,9 @@ pub(super) struct Files<'r> {
 pub(super) enum Refusal {
     /// There is no such file.
     Missing(String),
-    /// It is outside the permitted folders.
+    /// The file is outside the permitted folders.
     Outside(String),
-    /// It is not a valid name or not a file that can be read.
+    /// The name is invalid or is not that of a file that can be read.
     Unfit(String),
 }
 
@@ -124,7 +124,7 @@ impl<'r> Files<'r> {
     /// Reads the file at `path`, which was resolved.
     ///
     /// # Errors
-    /// It cannot be read, or exceeds `limit` bytes or the available memory.
+    /// The file cannot be read, or exceeds `limit` bytes or the available memory.
     pub fn read(&self, path: &Path, limit: u64) -> Result<Vec<u8>, ImportError> {
         let read = match self.resolver {
             Some(resolver) => resolver.read(path, limit),

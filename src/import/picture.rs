@@ -46,19 +46,19 @@ const KINDS: &str = if cfg!(feature = "basis") {
     "PNG, JPEG, WebP, HDR or EXR"
 };
 
-/// What the values of an image stand for, which decides how those of PNG, JPEG and WebP are decoded.
+/// Meaning of an image's values, which decides how those of PNG, JPEG and WebP are decoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Role {
     /// Colours in sRGB.
     Color,
-    /// The same around the whole scene: twice as wide as high. Floats may be above [`crate::scene::LARGEST_TEXEL`].
+    /// As [`Role::Color`], around the whole scene: twice as wide as high. Floats may be above [`crate::scene::LARGEST_TEXEL`].
     Environment,
     /// Numbers, such as the coordinates of normals.
     Data,
     /// The height of a surface, white above black by the width of a texel: becomes the normal map of that surface.
     /// An image with colours is taken for a normal map: many files name one so.
     Height,
-    /// The same, white below black.
+    /// As [`Role::Height`], but white below black.
     Depth,
     /// A mask: the image's alpha, or its brightness if it has none, becomes the alpha of a white picture.
     Alpha,
@@ -120,7 +120,7 @@ impl Refused {
 /// The bytes of the image file at `path`, which messages call `name`.
 ///
 /// # Errors
-/// It cannot be read, or is too large.
+/// The file cannot be read, or is too large.
 pub(super) fn file(files: &Files, path: &Path, name: &str) -> Result<Vec<u8>, Refused> {
     files.read(path, MAX_BYTES).map_err(|error| {
         let is_too_big = error.is_too_big();
@@ -136,7 +136,7 @@ pub(super) fn file(files: &Files, path: &Path, name: &str) -> Result<Vec<u8>, Re
     })
 }
 
-/// What reads pictures out of files.
+/// A function that reads pictures out of files.
 pub(super) fn reader(
     files: &Files,
 ) -> impl Fn(&Place, &str) -> Result<Cow<'static, [u8]>, Refused> {
@@ -210,7 +210,7 @@ fn decode(
 /// The picture of the environment in `bytes`, which messages call `name`, and notes on it.
 ///
 /// # Errors
-/// It is empty, damaged, too large, of an unsupported kind, or not twice as wide as high.
+/// The picture is empty, damaged, too large, of an unsupported kind, or not twice as wide as high.
 #[cfg(not(target_arch = "wasm32"))]
 pub(super) fn environment(bytes: &[u8], name: &str) -> Result<Noted, Refused> {
     let mut pictures = decode(bytes, name, &[Role::Environment], true)?;
@@ -218,7 +218,7 @@ pub(super) fn environment(bytes: &[u8], name: &str) -> Result<Noted, Refused> {
     pictures.pop().ok_or_else(gone)
 }
 
-/// What the header of an image announces; nothing if it is invalid.
+/// Size and kind of values that the header of an image announces; nothing if it is invalid.
 #[derive(Clone, Copy, Debug, Default)]
 struct Announced {
     width: u32,

@@ -2,8 +2,9 @@
 //!
 //! Vertex properties read: `x y z`, `nx ny nz`, `s t` (also `u v` or `texture_u texture_v`), `red green blue`
 //! (also `diffuse_red …` or `r g b`), `radius` of points, and glimray's own `material` (a number), `s2 t2` (a second set of
-//! u and v), `tx ty tz tw` (tangents) and `linear_red linear_green linear_blue linear_alpha` (colours). Face property read: the list `vertex_indices` (also `vertex_index`). Others are skipped. Doubles become floats
-//! near the mesh's own origin. Source: Greg Turk, The PLY Polygon File Format, 1994.
+//! u and v), `tx ty tz tw` (tangents) and `linear_red linear_green linear_blue linear_alpha` (colours). Face property
+//! read: the list `vertex_indices` (also `vertex_index`). Others are skipped. Doubles become floats near the mesh's own
+//! origin. Source: Greg Turk, The PLY Polygon File Format, 1994.
 
 pub(super) use skipped::KEYS;
 
@@ -40,7 +41,7 @@ const AGAIN: &str = "Save the file again";
 /// Faces of a model without normals are smooth where they meet at less than this angle, in radians.
 const CREASE: f64 = std::f64::consts::FRAC_PI_3;
 
-/// What a file is read for.
+/// Purpose of reading a file.
 #[derive(Clone, Copy)]
 enum Purpose {
     /// A mesh of a native scene, whose material numbers are below this one.

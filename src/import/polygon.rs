@@ -20,9 +20,9 @@ const MAX_WORK: u64 = 1 << 30;
 pub(super) enum Defect {
     /// All corners are collinear, or the signed areas of its parts cancel.
     NoArea,
-    /// It intersects itself or winds around more than once.
+    /// The polygon intersects itself or winds around more than once.
     Crossing,
-    /// It is not convex, and clipping it, or all polygons so far, would take too long.
+    /// The polygon is not convex, and clipping it, or all polygons so far, would take too long.
     TooMuchWork,
 }
 
@@ -72,7 +72,7 @@ impl Cutter {
         Ok(triangles)
     }
 
-    /// The same for a polygon without equal consecutive corners.
+    /// [`Self::triangles`] for a polygon without equal consecutive corners.
     fn triangles_of_distinct(&mut self, points: &[DVec3]) -> Result<Vec<[u32; 3]>, Defect> {
         let count = points.len();
         let normal = normal(points);

@@ -67,7 +67,7 @@ pub(super) fn limit(scene: &mut Scene) {
         Background::Picture {
             strength, picture, ..
         } => {
-            // Its brightest texel is in proportion to its scale.
+            // A picture's brightest texel is in proportion to its scale.
             let most = SUN / scene.pictures[*picture].texels.scale();
             lower_number(strength, most, &mut counts.suns);
         }

@@ -37,22 +37,22 @@ pub enum FileError {
     /// The name points outside the folders that scenes may read.
     #[error("outside the folders that may be read")]
     Outside,
-    /// It is a folder.
+    /// The name is that of a folder.
     #[error("it is a folder")]
     IsFolder,
-    /// It is a pipe, a device or similar.
+    /// The name is that of a pipe, a device or similar.
     #[error("it is not a plain file")]
     NotPlain,
-    /// It is longer than the limit.
+    /// The file is longer than the limit.
     #[error("{}", size(*length))]
     TooLong {
-        /// Its length in bytes, as far as known.
+        /// Length of the file in bytes, as far as known.
         length: u64,
     },
     /// There is not enough memory for it.
     #[error("{} do not fit into memory", size(*length))]
     NoMemory {
-        /// Its length in bytes.
+        /// Length of the file in bytes.
         length: u64,
     },
     /// The operating system refused.

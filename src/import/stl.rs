@@ -110,7 +110,7 @@ impl Solid {
         mesh.name = (path.file_stem().unwrap_or_default())
             .to_string_lossy()
             .into_owned();
-        // Its positions are rounded again only if that makes them more precise.
+        // Positions are rounded again only if that makes them more precise.
         let repairs = mesh.repair();
         let mut notes = self.notes;
         if self.nonfinite > 0 {

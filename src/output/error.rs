@@ -50,7 +50,7 @@ pub enum OutputError {
         width: u32,
         /// Height of the image.
         height: u32,
-        /// Its number of pixels.
+        /// Number of pixels in the image.
         pixel_count: usize,
     },
 
@@ -152,9 +152,9 @@ pub enum OutputError {
     Incomplete {
         /// The file.
         path: PathBuf,
-        /// Its expected length in bytes.
+        /// Expected length of the file in bytes.
         expected: u64,
-        /// Its actual length in bytes.
+        /// Actual length of the file in bytes.
         found: u64,
     },
 

@@ -26,18 +26,18 @@ pub struct LayeredImage {
 /// A layer of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImageLayer {
-    /// Its name; empty for channels without a prefix.
+    /// Name of the layer; empty for channels without a prefix.
     pub name: &'static str,
-    /// Its channels.
+    /// Channels of the layer.
     pub channels: Vec<Channel>,
 }
 
 /// A channel of a layer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// Its name within the layer, such as `R`.
+    /// Name of the channel within the layer, such as `R`.
     pub name: &'static str,
-    /// Its values: row by row from the top left.
+    /// Values of the channel: row by row from the top left.
     pub values: Vec<f32>,
     /// Whether they may be stored as half floats: they are if no value of the layer is beyond the range of those, and otherwise
     /// as 32-bit floats.
@@ -50,7 +50,7 @@ const NAMELESS: &str = "beauty";
 /// Writes a picture to an OpenEXR file.
 ///
 /// # Errors
-/// Those of [`super::save_with`].
+/// The errors of [`super::save_with`].
 pub fn save_layers(
     path: impl AsRef<Path>,
     image: &LayeredImage,
@@ -63,7 +63,7 @@ pub fn save_layers(
 /// Writes a picture to standard output.
 ///
 /// # Errors
-/// Those of [`super::save_to_stdout`].
+/// The errors of [`super::save_to_stdout`].
 pub fn save_layers_to_stdout(
     image: &LayeredImage,
     options: &SaveOptions,

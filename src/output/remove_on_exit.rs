@@ -22,7 +22,7 @@ impl RemoveOnExit {
     /// Creates a file and registers it as `path`, atomically with respect to [`remove_unfinished_files`].
     ///
     /// # Errors
-    /// Those of `make`.
+    /// The errors of `make`.
     pub fn make<T>(
         make: impl FnOnce() -> io::Result<T>,
         path: impl FnOnce(&T) -> PathBuf,

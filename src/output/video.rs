@@ -144,8 +144,8 @@ impl Default for VideoOptions {
 /// options give the same bytes.
 ///
 /// # Errors
-/// Those of `frame`; frames of different sizes, unsupported sizes and rates, and everything that prevents
-/// writing the file.
+/// The errors of `frame`; frames of different sizes, unsupported sizes and rates, and everything that prevents writing
+/// the file.
 pub fn encode(
     path: &Path,
     format: VideoFormat,
@@ -172,7 +172,7 @@ pub fn encode(
 /// `path`.
 ///
 /// # Errors
-/// Those of [`encode`] that can be detected in advance.
+/// The errors of [`encode`] that can be detected in advance.
 pub fn check(
     path: &Path,
     format: VideoFormat,

@@ -110,8 +110,8 @@ impl Scene {
         self.materials.iter().any(|it| self.sources(it).is_some())
     }
 
-    /// What the pictures of a material are computed from, and the index of the texture that places them; `None` if it needs none or
-    /// has them.
+    /// Model and maps that a material's pictures are computed from, and the index of the texture that places them;
+    /// `None` if it needs none or has them.
     fn sources(&self, material: &Material) -> Option<(MetallicRoughness, Sheets, usize)> {
         if !material.has_classical_maps() || !material.is_undressed() {
             return None;
@@ -345,7 +345,7 @@ fn bake(model: &MetallicRoughness, mut sheets: Sheets, most: u32) -> Baked {
         }
     };
     let count = width as usize * height as usize;
-    // What is transmitted is a part, and most others are colours: each keeps its precision in 8 bits.
+    // Transmission is a fraction, and most others are colours: each keeps its precision in 8 bits.
     let linear = |color: Vec3| {
         let [r, g, b] = color.to_array().map(|x| (x * 255.0).round() as u8);
         [r, g, b, u8::MAX]

@@ -31,9 +31,9 @@ pub struct MorphTarget {
     pub vertices: Vec<u32>,
     /// The displacement of each in object space; finite.
     pub positions: Vec<Vec3>,
-    /// What is added to the unit normal of each; empty if normals stay.
+    /// Vector added to each vertex's unit normal; empty if normals stay.
     pub normals: Vec<Vec3>,
-    /// What is added to the direction of the tangent of each; empty if tangents stay.
+    /// Vector added to the direction of each vertex's tangent; empty if tangents stay.
     pub tangents: Vec<Vec3>,
 }
 
@@ -167,7 +167,7 @@ impl Influences {
     }
 }
 
-/// What the shape of a deforming mesh depends on at one time.
+/// Parameters of the shape of a deforming mesh at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
     /// The weight of each target.

@@ -41,7 +41,7 @@ impl Default for Light {
 pub enum LightKind {
     /// Shines evenly in all directions.
     Point {
-        /// Its position.
+        /// Position of the light.
         position: DVec3,
     },
     /// Shines from infinitely far away.
@@ -51,7 +51,7 @@ pub enum LightKind {
     },
     /// Shines into a cone: full intensity inside `inner`, falling smoothly to zero at `outer`.
     Spot {
-        /// Its position.
+        /// Position of the light.
         position: DVec3,
         /// The unit direction of the cone's axis, in which the light travels.
         direction: DVec3,

@@ -290,7 +290,7 @@ pub struct Textures {
     pub normal: Option<usize>,
     /// The occlusion map: the fraction of ambient light that reaches the surface, in red.
     pub occlusion: Option<usize>,
-    /// Its alpha multiplies [`Material::alpha`]. Only pictures have an alpha other than 1.
+    /// The texture whose alpha multiplies [`Material::alpha`]. Only pictures have an alpha other than 1.
     pub alpha: Option<usize>,
 }
 

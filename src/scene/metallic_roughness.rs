@@ -29,7 +29,7 @@ pub struct MetallicRoughness {
     pub base_color: Vec3,
     /// Coverage, of which `coverage` says what it means.
     pub alpha: f32,
-    /// What alpha means.
+    /// Meaning of alpha.
     pub coverage: Coverage,
     /// 0 for a dielectric, 1 for a metal.
     pub metallic: f32,
@@ -77,7 +77,7 @@ pub struct MetallicRoughness {
     pub dispersion: f32,
     /// Fraction of the diffuse light that leaves on the other side.
     pub diffuse_transmission: f32,
-    /// Its colour.
+    /// Colour of the diffuse transmission.
     pub diffuse_transmission_color: Vec3,
 }
 

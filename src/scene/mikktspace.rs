@@ -3,9 +3,9 @@
 //! normal and texture coordinates, and neighbours around a vertex share a tangent as long as their mappings have the
 //! same orientation.
 //!
-//! It differs from the original where that does not stay linear in the size of a mesh: it recurses around a vertex,
-//! compares all triangles there with each other to leave out exactly opposite ones, and searches all triangles for
-//! those without area. Arithmetic is f64.
+//! This version differs from the original where that does not stay linear in the size of a mesh: the original recurses
+//! around a vertex, compares all triangles there with each other to leave out exactly opposite ones, and searches all
+//! triangles for those without area. Arithmetic is f64.
 
 use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
 use std::collections::HashMap;
@@ -16,7 +16,7 @@ const LEAST: f64 = f32::MIN_POSITIVE as f64;
 /// A corner without a group, a side without a neighbour.
 const NONE: u32 = u32::MAX;
 
-/// What tangents depend on. Indices are in range.
+/// Mesh data that tangents depend on. Indices are in range.
 #[derive(Clone, Copy)]
 pub struct Surface<'a> {
     /// By vertex.
@@ -67,7 +67,7 @@ pub fn tangents(surface: Surface) -> Tangents {
     }
 }
 
-/// What is known of a triangle.
+/// Per-triangle data: direction of u, orientation and degeneracy.
 #[derive(Clone, Copy)]
 struct Face {
     /// The direction in which u grows with v constant, of unit length.
@@ -168,7 +168,7 @@ fn neighbors(faces: &[Face], corners: &[[u32; 3]]) -> Vec<[u32; 3]> {
     let mut neighbors = vec![[NONE; 3]; corners.len()];
     let mut waiting: Vec<(u32, u8)> = Vec::new();
     for edge in sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-        // Those that go one way wait for one that goes the other way.
+        // Sides that go one way wait for one that goes the other way.
         waiting.clear();
         let (mut next, mut is_forward) = (0, true);
         for &(_, _, index, k, goes_forward) in edge {

@@ -40,13 +40,13 @@ pub struct OutputDefaults {
     pub duration: Option<f64>,
     /// When the shutter is open.
     pub shutter: Shutter,
-    /// What paths from the camera see where there is nothing.
+    /// The backdrop that paths from the camera see where there is nothing.
     pub backdrop: Backdrop,
     /// Whether pictures by [`Self::integrator`] are denoised.
     pub denoise: bool,
 }
 
-/// What paths from the camera see where there is nothing, directly and straight or refracted through smooth
+/// The backdrop that paths from the camera see where there is nothing, directly and straight or refracted through smooth
 /// transparent surfaces. Everything else sees [`super::Scene::background`], which lights the scene and shows in mirrors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Backdrop {

@@ -25,11 +25,11 @@ pub struct Picture {
     pub height: u32,
     /// `width` × `height` of them, row by row from the top left.
     pub texels: Texels,
-    /// What its texels were computed from.
+    /// Source that the texels were computed from.
     pub origin: Origin,
 }
 
-/// What the texels of a [`Picture`] were computed from, which scene files have in their place.
+/// Source that the texels of a [`Picture`] were computed from, which scene files have in their place.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Origin {
     /// Nothing: they were read.

@@ -92,7 +92,7 @@ impl<'a> Posed<'a> {
 }
 
 impl Scene {
-    /// The same scene with its deforming meshes in their pose at time 0, in which they stay.
+    /// A copy of the scene with its deforming meshes in their pose at time 0, in which they stay.
     pub fn at_rest(&self) -> Self {
         let mut scene = self.clone();
         let frame = self.frame(0.0);

@@ -51,7 +51,8 @@ pub enum CanonicalShape {
     },
     /// |x| ≤ 1, |z| ≤ 1 at y = 0, facing +y. u grows along x, v along −z.
     Rectangle,
-    /// |x|, |y|, |z| ≤ 1. On each side, seen from outside, u grows to the right and v upwards. Up is y; on the top it is −z, on the bottom z.
+    /// |x|, |y|, |z| ≤ 1. On each side, seen from outside, u grows to the right and v upwards. Up is y; on the top it is −z,
+    /// on the bottom z.
     Box,
     /// A cylinder, cone or frustum for 0 ≤ y ≤ 1. On its side u is the longitude and v is y; its caps are
     /// mapped like the top and bottom of a box.
@@ -86,8 +87,8 @@ impl Geometry {
         }
     }
 
-    /// The same surface transformed by `space_from_node`; a sphere becomes an ellipsoid. Planes are
-    /// static and stay as they are.
+    /// The surface transformed by `space_from_node`; a sphere becomes an ellipsoid. Planes are static and stay as they
+    /// are.
     pub fn placed(&self, space_from_node: DAffine3) -> Self {
         let (canonical, world_from_canonical) = match *self {
             Self::Sphere { center, radius } => {

@@ -25,7 +25,7 @@ struct Triangle {
 
 /// The surfaces that stop light, in world space, and the light around them.
 pub struct Sight {
-    /// Those of the scene that are not black.
+    /// Lights of the scene that are not black.
     lights: Vec<Light>,
     triangles: Vec<Triangle>,
     /// Whether light comes from outside.

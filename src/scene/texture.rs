@@ -74,7 +74,7 @@ pub enum Space {
     World,
     /// (u, v, 0) of the surface.
     Uv,
-    /// The same with the second set of u and v, of meshes that have one.
+    /// (u, v, 0) of the second set of u and v, of meshes that have one.
     SecondUv,
 }
 
@@ -157,7 +157,7 @@ impl Minify {
         Self::LinearMipmapLinear,
     ];
 
-    /// Its name in native scenes.
+    /// Name of the mode in native scenes.
     pub fn name(self) -> &'static str {
         match self {
             Self::Nearest => "nearest",
@@ -191,17 +191,17 @@ impl Minify {
 /// How an image continues beyond [0, 1] along one axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
-    /// It is repeated.
+    /// The image is repeated.
     #[default]
     Repeat,
-    /// Its edge goes on.
+    /// The image's edge goes on.
     Clamp,
-    /// It is repeated, and every second copy is mirrored.
+    /// The image is repeated, and every second copy is mirrored.
     Mirror,
 }
 
 impl Wrap {
-    /// Its name in native scenes.
+    /// Name of the mode in native scenes.
     pub fn name(self) -> &'static str {
         match self {
             Self::Repeat => "repeat",

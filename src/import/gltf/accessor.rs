@@ -98,7 +98,7 @@ impl Component {
 }
 
 impl Kind {
-    /// Its name in the file.
+    /// Name of the element type in the file.
     fn name(self) -> &'static str {
         match self {
             Self::Scalar => "SCALAR",

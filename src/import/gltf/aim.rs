@@ -1,4 +1,4 @@
-//! What a channel of a clip animates: by node and path, or by a pointer into the JSON
+//! The property that a channel of a clip animates, given by node and path, or by a pointer into the JSON
 //! (`KHR_animation_pointer`).
 
 use super::Reader;
@@ -40,7 +40,7 @@ pub(super) enum Values {
 }
 
 impl Aim {
-    /// What `target` says; `None` if it is nothing that can be animated, or is missing.
+    /// The property that `target` names; `None` if it cannot be animated or is missing.
     pub fn of(target: &ChannelTarget) -> Option<Self> {
         if target.path != "pointer" {
             return Self::of_node(target.node?, &target.path);
@@ -60,7 +60,7 @@ impl Aim {
         })
     }
 
-    /// What a JSON pointer (RFC 6901) leads to.
+    /// The property that a JSON pointer (RFC 6901) leads to.
     fn at(pointer: &str) -> Option<Self> {
         let rest = pointer.strip_prefix('/')?;
         let lights = "extensions/KHR_lights_punctual/lights/";

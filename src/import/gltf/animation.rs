@@ -311,7 +311,7 @@ impl Reader<'_> {
     }
 }
 
-/// What a channel animates that is not known.
+/// The unknown property that a channel animates, for messages.
 fn described(target: &ChannelTarget) -> String {
     let pointer = target
         .extensions
@@ -324,8 +324,8 @@ fn described(target: &ChannelTarget) -> String {
 }
 
 impl Keys {
-    /// The same keys with one at 0 and one at `end`, so that all curves of a clip repeat together. Before its
-    /// first key and after its last one, a curve is constant.
+    /// Adds keys at 0 and at `end` where there are none, so that all curves of a clip repeat together. Before its first
+    /// key and after its last one, a curve is constant.
     fn held_until(mut self, end: f64) -> Self {
         let is_cubic = self.interpolation == Interpolation::Hermite;
         let last = self.times.len() - 1;

@@ -26,13 +26,13 @@ impl Blame<'_> {
         self.file(why, "Check that it was written completely")
     }
 
-    /// What is at `place` in the JSON is wrong.
+    /// The JSON at `place` is wrong.
     pub fn bad(self, place: impl Display, why: impl Display) -> ImportError {
         let why = format!("{place}: {why}");
         self.file(&why, "Export the model again, or correct the file")
     }
 
-    /// What is at `place` refers to an entry that does not exist.
+    /// The JSON at `place` refers to an entry that does not exist.
     pub fn missing(self, place: impl Display, what: &str, index: usize) -> ImportError {
         match index {
             ABSENT => self.bad(place, format_args!("it names none of the {what}")),

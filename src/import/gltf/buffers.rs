@@ -158,7 +158,7 @@ impl Buffers {
     }
 }
 
-/// What a URI stands for.
+/// The data or the file that a URI stands for.
 pub(super) enum Source {
     /// The contents of a `data:` URI.
     Bytes(Vec<u8>),
@@ -166,10 +166,10 @@ pub(super) enum Source {
     File(String),
 }
 
-/// What `uri`, which is at `place`, stands for (RFC 2397, RFC 3986).
+/// The data or the file that `uri`, which is at `place`, stands for (RFC 2397, RFC 3986).
 ///
 /// # Errors
-/// It is a `data:` URI with something else than base64, or its percent encoding is not UTF-8.
+/// `uri` is a `data:` URI with invalid base64, or its percent encoding is not UTF-8.
 pub(super) fn source(uri: &str, blame: Blame, place: &str) -> Result<Source, ImportError> {
     if let Some(rest) = uri
         .get(..5)

@@ -94,7 +94,7 @@ impl Reader<'_> {
             mesh: added,
             targets: shared.targets,
             weights,
-            // Its joints are known when all nodes were added.
+            // The skin's joints are known when all nodes were added.
             skin: joints.map(|_| Skin {
                 joints: Vec::new(),
                 influences: shared.influences,

@@ -6,16 +6,16 @@ use crate::import::error::ImportError;
 use crate::import::notes::Notes;
 use crate::import::source::quote_up_to;
 
-/// What happens with an extension of glTF.
+/// Support for an extension of glTF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Support {
-    /// It is shown.
+    /// The extension is shown.
     Full,
-    /// The path tracer shows it, the classical integrator does not.
+    /// The path tracer shows the extension, the classical integrator does not.
     Paths,
-    /// Its parameters are kept in the scene, but no integrator shows them.
+    /// The extension's parameters are kept in the scene, but no integrator shows them.
     Kept,
-    /// It says nothing about the picture: it is for programs that edit or describe models.
+    /// The extension says nothing about the picture: it is for programs that edit or describe models.
     Irrelevant,
 }
 
@@ -60,7 +60,7 @@ pub(super) const LONGEST_NAME: usize = 64;
 /// Checks the extensions that `document` requires, and notes those that have no effect.
 ///
 /// # Errors
-/// It requires extensions that are not read; all are named.
+/// `document` requires extensions that are not read; all are named.
 pub(super) fn check(
     document: &Document,
     traces_paths: bool,
@@ -106,7 +106,7 @@ pub(super) fn check(
     Ok(())
 }
 
-/// What to do about missing extensions.
+/// The remedy for missing extensions.
 fn remedy(lacking: &[String]) -> &'static str {
     let has = |part: &str| lacking.iter().any(|name| name.contains(part));
     if has("compression") {

@@ -279,7 +279,7 @@ impl Reader<'_> {
                 false => self.mesh(mesh, source, here)?,
             };
             if let (Some(mesh), Some(_)) = (mesh, skin_of) {
-                // Its node only hides it.
+                // The node of a skinned mesh only hides it.
                 self.scene.instances.push(Instance {
                     mesh,
                     placement: DAffine3::IDENTITY,

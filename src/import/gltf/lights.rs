@@ -1,7 +1,7 @@
 //! Lights (`KHR_lights_punctual`).
 //!
-//! Its intensities are photometric: candela for points and spots, lux for directions. As in other viewers
-//! they are used as numbers: light of 1 lux gives a white diffuse surface that faces it the radiance 1/π.
+//! Intensities are photometric: candela for points and spots, lux for directions. As in other viewers they are used as
+//! numbers: light of 1 lux gives a white diffuse surface that faces it the radiance 1/π.
 
 use super::Reader;
 use super::document::Spot;

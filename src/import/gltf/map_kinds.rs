@@ -35,7 +35,7 @@ macro_rules! map_kinds {
                 match self { $(Self::$kind => ShownBy::$shown_by,)* }
             }
 
-            /// What its picture holds.
+            /// Role of the map's picture.
             pub const fn role(self) -> Role {
                 match self { $(Self::$kind => Role::$role,)* }
             }

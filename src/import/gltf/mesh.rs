@@ -17,7 +17,7 @@ use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashSet;
 use std::fmt::Display;
 
-/// What the still mesh of a node depends on: its number in the file, its skin, and the bits of its weights.
+/// Key of a node's still mesh: its number in the file, its skin, and the bits of its weights.
 pub(super) type MeshKey = (usize, Option<usize>, Vec<u64>);
 
 /// The attributes of one primitive, one of each per vertex if there are any.
@@ -48,7 +48,7 @@ impl Vertices {
             spread(uvs, corners);
         }
         spread(&mut self.colors, corners);
-        // Those in the file are for normals in the file.
+        // Tangents in the file are for normals in the file.
         self.tangents = Vec::new();
         self.normals = Vec::with_capacity(corners.len());
         for corners in self.positions.chunks_exact(3) {

@@ -15,7 +15,7 @@ const UNKNOWN: Fault = "the compressed data have an unknown version";
 const BLOCK_ELEMENTS: usize = 256;
 const BLOCK_BYTES: usize = 8192;
 
-/// What a stream stands for.
+/// The kind of data in a stream.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mode {
     Attributes,

@@ -13,7 +13,7 @@ use crate::import::source::quote;
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
-/// What was made of the images of a model.
+/// Pictures made of a model's images, and where these are.
 pub(super) struct Store {
     pub pictures: Pictures,
     /// By the number of the image, what is known of it.
@@ -67,14 +67,14 @@ impl Reader<'_> {
     /// The index in the scene of `images[index]`, which exists; `None` with a note if it cannot be read.
     ///
     /// # Errors
-    /// It is in a file that the model may not read.
+    /// The image is in a file that the model may not read.
     pub(super) fn shown(&mut self, index: usize, role: Role) -> Result<Option<usize>, ImportError> {
         self.looked_up(index, |pictures, place, name, read| {
             pictures.index(place, name, role, read)
         })
     }
 
-    /// What `get` finds for `images[index]` in the store.
+    /// The result of `get` for `images[index]` in the store.
     fn looked_up<T>(
         &mut self,
         index: usize,

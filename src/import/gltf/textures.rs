@@ -65,7 +65,7 @@ impl Reader<'_> {
         let can_emit = is_lit && self.can_emit(index, &model);
         let mut material = Material::physical(Arc::new(model), layers);
         if !is_lit {
-            // It shines with its colour, and has no layers.
+            // An unlit surface shines with its colour, and has no layers.
             material.layer_textures = None;
         }
         // Unlit surfaces are seen from both sides.

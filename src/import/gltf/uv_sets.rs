@@ -23,7 +23,7 @@ enum Rank {
 /// The sets of texture coordinates of a material.
 #[derive(Debug, Default)]
 pub(super) struct Sets {
-    /// Those in the first and the second set of a mesh.
+    /// Sets in the file that become the first and the second set of a mesh.
     slots: Vec<u32>,
     /// For sets that are the same as another in all primitives of the material, that other.
     same: HashMap<u32, u32>,

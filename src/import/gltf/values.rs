@@ -18,7 +18,7 @@ pub(super) struct Checked<'n> {
 }
 
 impl<'n> Checked<'n> {
-    /// Those of the part of the file at `place` with this name.
+    /// Reader of the values of the part of the file at `place` with this name.
     pub fn new(notes: &'n mut Notes, place: &str, name: Option<&str>) -> Self {
         let owner = match name {
             Some(name) if !name.is_empty() => format!("{place} {}", quote(name.as_bytes())),

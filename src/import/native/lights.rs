@@ -16,7 +16,7 @@ use toml::Spanned;
 pub(super) struct NamedLight {
     pub name: Option<String>,
     pub light: Light,
-    /// Its colour, and the factor that turns it into the light's colour.
+    /// Colour in the file, and the factor that turns it into the light's colour.
     pub color: Vec3,
     pub factor: f64,
     /// The largest channel that its colour ever has.
@@ -72,7 +72,7 @@ fn light(table: &Spanned<LightTable>, texts: &Texts) -> Result<NamedLight, Impor
         let (kind, spot) = (cone(spanned, texts)?, spanned.get_ref());
         found.push(reader.small(kind, spot.color, spot.intensity, spot.attenuation)?);
     }
-    // The same members of different tables.
+    // Tables of all area lights have these members.
     macro_rules! large {
         ($kind:expr, $table:expr) => {{
             let brightness = reader.brightness($table.intensity, $table.radiance)?;

@@ -167,7 +167,7 @@ impl<'a> Nodes<'a> {
             ..Node::default()
         };
         match transform {
-            // It is static: no animation refers to it.
+            // A node with a matrix is static: no animation refers to it.
             Some(table) if table.matrix.is_some() => {
                 node.placement = chain(placement, table.affine());
             }

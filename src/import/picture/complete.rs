@@ -11,10 +11,10 @@ pub(super) const CUT: &str = "is truncated: its end is missing";
 /// byte holds eight texels of one bit.
 const PNG_TEXELS: u64 = 1032 * 8;
 
-/// The same for Radiance HDR, whose oldest encoding repeats a texel 65,535 times in eight bytes.
+/// Most texels per byte of a Radiance HDR file, whose oldest encoding repeats a texel 65,535 times in eight bytes.
 const HDR_TEXELS: u64 = 8192;
 
-/// The same for OpenEXR: deflate again, and at least three channels of two bytes each.
+/// Most texels per byte of an OpenEXR file: deflate again, and at least two bytes per texel.
 const EXR_TEXELS: u64 = 1032 / 2;
 
 /// Checks that `bytes`, an image of `texels` texels, are complete and can represent that many.
@@ -73,7 +73,7 @@ fn png(bytes: &[u8]) -> Result<(), String> {
     }
 }
 
-/// What is in the first chunk of this name of a PNG file, before its texels.
+/// Data of the first chunk of this name of a PNG file, before its texels.
 pub(super) fn png_chunk<'b>(bytes: &'b [u8], name: &[u8; 4]) -> Option<&'b [u8]> {
     let mut rest = bytes.get(8..)?;
     loop {

@@ -62,7 +62,7 @@ pub(super) fn dimensions(bytes: &[u8]) -> Result<(u32, u32), Fault> {
     Ok((u32_at(bytes, 20)?, u32_at(bytes, 24)?))
 }
 
-/// What the file in `bytes` says beside its values and its picture does not follow.
+/// Properties of the file in `bytes` that its picture does not follow.
 pub(super) fn ignored(bytes: &[u8]) -> Vec<Ignored> {
     let section = |at| {
         let (offset, length) = (u32_at(bytes, at)?, u32_at(bytes, at + 4)?);
@@ -190,7 +190,7 @@ fn inflated(level: &[u8], scheme: u32, length: u64) -> Result<Cow<'_, [u8]>, Fau
             let source = ruzstd::decoding::StreamingDecoder::new(level)
                 .map_err(|_| damaged("its Zstandard stream is invalid"))?;
             let mut bytes = Vec::new();
-            // It grows with what is there.
+            // The buffer grows with the data that is there.
             (source.take(length + 1).read_to_end(&mut bytes))
                 .map_err(|_| damaged("its Zstandard stream is invalid"))?;
             Cow::Owned(bytes)

@@ -15,7 +15,7 @@ pub(super) struct Opened {
     pub is_premultiplied: bool,
     /// From its colours to linear Rec. 709, unless they are that.
     pub rec709_from_own: Option<Mat3>,
-    /// What its file says and its picture does not follow.
+    /// Properties of the file that its picture does not follow.
     pub ignored: Vec<Ignored>,
 }
 
@@ -52,9 +52,9 @@ impl Opened {
     }
 }
 
-/// What is wrong with the image in a file.
+/// Makes errors about the image in a file.
 pub(super) struct Unfit<'n> {
-    /// What messages call it.
+    /// Name of the image in messages.
     pub name: &'n str,
     /// The number of texels that it may have.
     pub most_texels: u64,

@@ -20,7 +20,7 @@ pub(super) const MAGIC: &[u8] = b"\x76\x2f\x31\x01";
 /// The name of no channel.
 const NONE: &str = "\u{1}";
 
-/// What a file says about its picture.
+/// The part and the channels that have the picture of a file.
 pub(super) struct Head {
     /// The part that has it.
     part: Header,
@@ -159,7 +159,7 @@ impl<'s, R: ReadChannels<'s>> ReadChannels<'s> for OfPart<R> {
 /// The picture of a file with this header.
 ///
 /// # Errors
-/// It is damaged.
+/// The file is damaged.
 pub(super) fn open(bytes: &[u8], head: Head, unfit: &Unfit) -> Result<Opened, Refused> {
     let Head { part, layer } = &head;
     let [width, height] = head.size();
@@ -248,7 +248,7 @@ pub(super) fn open(bytes: &[u8], head: Head, unfit: &Unfit) -> Result<Opened, Re
     })
 }
 
-/// What a part says and its picture does not follow.
+/// Properties of a part that its picture does not follow.
 fn ignored(part: &Header, layer: &Layer) -> Vec<Ignored> {
     let mut ignored = Vec::new();
     let mut add = |clause: String, is_of_colors| {

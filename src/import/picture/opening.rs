@@ -6,7 +6,7 @@
 //! | OpenEXR | light | multiplied into colours | those of its chromaticities, or Rec. 709 |
 //! | Radiance HDR | light, times its exposure | none | those of its primaries, or Rec. 709; XYZ |
 //!
-//! What a file says and its picture does not follow is in [`Opened::ignored`].
+//! [`Opened::ignored`] has the properties of a file that its picture does not follow.
 
 #[cfg(feature = "basis")]
 use super::ktx2;
@@ -18,7 +18,7 @@ use image::{
 };
 use std::io::Cursor;
 
-/// What the header of an image says.
+/// The header of an image.
 pub(super) struct Head {
     pub width: u32,
     pub height: u32,
@@ -44,7 +44,7 @@ fn reader(bytes: &[u8]) -> Option<ImageReader<Cursor<&[u8]>>> {
 /// Reads the header of the image in `bytes`, and checks that these can hold what it announces.
 ///
 /// # Errors
-/// It is invalid or of an unsupported kind, or announces too many texels.
+/// The image is invalid or of an unsupported kind, or announces too many texels.
 pub(super) fn head(bytes: &[u8], unfit: &Unfit) -> Result<Head, Refused> {
     if bytes.is_empty() {
         return Err(unfit.damaged("is empty"));
@@ -122,7 +122,7 @@ impl Special {
 /// The image in `bytes`, whose header is `head`.
 ///
 /// # Errors
-/// It is damaged, or takes too much memory.
+/// The image is damaged, or takes too much memory.
 pub(super) fn open(bytes: &[u8], head: Head, unfit: &Unfit) -> Result<Opened, Refused> {
     let (width, height) = (head.width, head.height);
     let codes = |image: DynamicImage, has_alpha, ignored| Opened {

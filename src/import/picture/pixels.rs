@@ -30,7 +30,7 @@ pub struct Pixels {
 /// The pixels of the image in `bytes`, which errors show as `path`: PNG, JPEG, WebP, KTX2, Radiance HDR or OpenEXR.
 ///
 /// # Errors
-/// It is damaged, of an unsupported kind, or has more than 16384 × 16384 pixels.
+/// The image is damaged, of an unsupported kind, or has more than 16384 × 16384 pixels.
 pub fn pixels(path: &Path, bytes: &[u8]) -> Result<Pixels, ImportError> {
     let unfit = Unfit {
         name: "it",

@@ -1,12 +1,12 @@
-//! What PNG, JPEG and WebP files say about their colours and their orientation, which is not followed: colours are taken
-//! for sRGB.
+//! Colour spaces and orientations that PNG, JPEG and WebP files name, which are not followed: colours are taken for
+//! sRGB.
 
 use super::complete;
 use super::opened::Ignored;
 use image::metadata::Orientation;
 use image::{ImageDecoder, ImageFormat};
 
-/// What the file in `bytes` says beside its values, unless it is what is assumed anyway.
+/// Properties of the file in `bytes` that its picture does not follow, unless they are assumed anyway.
 pub(super) fn ignored(
     bytes: &[u8],
     format: ImageFormat,

@@ -16,12 +16,12 @@ use std::str::FromStr;
 /// The first bytes of each file; the name of the program that wrote it follows.
 pub(super) const MAGIC: &[u8] = b"#?";
 
-/// What the header of a file says.
+/// The header of a file.
 pub(super) struct Head {
     /// Number of texels in a scan line, and of lines.
     scan: [u32; 2],
     orientation: Orientation,
-    /// What values are divided by.
+    /// Divisor of values.
     divisor: Vec3,
     rec709_from_own: Option<Mat3>,
     ignored: Vec<Ignored>,
@@ -54,7 +54,7 @@ impl Head {
 /// Reads the header.
 ///
 /// # Errors
-/// It is cut, has another encoding, or does not name the size.
+/// The header is cut, has another encoding, or does not name the size.
 pub(super) fn head(bytes: &[u8], unfit: &Unfit) -> Result<Head, Refused> {
     let mut lines = bytes.split_inclusive(|&byte| byte == b'\n');
     let mut body = 0;
@@ -187,7 +187,7 @@ fn resolution(line: &[u8]) -> Option<(Orientation, [u32; 2])> {
 /// The picture of a file with this header.
 ///
 /// # Errors
-/// It is damaged.
+/// The file is damaged.
 pub(super) fn open(bytes: &[u8], head: Head, unfit: &Unfit) -> Result<Opened, Refused> {
     const CHANNELS: usize = 3;
     let [along, across] = head.scan;

@@ -6,7 +6,7 @@ use crate::scene::{LARGEST_TEXEL, LUMINANCE, SMALLEST_TEXEL, scale_of};
 use glam::{Vec3, Vec4};
 use std::f64::consts::PI;
 
-/// What was changed in the values of a picture.
+/// Changes to the values of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Repairs {
     /// Number of texels.
@@ -35,7 +35,7 @@ pub(super) fn repair(texels: &mut [Vec4], width: u32, role: Role, outside: usize
         count: texels.len(),
         is_whole,
         most: match role {
-            // Its texels are scaled for the GPU.
+            // Texels of an environment are scaled for the GPU.
             Role::Environment => range::SUN,
             _ => LARGEST_TEXEL,
         },

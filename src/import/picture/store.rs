@@ -1,9 +1,9 @@
 //! The pictures of a scene, whatever its format: each file is decoded once, by all cores, for the roles in which it is
 //! used; pictures that are too large are halved.
 //!
-//! What will be used is planned first ([`Pictures::plan`]). The first use of a planned picture decodes those that are
-//! planned after it as well, as many at a time as fit into a bounded memory. How often each is halved so that all fit is
-//! known before from their headers ([`budget`]), so that no more is decoded and kept than fits.
+//! Pictures that will be used are planned first ([`Pictures::plan`]). The first use of a planned picture decodes those
+//! that are planned after it as well, as many at a time as fit into a bounded memory. How often each is halved so that
+//! all fit is known before from their headers ([`budget`]), so that no more is decoded and kept than fits.
 
 mod budget;
 
@@ -43,7 +43,7 @@ struct Planned {
     /// For messages.
     name: String,
     roles: Vec<Role>,
-    /// What the header of its file announces, once that was read.
+    /// Properties that the header of the file announces, once that was read.
     announced: Option<Announced>,
     /// The file, or why there is none, if it is kept from the reading of its header.
     file: Option<Result<Vec<u8>, Refused>>,
@@ -134,7 +134,7 @@ impl Pictures {
     /// The index of the picture at `place` in the scene, of which it becomes part.
     ///
     /// # Errors
-    /// It cannot be read, is not an image, or is too large.
+    /// The data at `place` cannot be read, is not an image, or is too large.
     pub fn index(
         &mut self,
         place: &Place,

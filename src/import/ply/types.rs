@@ -1,4 +1,4 @@
-//! What a PLY file consists of.
+//! The elements, properties and number types of a PLY file, and its encoding.
 
 /// The type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

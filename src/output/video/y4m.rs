@@ -18,7 +18,7 @@ impl<W: Write> Y4mWriter<W> {
     /// Writes the header of a video of `width` × `height` pixels.
     ///
     /// # Errors
-    /// Those of `writer`.
+    /// The errors of `writer`.
     pub fn new(mut writer: W, width: u32, height: u32, rate: FrameRate) -> io::Result<Self> {
         let (frames, seconds) = rate.parts();
         writeln!(
@@ -36,7 +36,7 @@ impl<W: Write> Y4mWriter<W> {
     /// Writes one frame.
     ///
     /// # Errors
-    /// Those of the writer, and [`io::ErrorKind::InvalidInput`] for a frame of another size.
+    /// The errors of the writer, and [`io::ErrorKind::InvalidInput`] for a frame of another size.
     pub fn write(&mut self, picture: &Picture8) -> io::Result<()> {
         let size = (self.width, self.height);
         if (picture.width, picture.height) != size {
@@ -57,7 +57,7 @@ impl<W: Write> Y4mWriter<W> {
     /// Flushes the writer.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// The errors of the writer.
     pub fn finish(mut self) -> io::Result<()> {
         self.writer.flush()
     }

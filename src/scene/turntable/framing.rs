@@ -30,7 +30,7 @@ use glam::DAffine3;
 pub(super) struct Swept {
     /// Distance from the axis and height of points: the relevant part of the convex hull.
     points: Vec<[f64; 2]>,
-    /// The same of spheres' centres, and their radii.
+    /// Distance from the axis and height of spheres' centres, and their radii.
     spheres: Vec<[f64; 3]>,
 }
 

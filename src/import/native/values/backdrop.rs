@@ -1,4 +1,4 @@
-//! What paths from the camera see where there is nothing.
+//! The backdrop, which paths from the camera see where there is nothing.
 
 use super::ColorVisitor;
 use crate::scene::Backdrop;
