@@ -185,7 +185,7 @@ impl Gpu {
         }
     }
 
-    /// The same device, whose user is told before it compiles a pipeline: that takes seconds on some drivers.
+    /// Calls `report` before the device compiles a pipeline: that takes seconds on some drivers.
     pub fn reporting_compilation(self, report: impl Fn() + Send + Sync + 'static) -> Self {
         Self {
             on_compilation: Some(Arc::new(report)),

@@ -9,7 +9,7 @@ pub use tags::*;
 
 /// A BVH node in the encoding that the shader's `decode_node` reads: four rows of four words.
 pub type PackedNode = [u32; 16];
-/// The same for `float_node`: for each axis the lower, then the upper planes of four children, as `f32`; then references.
+/// A BVH node for `float_node`: for each axis the lower, then the upper planes of four children, as `f32`; then references.
 pub type FloatNode = [u32; 28];
 
 /// The reference to a leaf of `count` (1 to 8) primitives, shapes or triangles, from `first` (below 2²⁷).
@@ -83,11 +83,11 @@ packed! {
         /// Sphere: radius. Globe: reciprocal of the radius. Disc: radius of its hole. Cone: radius at the
         /// bottom, where the larger one is 1. Torus: small radius.
         size0: f32,
-        /// The same for y. Plane: its unit normal. Globe: its normal at `position`.
+        /// Dot product with a point less `position`: its y. Plane: its unit normal. Globe: its normal at `position`.
         row_y: [f32; 3],
         /// Cone: radius at the top.
         size1: f32,
-        /// The same for z. Plane: for v, with `size1`.
+        /// Dot product with a point less `position`: its z. Plane: dot product with a point plus `size1`: v.
         row_z: [f32; 3],
         /// [`SHAPE_CAPPED`] or 0.
         flags: u32,
@@ -134,9 +134,9 @@ packed! {
         next_key: u32,
         /// Affine row from object space to the space of solid textures.
         pattern_x: [f32; 4],
-        /// The same for y.
+        /// Affine row for y, from object space to the space of solid textures.
         pattern_y: [f32; 4],
-        /// The same for z.
+        /// Affine row for z, from object space to the space of solid textures.
         pattern_z: [f32; 4],
     }
     /// The transform of a moving instance at one time: stretch, then rotation, then translation.
@@ -190,7 +190,7 @@ packed! {
         /// 16-bit indices of [`PackedTexture`]s or [`NO_TEXTURE`]: diffuse and specular, reflect and
         /// transmit, ambient and emission, normal map and alpha, the first of each pair in the lower half.
         textures: [u32; 4],
-        /// The same of the occlusion map, in the lower half.
+        /// 16-bit index of the occlusion map's [`PackedTexture`] or [`NO_TEXTURE`], in the lower half.
         occlusion: u32,
         /// Weight of the occlusion map, 0 to 1.
         occlusion_strength: f32,
@@ -198,7 +198,7 @@ packed! {
         _pad0: u32,
         #[doc(hidden)]
         _pad1: u32,
-        /// What the path tracer sees.
+        /// The layers that the path tracer sees.
         layers: PackedLayers,
     }
     /// The layers of a surface in the path tracer: glTF's metallic-roughness material with its extensions.
@@ -209,7 +209,7 @@ packed! {
         metallic: f32,
         /// Reflectance of a dielectric along the normal.
         f0: [f32; 3],
-        /// The same at grazing angles; of Phong materials unused, `f0` holds for all angles.
+        /// Reflectance of a dielectric at grazing angles; of Phong materials unused, `f0` holds for all angles.
         f90: f32,
         /// Square root of the width α of the microfacet distribution.
         roughness: f32,
@@ -233,13 +233,13 @@ packed! {
         iridescence_ior: f32,
         /// Thickness of the film in nanometres where its texture is 0.
         film_thinnest: f32,
-        /// The same where it is 1, or without a texture.
+        /// Thickness of the film in nanometres where its texture is 1, or without a texture.
         film_thickest: f32,
         /// 20 divided by the Abbe number; 0 for none.
         dispersion: f32,
         /// Fraction of the diffuse light that leaves on the other side.
         diffuse_transmission: f32,
-        /// Its colour.
+        /// Colour of the diffuse transmission.
         diffuse_transmission_color: [f32; 3],
         /// Index of refraction, of thin walls too.
         ior: f32,
@@ -253,9 +253,9 @@ packed! {
         coat_normal_scale: f32,
         /// 16-bit indices of the [`PackedTexture`]s of the first eight slots, the first of each pair in the lower half.
         textures: [u32; 4],
-        /// The same for the other slots.
+        /// As `textures`, for the second eight slots.
         more_textures: [u32; 4],
-        /// The third eight.
+        /// As `textures`, for the third eight slots.
         last_textures: [u32; 4],
     }
     /// A spatially varying colour that multiplies a colour of a material.
@@ -270,9 +270,9 @@ packed! {
         flags: u32,
         /// Affine row: from (x, y, z, 1) in render space or (u, v, 0, 1) to x in the pattern's space.
         row_x: [f32; 4],
-        /// The same for y.
+        /// Affine row to y in the pattern's space.
         row_y: [f32; 4],
-        /// The same for z.
+        /// Affine row to z in the pattern's space.
         row_z: [f32; 4],
         /// Picture: index of the first word of its texels, with [`PICTURE_HALF`] or [`PICTURE_SRGB`].
         picture: u32,
@@ -285,7 +285,7 @@ packed! {
     }
     /// A light; `kind` says which members apply.
     PackedLight {
-        /// Its position or centre, in render space.
+        /// Position or centre of the light, in render space.
         position: [f32; 3],
         /// [`LIGHT_POINT`], [`LIGHT_DIRECTIONAL`] and so on.
         kind: u32,
@@ -332,9 +332,9 @@ packed! {
     }
     /// An emissive triangle or shape that paths sample as a light. Emitters are sorted by instance, then by primitive.
     PackedEmitter {
-        /// Its index in the triangles array, or in the shapes array with [`SHAPE`].
+        /// Index in the triangles array, or in the shapes array with [`SHAPE`].
         primitive: u32,
-        /// Its instance, or [`NO_INSTANCE`].
+        /// Index of the instance, or [`NO_INSTANCE`].
         instance: u32,
         /// The sum of the chances in its group up to it: the last one has 1.
         end: f32,
@@ -492,7 +492,7 @@ packed! {
         /// Counts of what the dispatch did; zero before it.
         counters: PackedCounters,
     }
-    /// What a dispatch counted.
+    /// The counters of a dispatch.
     PackedCounters {
         /// Samples that were dropped: not numbers, or beyond [`LARGEST_RADIANCE_BITS`].
         nonfinite_samples: u32,
@@ -505,11 +505,11 @@ packed! {
         /// The luminance that clamping removed, in sixteenths of the clamp: the low word, then the high one. This and
         /// the following are kept where override `CLAMP_INDIRECT` is above 0.
         clamped_light: u32,
-        /// Its high word.
+        /// High word of `clamped_light`.
         clamped_light_high: u32,
         /// The luminance that paths found, without what clamping removed.
         kept_light: u32,
-        /// Its high word.
+        /// High word of `kept_light`.
         kept_light_high: u32,
         /// Camera rays. This and the following are kept where override `COUNT_RAYS` is on.
         primary: u32,
@@ -572,7 +572,7 @@ packed! {
     }
     /// A ray that was traced, in render space; see `shaders/types.wesl`.
     PackedRay {
-        /// Its origin.
+        /// Origin of the ray.
         origin: [f32; 3],
         /// [`RAY_PRIMARY`] and so on.
         kind: u32,
@@ -600,7 +600,7 @@ packed! {
         arriving: [f32; 3],
         /// [`RAY_OUTSIDE`] and so on.
         flags: u32,
-        /// Its own contribution to the sample.
+        /// The ray's own contribution to the sample.
         contribution: [f32; 3],
         /// Shadow ray: index of its light, or of its [`PackedEmitter`]; otherwise [`NONE`].
         light: u32,

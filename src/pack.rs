@@ -71,7 +71,7 @@ use trees::Trees;
 
 /// A packed scene.
 ///
-/// Its arrays consist of segments that [`scene_from`] shares between scenes: the nodes, triangles and vertices
+/// The arrays consist of segments that [`scene_from`] shares between scenes: the nodes, triangles and vertices
 /// of each BLAS, in scene order. Instanced BLASes come first, then those baked into the world, then the joint
 /// BLAS of shapes and small meshes: data that changes most often comes last.
 #[derive(Clone, Debug)]

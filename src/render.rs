@@ -403,7 +403,7 @@ impl Renderer {
 /// The memory needed for a frame, in bytes.
 ///
 /// # Errors
-/// It exceeds the memory limit of the policy.
+/// The memory exceeds the limit of the policy.
 fn planned_bytes(
     (scene, view, fetch): (&PackedScene, &PackedView, Fetch),
     settings: &RenderSettings,

@@ -75,7 +75,7 @@ pub fn build(boxes: &[Aabb]) -> (Tree, u64) {
     (depth_first(&linked), compared + tried)
 }
 
-/// The same tree in depth-first order.
+/// A linked tree in depth-first order.
 fn depth_first(linked: &[linked::Node]) -> Tree {
     let roots = match linked.len() < LEAST {
         true => Vec::new(),
@@ -229,7 +229,7 @@ fn longest_axis_of_centers(boxes: impl Iterator<Item = Aabb>) -> usize {
     (max - min).max_position()
 }
 
-/// The same tree with subtrees replaced by balanced ones as far down as possible, such that no leaf is more than
+/// The tree with subtrees replaced by balanced ones as far down as possible, such that no leaf is more than
 /// `height` steps below the root; or a balanced tree where that is impossible.
 pub fn limit_height(boxes: &[Aabb], tree: &[Node], height: u32) -> Tree {
     // Of each subtree, the number of steps to its deepest leaf and the index after its last node.

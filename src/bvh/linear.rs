@@ -112,7 +112,7 @@ impl<'a> Keys<'a> {
         place.unwrap_or(range.start.midpoint(range.end))
     }
 
-    /// The same by codes that are in ascending order in the range; `None` if all are equal.
+    /// The split of a range by codes that ascend in it; `None` if all are equal.
     fn split_by(&self, range: &Range<usize>, code: impl Fn(u64) -> u64) -> Option<usize> {
         let (first, last) = (code(self.list[range.start]), code(self.list[range.end - 1]));
         let bit = (first ^ last).checked_ilog2()?;

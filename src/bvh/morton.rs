@@ -12,12 +12,12 @@ pub const CODE_BITS: u32 = 3 * BITS;
 /// Cells round some boxes.
 pub struct Cells {
     low: DVec3,
-    /// The same for all axes: neighbours in cubic cells have smaller joint boxes than those in flat ones.
+    /// Cells per unit, on all axes: neighbours in cubic cells have smaller joint boxes than those in flat ones.
     per_unit: f64,
 }
 
 impl Cells {
-    /// Those round at least one box.
+    /// The cells round at least one box.
     pub fn round(boxes: &[Aabb]) -> Self {
         let all = boxes[1..].iter().fold(boxes[0], |a, b| a.union(*b));
         let low = all.min.as_dvec3();

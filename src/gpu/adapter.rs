@@ -31,7 +31,7 @@ impl Backend {
         }
     }
 
-    /// Its name on the command line and in reports.
+    /// The backend's name on the command line and in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Vulkan => "vulkan",
@@ -75,7 +75,7 @@ pub struct AdapterReport {
 }
 
 impl AdapterReport {
-    /// What decides how it rounds: see [`adapter_identity`].
+    /// The identity, which decides how the adapter rounds: see [`adapter_identity`].
     pub fn identity(&self) -> String {
         adapter_identity(&self.name, &self.backend, &self.driver)
     }

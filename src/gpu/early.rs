@@ -35,7 +35,7 @@ impl EarlyModule {
 }
 
 impl Gpu {
-    /// The same device, which uses this module if a pipeline needs just that; only lavapipe keeps it.
+    /// Gives the device a module, used if a pipeline needs just that; only lavapipe keeps it.
     pub fn with_early_module(self, module: Option<EarlyModule>) -> Self {
         let module = module.filter(|_| self.target() == Target::Lavapipe);
         *self.early.lock().unwrap_or_else(PoisonError::into_inner) = module;

@@ -92,7 +92,7 @@ pub enum GpuError {
     /// The driver reports an API error, rejects a shader or leaves work undone.
     #[error("internal fault (GPU): {what}.")]
     Internal {
-        /// What happened, in the driver's words if available.
+        /// The fault, in the driver's words if available.
         what: String,
     },
 }
@@ -109,7 +109,7 @@ impl GpuError {
     };
 }
 
-/// What is needed and what is allowed.
+/// The needed and the allowed amount.
 fn amounts(in_bytes: bool, amounts: [u64; 2]) -> [String; 2] {
     match in_bytes {
         true => sizes(amounts),

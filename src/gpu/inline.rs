@@ -26,7 +26,7 @@ type Callees<'a> = HashMap<Handle<Function>, Callee<'a>>;
 
 struct Callee<'a> {
     function: &'a Function,
-    /// Its statements. It returns at the end only, of each branch.
+    /// The statements of the function, which returns only at the end of each branch.
     body: Block,
     /// Variables that are stored as a whole before anything else is done with them; not all such.
     stored_first: HashSet<Handle<LocalVariable>>,
@@ -96,7 +96,7 @@ fn stored_first(function: &Function) -> Result<HashSet<Handle<LocalVariable>>, U
                 }
             }
             Statement::Return { .. } => {}
-            // What these do with variables is not looked into.
+            // How other statements use variables is not looked into.
             _ => break,
         }
     }

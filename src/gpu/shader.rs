@@ -26,7 +26,7 @@ impl Pipelines {
     }
 }
 
-/// What a module is made from. It is the key of a pipeline too, whose bind group layouts follow from it.
+/// The inputs of a module. They are the key of a pipeline too, whose bind group layouts follow from them.
 #[derive(PartialEq)]
 pub(super) struct ModuleKey {
     pub kernel: &'static str,
@@ -60,7 +60,7 @@ pub struct Kernel {
     /// The name of the kernel, its entry point and its file in `shaders/kernels/`; `explain` is `whitted` with
     /// recording.
     pub name: &'static str,
-    /// Its variants, and their sources as `build.rs` compressed them.
+    /// The kernel's variants, and their sources as `build.rs` compressed them.
     compressed: &'static [(Variant, &'static [u8])],
 }
 
@@ -154,7 +154,7 @@ impl Kernel {
         self.variants().any(|known| known == variant)
     }
 
-    /// Its variants.
+    /// The kernel's variants.
     pub fn variants(&self) -> impl Iterator<Item = Variant> {
         self.compressed.iter().map(|(variant, _)| *variant)
     }

@@ -16,7 +16,7 @@ use std::{
 /// Declares the overrides as `override NAME: TYPE = DEFAULT;`. Linked kernels lack those that they do not use.
 const BINDINGS: &str = include_str!("../../shaders/bindings.wesl");
 
-/// What the linker adds to the names of `bindings.wesl`.
+/// The prefix that the linker adds to the names of `bindings.wesl`.
 const PREFIX: &str = "bindings__";
 
 /// The module of a linked kernel with values for its overrides, by name. Other overrides keep their defaults.

@@ -205,7 +205,7 @@ pub const TEXTURE_BETWEEN_LEVELS: u32 = 256;
 pub const TEXTURE_SECOND_UV: u32 = 512;
 /// Shift of the mode in [`super::PackedTexture::flags`] by which a picture continues along u.
 pub const TEXTURE_WRAP_U_SHIFT: u32 = 2;
-/// The same along v.
+/// Shift of the mode in [`super::PackedTexture::flags`] by which a picture continues along v.
 pub const TEXTURE_WRAP_V_SHIFT: u32 = 4;
 /// A picture is repeated.
 pub const WRAP_REPEAT: u32 = 0;

@@ -2,8 +2,8 @@
 
 use std::sync::{Arc, OnceLock};
 
-/// The tables, one after the other: 32 × 32 words of microfacets, as many of sheen, 36 × 24 × 32 of rough glass, and 5 × 14 × 20 × 24 of
-/// stretched microfacets. A word has two half floats, the first in its lower half.
+/// The tables, one after the other: 32 × 32 words of microfacets, as many of sheen, 36 × 24 × 32 of rough glass, and
+/// 5 × 14 × 20 × 24 of stretched microfacets. A word has two half floats, the first in its lower half.
 ///
 /// Microfacets reflect f0 · A + f90 · B with Schlick's Fresnel factor. A word has E = A + B, and by how much B is above
 /// E · (1 - cos θ)⁵, which smooth ones reflect; a difference d is stored as (1 + d)/2. Rows are of √α from 0 to 1,
@@ -21,7 +21,7 @@ pub fn words() -> &'static [u32] {
     &WORDS
 }
 
-/// The same words for all scenes.
+/// The words of the tables, shared by all scenes.
 pub fn shared_words() -> Arc<[u32]> {
     static WORDS: OnceLock<Arc<[u32]>> = OnceLock::new();
     WORDS.get_or_init(|| words().into()).clone()

@@ -100,7 +100,7 @@ impl Blas {
         blas
     }
 
-    /// One BLAS over several meshes and shapes, but what is apart.
+    /// One BLAS over several meshes and shapes, excluding those of the kind `apart`.
     pub fn joint(flat: Flat, apart: Apart, stack_size: usize, offsets: Offsets) -> Self {
         let corners = |triangle: u32| geometry::corners(&flat.triangles[triangle as usize]);
         let boxes = flat.triangles.iter().map(geometry::triangle_box);
@@ -155,7 +155,7 @@ impl Blas {
         }
     }
 
-    /// The same BLAS at other offsets.
+    /// The BLAS moved to other offsets.
     pub fn moved_to(self: &Arc<Self>, offsets: Offsets) -> Arc<Self> {
         let from = self.offsets;
         if from == offsets {

@@ -42,7 +42,7 @@ pub struct DeformingMesh {
     mesh: Arc<CachedMesh>,
     /// Index among the instanced BLASes.
     tree: usize,
-    /// Those of its triangles and vertices at rest, which a view replaces.
+    /// Offsets of the rest-pose triangles and vertices; a view overrides them.
     offsets: Offsets,
     /// The origin of the space of its BLAS.
     origin: DVec3,
@@ -65,7 +65,7 @@ pub struct DeformedTree {
     tree: usize,
     /// One pose, or one for each key.
     poses: Vec<Pose>,
-    /// Its node references and vertex indices are those of the view.
+    /// The BLAS, with node references and vertex indices of the view.
     blas: Blas,
     pub instanced: InstancedBlas,
     /// The triangles of later keys, and the rows of their vertices.
@@ -308,7 +308,7 @@ impl DeformedTree {
         ]
     }
 
-    /// Its triangles with their index and their vertices.
+    /// The tree's triangles with their index and their vertices.
     pub fn triangles(&self) -> impl Iterator<Item = (u32, &PackedTriangle, [&PackedVertex; 3])> {
         let Offsets {
             triangle, vertex, ..

@@ -5,7 +5,7 @@ use crate::bvh::Aabb;
 
 /// The boxes of primitives, some of which are divided into pieces of a type that names its primitive.
 pub struct Divided<P> {
-    /// Those of primitives that are not divided, then those of pieces.
+    /// Boxes of undivided primitives, followed by boxes of pieces.
     pub boxes: Vec<Aabb>,
     /// Their primitives are places in [`Self::order`].
     pub pieces: Vec<P>,
@@ -23,7 +23,7 @@ impl<P> Divided<P> {
         others: Vec::new(),
     };
 
-    /// So many primitives that have no boxes.
+    /// `count` primitives without boxes.
     pub fn apart(count: usize) -> Self {
         Self {
             others: (0..count as u32).collect(),

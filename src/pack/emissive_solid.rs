@@ -54,7 +54,7 @@ impl EmissiveSolid {
         (0..8).map(corner).collect()
     }
 
-    /// Its area after a transform: the sum of `areas_of` in `scene/shape_placement.wesl`.
+    /// The area after a transform: the sum of `areas_of` in `scene/shape_placement.wesl`.
     pub fn area(&self, linear: Mat3) -> f32 {
         let [x, y, z] = [0, 1, 2].map(|axis| linear * self.columns.col(axis));
         // The areas of the images of unit areas across x, y and z.

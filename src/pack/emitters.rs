@@ -24,7 +24,7 @@ const MAX_GROUPS: usize = 1 << 16;
 /// A triangle or a shape whose material emits at some time.
 #[derive(Clone, Copy, Debug)]
 pub struct Emissive {
-    /// Its index in the triangles array, or in the shapes array with [`SHAPE`].
+    /// Index in the triangles array, or in the shapes array with [`SHAPE`].
     primitive: u32,
     material: u32,
     form: Form,
@@ -56,7 +56,7 @@ enum Form {
     Flat {
         corner: Vec3,
         edges: [Vec3; 2],
-        /// Its area as a fraction of the parallelogram's.
+        /// The part's area as a fraction of the parallelogram's.
         share: f32,
         /// Three normals on its front.
         normals: [Vec3; 3],
@@ -89,7 +89,7 @@ pub struct Emitters {
     pub in_tree: bool,
     /// The luminance of each, if that of its material is not it; four in a row.
     pub glows: Vec<[f32; 4]>,
-    /// What the light tree must know of each.
+    /// The cluster of each, for the light tree.
     clusters: Vec<Cluster>,
 }
 
@@ -159,7 +159,7 @@ impl Emissive {
         }
     }
 
-    /// Its area after a transform, or an estimate: the same as that of the shaders.
+    /// The area after a transform, or an estimate: the same as that of the shaders.
     fn area(&self, linear: Mat3) -> f32 {
         match self.form {
             Form::Flat { edges, share, .. } => {
@@ -170,7 +170,7 @@ impl Emissive {
         }
     }
 
-    /// Its cluster, for its intensity `power`, where it is while the shutter is open. `later` are its corners at later keys.
+    /// The cluster of an emitter of intensity `power` while the shutter is open. `later` are its corners at later keys.
     fn cluster(&self, power: f64, places: &Places, later: &[DVec3]) -> Cluster {
         let corners = [&self.corners(), later].concat();
         let normal = match self.form {

@@ -36,7 +36,7 @@ pub enum PackError {
         "scene too spread out (object coordinates): {value:e} units from the camera is beyond the range of f32 arithmetic, at most {limit:e}. Scale the scene down."
     )]
     OutOfRange {
-        /// Its magnitude in scene units, relative to the render origin.
+        /// Magnitude in scene units, relative to the render origin.
         value: f64,
         /// The largest allowed.
         limit: f64,

@@ -1,4 +1,4 @@
-//! What a scene needs of a kernel; all else is compiled out.
+//! Features of a scene that a kernel needs code for; all others are compiled out.
 
 /// Bounded primitives that are in no BVH: all of a kind, of which there are a few among many of the other kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub enum Apart {
 pub struct Features {
     /// Bit k is set if there is a bounded shape of kind k.
     pub shape_kinds: u32,
-    /// What is in no BVH.
+    /// Primitive kind tested without a BVH.
     pub apart: Apart,
     /// The corners of some triangle differ in material.
     pub mixed_materials: bool,

@@ -27,7 +27,7 @@ const TRIANGLE_ROWS: u32 = 3;
 /// A packed [`Frame`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedView {
-    /// Its camera is for a square picture; [`PackedView::with_aspect`] adapts it.
+    /// The frame, with a camera for a square picture; [`PackedView::with_aspect`] adapts it.
     pub frame: PackedFrame,
     /// At least one: a scene without lights gets a black one. If a light moves, each key holds all lights.
     pub lights: Vec<PackedLight>,

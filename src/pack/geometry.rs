@@ -263,7 +263,7 @@ impl<'a> PlacedMesh<'a> {
         })
     }
 
-    /// Its positions.
+    /// The positions of the vertices.
     pub fn positions(&self) -> &[Vec3] {
         &self.positions
     }

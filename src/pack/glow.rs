@@ -172,7 +172,7 @@ impl Map {
             (a.max(b).max(c) - a.min(b).min(c)).max_element()
         };
         let last = &self.levels[self.levels.len() - 1];
-        // What is not finite is larger than any level.
+        // An extent that is not finite fits no level.
         let fits = |level: &&Level| extent(level) <= most_texels;
         match self.levels.iter().find(fits) {
             Some(level) => self.mean_in(level, places),

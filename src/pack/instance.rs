@@ -45,7 +45,7 @@ pub enum TransformSource {
 pub struct InstancedBlas {
     /// Child reference to its root.
     pub root: u32,
-    /// Its first primitive, with [`crate::layout::SHAPE`] for a shape.
+    /// The first primitive, with [`crate::layout::SHAPE`] for a shape.
     pub first: u32,
     /// Number of primitives.
     pub count: u32,

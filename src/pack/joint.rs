@@ -1,4 +1,4 @@
-//! What static shapes and small static meshes have in common: one BLAS, and primitives that are in none.
+//! Merges static shapes and small static meshes into one BLAS; a few primitives stay outside it.
 
 use super::{
     PackError, blas::Blas, features::Apart, geometry::Flat, instance::Plan, light,
@@ -25,7 +25,7 @@ pub struct Joint {
     pub apart: Apart,
 }
 
-/// What a [`Joint`] is built from.
+/// The input that a [`Joint`] is built from.
 #[derive(Clone, Debug)]
 pub struct JointInput {
     pub meshes: Vec<(Arc<CachedMesh>, DAffine3)>,
@@ -126,7 +126,7 @@ impl Joint {
         })
     }
 
-    /// The same with its BLAS at other offsets.
+    /// The joint with its BLAS at other offsets.
     pub fn moved_to(self: &Arc<Self>, offsets: Offsets) -> Arc<Self> {
         match self.blas.offsets == offsets {
             true => self.clone(),

@@ -50,7 +50,7 @@ fn of_metallic_roughness(material: &Material, model: &MetallicRoughness) -> Pack
         f0: if model.unlit { Vec3::ZERO } else { colored }.into(),
         f90: if model.unlit { 0.0 } else { model.specular },
         roughness: model.roughness,
-        // What reflects everything transmits nothing.
+        // A surface that reflects everything transmits nothing.
         transmission: if model.unlit || f0 > 0.999 {
             0.0
         } else {

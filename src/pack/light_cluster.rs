@@ -1,4 +1,4 @@
-//! What a node of the light tree knows of the lights in it: where they are, in which directions they shine, and how much.
+//! Bounds of the lights in a node of the light tree: where they are, in which directions they shine, and how much.
 
 use crate::layout::{
     LIGHT_DISC, LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TWO_SIDED,

@@ -15,7 +15,7 @@ pub const LEAST_LIGHTS: usize = 4;
 
 const BUCKETS: usize = 12;
 
-/// Steps from the root to a leaf, at most: as many as a trail has bits.
+/// Maximum depth: the number of bits in a trail.
 const MAX_DEPTH: u32 = 32;
 
 /// Lamps that do not fade with distance, and the other lights, each get at least this part of the samples.
@@ -24,7 +24,7 @@ const LEAST_SHARE: f64 = 0.1;
 /// The tree over the lights of a view.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LightTree {
-    /// What it was built for.
+    /// The leaves that the tree was built for.
     leaves: Vec<Leaf>,
     /// Children are side by side; empty if lights are chosen without a tree. The first is the root.
     pub nodes: Vec<PackedCluster>,
@@ -38,7 +38,7 @@ pub struct Leaf {
     /// See [`PackedCluster::child`].
     reference: u32,
     cluster: Cluster,
-    /// Its part of all light, up to a factor.
+    /// The leaf's part of all light, up to a factor.
     power: f64,
     /// Whether its light fades with distance.
     fades: bool,

@@ -108,7 +108,7 @@ impl CachedMesh {
         self.colors.get_or_init(colors).clone()
     }
 
-    /// Its surface for inside tests; `None` without triangles.
+    /// The mesh's surface for inside tests; `None` without triangles.
     pub fn shell(&self) -> Option<Arc<Shell>> {
         let shell = || Shell::of(&self.mesh).map(Arc::new);
         self.shell.get_or_init(shell).clone()

@@ -82,7 +82,7 @@ impl Children {
         all
     }
 
-    /// The same children, each in a box round both of its own.
+    /// The children, each in a box round both of its own.
     pub fn union(mut self, other: &Self) -> Self {
         for ((aabb, _), (own, _)) in self.list.iter_mut().zip(&other.list) {
             *aabb = aabb.union(*own);
@@ -133,7 +133,7 @@ pub fn quantize(children: &[(Aabb, u32)]) -> PackedNode {
 /// ray is inside.
 const ABSENT: f32 = 1e16;
 
-/// The same node with planes as floats, of boxes that contain those of `node`.
+/// The node with planes as floats, of boxes that contain those of `node`.
 pub fn with_float_planes(node: &PackedNode) -> FloatNode {
     let mut words = [0; 28];
     for axis in 0..3 {

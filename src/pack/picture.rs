@@ -25,7 +25,7 @@ pub struct PackedPicture {
     level_count: u32,
     /// Whether no texture shows it, so that its colours may be divided by a scale.
     may_scale: bool,
-    /// What the colours of its words are multiplied with, a power of two.
+    /// Factor on the colours of the words, a power of two.
     pub scale: f32,
 }
 

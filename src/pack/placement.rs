@@ -75,7 +75,7 @@ impl Placement {
     }
 }
 
-/// The same placements with all quaternions in one hemisphere relative to their predecessor, so that
+/// The placements with all quaternions in one hemisphere relative to their predecessor, so that
 /// interpolation takes the short way.
 pub fn aligned(mut placements: Vec<Placement>) -> Vec<Placement> {
     for i in 1..placements.len() {

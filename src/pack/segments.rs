@@ -4,9 +4,9 @@
 use bytemuck::Pod;
 use std::{fmt, ops::Index, sync::Arc};
 
-/// What has the elements of a segment.
+/// An owner of the elements of a segment.
 pub trait Run<T>: Send + Sync {
-    /// Always the same ones.
+    /// The elements, always the same ones.
     fn elements(&self) -> &[T];
 }
 

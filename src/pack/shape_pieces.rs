@@ -104,7 +104,7 @@ impl Axis {
         })
     }
 
-    /// What lies between two fractions of the way.
+    /// The part of the shape between two fractions of the way.
     fn slice(&self, [from, to]: [f64; 2]) -> Geometry {
         let mut canonical = self.canonical;
         if let CanonicalShape::Cone { bottom, top, .. } = &mut canonical {

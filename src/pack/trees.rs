@@ -83,7 +83,7 @@ pub struct Top {
     pub parts: Vec<(Aabb, u32)>,
     /// Node 0 of the scene.
     pub root: Arc<[PackedNode]>,
-    /// Its descendants, after all other nodes.
+    /// The root's descendants, after all other nodes.
     pub nodes: Arc<[PackedNode]>,
     first_node: u32,
 }

@@ -21,7 +21,7 @@ use std::ops::Range;
 /// Samples in the first round; each later round doubles the samples of a pixel.
 const FIRST_SAMPLES: u32 = 4;
 
-/// The same for paths: few of them find a small lamp, and those that do not agree with each other.
+/// Paths in the first round: few of them find a small lamp, and those that do not agree with each other.
 const FIRST_PATHS: u32 = 16;
 
 /// Rounds in which pixels compare with their neighbours. A difference propagates by one pixel per round, so
@@ -56,7 +56,7 @@ pub struct Adaptive {
     pixels: Vec<PixelStatistics>,
     /// The rows of all pixels as in film tiles, for films with features or opacity; otherwise empty.
     features: Vec<[f64; 4]>,
-    /// What the samples of all pixels say.
+    /// The estimates of all pixels.
     estimates: Vec<Estimate>,
     /// For each group of pixels whether the last round sampled some of it.
     sampled: Vec<bool>,

@@ -247,7 +247,7 @@ impl<'a> Array<'a> {
 }
 
 impl<'a> Piece<'a> {
-    /// Its length on the device, in bytes.
+    /// The piece's length on the device, in bytes.
     fn len(&self) -> u64 {
         let bytes = self.bytes.len() as u64;
         match self.is_float_nodes {
@@ -256,7 +256,7 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// Its bytes on the device, in one part or several.
+    /// The piece's bytes on the device, in one part or several.
     fn on_device(&self) -> impl Iterator<Item = Cow<'a, [u8]>> {
         const NODES: usize = 1 << 16;
         let is_float_nodes = self.is_float_nodes;

@@ -13,9 +13,9 @@ const STEP: usize = 1 << 16;
 /// Why a file could not be read.
 #[derive(Debug)]
 pub enum ReadError {
-    /// It ends after so many bytes.
+    /// The file ends after so many bytes.
     CutShort { bytes: u64 },
-    /// Its contents are invalid.
+    /// The contents are invalid.
     Damaged { why: &'static str },
     /// Memory ran out after so many bytes.
     TooBig { bytes: u64 },

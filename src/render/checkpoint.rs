@@ -92,7 +92,7 @@ impl Checkpoint<'_> {
     /// Writes the checkpoint.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// `out` fails.
     pub fn write(&self, out: impl Write) -> io::Result<()> {
         let Self(renderer) = self;
         let mut out = Writer {

@@ -88,7 +88,7 @@ impl Image {
     }
 }
 
-/// What covers a pixel of a transparent picture.
+/// The cover of a pixel of a transparent picture.
 #[derive(Clone, Copy)]
 struct Cover {
     opacity: f32,
@@ -126,7 +126,7 @@ impl Cover {
     }
 }
 
-/// What the passes make of a picture.
+/// The result of the passes over a picture.
 struct Filtered {
     /// Radiance times opacity.
     colors: Vec<[f32; 4]>,

@@ -37,7 +37,7 @@ pub struct Device {
     pub shown_tone: Option<wgpu::Buffer>,
     /// For pictures on a screen of one size.
     pub denoiser: Option<Denoiser>,
-    /// Samples that a lane of the pipeline should take one after the other.
+    /// Consecutive samples per lane.
     pub lane_samples: u32,
     /// Index of the film tile whose sums are in the film buffer.
     pub loaded_tile: Option<usize>,
@@ -179,7 +179,7 @@ impl Device {
 pub enum Readback {
     /// Nothing.
     Nothing,
-    /// Its workgroups.
+    /// The slice's workgroups.
     Groups,
     /// The whole film tile.
     Tile,
@@ -219,8 +219,8 @@ pub fn counters(dispatch: &wgpu::Buffer) -> Source<'_> {
     }
 }
 
-/// The pipeline of the integrator, and the samples that its lanes should take. A new one is dispatched once without work, because some drivers only compile
-/// then.
+/// The pipeline of the integrator, and the samples that its lanes should take. A new one is dispatched once without work,
+/// because some drivers only compile then.
 fn compile(
     gpu: &Gpu,
     fetch: Fetch,

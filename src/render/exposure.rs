@@ -78,7 +78,7 @@ fn average_exposure<'a>(rows: impl Iterator<Item = &'a [f32; 4]>) -> f32 {
     let skipped = (total as f64 * OUTLIERS) as u64;
     let (mut sum, mut passed) = (0_i128, 0);
     for (step, &count) in counts.iter().enumerate() {
-        // Those of this step that are neither among the first nor among the last ones.
+        // Pixels of this step that are neither among the first nor among the last ones.
         let first = skipped.max(passed);
         passed += count;
         let inside = passed.min(total - skipped).saturating_sub(first);

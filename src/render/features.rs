@@ -13,7 +13,7 @@ use crate::scene::ObjectRef;
 use crate::threads;
 use glam::DVec3;
 
-/// What the pixels of a rectangle show besides the picture.
+/// The features of the pixels of a rectangle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Features {
     /// In pixels.

@@ -234,12 +234,12 @@ impl Film {
         self.coverage.bounds()
     }
 
-    /// Its rectangles (x, y, width, height) and their ranges of samples, from top to bottom and left to right.
+    /// The film's rectangles (x, y, width, height) and their ranges of samples, from top to bottom and left to right.
     pub fn parts(&self) -> impl Iterator<Item = ([u32; 4], &[Range<u32>])> {
         self.coverage.parts()
     }
 
-    /// What it is a part of, and which part.
+    /// The picture this film belongs to and the region it covers.
     pub fn outline(&self) -> FilmOutline {
         FilmOutline {
             header: self.header.clone(),

@@ -99,7 +99,7 @@ impl FilmTile {
         tile
     }
 
-    /// The same rectangle without sums.
+    /// A tile of this rectangle without sums.
     pub fn blank(&self) -> Self {
         Self::new(self.region(), self.samples.clone(), self.rows, self.order)
     }
@@ -220,7 +220,7 @@ impl FilmTile {
         self.pixels_from(0)
     }
 
-    /// Those from a workgroup on.
+    /// The pixels from a workgroup on, as in [`Self::pixels`].
     fn pixels_from(&self, group: usize) -> impl Iterator<Item = Option<[u32; 2]>> {
         let (count, columns) = (self.group_count(), self.group_columns());
         let stride = u64::from(self.group_stride());

@@ -40,17 +40,17 @@ pub enum Integrator {
 pub struct IntegratorEntry {
     /// The integrator.
     pub integrator: Integrator,
-    /// Its name on the command line and in files.
+    /// Name on the command line and in files.
     pub name: &'static str,
-    /// Its title in menus.
+    /// Title in menus.
     pub title: &'static str,
     /// A short description.
     pub help: &'static str,
-    /// Its kernel.
+    /// The integrator's kernel.
     pub kernel: Kernel,
     /// The view of the kernel and of developing: one of the `VIEW_` tags.
     pub view: u32,
-    /// What its pictures show.
+    /// The content of the integrator's pictures.
     pub shows: Shows,
     /// Whether it computes shading: lights, reflection and refraction matter, and adaptive sampling can judge
     /// its pixels.
@@ -63,7 +63,7 @@ pub struct IntegratorEntry {
     pub counts_steps: bool,
 }
 
-/// What the pictures of an integrator show, which determines how they are developed by default.
+/// The content of an integrator's pictures, which determines how they are developed by default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shows {
     /// Radiance: developed with the tone of the scene.

@@ -10,7 +10,7 @@ use std::ops::Range;
 /// One layer of a film.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Layer {
-    /// Its name in files.
+    /// Name in files.
     pub name: &'static str,
     /// Rows of four numbers for each pixel, at least 1.
     pub rows: usize,
@@ -29,7 +29,7 @@ pub enum LayerKind {
     Squares,
     /// Three weighted sums, and the sum of their weights or what the layer says.
     Mean,
-    /// What the sample nearest the pixel's centre saw: its nearness, 1/(1 + d²) at a distance of d pixels, its
+    /// The sample nearest the pixel's centre: its nearness, 1/(1 + d²) at a distance of d pixels, its
     /// index, and the rest. It is the last layer of a pixel.
     Nearest,
     /// The number of samples, which is known without the GPU; then zeros. It is developed as a grey level.
@@ -60,8 +60,8 @@ pub const COUNT: Layer = Layer {
 /// The albedo of what is seen, through mirrors and clear glass; of what shines its radiance, both at most 1.
 pub const ALBEDO: Layer = mean("albedo");
 
-/// Its shading normal in world space; zero where nothing is hit. The weights are those of [`ALBEDO`]. In place of their sum is
-/// that of the albedo's squared luminance.
+/// The shading normal of what is seen, in world space; zero where nothing is hit. The weights are those of [`ALBEDO`]. In place
+/// of their sum is that of the albedo's squared luminance.
 pub const NORMAL: Layer = mean("normal");
 
 /// Light that was scattered once.

@@ -26,9 +26,9 @@ const LEAST: f32 = 1e-4;
 /// The light on shadow catchers of pictures, in luminance; in any unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CatcherLight {
-    /// What was counted.
+    /// The light that was counted.
     pub kept: f64,
-    /// What the cap of single samples removed: see `MOST_SCATTERED` in `scene/opacity.wesl`.
+    /// The light that the cap of single samples removed: see `MOST_SCATTERED` in `scene/opacity.wesl`.
     pub removed: f64,
 }
 

@@ -312,7 +312,7 @@ fn has_short_stack(scene: &PackedScene, view: &PackedView) -> bool {
     !scene.features.instances && scene.stack_entries(view) <= SHORT_STACK_SIZE as usize
 }
 
-/// What all lights have in common.
+/// The value that all lights have in common.
 fn common(view: &PackedView, of: fn(&PackedLight) -> u32) -> u32 {
     let mut all = view.lights.iter().map(of);
     let first = all.next().unwrap_or(MIXED_LIGHTS);

@@ -18,13 +18,13 @@ use wgpu::{BindGroupLayout, ComputePipeline};
 /// The number of materials from which on packet kernels cannot store their indices in 16 bits.
 const MAX_PACKET_MATERIALS: usize = 0xffff;
 
-/// The number of rays from which on packets usually save more time than their kernel takes longer to compile: among triangles,
-/// and among shapes, for which they save a quarter of that.
+/// Minimum ray count at which packets amortise their longer compile time: among triangles, and among shapes, for which they
+/// save a quarter of that.
 const MIN_PACKET_RAYS: u64 = 2_000_000;
 const MIN_PACKET_RAYS_OF_SHAPES: u64 = 10_000_000;
 
-/// Samples of a lane whose ray trees differ in size. They share the 65,535 rounds of a loop of Mesa 22.3, and have at most 1,024
-/// rays each.
+/// Samples of a lane whose ray trees differ in size. They share the 65,535 rounds of a loop of Mesa 22.3, and have at most
+/// 1,024 rays each.
 const TREES_PER_LANE: u32 = 4;
 
 /// The kernel of a task, and how it is specialised.
@@ -65,8 +65,8 @@ impl TaskKernel {
     }
 }
 
-/// A pipeline for bind groups 0 to 2 of the kernel of the task's integrator, and the samples that its lanes should take one after
-/// the other.
+/// A pipeline for bind groups 0 to 2 of the kernel of the task's integrator, and the samples that its lanes should take one
+/// after the other.
 pub fn rendering(
     gpu: &Gpu,
     fetch: Fetch,
@@ -221,7 +221,7 @@ mod tests {
     use glam::{DAffine3, DVec3, Vec3};
     use std::sync::Arc;
 
-    /// What `find` finds for a render of the scene's first frame.
+    /// The result of `find` for a render of the scene's first frame.
     fn of_task<T>(
         scene: &Scene,
         settings: &RenderSettings,

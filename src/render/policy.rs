@@ -72,7 +72,7 @@ pub enum Stack {
     /// with `Deepest`.
     #[default]
     Usual,
-    /// As many entries as the deepest way through the trees could need.
+    /// Enough entries for the deepest path through the BVHs.
     Deepest,
 }
 
@@ -86,7 +86,7 @@ pub enum Storage {
 }
 
 impl Storage {
-    /// What is usually faster on an adapter of this kind. Software adapters read images faster, if kernels may read them.
+    /// The usually faster storage on an adapter of this kind. Software adapters read images faster, if kernels may read them.
     pub fn usual(gpu: &Gpu) -> Self {
         match gpu.is_cpu() && gpu.reads_images() {
             true => Self::Image,

@@ -39,7 +39,7 @@ pub struct RayBatch {
 }
 
 impl RayBatch {
-    /// The same rays with this hint; without one they are [`Coherence::Coherent`].
+    /// The rays with this hint; without one they are [`Coherence::Coherent`].
     pub fn with_coherence(self, coherence: Coherence) -> Self {
         Self { coherence, ..self }
     }
@@ -74,7 +74,7 @@ impl Chunk {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// It renders nothing and does not survive the loss of the device: every function then returns
+/// A query renders nothing and does not survive the loss of the device: every function then returns
 /// [`GpuError::Lost`].
 pub struct RayQuery {
     gpu: Gpu,

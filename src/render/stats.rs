@@ -65,7 +65,7 @@ pub struct Uploads {
 pub struct Rays {
     /// Camera rays, one for each sample.
     pub primary: u64,
-    /// Those with a hit.
+    /// Camera rays that hit something.
     pub primary_hits: u64,
     /// Shadow rays.
     pub shadow: u64,
@@ -73,11 +73,11 @@ pub struct Rays {
     pub shadow_blocked: u64,
     /// Reflected rays.
     pub reflection: u64,
-    /// Those with a hit.
+    /// Reflected rays that hit something.
     pub reflection_hits: u64,
     /// Refracted rays.
     pub refraction: u64,
-    /// Those with a hit.
+    /// Refracted rays that hit something.
     pub refraction_hits: u64,
 }
 

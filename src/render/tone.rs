@@ -25,7 +25,7 @@ pub struct Tone {
     pub denoise: bool,
 }
 
-/// What films keep of it, for people.
+/// Human-readable summary stored in films.
 impl fmt::Display for Tone {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Self {
@@ -73,8 +73,8 @@ impl Tone {
             exposure_ev: output.exposure_ev,
             auto_exposure: output.auto_exposure,
             curve: output.tone.unwrap_or(output.tone_of(transport)),
-            // Curves of paths are made for sRGB. A scene for the classical integrator that names no curve has its transfer function for
-            // pictures without one, as in the course's format.
+            // Curves of paths are made for sRGB. A scene for the classical integrator that names no curve has its transfer
+            // function for pictures without one, as in the course's format.
             transfer: match (output.tone, output.integrator, transport) {
                 (None, LightTransport::Whitted, LightTransport::Path) => Transfer::Srgb,
                 _ => output.transfer,
@@ -93,7 +93,7 @@ impl Tone {
         encoder.finish()
     }
 
-    /// What films keep of it, as numbers that are stable across builds.
+    /// The numbers of the tone in films, stable across builds.
     pub(super) fn numbers(&self) -> [u32; 6] {
         let Self {
             exposure_ev,

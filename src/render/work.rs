@@ -23,7 +23,7 @@ const PATHS_PER_LANE: u32 = 32;
 pub enum Status {
     /// The GPU is busy.
     Working,
-    /// It is finished, or there was none: the renderer can submit more.
+    /// The work is finished, or there was none: the renderer can submit more.
     Ready,
     /// Every pixel has all its samples.
     Done,
@@ -259,7 +259,7 @@ impl Renderer {
         outcome
     }
 
-    /// What repeats a part that the driver stopped, the last one first.
+    /// Smaller slices that redo a part the driver cut off, in reverse order.
     fn smaller_parts(
         &mut self,
         part: Slice,

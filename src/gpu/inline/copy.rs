@@ -290,7 +290,7 @@ impl Copier<'_> {
         range: &Range<Expression>,
         copy: &mut Block,
     ) -> Result<(), Unsupported> {
-        // What is in no range, as literals, is copied between them.
+        // Expressions in no range, such as literals, are copied between ranges.
         let mut run: Option<(Handle<Expression>, Handle<Expression>)> = None;
         for handle in range.clone() {
             let next = self.operand(source, handle)?;

@@ -215,7 +215,7 @@ fn smith(cos: f64, alpha: f64) -> f64 {
     0.5 * ((1.0 + slope2).sqrt() - 1.0)
 }
 
-/// What rough glass reflects and transmits together, and what it reflects, of light from a direction with cosine
+/// The fractions that rough glass reflects and transmits together, and reflects, of light from a direction with cosine
 /// `cos_o`; `eta` is the index of refraction on that side divided by that of the other. Reflected light is shadowed at
 /// the same height, transmitted light independently, as in `lib/bsdf_ggx_transmission.wesl`.
 fn glass(cos_o: f64, alpha: f64, eta: f64) -> [f64; 2] {
@@ -258,7 +258,7 @@ fn ggx(cos_o: f64, alpha: f64) -> [f64; 2] {
     sums
 }
 
-/// The same for microfacets of the widths `alpha` along x and y, from a direction with the azimuth `along`.
+/// The sums of `ggx` for microfacets of the widths `alpha` along x and y, from a direction with the azimuth `along`.
 fn stretched(cos_o: f64, along: [f64; 2], alpha: [f64; 2]) -> [f64; 2] {
     let sin_o = (1.0 - cos_o * cos_o).sqrt();
     let wo = [sin_o * along[0], sin_o * along[1], cos_o];

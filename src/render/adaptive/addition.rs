@@ -12,7 +12,7 @@ use std::{iter, ops::Range};
 
 /// A part of the region, of the same width.
 struct Band<'a> {
-    /// Its first pixel.
+    /// The first pixel of the band.
     corner: [u32; 2],
     width: usize,
     pixels: &'a mut [PixelStatistics],

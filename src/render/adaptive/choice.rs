@@ -1,7 +1,7 @@
 //! The choice of the pixels of the next round.
 //!
-//! It follows from the samples of a pixel and its neighbours. Where the last round took none, nothing changed since the
-//! choice of that round, which left the pixel out. So only groups with samples of the last round, and those beside
+//! The choice follows from the samples of a pixel and its neighbours. Where the last round took none, nothing changed since
+//! the choice of that round, which left the pixel out. So only groups with samples of the last round, and those beside
 //! them, are considered.
 
 use super::{Adaptive, Estimate, GROUP_SIDE, NEIGHBOUR_ROUNDS};
@@ -29,7 +29,7 @@ impl Adaptive {
         unfinished
     }
 
-    /// Those in some rows of groups.
+    /// The unfinished pixels in some rows of groups.
     fn unfinished_in(&self, rows: Range<usize>) -> PixelLists {
         let [x0, y0, width, height] = self.region;
         let [columns, _] = self.group_counts();

@@ -53,7 +53,7 @@ impl PixelStatistics {
     }
 }
 
-/// What a white picture behind adds to a pixel.
+/// The contribution of a white picture behind to a pixel.
 #[derive(Default)]
 struct Behind {
     /// To the luminance, and to the mean of its squares, with the final ratio of the light on catchers.
@@ -95,7 +95,7 @@ pub(super) struct Measure {
     pub brightness: fn(f64) -> f64,
 }
 
-/// What the samples of a pixel say.
+/// The estimate of a pixel from its samples.
 #[derive(Clone, Copy, Debug, Zeroable)]
 pub(super) struct Estimate {
     pub brightness: f64,
@@ -105,7 +105,7 @@ pub(super) struct Estimate {
 }
 
 impl Measure {
-    /// What the statistics of a pixel say. `opacity` is that of [`PixelStatistics::mean_and_error`].
+    /// The estimate of a pixel from its statistics. `opacity` is that of [`PixelStatistics::mean_and_error`].
     pub fn estimate(self, statistics: &PixelStatistics, opacity: &[[f64; 4]]) -> Estimate {
         let (mean, error) = statistics.mean_and_error(opacity);
         let brightness = (self.brightness)(mean);

@@ -4,7 +4,7 @@ use super::{ReadError, Reader, Writer, damaged};
 use crate::render::{Rays, Stats};
 use std::io::{self, Read, Write};
 
-/// What has been counted of a picture.
+/// The counts of a picture so far.
 pub struct Counts {
     nonfinite_samples: u64,
     cut_off_trees: u64,

@@ -13,27 +13,27 @@ pub enum CheckpointError {
     /// An unknown version of the format.
     #[error("the checkpoint has version {found}, but this program reads version {known}.")]
     Version {
-        /// Its version.
+        /// The checkpoint's version.
         found: u32,
         /// The one that can be read.
         known: u32,
     },
-    /// It belongs to other work.
+    /// The checkpoint belongs to other work.
     #[error("the checkpoint is of other work: it differs in the {}.", differing.join(", "))]
     Differs {
-        /// What differs, such as "scene" and "settings".
+        /// The differing parts, such as "scene" and "settings".
         differing: Vec<&'static str>,
     },
     /// The file is truncated.
     #[error("the checkpoint is cut short: it ends after {}.", size(*bytes))]
     CutShort {
-        /// Its length.
+        /// The file's length.
         bytes: u64,
     },
     /// The contents are invalid.
     #[error("the checkpoint is damaged: {why}.")]
     Damaged {
-        /// What is wrong.
+        /// The fault.
         why: &'static str,
     },
     /// Out of memory while reading.

@@ -1,4 +1,4 @@
-//! What a checkpoint is of: only the same work goes on from it.
+//! Identifies the job of a checkpoint; a different job cannot resume from it.
 
 use super::{CheckpointError, ReadError, Reader, Renderer, Writer};
 use crate::render::Fingerprint;

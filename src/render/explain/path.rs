@@ -1,4 +1,4 @@
-//! What a path does along its rays: the light samples at its surfaces, the directions that it chooses, and how
+//! The steps of a path along its rays: the light samples at its surfaces, the directions that it chooses, and how
 //! the two ways to find a light share it.
 
 use crate::{

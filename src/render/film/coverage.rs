@@ -137,7 +137,7 @@ impl Coverage {
         })
     }
 
-    /// The same with the ranges of the samples.
+    /// The rectangles of the patches with the ranges of their samples.
     pub fn parts(&self) -> impl Iterator<Item = ([u32; 4], &[Range<u32>])> {
         (self.patches()).map(|(region, samples)| (region, samples.ranges()))
     }

@@ -14,9 +14,9 @@ pub enum FilmError {
     Differs {
         /// The part in which they differ.
         what: &'static str,
-        /// Its value in the first film.
+        /// The value in the first film.
         first: String,
-        /// Its value in the other film.
+        /// The value in the other film.
         second: String,
     },
     /// Some samples are in both.
@@ -55,7 +55,7 @@ pub enum FilmError {
         "the film has version {found}, but this program reads version {known}. Render it again, or use the program that wrote it."
     )]
     Version {
-        /// Its version.
+        /// The film's version.
         found: u32,
         /// The one that can be read.
         known: u32,
@@ -63,13 +63,13 @@ pub enum FilmError {
     /// The file is truncated.
     #[error("the film is cut short: it ends after {}. Copy or render it again.", size(*bytes))]
     CutShort {
-        /// Its length.
+        /// The file's length.
         bytes: u64,
     },
     /// The contents are invalid.
     #[error("the film is damaged: {why}. Copy or render it again.")]
     Damaged {
-        /// What is wrong.
+        /// The fault.
         why: &'static str,
     },
     /// Out of memory while reading.

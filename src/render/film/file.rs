@@ -27,7 +27,7 @@ impl Film {
     /// Writes the film. Equal films give the same bytes.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// `out` fails.
     pub fn write(&self, out: impl Write) -> io::Result<()> {
         let mut out = Writer {
             out,

@@ -23,7 +23,7 @@ impl FilmOutline {
         &self.header
     }
 
-    /// Its rectangles (x, y, width, height) and their ranges of samples, from top to bottom and left to right.
+    /// The film's rectangles (x, y, width, height) and their ranges of samples, from top to bottom and left to right.
     pub fn parts(&self) -> impl Iterator<Item = ([u32; 4], &[Range<u32>])> {
         self.coverage.parts()
     }
