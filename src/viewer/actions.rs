@@ -1,4 +1,4 @@
-//! What commands, tools and time do to the session.
+//! Changes of the session by commands, tools and time.
 
 pub mod answers;
 pub(crate) mod commands;

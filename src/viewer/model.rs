@@ -1,4 +1,4 @@
-//! What the window is about, without the window: documents, cameras, shortcuts, preferences. Nothing here draws.
+//! The window's model: documents, cameras, shortcuts, preferences. Nothing here draws.
 
 pub mod bindings;
 pub mod camera;

@@ -5,7 +5,7 @@ use crate::viewer::model::objects::{self, Id};
 use crate::viewer::state::editing::Group;
 use crate::viewer::state::session::Session;
 
-/// What a click on a line of the outline does to the selection.
+/// The effect of a click in the outline on the selection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pick {
     /// Selects nothing else.

@@ -48,8 +48,8 @@ pub struct Shown<'a> {
 pub struct CommandLine {
     /// `glimray render …`, quoted where needed.
     pub line: String,
-    /// What the line cannot express, a few words each. If this is not empty, the line renders a different
-    /// picture.
+    /// Differences that the line cannot express, a few words each. If there are any, the line renders a
+    /// different picture.
     pub left_out: Vec<String>,
 }
 

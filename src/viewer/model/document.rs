@@ -51,7 +51,7 @@ impl Document {
         }
     }
 
-    /// The same with a limit in bytes for all steps, approximately.
+    /// Sets the limit in bytes for all steps, approximately.
     pub fn with_memory(self, max_bytes: usize) -> Self {
         Self { max_bytes, ..self }
     }

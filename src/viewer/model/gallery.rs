@@ -14,7 +14,7 @@ pub struct StillId(u32);
 /// A picture that is kept.
 #[derive(Clone, Debug)]
 pub struct Still {
-    /// Its identifier.
+    /// The still's identifier.
     pub id: StillId,
     /// `Snapshot 1`, or the name of the file.
     pub name: String,

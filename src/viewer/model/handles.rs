@@ -84,7 +84,7 @@ impl Eye<'_> {
 /// The handles of the selection.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Handles {
-    /// What they do: [`Tool::Move`], [`Tool::Rotate`] or [`Tool::Scale`].
+    /// The tool: [`Tool::Move`], [`Tool::Rotate`] or [`Tool::Scale`].
     pub tool: Tool,
     /// Their common origin.
     pub origin: DVec3,

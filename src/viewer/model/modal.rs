@@ -46,7 +46,7 @@ impl Modal {
     /// Constrains the edit to an axis (0 to 2 for x to z), or with `is_plane` to the plane perpendicular to
     /// it. The same constraint again removes it.
     pub fn limit(&mut self, axis: usize, is_plane: bool) {
-        // The same constraint again removes it.
+        // Repeating a constraint removes it.
         let limit = Some((axis, is_plane));
         self.limit = if self.limit == limit { None } else { limit };
     }

@@ -29,7 +29,7 @@ pub enum Id {
 /// Why an edit is not possible: a clause, and how to proceed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EditError {
-    /// It is no longer in the scene.
+    /// The object is no longer in the scene.
     #[error("it is no longer in the scene. Select another object.")]
     Gone,
     /// An animation sets the property.
@@ -45,7 +45,7 @@ pub enum EditError {
         what: &'static str,
         /// Such as "turned".
         done: &'static str,
-        /// What to do instead.
+        /// A suggested alternative.
         todo: &'static str,
     },
     /// A hidden parent decides.

@@ -217,7 +217,7 @@ pub enum PreferencesError {
 #[derive(Debug)]
 pub struct Store {
     folder: Option<PathBuf>,
-    /// Its known contents.
+    /// Known contents of the file.
     written: Option<String>,
     /// Whether the existing file could not be read and must not be replaced.
     is_unread: bool,

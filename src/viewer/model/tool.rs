@@ -11,9 +11,9 @@ use glam::DVec3;
 pub struct ToolEntry {
     /// Identifier in settings files of the command that activates it. It never changes.
     pub name: &'static str,
-    /// Its name in menus.
+    /// The tool's name in menus.
     pub title: &'static str,
-    /// What it is for: one line without a full stop.
+    /// The tool's purpose: one line without a full stop.
     pub description: &'static str,
     /// The triggers of its command in each preset, in the order of `Preset::ALL`, separated by commas.
     pub shortcuts: [&'static str; 3],
@@ -46,7 +46,7 @@ macro_rules! tools {
             /// All, in the order of the table.
             pub const ALL: &[Self] = &[$(Self::$tool,)*];
 
-            /// Its row of the table.
+            /// The tool's row of the table.
             pub const fn entry(self) -> &'static ToolEntry {
                 match self { $(Self::$tool => &ToolEntry { $($field: $value,)* },)* }
             }

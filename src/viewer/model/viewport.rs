@@ -19,7 +19,7 @@ impl Viewport {
         Self::scaled(space, size, pixels_per_point, 1.0)
     }
 
-    /// The same, but enlarged where there is more room.
+    /// Like [`Self::fitting`], but enlarged if there is room.
     pub fn filling(space: Rect, size: (u32, u32), pixels_per_point: f32) -> Self {
         Self::scaled(space, size, pixels_per_point, f32::INFINITY)
     }

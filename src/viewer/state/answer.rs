@@ -19,7 +19,7 @@ pub enum Answer {
         /// The point on the nearest surface, in world space, and its object; `None` for the background.
         hit: Option<(DVec3, Option<ObjectRef>)>,
     },
-    /// What the pixel under the cursor shows.
+    /// Colour and surface under the cursor.
     Probed(Probe),
     /// The rays of a pixel, or why there are none.
     Rays(Result<Box<Inspected>, String>),

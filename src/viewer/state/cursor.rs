@@ -6,7 +6,7 @@ use crate::viewer::worker::request::RenderRequest;
 /// that begins there does not wait for the answer.
 pub const REST: f64 = 0.6;
 
-/// What a pixel of the main picture shows.
+/// Colour and surface at a pixel of the main picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probe {
     /// Column and row from the upper left corner.
@@ -26,7 +26,7 @@ pub struct Surface {
     pub distance: f64,
 }
 
-/// What an answer depends on.
+/// The inputs of an answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Subject {
     pub(in crate::viewer) pixel: [u32; 2],
@@ -50,7 +50,7 @@ pub struct Cursor {
 }
 
 impl Cursor {
-    /// Moves the cursor to a pixel at a time in seconds. Whether it is another pixel.
+    /// Moves the cursor; returns whether the pixel changed.
     pub fn hover(&mut self, pixel: Option<[u32; 2]>, is_in_main: bool, now: f64) -> bool {
         let is_other = (self.pixel, self.is_in_main) != (pixel, is_in_main);
         if is_other {

@@ -56,7 +56,7 @@ pub struct Files {
 /// A scene that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Broken {
-    /// Its file.
+    /// The scene's file.
     pub path: PathBuf,
     /// The error.
     pub trouble: Trouble,

@@ -75,7 +75,7 @@ impl Inspected {
 pub struct Inspector {
     /// The last requested pixel: column and row.
     pub pixel: Option<[u32; 2]>,
-    /// Its rays, or the error.
+    /// The pixel's rays, or the error.
     pub inspected: Option<Inspected>,
     /// The filter of visible rays.
     pub filter: Filter,
@@ -213,17 +213,17 @@ impl Hidden {
 /// The ray view.
 #[derive(Default)]
 pub struct Outside {
-    /// Its camera; `None` before there are rays.
+    /// The view's camera; `None` before there are rays.
     pub controller: Option<CameraController>,
-    /// Its viewport; `None` before it was drawn.
+    /// The viewport; `None` before the view was drawn.
     pub viewport: Option<Viewport>,
     /// Whether the scene is shaded by its normals.
     pub plain: bool,
     /// Whether surface normals are drawn.
     pub normals: bool,
-    /// Its size in pixels in this frame; `None` if it was not drawn.
+    /// The view's size in pixels in this frame; `None` if it was not drawn.
     pub space: Option<(u32, u32)>,
-    /// Its size in the last frame.
+    /// The view's size in the last frame.
     pub(in crate::viewer) shown: Option<(u32, u32)>,
     /// The current drag.
     pub drag: Option<Drag>,

@@ -86,9 +86,9 @@ pub struct Layout {
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct PreferredSize {
     tile: TileId,
-    /// Its previous width or height, in points.
+    /// The tile's previous width or height, in points.
     preferred: f32,
-    /// Its reduced size. A different current size means that the user has resized it since.
+    /// The tile's reduced size. If its current size differs, the user has resized it since.
     given: f32,
 }
 

@@ -35,7 +35,7 @@ impl PanelContext<'_> {
         }
     }
 
-    /// The same once it takes long enough to be worth showing; at once if there is no picture yet.
+    /// [`Self::activity`] once it takes long enough to be worth showing; at once if there is no picture yet.
     pub fn noticeable_activity(&self) -> Option<Activity> {
         let is_empty = self.shown(PictureSlot::Main).is_none();
         (self.activity()).filter(|it| is_empty || it.since.elapsed() >= NOTICEABLE)

@@ -79,7 +79,7 @@ impl Viewer {
         self.render.is_settled() && self.session.borrow().is_at_rest()
     }
 
-    /// What the person works on.
+    /// The current session.
     pub fn session(&self) -> Rc<RefCell<Session>> {
         self.session.clone()
     }

@@ -42,7 +42,7 @@ struct Still {
     screen: Screen,
 }
 
-/// What a difference depends on.
+/// The inputs of a difference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Subject {
     gain: f32,
@@ -179,7 +179,7 @@ impl Compared {
         }))
     }
 
-    /// What is seen of a picture.
+    /// Reads the visible picture.
     fn read(&self, shown: &Shown) -> Result<Option<ScreenImage>, RenderError> {
         let screen = shown.screen.as_ref().or(shown.under.as_ref());
         screen.map(|screen| screen.read(&self.gpu)).transpose()

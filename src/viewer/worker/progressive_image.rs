@@ -29,8 +29,7 @@ use std::time::{Duration, Instant};
 /// Minimum interval between presentations of a picture that passes through the host.
 const DETOUR: Duration = Duration::from_millis(500);
 
-/// The same for one that is denoised each time, and how many times longer it is at least than denoising and presenting
-/// took last.
+/// Minimum interval between denoised updates; at least 4× the last denoise time.
 const DENOISED: Duration = Duration::from_millis(200);
 const DENOISED_PAUSE: u32 = 4;
 

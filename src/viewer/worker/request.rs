@@ -55,7 +55,7 @@ impl RenderRequest {
 pub struct PreparedScene {
     /// The scene, compared by address.
     pub scene: Arc<Scene>,
-    /// The same scene, packed.
+    /// The packed form of `scene`.
     pub packed: Arc<PackedScene>,
 }
 

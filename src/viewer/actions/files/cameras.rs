@@ -23,7 +23,7 @@ pub fn key(session: &Session) -> PathBuf {
 /// A camera of the scene or a bookmark.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    /// Its label.
+    /// The camera's label.
     pub name: String,
     /// The camera in world space at the current time.
     pub camera: Camera,

@@ -86,7 +86,7 @@ pub fn shown<'a>(
 pub struct Line {
     /// The ray.
     pub id: RayId,
-    /// Its kind.
+    /// The kind of the ray.
     pub kind: RayKind,
     /// Whether it is a blocked shadow ray.
     pub blocked: bool,
@@ -120,9 +120,9 @@ pub enum End {
     Surface,
     /// At a light.
     Light,
-    /// It is infinite.
+    /// The ray is infinite.
     Nowhere,
-    /// It is clipped at the edge of the picture.
+    /// The ray is clipped at the edge of the picture.
     Cut,
 }
 

@@ -86,12 +86,12 @@ macro_rules! actions {
                 match self { $($(Self::$action => $name,)*)* Self::Tool(tool) => tool.entry().name }
             }
 
-            /// What the command does: one line without a full stop.
+            /// The command's effect: one line without a full stop.
             pub fn description(self) -> &'static str {
                 match self { $($(Self::$action => $text,)*)* Self::Tool(tool) => tool.entry().description }
             }
 
-            /// Its group in the table.
+            /// The command's group.
             pub const fn category(self) -> Category {
                 match self { $($(Self::$action => Category::$category,)*)* Self::Tool(_) => Category::Tools }
             }

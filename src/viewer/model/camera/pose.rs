@@ -152,7 +152,7 @@ impl Pose {
             && (self.roll - other.roll).abs() <= angle
     }
 
-    /// The same pose with angles reached from `start` the shorter way round.
+    /// This pose with angles reached from `start` the shorter way round.
     pub(super) fn unwound(self, start: &Self) -> Self {
         let near = |angle: f64, to: f64| angle + ((to - angle) / TAU).round() * TAU;
         Self {

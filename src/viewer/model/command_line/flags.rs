@@ -9,7 +9,7 @@ use glam::DVec3;
 
 /// A difference between a line and the view.
 pub(super) struct Difference {
-    /// Its name, in a few words.
+    /// The differing property, in a few words.
     pub what: &'static str,
     /// The flags to add; empty if no flag can express it.
     pub flags: Vec<(&'static str, String)>,

@@ -11,7 +11,7 @@ const LARGEST: f64 = f32::MAX as f64;
 /// How an object can be scaled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scaling {
-    /// It cannot be scaled.
+    /// No scaling.
     None,
     /// By one factor for all axes.
     Even,

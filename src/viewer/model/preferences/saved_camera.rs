@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Entry", into = "Entry")]
 pub struct SavedCamera {
-    /// Its name; not empty.
+    /// The view's name; not empty.
     pub name: String,
     /// The camera in world space.
     pub camera: Camera,

@@ -37,7 +37,7 @@ pub fn samples_of(scene: &Scene) -> u32 {
 
 /// The result of loading a scene.
 pub struct Opened {
-    /// Its file.
+    /// The scene's file.
     pub path: PathBuf,
     /// Whether it is a reload.
     pub again: bool,
@@ -233,7 +233,7 @@ impl Session {
         if let (Some(refined), Some(scene)) = (refined, self.scene()) {
             match refined.packed(scene) {
                 Some(_) => self.prepared = Some(refined),
-                // It has been edited meanwhile. Little is left to do for what it is now.
+                // The scene was edited meanwhile. Little is left to do for its current state.
                 None => self.refine(refined.packed),
             }
         }

@@ -14,9 +14,9 @@ pub(super) struct Room {
     pub taken: (u32, u32),
     /// The size of the panel, in pixels.
     available: (u32, u32),
-    /// Its last request.
+    /// The picture's last request.
     ordered: Option<RenderRequest>,
-    /// Its seconds of tracing so far.
+    /// The picture's seconds of tracing so far.
     spent: f64,
 }
 

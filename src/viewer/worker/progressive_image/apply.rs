@@ -68,7 +68,7 @@ impl ProgressiveImage {
             self.keep_whole(&before.settings, &order.settings);
         }
         let is_first = is_other_scene || self.packed.is_none();
-        // The same scene, but no longer with drafts.
+        // The scene is unchanged, but its BVHs are no longer drafts.
         let is_refined =
             !is_first && packed.is_some_and(|packed| Arc::as_ptr(packed) != self.prepared.as_ptr());
         let is_packed = packed.is_some() && Arc::ptr_eq(&scene, &order.scene);

@@ -27,9 +27,9 @@ pub struct FrameRenderer<'a> {
     pub renderer: &'a mut Renderer,
     /// The request of the main picture.
     pub order: &'a RenderRequest,
-    /// What the window shows of the main picture; `None` before it has samples.
+    /// The main picture as displayed; `None` before it has samples.
     pub screen: Option<&'a Screen>,
-    /// The same of the picture from outside, where there is one in full.
+    /// Renderer and request of the ray view, if it is rendered in full.
     pub outside: Option<(&'a mut Renderer, &'a RenderRequest)>,
 }
 
@@ -79,7 +79,7 @@ pub enum ImageError {
     /// The scene cannot be packed.
     #[error(transparent)]
     Pack(#[from] crate::pack::PackError),
-    /// It cannot be rendered.
+    /// The scene cannot be rendered.
     #[error("{}", advice::render(.0))]
     Render(#[from] RenderError),
 }

@@ -1,17 +1,17 @@
-//! What the window shows of a picture, and how far it is.
+//! The published picture and its progress.
 
 use super::ProgressiveImage;
 use crate::render::{Screen, Stats};
 use std::sync::Arc;
 
-/// What there is to see.
+/// A published picture.
 #[derive(Clone, Debug)]
 pub struct Shown {
     /// The picture so far; where it has no sample yet it is transparent.
     pub screen: Option<Screen>,
-    /// A coarse one of the same or what was before, to lie under it, stretched.
+    /// Background image: the coarse preview or previous picture, scaled to fit.
     pub under: Option<Screen>,
-    /// Whether that is a coarse one, which comes as a whole.
+    /// Whether `under` is the coarse preview, which comes as a whole.
     pub under_is_coarse: bool,
     /// While this is a part: the whole picture as it was last, to lie under both.
     pub whole: Option<Screen>,
@@ -23,11 +23,11 @@ pub struct Shown {
     pub range: Option<[f32; 2]>,
     /// How far it is.
     pub progress: Progress,
-    /// What the renderer has cost since the window was opened.
+    /// Costs of the renderer since the window was opened.
     pub stats: Stats,
     /// Trees that were built or refitted since then.
     pub trees_built: usize,
-    /// What it renders on.
+    /// The adapter's name.
     pub adapter: Arc<str>,
 }
 
@@ -56,7 +56,7 @@ pub struct Progress {
 }
 
 impl ProgressiveImage {
-    /// What the window can draw.
+    /// The picture to draw.
     pub fn shown(&self) -> Option<Shown> {
         let (renderer, order) = (self.renderer.as_ref()?, self.order.as_ref()?);
         let stats = renderer.stats();

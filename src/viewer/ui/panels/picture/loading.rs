@@ -17,7 +17,7 @@ const WIDTH: f32 = 280.0;
 const DOTS: u32 = 8;
 const TURNS: f32 = 0.8;
 
-/// What is loading: "Loading scene.toml", or "Preparing scene.toml" once it is imported.
+/// The heading: "Loading scene.toml", or "Preparing scene.toml" once it is imported.
 pub fn heading(context: &PanelContext) -> String {
     match &context.session.loader {
         Some(loader) => format!("Loading {}", files::short(&loader.path)),

@@ -1,4 +1,4 @@
-//! What to open where there is no scene.
+//! Ways to open a scene if there is none.
 
 use crate::viewer::actions::files;
 use crate::viewer::model::bindings::Action;

@@ -127,7 +127,7 @@ fn projection(fields: &mut Fields, index: usize, camera: &Camera) {
     }
 }
 
-/// The same condition as in the importer of native scenes.
+/// Whether `look_at` and `up` pass the native importer's check.
 fn looks_somewhere(camera: &Camera) -> bool {
     let forward = (camera.look_at - camera.look_from).normalize_or_zero();
     let up = camera.up.normalize_or_zero();

@@ -153,7 +153,7 @@ impl Kind {
                 sky::SUN_ELEVATION_DEG.to_radians(),
                 sky::SUN_AZIMUTH_DEG.to_radians(),
             ),
-            // It is offered where it is chosen already.
+            // This kind is offered only if already chosen.
             Self::Picture => {}
         }
     }

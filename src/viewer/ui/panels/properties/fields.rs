@@ -70,7 +70,7 @@ impl Limits {
         }
     }
 
-    /// The same with another change per point of a drag.
+    /// Limits with another change per point of a drag.
     pub const fn with_speed(self, speed: f64) -> Self {
         Self { speed, ..self }
     }
@@ -90,7 +90,7 @@ type Label<'a> = (&'a str, &'a str);
 pub struct Fields<'a> {
     pub ui: &'a mut Ui,
     pub scene: &'a Scene,
-    /// Its label.
+    /// The object's label.
     pub subject: String,
     pub changes: &'a mut Vec<Change>,
     /// The animated property that the next row shows.
@@ -202,7 +202,7 @@ impl<'a> Fields<'a> {
         self.set(label.0, value, set);
     }
 
-    /// The same, returning the edited value instead of requesting a change.
+    /// A vector row that returns the edited value and requests no change.
     pub fn vector_value(
         &mut self,
         (label, tip): Label,
@@ -311,7 +311,7 @@ impl<'a> Fields<'a> {
         self.set(label.0, chosen, set);
     }
 
-    /// The same, returning the chosen value instead of requesting a change.
+    /// A choice row that returns the chosen value and requests no change.
     pub fn choice_value<T: Copy + PartialEq>(
         &mut self,
         (label, tip): Label,

@@ -58,7 +58,7 @@ pub fn list(ui: &mut egui::Ui, session: &mut Session) {
     });
 }
 
-/// What the columns are.
+/// The column headers.
 fn headers(ui: &mut egui::Ui) {
     let header = |text: &str| egui::Label::new(RichText::new(text).small().strong());
     ui.horizontal(|ui| {

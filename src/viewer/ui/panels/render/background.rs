@@ -65,7 +65,7 @@ pub fn background(ui: &mut Ui, context: &mut PanelContext) {
     }
 }
 
-/// What paths from the camera see in place of the background.
+/// The backdrop, seen by camera paths instead of the background.
 pub fn backdrop(ui: &mut Ui, context: &mut PanelContext) {
     let settings = &mut context.session.view.settings;
     if settings.integrator != Integrator::Path {

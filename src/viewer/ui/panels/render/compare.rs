@@ -151,7 +151,7 @@ fn remove(ui: &mut Ui, session: &mut Session, still: StillId) {
     }
 }
 
-/// What a still shows, and whether tone mapping applies to it.
+/// Describes a still and whether tone mapping applies to it.
 fn told(still: &Still) -> String {
     let (width, height) = still.size();
     let tone = match still.is_radiance {
