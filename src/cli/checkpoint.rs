@@ -23,7 +23,7 @@ pub struct CheckpointFile<'a> {
     every: Duration,
     /// When the file was written, or that was tried.
     last: Instant,
-    /// What is in the file: the share of the work, and the submissions of this run before it.
+    /// The saved state: the share of the work, and the submissions of this run before it.
     saved: Option<(f64, u64)>,
     /// Whether it could not be written, and a warning said so.
     has_failed: bool,

@@ -68,7 +68,7 @@ impl Drop for Unfinished {
     }
 }
 
-/// What a finished part leaves beside its result.
+/// The record of a finished part, beside its result.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Done {
     /// Seconds from the start of the process to the result on disk.
@@ -82,7 +82,7 @@ struct Done {
     frames: Vec<String>,
 }
 
-/// What a part that failed leaves.
+/// The record of a failed part.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Failed {
     /// How often it was tried.
@@ -163,12 +163,12 @@ impl Folder {
         self.0.join("frames").join(frame_name(frame, ending))
     }
 
-    /// What a part left when it was done; `None` if it is not.
+    /// The record of a finished part; `None` if it is not done.
     fn done(&self, part: u32) -> Option<Done> {
         read(&self.done_path(part))
     }
 
-    /// What a part left when it failed.
+    /// The record of a failed part.
     fn failed(&self, part: u32) -> Option<Failed> {
         read(&self.failed_path(part))
     }

@@ -43,7 +43,7 @@ pub struct Interrupt(Arc<State>);
 struct State {
     /// Set by the handlers: the exit code for the signal; 0 means no signal.
     signal: Arc<AtomicUsize>,
-    /// The same, once the thread has decided that the work may stop by itself.
+    /// The exit code, once the thread has let the work stop by itself.
     exit_code: AtomicUsize,
     /// Whether the work checks for signals and stops by itself.
     is_deferred: AtomicBool,

@@ -189,7 +189,7 @@ fn check_adapters(header: &FilmHeader, path: &Path, same_only: bool) -> Result<(
     Ok(())
 }
 
-/// What the picture lacks, without a full stop.
+/// Lists missing parts, without a full stop.
 fn incomplete(path: &Path, missing: &[Missing]) -> String {
     let part = |Missing { region, samples }: &Missing| {
         let [x, y, width, height] = region;

@@ -15,7 +15,7 @@ pub(super) fn run(arguments: &ViewArgs, window: Option<&Window>) -> Result<(), A
     }
 }
 
-/// What `glimray view WORDS…` opens the window with.
+/// The request of `glimray view WORDS…` to the window.
 ///
 /// # Errors
 /// The words are no such command line.

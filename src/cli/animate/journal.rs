@@ -63,11 +63,11 @@ pub struct Origin {
 pub enum State {
     /// There is no file.
     Absent,
-    /// It equals what would be rendered.
+    /// The file equals what would be rendered.
     Done,
-    /// It must be rendered again, for this reason.
+    /// The frame must be rendered again, for this reason.
     Stale(&'static str),
-    /// It exists, but no known run wrote it.
+    /// The file exists, but no known run wrote it.
     Foreign,
 }
 

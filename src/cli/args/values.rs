@@ -16,7 +16,7 @@ use std::num::NonZero;
 use std::str::FromStr;
 use std::time::Duration;
 
-/// What is computed of a scene for this integrator, or for its own.
+/// When to bake for this integrator; `None` is the scene's own.
 pub fn baking(integrator: Option<Integrator>) -> Baking {
     match integrator {
         None => Baking::IfClassical,

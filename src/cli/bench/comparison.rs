@@ -17,7 +17,7 @@ pub struct Baseline {
     figures: BTreeMap<String, f64>,
 }
 
-/// What a run was made with.
+/// A named condition of a run.
 struct Condition {
     what: &'static str,
     value: Value,
@@ -128,7 +128,7 @@ impl Baseline {
     }
 }
 
-/// What a run was made with; null where it does not say.
+/// The conditions of a run; null where they are missing.
 fn conditions(run: &Value) -> Vec<Condition> {
     let adapter = &run["adapter"];
     let all = [

@@ -123,7 +123,7 @@ impl Renders {
     }
 }
 
-/// What a render is for.
+/// The purpose of a render.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Counts rays, which a kernel of its own does.

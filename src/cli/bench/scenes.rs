@@ -23,7 +23,7 @@ use glam::{DAffine3, DVec3, Vec3};
 pub enum Detail {
     /// As the benchmark measures it.
     Full,
-    /// The same shapes with about a hundredth of the primitives, for tests.
+    /// About a hundredth of the primitives in the same shapes, for tests.
     Small,
 }
 
@@ -40,9 +40,9 @@ impl Detail {
 /// A scene by its name.
 #[derive(Clone, Copy, Debug)]
 pub struct Procedural {
-    /// Its name.
+    /// The scene's name.
     pub name: &'static str,
-    /// Generates it.
+    /// Generates the scene.
     pub scene: fn(Detail) -> Scene,
     /// Whether `--quick` omits it because its trees take long to build.
     pub is_large: bool,

@@ -157,13 +157,13 @@ fn height_field(quads: u32, lights: Vec<Light>) -> Scene {
     }
 }
 
-/// The same scene with 16 samples per pixel.
+/// Sets 16 samples per pixel.
 fn sampled(mut scene: Scene) -> Scene {
     scene.output.samples = 16;
     scene
 }
 
-/// The same scene with a camera that moves sideways by an eighth of a unit in one second.
+/// Moves the camera sideways by an eighth of a unit in one second.
 fn panned(mut scene: Scene) -> Scene {
     let camera = &scene.cameras[0];
     let (from, at) = (camera.look_from, camera.look_at);

@@ -29,7 +29,7 @@ pub fn pack(scene: &Path, files: &[PathBuf], folder: &Folder) -> Result<PackedFi
     }
     let root = root_of(&paths);
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    // The same files give the same archive. Pictures and binary meshes hardly compress.
+    // Equal files give equal archives. Pictures and binary meshes hardly compress.
     let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
     let name_of = |path: &Path| {
         let inner = path.strip_prefix(&root).unwrap_or(path);

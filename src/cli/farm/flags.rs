@@ -68,18 +68,18 @@ pub fn given(matches: &ArgMatches) -> Vec<String> {
     flags
 }
 
-/// Those that matter when films become a picture.
+/// Flags that matter when films become a picture.
 pub fn finishing(flags: &[String]) -> impl Iterator<Item = &String> {
     flags.iter().filter(|flag| FINISHING.contains(&name(flag)))
 }
 
-/// Those of `animate`, to which the moment of a single picture means nothing.
+/// Flags of `animate`, to which the moment of a single picture means nothing.
 pub fn of_animation(flags: &[String]) -> impl Iterator<Item = &String> {
     let is_moment = |flag: &str| ["frame", "time"].contains(&name(flag));
     flags.iter().filter(move |flag| !is_moment(flag))
 }
 
-/// Those of `render` for a part with these pixels.
+/// Flags of `render` for a part with these pixels.
 pub fn of_part(flags: &[String], crop: Option<[u32; 4]>) -> impl Iterator<Item = &String> {
     let is_replaced = move |flag: &str| crop.is_some() && name(flag) == "crop";
     flags.iter().filter(move |flag| !is_replaced(flag))

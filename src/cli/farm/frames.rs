@@ -15,7 +15,7 @@ use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-/// What a merged frame leaves beside it.
+/// The record of a merged frame, beside it.
 #[derive(Debug, Serialize, Deserialize)]
 struct Merged {
     /// The hashes at the ends of its films, in the order of the parts.

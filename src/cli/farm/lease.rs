@@ -137,7 +137,7 @@ impl Leases {
         };
         let renewed = file.metadata()?.modified()?;
         let mut text = String::new();
-        // It is empty for a moment after it was created.
+        // A new file is empty for a moment.
         let _ = (&mut file).take(1024).read_to_string(&mut text);
         let mut words = text.split_whitespace();
         let mut word = || words.next().unwrap_or_default();
@@ -217,7 +217,7 @@ fn is_timeout(error: std::sync::mpsc::RecvTimeoutError) -> bool {
     error == std::sync::mpsc::RecvTimeoutError::Timeout
 }
 
-/// How long a lease lasts that names so many seconds; a default if it does not, as for a moment after it was created.
+/// Lease duration in seconds; the default while the file is still empty.
 fn lasting(seconds: &str) -> Duration {
     let seconds: f64 = seconds.parse().unwrap_or_default();
     match (1.0..=MOST_SECONDS).contains(&seconds) {

@@ -212,7 +212,7 @@ impl Manifest {
         super::write(&folder.join(NAME), self)
     }
 
-    /// What is malformed in a manifest that was changed by hand.
+    /// Names malformed fields of a manifest that was changed by hand.
     fn fault(&self) -> Option<&'static str> {
         let [width, height] = self.size;
         let is_plain = |packed: &PackedFile| {

@@ -25,7 +25,7 @@ const LEAST_SECONDS: f64 = 0.05;
 /// Most samples of a measurement.
 const MOST_SAMPLES: u32 = 64;
 
-/// What the work costs on this machine.
+/// Costs of the work on this machine.
 pub struct Costs {
     /// The adapter.
     pub adapter: String,

@@ -1,4 +1,4 @@
-//! What merging costs on this machine: reading films and adding their sums, developing and writing pictures, and encoding
+//! Costs of merging on this machine: reading films and adding their sums, developing and writing pictures, and encoding
 //! a video. The time of the disk comes on top. Frames are merged by the machines that render their films.
 
 use super::manifest::Part;
@@ -24,11 +24,11 @@ const FRAMES: usize = 4;
 /// Bytes of a pixel that is being developed: its sums in f64 and f32, three buffers of the device, and the picture.
 const DEVELOPED_BYTES: u64 = (size_of::<[f64; 4]>() + 5 * size_of::<[f32; 4]>()) as u64;
 
-/// What merging costs.
+/// Costs of merging.
 pub struct MergeCosts {
     /// Seconds to read a byte of a film of one block of samples and to add it.
     block: f64,
-    /// The same for films of several blocks.
+    /// Seconds per byte for films of several blocks.
     totals: f64,
     /// Seconds to develop a pixel and to write it.
     finish: f64,
@@ -36,7 +36,7 @@ pub struct MergeCosts {
     encode: f64,
 }
 
-/// What merging these parts takes.
+/// Memory and time to merge parts.
 pub struct Merging {
     /// Size of the largest film.
     pub largest_bytes: u64,
@@ -124,7 +124,7 @@ impl MergeCosts {
         })
     }
 
-    /// What merging these parts takes.
+    /// Memory and time to merge these parts.
     ///
     /// # Errors
     /// A fault in a cut.

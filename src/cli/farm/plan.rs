@@ -109,7 +109,7 @@ pub fn run(
     };
     let parts = work.cut(count);
     let unfinished = folder.create()?;
-    // It is read from a path of its own, and copied beside the archive.
+    // The panorama has a path of its own and is copied beside the archive.
     let panorama = match &arguments.reading.environment {
         Some(EnvironmentSource::File(file)) => Some(file),
         Some(EnvironmentSource::Sky { .. }) | None => None,

@@ -1,4 +1,4 @@
-//! What parts leave behind: whether it is there, whole, and of this farm.
+//! Results of parts: whether they exist, are whole, and belong to this farm.
 
 use super::manifest::{self, Manifest, Part};
 use super::{Done, Folder, numbered};
@@ -20,12 +20,12 @@ pub fn frame_ending(output: &Path) -> String {
     }
 }
 
-/// What became of a part.
+/// The state of a part.
 pub enum State {
-    /// It has no mark.
+    /// The part has no mark.
     Absent,
     Done,
-    /// It has its mark, but its result cannot be used, for this reason.
+    /// The part has its mark, but its result is unusable, for this reason.
     Invalid(String),
 }
 
@@ -38,7 +38,7 @@ pub enum Depth {
     Whole,
 }
 
-/// What became of a part.
+/// The state of a part.
 pub fn state(folder: &Folder, manifest: &Manifest, number: u32, depth: Depth) -> State {
     let Some(done) = folder.done(number) else {
         return State::Absent;

@@ -164,14 +164,14 @@ struct Farm {
     interrupt: Interrupt,
 }
 
-/// What became of a part.
+/// The outcome of a part.
 enum Outcome {
     Done,
     /// This process renders it, as `HOST, process PID`.
     Elsewhere(String),
     /// The last attempt failed.
     Failed(AppError),
-    /// It failed and is to be tried again.
+    /// The part failed and is to be tried again.
     Again(AppError),
 }
 
@@ -420,7 +420,7 @@ fn failure(number: u32, error: &str, code: u8) -> AppError {
     }
 }
 
-/// Whether an error is none of the part: a signal, or a machine without a usable adapter. Another process can render it.
+/// Whether the error is unrelated to the part: a signal, or a machine without a usable adapter. Another process can render it.
 fn is_of_process(error: &AppError) -> bool {
     matches!(error.exit_code(), 5 | 130 | 143)
 }

@@ -1,4 +1,4 @@
-//! What a farm makes, checked before anything is rendered: what `render` and `animate` refuse, no part is rendered for.
+//! The output of a farm, checked before rendering: plans refuse what `render` and `animate` refuse.
 
 use crate::app::error::AppError;
 use crate::app::overrides::picture_size;
@@ -18,10 +18,10 @@ pub enum Target {
 }
 
 impl Target {
-    /// What the name of the output says.
+    /// Parses the name of the output.
     ///
     /// # Errors
-    /// It says none of these, or is not text.
+    /// The name has no known extension or is not UTF-8.
     pub fn parse(path: &Path) -> Result<Self, AppError> {
         let refused = |why: String| {
             Err(AppError::Usage(format!(

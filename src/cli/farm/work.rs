@@ -1,4 +1,4 @@
-//! What is to be cut: a picture or an animation with what it costs.
+//! The work to cut: a picture or an animation with its costs.
 
 use super::cut::{self, Picture};
 use super::manifest::Part;
@@ -8,7 +8,7 @@ use crate::cli::animate::Timeline;
 use crate::render::{FilmOutline, RenderSettings};
 use std::ops::Range;
 
-/// What is to be cut.
+/// The work to cut.
 pub struct Work<'a> {
     pub settings: &'a RenderSettings,
     pub timeline: Option<Timeline>,
