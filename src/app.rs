@@ -1,5 +1,5 @@
-//! What the command line and the window share: errors with exit codes, what a user may override, names
-//! of settings, messages. Neither imports the other; `main` hands the window to the command line.
+//! Modules of the command line and the window: errors with exit codes, what a user may override, names of
+//! settings, messages. Neither imports the other; `main` hands the window to the command line.
 
 pub mod advice;
 pub mod clock;

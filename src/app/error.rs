@@ -72,7 +72,7 @@ pub enum AppError {
     Stopped {
         /// The error that ended it.
         error: Box<AppError>,
-        /// What is kept and how to resume, as a sentence.
+        /// The kept work and how to resume, as a sentence.
         kept: String,
     },
     /// A part of a farm failed; the code is that of its error.

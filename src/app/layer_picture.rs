@@ -9,9 +9,9 @@ use crate::scene::Transfer;
 /// The grey level of the greatest distance.
 const FAR: f32 = 0.1;
 
-/// What a layer other than the beauty looks like, in display values. Light is developed with the tone. Numbers of objects
-/// and materials have a colour each, black for none. Distances go from white to dark grey and variances from black to
-/// white, both by their logarithms; positions are red, green and blue from one end of the picture's extent to the other.
+/// A layer other than the beauty, in display values. Light is developed with the tone. Numbers of objects and materials
+/// have a colour each, black for none. Distances go from white to dark grey and variances from black to white, both by
+/// their logarithms; positions are red, green and blue from one end of the picture's extent to the other.
 ///
 /// # Errors
 /// The device failed.

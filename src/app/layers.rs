@@ -86,7 +86,7 @@ pub static LAYERS: ValueNames<PictureLayer> = ValueNames(&[
 ]);
 
 impl PictureLayer {
-    /// Its channels, for a picture with these features. `opacity` tells whether that has opacity.
+    /// The layer's channels, for a picture with these features. `opacity` tells whether the picture has opacity.
     pub fn of(self, beauty: &Image, opacity: bool, features: &Features) -> ImageLayer {
         let layer =
             |names: &[&'static str], is_half: bool, value: fn(&PixelFeatures, usize) -> f32| {

@@ -49,7 +49,7 @@ pub struct PictureOverrides {
     pub clamp_indirect: Option<f32>,
     /// Reconstruction filter.
     pub filter: Option<Filter>,
-    /// Its radius in pixels.
+    /// The filter's radius in pixels.
     pub filter_radius: Option<f32>,
     /// Multiplies the samples of every area light.
     pub light_samples: Option<f32>,
@@ -106,13 +106,13 @@ pub struct CameraOverrides {
     pub look_at: Option<DVec3>,
     /// The direction that is up in the picture.
     pub up: Option<DVec3>,
-    /// What rays see that hit nothing.
+    /// Background of rays that hit nothing.
     pub background: Option<BackgroundChoice>,
-    /// Whether a colour for that is seen by paths from the camera only, and an environment lights the scene.
+    /// Whether a background colour is seen by paths from the camera only, and an environment lights the scene.
     pub has_environment: bool,
 }
 
-/// What rays see that hit nothing.
+/// Background of rays that hit nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BackgroundChoice {
     /// A linear radiance.

@@ -266,7 +266,7 @@ pub fn way(ray: &TracedRay) -> String {
     }
 }
 
-/// What a shadow ray aims at: the number of a light or an object, and its name if it has one.
+/// The target of a shadow ray: the number of a light or an object, and its name if it has one.
 pub fn target(shadow: &ShadowRay) -> String {
     let emitter = shadow.sample.as_ref().and_then(|sample| {
         let triangle = sample.primitive?;

@@ -4,7 +4,7 @@ use super::error::AppError;
 use crate::import;
 use crate::scene::Scene;
 
-/// Its name in reports.
+/// The scene's name in reports.
 pub const NAME: &str = "showcase.toml";
 
 const TEXT: &str = include_str!(concat!(
@@ -12,7 +12,7 @@ const TEXT: &str = include_str!(concat!(
     "/assets/scenes/showcase.toml"
 ));
 
-/// What differs in the version for paths. The sun lights the balls from behind, and light that is scattered takes the place
+/// Overrides of the version for paths. The sun lights the balls from behind, and light that is scattered takes the place
 /// of ambient light. Balls of pearl take that of glass, and the lens is gone: both need more samples than a demo has time
 /// for.
 const PATH_TRACED: [&str; 10] = [

@@ -1,4 +1,4 @@
-//! What the command line asks of the window.
+//! Requests of the command line to the window.
 
 use super::error::AppError;
 use super::overrides::RenderOverrides;

@@ -103,7 +103,7 @@ fn write_light_sample(
     writeln!(out, ", contribution {}", color(ray.contribution))
 }
 
-/// What becomes of the light of a sample.
+/// The outcome of a light sample.
 fn fate(sample: &LightSample, shadow: &ShadowRay, ray: &TracedRay) -> String {
     match &ray.hit {
         _ if !sample.traced => "the surface scatters nothing of it".to_owned(),
@@ -157,7 +157,7 @@ fn describe(step: &PathStep) -> String {
     text
 }
 
-/// What becomes of a path, in words.
+/// The outcome of a step, in words.
 pub fn outcome(outcome: StepOutcome) -> &'static str {
     match outcome {
         StepOutcome::Scattered => "goes on",
