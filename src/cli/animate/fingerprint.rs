@@ -18,7 +18,7 @@ pub fn of_text(text: &str) -> Fingerprint {
 /// The length in bytes and the fingerprint of a file.
 ///
 /// # Errors
-/// It cannot be read, or is not a regular file (a device might never end).
+/// The file cannot be read, or is not a regular file (a device might never end).
 pub fn of_file(path: &Path) -> io::Result<(u64, Fingerprint)> {
     let mut file = File::open(path)?;
     if !file.metadata()?.is_file() {

@@ -154,7 +154,7 @@ impl Playing {
     /// Generates the scene.
     ///
     /// # Errors
-    /// It cannot be packed.
+    /// The scene cannot be packed.
     pub fn new(is_quick: bool) -> Result<Self, AppError> {
         let scene = figure();
         Ok(Self {

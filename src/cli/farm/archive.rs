@@ -55,7 +55,7 @@ pub fn pack(scene: &Path, files: &[PathBuf], folder: &Folder) -> Result<PackedFi
 /// Copies a file into the folder, as `stem` with the file's own extension.
 ///
 /// # Errors
-/// It cannot be read or written.
+/// The file cannot be read or written.
 pub fn copy(file: &Path, stem: &str, folder: &Folder) -> Result<PackedFile, AppError> {
     let bytes = fs::read(file).map_err(|error| unreadable(file, &error))?;
     let ending = file.extension().unwrap_or_default().to_string_lossy();
@@ -78,7 +78,7 @@ fn described(name: &str, bytes: &[u8]) -> PackedFile {
 /// Checks that a packed file is there and whole, and returns its path.
 ///
 /// # Errors
-/// It is missing, has another length or another checksum.
+/// The file is missing, has another length or another checksum.
 pub fn checked(packed: &PackedFile, folder: &Folder) -> Result<PathBuf, AppError> {
     let path = folder.path().join(&packed.file);
     let refused = |why: &str| {

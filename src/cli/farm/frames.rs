@@ -83,7 +83,7 @@ fn last_hash(film: &Path) -> io::Result<String> {
 /// Merges films to a picture, as `glimray merge` does.
 ///
 /// # Errors
-/// Those of `glimray merge`.
+/// Errors of `glimray merge`.
 pub fn merge_films(
     manifest: &Manifest,
     films: Vec<PathBuf>,

@@ -205,7 +205,7 @@ impl Manifest {
     /// Writes the manifest of the farm in `folder`, with its checksum.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The manifest cannot be written.
     pub fn write(&mut self, folder: &Path) -> Result<(), AppError> {
         self.checksum = NO_CHECKSUM.into();
         self.checksum = hash(&super::json(self)?);

@@ -46,7 +46,7 @@ pub struct Costs {
 /// Measures the frames whose shutter is open at these times, in seconds.
 ///
 /// # Errors
-/// Those of rendering.
+/// Errors of rendering.
 pub fn measure(
     job: &Job,
     planned: &RenderSettings,

@@ -46,7 +46,7 @@ impl Work<'_> {
     /// The outline of the film of a part; `None` for whole frames.
     ///
     /// # Errors
-    /// Its samples are not whole blocks: a fault.
+    /// The part's samples are not whole blocks: a fault.
     pub fn film(&self, part: &Part) -> Result<Option<FilmOutline>, AppError> {
         if !part.is_film() {
             return Ok(None);
@@ -61,7 +61,7 @@ impl Work<'_> {
     /// The outline of the film that the merge makes of a picture.
     ///
     /// # Errors
-    /// Its samples are not whole blocks: a fault.
+    /// The picture's samples are not whole blocks: a fault.
     pub fn whole_film(&self) -> Result<FilmOutline, AppError> {
         self.outline(self.settings.region(), 0..self.settings.samples)
     }

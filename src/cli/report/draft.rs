@@ -73,7 +73,7 @@ impl<'a> Draft<'a> {
     /// Reads the scene.
     ///
     /// # Errors
-    /// Those of [`scene_file::load`].
+    /// Errors of [`scene_file::load`].
     pub fn load(
         &mut self,
         path: &Path,

@@ -185,7 +185,7 @@ pub fn copy(shown: &Shown) -> CommandLine {
 /// Applies a line to `scene`. It may be a complete command or only flags.
 ///
 /// # Errors
-/// It is not a command of this program, or its arguments are invalid: why, in one line.
+/// The line is not a command of this program, or its arguments are invalid: why, in one line.
 pub fn paste(parse: ParsePicture, line: &str, scene: &Scene) -> Result<Pasted, String> {
     // Line continuations.
     let line = line.replace("\\\n", " ");

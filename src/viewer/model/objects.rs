@@ -127,7 +127,7 @@ pub fn is_visible(scene: &Scene, id: Id) -> bool {
 /// become children of a hiding node, which a scene file stores.
 ///
 /// # Errors
-/// Its parent is hidden, its visibility is animated, or it can never be visible.
+/// The parent is hidden, the visibility is animated, or `id` can never be visible.
 pub fn set_visible(scene: &mut Scene, id: Id, visible: bool) -> Result<(), EditError> {
     check(scene, id)?;
     if let Id::Node(index) = id {
@@ -230,7 +230,7 @@ fn check(scene: &Scene, id: Id) -> Result<(), EditError> {
 /// Removes an object, or a camera if there are others. Later entries of the list move up.
 ///
 /// # Errors
-/// It is the last camera, or a node or material, which others use.
+/// `id` is the last camera, or a node or material, which others use.
 pub fn remove(scene: &mut Scene, id: Id) -> Result<(), EditError> {
     check(scene, id)?;
     match id {
@@ -287,7 +287,7 @@ fn retarget(scene: &mut Scene, rename: impl Fn(Target) -> Option<Target>) {
 /// Duplicates an object, camera or material in place, including its animation.
 ///
 /// # Errors
-/// It is a node.
+/// `id` is a node.
 pub fn duplicate(scene: &mut Scene, id: Id) -> Result<Id, EditError> {
     check(scene, id)?;
     fn push<T: Clone>(list: &mut Vec<T>, index: usize) -> usize {
@@ -346,7 +346,7 @@ pub fn duplicate(scene: &mut Scene, id: Id) -> Result<Id, EditError> {
 /// Assigns a material to a whole object. A mesh that is shared is copied first.
 ///
 /// # Errors
-/// It is a light, or the material does not exist.
+/// `object` is a light, or the material does not exist.
 pub fn assign(scene: &mut Scene, object: ObjectRef, material: usize) -> Result<(), EditError> {
     check(scene, Id::Object(object))?;
     check(scene, Id::Material(material))?;

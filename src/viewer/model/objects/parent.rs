@@ -13,7 +13,7 @@ const TOLERANCE: f64 = 1e-9;
 /// its rotation cannot be seen.
 ///
 /// # Errors
-/// It is a camera or a material, `parent` is inside it, or its place cannot be expressed in `parent`. The
+/// `id` is a camera or a material, `parent` is inside it, or its place cannot be expressed in `parent`. The
 /// scene may then be changed in part.
 pub fn set_parent(
     scene: &mut Scene,

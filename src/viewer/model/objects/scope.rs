@@ -22,7 +22,7 @@ pub fn name(scene: &Scene, id: Id) -> Option<&str> {
 /// Renames something.
 ///
 /// # Errors
-/// It has no name, or is not in the scene.
+/// `id` has no name, or is not in the scene.
 pub fn rename(scene: &mut Scene, id: Id, name: &str) -> Result<(), EditError> {
     check(scene, id)?;
     let slot = match id {
