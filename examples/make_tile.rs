@@ -4,7 +4,7 @@
 //! cargo run --release --example make_tile assets/scenes/tile.png
 //! ```
 //!
-//! It tiles seamlessly.
+//! The tile repeats seamlessly.
 
 use glimray::image::Image;
 use glimray::output;

@@ -253,7 +253,7 @@ fn collar() -> Surface {
 /// A point of the corselet: u goes around, v from its rim to the neck.
 fn shoulder(u: f32, v: f32) -> Vec3 {
     let (sin, cos) = (u * TAU).sin_cos();
-    // Its rim is higher at the sides, where the arms are.
+    // The rim is higher at the sides, where the arms are.
     let low = 0.055 * cos * cos + 0.008;
     let inward = v.powf(1.25);
     let reach = |rim: f32| rim + (NECK - rim) * inward;

@@ -301,7 +301,7 @@ fn triangles_of(reference: u32) -> Range<usize> {
     }
 }
 
-/// The same of shapes.
+/// Like [`triangles_of`], for shapes.
 fn shapes_of(reference: u32) -> Range<usize> {
     match reference & (LEAF | SHAPE) == LEAF | SHAPE {
         true => primitives_of(reference),
@@ -685,7 +685,7 @@ fn walls(seed: u64) -> Scene {
     scene
 }
 
-/// The same triangles several times, and others that overlap in the same plane.
+/// Repeated triangles, and others that overlap in the same plane.
 fn ties(seed: u64) -> Scene {
     let mut random = Random(seed);
     let mut triangles = Vec::new();

@@ -86,7 +86,7 @@ fn finished(mut renderer: Renderer) -> (Vec<u8>, Image, Stats) {
     (film, image, renderer.stats().clone())
 }
 
-/// What a picture has counted, whichever runs took part.
+/// The counts of a picture, whichever runs took part.
 fn counts(stats: &Stats) -> String {
     let Stats {
         nonfinite_samples,

@@ -31,7 +31,7 @@ fn tetrahedron() -> Mesh {
 fn spiky() -> Mesh {
     let mut mesh = scenes::ball(UVec2::new(24, 12), 0);
     for position in &mut mesh.positions {
-        // The same for all vertices at one position.
+        // Equal for all vertices at one position.
         let place = (*position * 1e3).round().as_ivec3();
         let odd = (place.x + 3 * place.y + 5 * place.z).rem_euclid(2);
         *position *= if odd == 1 { 2.2 } else { 1.0 };

@@ -369,7 +369,7 @@ fn a_cornell_box_of_1_and_of_16_samples_gains_almost_6_decibels() {
     verdict.close();
 }
 
-/// What the window shows, which develops its renderer, and what files get, which are made from films.
+/// The window develops its renderer, and files are made from films.
 #[test]
 fn renderers_and_films_denoise_to_the_same_bits() {
     let scene = import::load(Path::new("assets/scenes/still_life.toml")).expect("a scene");

@@ -1,7 +1,7 @@
-//! What leaves the repository: the package, the hand-in, the manual pages; and what the files for
+//! Products of the repository: the package, the hand-in, the manual pages; and what the files for
 //! building them say of each other.
 
-// It is made by `make`.
+// The hand-in is made by `make`.
 #[cfg(unix)]
 mod hand_in;
 
@@ -37,8 +37,7 @@ fn instructions() -> Vec<PathBuf> {
     found
 }
 
-/// What stands in `path` as code, which is all of it but in pages: there it is blocks and quotations,
-/// each on lines of its own.
+/// The code in `path`: the whole file, but in pages the blocks and quotations, each on lines of its own.
 fn code(path: &Path) -> String {
     let text = read(path);
     if path.extension().is_none_or(|extension| extension != "md") {
@@ -256,7 +255,7 @@ fn commands_below(workspace: &Workspace, command: &str) -> Vec<String> {
         return Vec::new();
     };
     let (list, _) = list.split_once("\n\n").expect("their end");
-    // What a command does stands in the same line or below, farther in.
+    // The description of a command stands in the same line or below, farther in.
     let commands = list.lines().filter(|line| !line.starts_with("   "));
     let commands = commands.filter_map(|line| line.split_whitespace().next());
     let commands = commands.filter(|name| *name != "help");

@@ -113,7 +113,7 @@ fn a_second_signal_in_the_midst_of_a_write_leaves_no_part_of_the_file() {
         }
         // Both signals arrive while the process is stopped, and it handles them when it continues.
         let id = child.id().to_string();
-        // It may have ended meanwhile.
+        // The process may have ended meanwhile.
         let send = |name: &str| {
             let mut kill = Command::new("kill");
             let _ = kill

@@ -209,7 +209,7 @@ fn a_lamp_and_a_picture_add_their_light() {
         color: Vec3::splat(2.0),
         attenuation: Attenuation::InverseSquare,
         samples: 1,
-        // It does not shade the plane from the picture.
+        // The lamp does not shade the plane from the picture.
         visible: false,
         node: None,
     };

@@ -23,7 +23,7 @@ pub fn built(name: &str) -> Option<PathBuf> {
     Some(path)
 }
 
-/// What an example prints; `None` where it is not built.
+/// The output of an example; `None` where it is not built.
 fn run(name: &str, arguments: &[PathBuf]) -> Option<String> {
     let output = Command::new(built(name)?)
         .args(arguments)

@@ -11,7 +11,7 @@ const AUTO: Tone = Tone {
     ..Tone::LINEAR
 };
 
-/// What a picture of these grey pixels in one row looks like.
+/// The developed levels of these grey pixels in one row.
 fn exposed(tone: &Tone, greys: &[f32]) -> Vec<f32> {
     let image = Image {
         width: greys.len() as u32,

@@ -223,7 +223,7 @@ fn what_the_fuzzer_found_is_read_or_refused_in_one_line() {
     }
 }
 
-/// What is refused at once would tell nothing of poses.
+/// Seeds that are refused at once would tell nothing of poses.
 #[test]
 fn the_poses_that_the_fuzzer_starts_from_are_of_deforming_meshes() {
     let seeds = fs::read_dir(root().join("tests/fuzz/seeds/poses")).expect("a folder");

@@ -10,7 +10,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// What each module of `src/` may use of the others; "*" is everything.
+/// Modules that each module of `src/` may use; "*" is everything.
 const MODULES: &[(&str, &[&str])] = &[
     ("scene", &["threads"]),
     ("clock", &[]),
@@ -45,13 +45,13 @@ const MODULES: &[(&str, &[&str])] = &[
     ("lib", &["*"]),
 ];
 
-/// What the command line and the window may use: everything but each other.
+/// Modules that the command line and the window may use: everything but each other.
 const ABOVE_APP: &[&str] = &[
     "app", "bvh", "bytes", "clock", "random", "scene", "image", "layout", "gpu", "import",
     "export", "pack", "render", "output", "text",
 ];
 
-/// What each tier of `shaders/` may import.
+/// Tiers that each tier of `shaders/` may import.
 const TIERS: &[(&str, &[&str])] = &[
     ("types", &[]),
     ("lib", &["lib", "types"]),
@@ -181,7 +181,7 @@ fn shaders_import_only_what_they_may() {
     check_directions("shaders", "wesl", "package", TIERS);
 }
 
-/// What belongs to the program: crates, and words of its command line and its end.
+/// Terms of the program: crates, and words of its command line and its end.
 const OF_THE_PROGRAM: &[&str] = &[
     "clap::",
     "clap_complete::",

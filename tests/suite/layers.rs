@@ -114,7 +114,7 @@ fn the_first_surface_is_where_the_ray_meets_the_ball() {
 /// Films and renderers tell the same point, and so does the ray query of `explain`, which is traced on its own.
 #[test]
 fn positions_are_those_that_are_explained() {
-    // Its camera is at (0, 0, 6).
+    // The scene's camera is at (0, 0, 6).
     let folder = Workspace::moving();
     let flags = "--size 9x7 --integrator path";
     folder
@@ -241,7 +241,7 @@ fn samples_that_a_dull_mirror_scatters_do_not_change_what_it_shows() {
     }
 }
 
-/// What is black reflects nothing, and is seen as well as what is white: a pixel on the edge between them has half the albedo.
+/// A black surface reflects nothing, and is seen as well as a white one: a pixel on the edge between them has half the albedo.
 #[test]
 fn black_surfaces_are_seen() {
     for integrator in [Integrator::Path, Integrator::Whitted] {
@@ -465,7 +465,7 @@ fn files_have_the_channels_that_other_programs_read() {
     assert_eq!(names.join(","), format!("{ALL},denoised"));
 }
 
-/// What most programs show is the denoised picture that was asked for; the raw one is a layer.
+/// Most programs show the denoised picture that was asked for; the raw one is a layer.
 #[test]
 fn denoised_files_keep_the_raw_picture() {
     let folder = Workspace::new();

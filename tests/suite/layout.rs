@@ -226,7 +226,7 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (3, 15, "covers_out", "colors out"),
 ];
 
-/// What a binding is, as `BINDINGS` calls it.
+/// The kind of a binding, as `BINDINGS` calls it.
 fn kind_of(module: &Module, variable: &naga::GlobalVariable) -> &'static str {
     use ImageClass::{Sampled, Storage};
     const READ: StorageAccess = StorageAccess::LOAD;

@@ -371,7 +371,7 @@ fn sizes_are_in_the_largest_unit_that_fits() {
     }
     verdict.close();
     assert_eq!(bytes::sizes([3 << 20, 2 << 20]), ["3 MiB", "2 MiB"]);
-    // What is too large by little is not as large as what is allowed.
+    // A size barely above a limit is not printed as equal to it.
     assert_eq!(
         bytes::sizes([(1 << 20) + 1, 1 << 20]),
         ["1048577 bytes", "1048576 bytes"]

@@ -390,7 +390,7 @@ fn a_box_that_turns_by_180_degrees_is_hit_along_its_whole_path() {
     let (tree, _) = rendered(&packed, &frames, &settings);
     let (every, _) = rendered(&packed, &frames, &brute_force);
     check_same_bits("half a turn", &every, &tree).unwrap_or_else(|problem| panic!("{problem}"));
-    // Its corners reach √2 as far as its sides, where there is nothing without the rotation.
+    // The box's corners reach √2 as far as its sides, where there is nothing without the rotation.
     let (corner, ..) = (0..SIDE)
         .map(|x| (x, mean(&every, [(x, SIDE / 2)].into_iter())))
         .find(|(_, value)| *value > 0.0)

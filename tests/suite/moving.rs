@@ -219,7 +219,7 @@ fn a_lamp_that_moves_is_seen_where_it_shines_from() {
     let target = Target::Light(0, LightProperty::Position);
     scene.tracks.push(track(target, Values::Vector(way)));
     let image = exposed(&scene, &blurred(512));
-    // Its own radiance is 0.5 / 0.25²; elsewhere the floor shows its light, which is that of a point light at
+    // The lamp's radiance is 0.5 / 0.25²; elsewhere the floor shows its light, which is that of a point light at
     // its centre: k_d · 0.5 · cos / d², with cos = h / d.
     let diffuse = f64::from(scene.materials[0].diffuse.x);
     for (x, y) in [(32, 32), (32, 20), (28, 44), (2, 32), (60, 10), (12, 60)] {

@@ -107,7 +107,7 @@ fn fair() -> Scene {
         placement: DAffine3::from_rotation_x(0.6),
         node: Some(rider),
     });
-    // The same mesh, mirrored and growing.
+    // Another instance of the mesh, mirrored and growing.
     let other = node(
         &mut scene,
         Node {

@@ -306,7 +306,7 @@ fn the_height_is_animated_and_follows_the_node_of_the_camera() {
     scene.cameras[0].node = Some(0);
     let carried = height(&scene, 0.5).expect("orthographic");
     assert!((carried - 7.5).abs() < 1e-12, "{carried}");
-    // It does not apply to perspective cameras.
+    // The height does not apply to perspective cameras.
     scene.cameras[0].orthographic_height = None;
     assert_eq!(height(&scene, 0.5), None);
 }

@@ -339,7 +339,7 @@ fn only_what_differs_is_uploaded_and_the_picture_is_that_of_a_new_renderer() {
                 });
             }
             if let "moved" | "turned" = edit_name {
-                // Its triangles and vertices, at most a node for two triangles, and the tree above.
+                // The mesh's triangles and vertices, at most a node for two triangles, and the tree above.
                 let own = |index: usize| {
                     let mesh = &scene.meshes[index];
                     48 * mesh.triangles.len()

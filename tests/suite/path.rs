@@ -145,7 +145,7 @@ fn a_closed_room_of_even_light_sums_all_bounces() {
                 expected,
                 0.004 * expected,
             );
-            // What is left of the series is the reported share.
+            // The rest of the series is the reported share.
             let (_, stats) = render(&scene, &paths(256, (16, 16), bounces as u32));
             let cut = f64::from(albedo).powi(bounces + 2);
             let what = format!("albedo {albedo}, share cut after {bounces} bounces");
@@ -177,7 +177,7 @@ fn clamping_cuts_each_bounce_of_indirect_light_to_the_limit() {
         clamp_indirect: Some(limit),
         ..paths(256, (16, 16), 2)
     };
-    // What a sample finds at its four surfaces: the last two are indirect light.
+    // Light that a sample finds at its four surfaces: the last two are indirect.
     let found = (0..4).map(|k| 0.5 * f64::from(albedo).powi(k));
     let limits = [f64::INFINITY, f64::INFINITY, limit.into(), limit.into()];
     let kept: f64 = found.clone().zip(limits).map(|(x, most)| x.min(most)).sum();

@@ -46,7 +46,7 @@ fn instanced() -> Scene {
     scene
 }
 
-/// So many spheres among so many triangles.
+/// The given numbers of spheres and triangles.
 fn few(spheres: usize, triangles: usize) -> Scene {
     let mut scene = scenes::empty();
     let mut random = Random::new(4);

@@ -63,7 +63,7 @@ pub fn ggx_albedo(cos_o: f64, alpha: f64) -> [f64; 2] {
     sums
 }
 
-/// What rough glass reflects, and what it transmits: Walter et al. 2007, transmitted light shadowed independently.
+/// Albedos of rough glass, reflected and transmitted: Walter et al. 2007, transmitted light shadowed independently.
 fn glass_albedo(cos_o: f64, alpha: f64, eta: f64) -> [f64; 2] {
     let widths = [alpha, alpha];
     let wo = view(cos_o);
@@ -117,7 +117,7 @@ fn places(lookup: &str, rows: &[Place]) -> Vec<[[f32; 4]; 2]> {
     gpu().map_source(&place, rows)
 }
 
-/// What the shader reads there: the weighted mean.
+/// The shader's lookups there: the weighted mean.
 fn looked_up(lookup: &str, rows: &[Place]) -> Vec<[f32; 2]> {
     let words = albedo::words();
     let entries: Vec<([u32; 4], [f32; 4])> = places(lookup, rows)
@@ -286,7 +286,7 @@ fn rough_glass_scatters_everything_at_every_roughness_and_index() {
     verdict.close();
 }
 
-/// What microfacets of different widths along x and y reflect, as [`ggx_albedo`]: over directions, on a grid around the
+/// The albedo of microfacets of different widths along x and y, as [`ggx_albedo`]: over directions, on a grid around the
 /// mirrored normals.
 fn stretched_albedo(wo: DVec3, widths: [f64; 2]) -> f64 {
     const PARTS: [usize; 2] = [400, 360];

@@ -125,7 +125,7 @@ fn known_angles_have_their_known_reflectance() {
 
 #[test]
 fn schlick_is_exact_at_both_ends_and_near_between() {
-    // It is intended for the indices of glass and water.
+    // Schlick's formula is intended for the indices of glass and water.
     let mut rows = slopes();
     rows.retain(|(_, eta)| [1.0 / 1.5, 0.75, 1.33, 1.5, 2.4].contains(eta));
     let mut verdict = Verdict::on("Schlick");

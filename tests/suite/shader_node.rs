@@ -25,7 +25,7 @@ const KEYS: &str = "
     }
 ";
 
-/// The same of the node with planes as floats, whose lower and upper planes traversal reads in the ray's order.
+/// Keys of the node with planes as floats, whose lower and upper planes traversal reads in the ray's order.
 const FLOAT_KEYS: &str = "
     import package::lib::intersect::node::{float_child_keys, float_node};
     import package::lib::numeric::safe_reciprocal;

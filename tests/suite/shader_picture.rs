@@ -158,7 +158,7 @@ fn neighbouring_texels_are_inside_the_picture_for_any_position() {
         verdict.that(format!("{at} of {count}, {nearest}"), holds, || {
             format!("{got:?}")
         });
-        // The same position in exact arithmetic, up to the rounding of the fraction.
+        // The position in exact arithmetic, up to the rounding of the fraction.
         let place = (f64::from(*at) - f64::from(*at).floor()) * f64::from(*count);
         let (own, place) = match nearest {
             // The centre of the texel, at most half a texel from any point in it.

@@ -39,7 +39,7 @@ fn sobol_begins_with_the_published_points() {
     verdict.close();
 }
 
-/// The same for dimensions 3 and 4.
+/// The first points in dimensions 3 and 4.
 const FIRST_POINTS_34: [[f64; 2]; 16] = [
     [0.0, 0.0],
     [0.5, 0.5],

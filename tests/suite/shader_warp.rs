@@ -67,7 +67,7 @@ fn triangles_are_covered_evenly() {
         "strips and wedges of equal area",
         &cells(even, SIDE),
     );
-    // The same, relative to another corner.
+    // Strips and wedges relative to another corner.
     let even = wide(&weights)
         .into_iter()
         .map(|[b1, b2]| [(1.0 - b1).powi(2), b2 / (1.0 - b1).max(1e-9)]);

@@ -147,7 +147,7 @@ fn tangents_agree_with_another_implementation_of_mikktspace() {
         uv.x = 0.5 - (uv.x - 0.5).abs();
     }
     check_with_other("a mirrored sphere", mirrored.clone());
-    // The same triangles with vertices of their own, in another order.
+    // The triangles with vertices of their own, in another order.
     let mut soup = Mesh::default();
     for triangle in mirrored.triangles.iter().rev() {
         let first = soup.positions.len() as u32;

@@ -217,7 +217,7 @@ fn a_texture_uses_the_set_of_texture_coordinates_that_it_names() {
         8,
         (0..64).map(|i| vec3(f32::from((i + i / 8) % 2 == 0), i as f32 / 64.0, 0.3)),
     );
-    // The same coordinates as the first or the second set, beside others that are not used.
+    // The first or the second set has the coordinates; the other is not used.
     let build = |is_second: bool| {
         let mut scene = ahead();
         scene.lights.push(Light {

@@ -119,7 +119,7 @@ pub fn cost(bvh: &Bvh) -> f64 {
     1.0 + below / area(&all.fold(Aabb::EMPTY, |all, (aabb, _)| all.union(*aabb)))
 }
 
-/// The same for a tree that halves the boxes at the median of the longest axis, four ways in each node.
+/// [`cost`] of a tree that halves the boxes at the median of the longest axis, four ways in each node.
 fn cost_of_medians(boxes: &mut [Aabb], root_area: f64) -> f64 {
     let union = |part: &[Aabb]| part.iter().fold(Aabb::EMPTY, |all, aabb| all.union(*aabb));
     let all = union(boxes);

@@ -524,7 +524,7 @@ fn changes_outlast_another_preset_and_a_file() {
     assert!(notes.is_empty());
     bindings.reset_all();
     assert_eq!(bindings, Bindings::new(Preset::Maya));
-    // What is set to what the preset has is no change.
+    // Setting what the preset has is no change.
     bindings
         .set(Action::FrameAll, vec![trigger("A")])
         .expect("a key");

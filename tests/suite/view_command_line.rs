@@ -1,4 +1,4 @@
-//! What is on the viewer's screen as a command line, and the way back.
+//! The viewer's picture as a command line, and the way back.
 
 use crate::reference::compare::render;
 use crate::support::random::Random;

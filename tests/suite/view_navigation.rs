@@ -439,7 +439,7 @@ fn recentring_starts_from_the_picture_as_it_is_and_ends_with_the_point_in_the_mi
             assert!((now / depth - 1.0).abs() < 1e-9, "{now} and {depth}");
         }
     }
-    // What is behind the camera cannot be seen, and so not be the pivot.
+    // A point behind the camera cannot be seen, and so not be the pivot.
     let mut rig = rig(&camera());
     rig.recentre(camera().look_from - forward(&camera()));
     assert!(rig.is_home());

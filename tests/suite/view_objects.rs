@@ -145,7 +145,7 @@ fn an_object_is_found_where_it_was_put_whatever_carries_it() {
             assert!(nearly(found, wanted), "{id:?} at {time}: {found:?}");
         }
     }
-    // What is carried goes on being carried: half a turn later it is across the wheel's axis.
+    // A carried object goes on being carried: half a turn later it is across the wheel's axis.
     let mut scene = scene();
     set_place(
         &mut scene,

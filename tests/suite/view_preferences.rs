@@ -1,4 +1,4 @@
-//! What the viewer keeps between runs: nothing is lost, whatever is in the file.
+//! The viewer's preferences between runs: nothing is lost, whatever is in the file.
 
 use crate::support::random::Random;
 use glam::dvec3;
@@ -376,7 +376,7 @@ fn recent_files_are_few_and_each_is_there_once() {
     assert_eq!(it.recent.len(), MAX_RECENT);
     assert_eq!(it.recent[0], expected[4]);
     assert_eq!(it.recent[1..5], expected[..4]);
-    // The same file by another way.
+    // A known file by another path.
     fs::write(scene(0), "").expect("a file");
     fs::create_dir(place.path().join("sub")).expect("a folder");
     it.opened(&scene(0));

@@ -132,7 +132,7 @@ fn a_comparison_names_what_only_one_side_has() {
     row.insert("shadow_rays".into(), 1.into());
     let workloads = old["workloads"].as_array_mut().expect("rows");
     workloads.push(json!({"name": "glass-gone", "trace_seconds": 1.0}));
-    // It is not measured with `--only glass`, so it is not missing.
+    // `course` is not measured with `--only glass`, so it is not missing.
     workloads.push(json!({"name": "course", "trace_seconds": 1.0}));
     workspace.write("old.json", old.to_string());
 

@@ -105,7 +105,7 @@ fn directions_of_a_boundary_follow_their_density() {
     let mut verdict = Verdict::on("boundary_sample");
     for surface in SURFACES {
         for wo in views() {
-            // What clear glass would scatter.
+            // Shares that clear glass would scatter.
             let [reflected, transmitted] =
                 SIDES.map(|lobe| lobe.albedo(wo, with_gain(surface, 1.0)));
             let gain = 1.0 / (reflected / REFLECT[0] + transmitted / TRANSMIT[0]);

@@ -108,7 +108,7 @@ pub fn fresnel(cos_i: f64, eta: f64) -> f64 {
     0.5 * (s * s + p * p)
 }
 
-/// What tinted glass leaves of reflected and of transmitted light.
+/// Parts that tinted glass leaves of reflected and of transmitted light.
 pub const REFLECT: [f64; 3] = [0.9, 0.6, 0.3];
 pub const TRANSMIT: [f64; 3] = [0.2, 0.5, 0.8];
 
@@ -122,9 +122,9 @@ pub fn reflected_share(fresnel: f64) -> f64 {
     reflected / (reflected + transmitted)
 }
 
-/// The red of tinted glass. The parameters are the width, the index on wo's side over that on the other, 1 where transmitted light
-/// bends, and the gain, or 0 for separable shadowing. With a gain the density is the value. A wall scatters what it
-/// transmits as if it were reflected on the other side.
+/// The red of tinted glass. The parameters are the width, the index on wo's side over that on the other, 1 where
+/// transmitted light bends, and the gain, or 0 for separable shadowing. With a gain the density is the value. A wall
+/// scatters what it transmits as if it were reflected on the other side.
 pub fn boundary(wo: DVec3, wi: DVec3, [alpha, eta, bends, gain]: [f64; 4]) -> [f64; 2] {
     let separable = if gain == 0.0 { 1.0 } else { 0.0 };
     let upper = DVec3::new(wi.x, wi.y, wi.z.abs());

@@ -38,7 +38,7 @@ fn undisturbed(workspace: &Workspace, flags: &str, ending: &str) -> Vec<u8> {
 
 fn send(child: &Child, signal: &str) {
     let id = child.id().to_string();
-    // It may have ended meanwhile.
+    // The process may have ended meanwhile.
     let mut kill = Command::new("kill");
     let _ = kill.args([signal, &id]).stderr(Stdio::null()).status();
 }

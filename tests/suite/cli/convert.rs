@@ -102,7 +102,7 @@ fn an_animation_that_is_too_long_for_a_scene_file_is_refused_with_what_helps() {
         .expect(0);
 }
 
-/// What is written is read again, and what is rendered can be written.
+/// Written scenes can be read again, and rendered scenes can be written.
 #[test]
 fn nodes_that_are_scaled_very_unevenly_are_converted() {
     let workspace = Workspace::new();

@@ -128,7 +128,7 @@ fn processes_killed_at_random_lose_nothing_that_is_done() {
         let id = child.id().to_string();
         let _ = Command::new("kill").args(["-KILL", &id]).status();
         child.wait_with_output().expect("it ends");
-        // What was being written when it was killed is left beside them.
+        // A killed run may leave an unfinished file beside the marks.
         let mut done = workspace.names("all.film.farm/done");
         done.retain(|name| !name.contains(".part-"));
         assert_eq!(status(&workspace, "all.film.farm")["done"], done.len());
@@ -159,7 +159,7 @@ fn what_is_damaged_foreign_or_missing_is_named() {
     assert!(run.stderr.contains("cut short"), "{}", run.stderr);
     assert!(workspace.read(film) == whole);
     assert!(workspace.path(&format!("{film}.old-1")).exists());
-    // What is done is skipped.
+    // A finished part is skipped.
     let run = workspace.run("farm run all.png.farm 1").expect(0);
     assert!(!run.stderr.contains("part 1 of"), "{}", run.stderr);
 
@@ -719,7 +719,7 @@ fn a_simulation_predicts_the_sizes_of_films_with_layers() {
         megabytes.iter().copied().fold(0.0, f64::max),
     );
     assert!((read_mb - sum).abs() < 1.0, "{read_mb} of {sum}");
-    // What rows cost is measured again, so bands differ a little.
+    // The costs of rows are measured again, so bands differ a little.
     assert!(
         (part_mb / largest - 1.0).abs() < 0.5,
         "{part_mb}, {largest}"

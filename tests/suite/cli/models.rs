@@ -1,4 +1,4 @@
-//! What models get by default: few samples that are denoised, an estimate, and warnings of black pictures.
+//! Defaults of models: few samples that are denoised, an estimate, and warnings of black pictures.
 
 use crate::import::cameras::ship;
 use crate::support::program::Workspace;

@@ -159,7 +159,7 @@ fn outputs_that_cannot_be_written_exit_4_before_any_rendering() {
     assert_eq!(workspace.made(), ["old.png"]);
 }
 
-/// The same flags may be given for several pictures, so those that change nothing are no errors.
+/// Flags may be given for several pictures, so those that change nothing are no errors.
 #[test]
 fn flags_without_effect_get_a_line() {
     let workspace = Workspace::new();

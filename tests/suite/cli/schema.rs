@@ -1,4 +1,4 @@
-//! What commands print and write as JSON is what `glimray schema` says.
+//! JSON that commands print and write follows `glimray schema`.
 
 use crate::support::program::{MOVING, Workspace};
 use crate::support::schema::errors;
@@ -50,7 +50,7 @@ fn schema(workspace: &Workspace, subject: &str) -> Value {
     schema
 }
 
-/// What a command prints, or writes to its report, with a name.
+/// Outputs of commands, printed or in a report, each with a name.
 fn outputs(workspace: &Workspace, subject: &str) -> Vec<(String, Value)> {
     workspace.write("full.toml", FULL);
     workspace.write("moving.toml", MOVING);

@@ -1,4 +1,4 @@
-//! What files say does not act on the terminal.
+//! Text from files does not act on the terminal.
 
 use crate::support::program::Workspace;
 use crate::support::verdict::Verdict;
@@ -8,7 +8,7 @@ use serde_json::Value;
 /// separators, zero-width characters and a tag.
 const NAME: &str = "qz\u{1b}[2J\u{7f}\u{85}\u{9b}\u{61c}\u{180e}\u{200b}\u{200c}\u{200d}\u{200e}\u{200f}\u{2028}\u{2029}\u{202a}\u{202b}\u{202c}\u{202d}\u{202e}\u{2060}\u{2066}\u{2067}\u{2068}\u{2069}\u{206f}\u{feff}\u{fff9}\u{e0001}\u{e007f}qz";
 
-/// The same with escapes that JSON and TOML share.
+/// [`NAME`] with escapes that JSON and TOML share.
 fn escaped() -> String {
     NAME.chars()
         .map(|c| match u32::from(c) {
@@ -122,7 +122,7 @@ fn what_files_say_does_not_act_on_the_terminal() {
             silent.push(file);
         }
     }
-    // Its message says the line and column instead.
+    // The message on `raw.toml` says the line and column.
     assert_eq!(silent, ["raw.toml"]);
     verdict.close();
 }

@@ -1,4 +1,4 @@
-//! What `make hand-in` packs.
+//! The files that `make hand-in` packs.
 
 use super::{check_links, has};
 use crate::support::skip::{Need, skip};
@@ -53,7 +53,7 @@ fn the_hand_in_needs_nothing_from_outside() {
             .any(|part| name.starts_with(part));
         verdict.that(name, !is_left_out, || "should not be there");
     }
-    // The same bytes as here, whatever Git does with ends of lines.
+    // The bytes equal those here, whatever Git does with ends of lines.
     for (name, bytes) in files.iter().filter(|(name, _)| Path::new(name).exists()) {
         verdict.that(
             name,

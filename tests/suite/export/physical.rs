@@ -177,7 +177,7 @@ fn values_that_are_out_of_range_are_refused() {
 #[test]
 fn a_gltf_model_keeps_its_materials() {
     let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes/flower.glb");
-    // It moves; native scenes keep its pose.
+    // The model moves; native scenes keep its pose.
     let mut scene = import::load(&model).expect("a model").at_rest();
     scene.clips.clear();
     loss(&scene).unwrap_or_else(|lost| panic!("{lost}"));

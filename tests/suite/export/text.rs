@@ -238,7 +238,7 @@ fn a_sky_is_written_as_its_sun() {
     }
 }
 
-/// Its texels lack the sun, so a picture is no way out.
+/// The sky's texels lack the sun, so a picture is no way out.
 #[test]
 fn a_sky_at_radians_that_no_degrees_give_is_written_with_the_nearest() {
     // Near 46° neighbouring degrees are farther apart than neighbouring radians.

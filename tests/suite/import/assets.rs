@@ -249,6 +249,6 @@ fn the_lighthouse_reads_as_tobj_reads_it() {
     assert_eq!(scene.triangle_count(), triangles);
     let (_, max) = scene.bounds().expect("bounds");
     assert!((max.y - highest).abs() < 1e-6);
-    // Those of the file, and the ground.
+    // Materials of the file, and the ground's.
     assert_eq!(scene.materials.len(), 7 + 1);
 }

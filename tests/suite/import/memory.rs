@@ -124,7 +124,7 @@ fn of_many_undefined_materials_the_first_few_are_named() {
         .map(|i| format!("usemtl m{i}\nf 1 2 3\n"))
         .collect();
     let scene = scene("a.obj", format!("{TRIANGLE}{faces}"));
-    // Those of the faces, and the ground.
+    // Materials of the faces, and the ground's.
     assert_eq!(scene.materials.len(), 100_000 + 1);
     let [named @ .., last] = &scene.skipped[..] else {
         panic!("nothing was said");

@@ -311,7 +311,7 @@ fn height_maps_become_normal_maps_by_their_slopes() {
             "{line}: {normal}"
         );
     }
-    // What has colours is a normal map already.
+    // A picture with colours is a normal map already.
     let (texels, _) = read(coded.into(), "map_Bump");
     let expected = [120.0, 130.0, 250.0].map(|code: f32| code / 255.0);
     assert!((texels[7].truncate() - Vec3::from(expected)).length() < 1e-5);

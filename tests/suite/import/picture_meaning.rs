@@ -1,4 +1,4 @@
-//! What the numbers in image files mean: alpha, colour spaces, windows, exposure and orientation.
+//! The meaning of numbers in image files: alpha, colour spaces, windows, exposure and orientation.
 
 mod headers;
 mod openexr;
@@ -48,7 +48,7 @@ fn pixels_outside_of_scenes_mean_the_same() {
         chromaticities: Some(REC2020),
         ..Exr::new(1, 1)
     };
-    // What is outside of the gamut is not cut.
+    // Values outside of the gamut are not cut.
     let red = read("a.exr", &wide.colored(&[1.0, 0.0, 0.0])).values[0];
     assert_near(red.into(), [1.6605, -0.1246, -0.0182, 1.0], 1e-3);
     let light = radiance("#?RGBE\nEXPOSURE=2\nPIXASPECT=2", "-Y 2 +X 3", &REDS);

@@ -27,7 +27,7 @@ fn colorful(width: u32, height: u32) -> Vec<u8> {
     png(width, &texels)
 }
 
-/// The same picture as a texture of a native scene, an OBJ model and a glTF model.
+/// A picture as a texture of a native scene, an OBJ model and a glTF model.
 fn scenes(picture: &[u8], options: &Options) -> [Scene; 3] {
     let mut model = Model::triangle(json!({
         "attributes": { "TEXCOORD_0": 1 },

@@ -309,7 +309,7 @@ fn a_picture_that_claims_more_than_its_bytes_can_hold_is_refused() {
         let error = read(&folder, &bytes).expect_err("refused");
         assert!(error.to_string().contains("cannot hold"), "{name}: {error}");
     }
-    // The same for an image of a single colour, the best case of every format.
+    // Refused too: an image of a single colour, the best case of every format.
     let header = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 5792 +X 5792\n";
     let error = read(&folder, header).expect_err("refused");
     assert!(error.to_string().contains("cannot hold"), "{error}");

@@ -136,7 +136,7 @@ fn the_brightest_light_on_the_whitest_surface_is_in_the_picture() {
         let lit = image.pixels[8 * 16 + 8][0];
         assert!(lit > 1e11, "{light}: {lit}");
     }
-    // The same light is not cut where the scene is as large as the light needs.
+    // A light is not cut where the scene is as large as the light needs.
     let far = "[[lights]]\npoint = { position = [0, 0, 1e6], intensity = 1e20 }";
     let scene = read("a.toml", &all(far), &[]);
     assert_eq!(scene.skipped, ["coefficients clamped to 1000: 2"]);

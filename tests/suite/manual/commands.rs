@@ -5,13 +5,13 @@ use crate::support::verdict::Verdict;
 use std::collections::BTreeMap;
 use std::process::Command;
 
-/// What the program's help says of one command.
+/// The program's help on one command.
 struct Help {
     /// By the name with its dashes: the values that an option takes, if they are listed. `None` for a switch.
     flags: BTreeMap<String, Option<Vec<String>>>,
 }
 
-/// What `glimray help COMMAND` prints, or `glimray help` for the command "".
+/// The output of `glimray help COMMAND`, or of `glimray help` for the command "".
 pub fn help_text(command: &str) -> Option<String> {
     let output = Command::new(env!("CARGO_BIN_EXE_glimray"))
         .arg("help")
@@ -58,7 +58,7 @@ impl Help {
         Some(Self { flags })
     }
 
-    /// What is wrong with the words after the command's name.
+    /// The fault in the words after the command's name.
     fn objection(&self, arguments: &[&str]) -> Option<String> {
         let mut words = arguments.iter();
         while let Some(word) = words.next() {
@@ -124,7 +124,7 @@ fn commands_of_the_manual_are_those_of_the_program_with_their_flags_and_values()
                 let Some((&name, arguments)) = words.split_first() else {
                     continue;
                 };
-                // Its steps are commands of their own.
+                // The steps of `farm` are commands of their own.
                 let (name, arguments) = match arguments.split_first() {
                     Some((step, arguments)) if name == "farm" => {
                         (&*format!("farm {step}"), arguments)

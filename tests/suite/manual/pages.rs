@@ -53,7 +53,7 @@ impl Page {
             .join("\n")
     }
 
-    /// What stands between backticks in the prose. Escaped bars of tables become bars.
+    /// Texts between backticks in the prose. Escaped bars of tables become bars.
     pub fn quoted(&self) -> Vec<String> {
         let prose = self.prose();
         let quoted = prose.split('`').skip(1).step_by(2);

@@ -164,7 +164,7 @@ fn the_steps_of_the_workflow_run_one_after_the_other() {
         .lines()
         .find_map(|line| line.trim().strip_prefix("cargo "));
     let line = line.expect("a command");
-    // What is built is the same in both recipes.
+    // Both recipes build the same program.
     checkout.stub(
         "cargo",
         &format!("[ \"$*\" = \"+stable {line}\" ] && mkdir -p tools/bin && ln -s {program} tools/bin/glimray"),

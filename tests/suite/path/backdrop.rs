@@ -1,4 +1,4 @@
-//! What paths from the camera see where there is nothing, opacity, and shadow catchers, against closed forms.
+//! Backdrops, opacity, and shadow catchers, against closed forms.
 
 use super::{ball_in, clear, looking, matte, near, paths};
 use crate::film::{bytes, film, traced};

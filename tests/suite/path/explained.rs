@@ -149,7 +149,7 @@ fn is_fair(sharing: &Sharing) -> bool {
         && (sharing.light_weight + sharing.bsdf_weight - 1.0).abs() < 1e-6
 }
 
-/// What a ray says it adds, from its own numbers.
+/// A ray's stated contribution, from its own numbers.
 fn stated(ray: &TracedRay) -> DVec3 {
     let Some(sharing) = &ray.sharing else {
         return DVec3::ZERO;

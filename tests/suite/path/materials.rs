@@ -16,7 +16,7 @@ pub fn material(model: MetallicRoughness) -> Material {
     }
 }
 
-/// What a ball of the material shows of a background of 1.
+/// The mean of a ball of the material in a background of 1.
 fn in_even_light(model: MetallicRoughness) -> f64 {
     mean(&ball_in(1.0, material(model)), &paths(256, (12, 12), 16))
 }
@@ -260,7 +260,7 @@ fn partly_transmissive_boundaries_are_invisible_in_even_light() {
     verdict.close();
 }
 
-/// The same with light that bounces inside, where errors would add up. Light samples know the white picture's
+/// Rough glass with light that bounces inside, where errors would add up. Light samples know the white picture's
 /// directions, and boundaries must scatter towards them as much as paths that go there by themselves. These sums have more
 /// samples and room: near total reflection lobes are narrow, and light samples rarely meet them.
 #[test]

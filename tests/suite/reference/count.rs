@@ -47,7 +47,7 @@ impl AddAssign for Rays {
 /// The handling of a ray that an interpolated normal would reflect into the surface.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Inwards {
-    /// It is traced into the surface, as in POV-Ray.
+    /// The ray is traced into the surface, as in POV-Ray.
     Sent,
     /// The geometric normal is used instead, for the reflected and the refracted ray, as in the renderer.
     Turned,
@@ -145,7 +145,7 @@ enum Surface {
     },
     Triangle {
         corners: [DVec3; 3],
-        /// Its length is twice the area.
+        /// A normal whose length is twice the area.
         cross: DVec3,
         normals: [DVec3; 3],
     },

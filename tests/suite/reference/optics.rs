@@ -13,7 +13,7 @@ pub struct Place {
     /// The parent ray, if rays are recorded.
     pub sender: Option<usize>,
     pub depth: u32,
-    /// Its throughput.
+    /// The ray's throughput.
     pub throughput: DVec3,
     /// The materials of the volumes that it is inside of, the last entered last.
     pub media: Vec<usize>,

@@ -11,7 +11,7 @@ pub struct Sent {
     pub kind: RayKind,
     /// Index of its parent in the records.
     pub sender: Option<usize>,
-    /// Its throughput; 0 for a shadow ray.
+    /// The ray's throughput; 0 for a shadow ray.
     pub throughput: DVec3,
     /// Distance, and the object it hit.
     pub hit: Option<(f64, Primitive)>,

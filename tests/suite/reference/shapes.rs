@@ -21,7 +21,7 @@ pub fn crossings(
     canonical_crossings(canonical, o, d)
 }
 
-/// The same in the canonical space.
+/// [`crossings`] in the canonical space.
 pub fn canonical_crossings(canonical: CanonicalShape, o: DVec3, d: DVec3) -> Vec<f64> {
     let at = |t: f64| o + t * d;
     let mut found: Vec<f64> = match canonical {
@@ -76,7 +76,7 @@ pub fn normal(canonical: CanonicalShape, world_from_canonical: DAffine3, p: DVec
     (turn * canonical_normal(canonical, local)).normalize()
 }
 
-/// The same in the canonical space, not of unit length.
+/// [`normal`] in the canonical space, not of unit length.
 pub fn canonical_normal(canonical: CanonicalShape, p: DVec3) -> DVec3 {
     let nearest_face = || {
         let size = p.abs();

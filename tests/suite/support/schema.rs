@@ -4,7 +4,7 @@
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 
-/// What `value` does not keep of `schema`: a line each, with the place.
+/// Violations of `schema` by `value`: a line each, with the place.
 pub fn errors(schema: &Value, value: &Value) -> Vec<String> {
     let mut found = Found::default();
     closed(schema, schema, value, "", &mut found.errors);

@@ -19,7 +19,7 @@ pub fn check_even(verdict: &mut Verdict, name: impl Display, counts: &[u32]) {
     check_counts(verdict, name, counts, &expected);
 }
 
-/// The same for counts with individual expectations, all of which should be at least 5.
+/// χ² test of counts with individual expectations, all of which should be at least 5.
 pub fn check_counts(verdict: &mut Verdict, name: impl Display, counts: &[u32], expected: &[f64]) {
     assert_eq!(counts.len(), expected.len());
     let terms = counts.iter().zip(expected);

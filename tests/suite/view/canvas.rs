@@ -659,7 +659,7 @@ fn samples_outlast_a_window_of_another_size_until_the_picture_begins_again() {
     let mut window = Window::open(&["--samples", "1"]);
     window.settle();
     let size = window.shown().size;
-    // What took little is made anew for the room that there is.
+    // A short picture is made anew for the room that there is.
     window.session().set_spent(0.1);
     window.session().set_space((size.0 - 40, size.1 - 30));
     assert_eq!(

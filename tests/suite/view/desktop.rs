@@ -83,7 +83,7 @@ impl Desktop {
         })
     }
 
-    /// What xdotool prints.
+    /// The output of xdotool.
     fn xdotool(&self, words: &[&str]) -> String {
         let output = Command::new("xdotool")
             .args(words)
@@ -182,7 +182,7 @@ impl Desktop {
         })
     }
 
-    /// What each thread of the program does, for messages.
+    /// The state of each thread of the program, for messages.
     fn threads(&self) -> String {
         let tasks = std::fs::read_dir(format!("/proc/{}/task", self.program.get()));
         let said = tasks.into_iter().flatten().flatten().map(|task| {
@@ -365,7 +365,7 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
     let saved = settings.path().join("picture.png");
     let without = desktop.screenshot(INSIDE);
     opened.key("F12");
-    // What is typed before it is drawn would be shortcuts.
+    // Text typed before the dialog is drawn would be shortcuts.
     wait_for("the dialog", || {
         differ(&without, &desktop.screenshot(INSIDE)).then_some(())
     });
@@ -401,7 +401,8 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
     assert_eq!(again.wait(), Some(0));
 }
 
-/// The search field and lines of the outline, settings on the right, and a part of the picture that lies beside the panels on the left.
+/// The search field and lines of the outline, settings on the right, and a part of the picture that lies beside the panels
+/// on the left.
 const SEARCH: [u16; 4] = [6, 52, 240, 26];
 const LINES: [u16; 4] = [6, 104, 240, 280];
 const SETTINGS: [u16; 4] = [1000, 110, 270, 450];

@@ -167,7 +167,7 @@ fn a_material_that_is_changed_gives_the_picture_of_the_changed_scene() {
     wanted.materials[0].ambient = wanted.materials[0].diffuse;
     assert_eq!(scene(&window), wanted);
     assert_shows(&mut window, &wanted, "diffuse");
-    // What was opaque becomes transparent: other code on the GPU.
+    // An opaque material becomes transparent: other code on the GPU.
     set(&mut window, "Transmit red", 0.5);
     wanted.materials[0].transmit.x = 0.5;
     assert_shows(&mut window, &wanted, "transmit");

@@ -740,7 +740,7 @@ fn a_picture_that_waits_is_not_made_of_another_scene() {
     assert!(!window.session().files.waits_to_save() && !path.exists());
 }
 
-/// What the window asks of the desktop when the person closes it.
+/// Commands of the window to the desktop when the person closes it.
 fn close(window: &mut Window) -> Vec<egui::ViewportCommand> {
     let viewports = &mut window.harness.input_mut().viewports;
     let root = viewports.get_mut(&egui::ViewportId::ROOT);

@@ -66,7 +66,7 @@ fn key(window: &mut Window, key: Key) {
     window.harness.run_steps(2);
 }
 
-/// What letters would change if they were taken as shortcuts.
+/// State that letters would change if they were taken as shortcuts.
 fn untouched(window: &Window) -> (Scene, Tool, bool, bool, bool) {
     let session = window.session();
     let (repeats, blurs) = (session.playback.repeats, session.playback.blurs);

@@ -1,4 +1,4 @@
-//! What keys and buttons do in the window.
+//! Effects of keys and buttons in the window.
 
 use super::harness::Window;
 use eframe::egui::{self, Key, Modifiers, PointerButton, Pos2, Role};

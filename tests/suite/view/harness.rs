@@ -32,9 +32,9 @@ fn open_gpu() -> Gpu {
 pub struct Window {
     pub harness: Harness<'static, Viewer>,
     pub session: Rc<RefCell<Session>>,
-    /// What it draws and renders with.
+    /// The device that the window uses.
     pub gpu: Gpu,
-    /// Its settings folder.
+    /// The window's settings folder.
     #[allow(dead_code, reason = "for tests of what is kept")]
     pub settings: TempDir,
 }
@@ -43,7 +43,7 @@ impl Window {
     /// `glimray view ARGUMENTS…` in a window of 1000 × 700 points, with no settings kept before but that the hint was read.
     pub fn open(arguments: &[&str]) -> Self {
         let settings = tempfile::tempdir().expect("a folder");
-        // What lies over the picture at the first time is not to be in the way.
+        // The hint that lies over the picture at the first time is not to be in the way.
         let mut store = Store::in_folder(settings.path());
         let (mut preferences, _) = store.load();
         preferences.hint_seen = true;
@@ -51,7 +51,7 @@ impl Window {
         Self::open_with(arguments, settings)
     }
 
-    /// The same with settings that are in this folder.
+    /// [`Self::open`] with settings that are in this folder.
     pub fn open_with(arguments: &[&str], settings: TempDir) -> Self {
         let store = Store::in_folder(settings.path());
         let request = view::request(arguments.iter().copied()).expect("a command line");
@@ -77,7 +77,7 @@ impl Window {
     pub fn settle(&mut self) {
         let start = Instant::now();
         let mut calm = 0;
-        // What is clicked comes to the window in several frames, and leaves it in the next.
+        // Clicks come to the window in several frames, and leave it in the next.
         while calm < 8 {
             assert!(start.elapsed() < PATIENCE, "the window does not settle");
             self.harness.step();
@@ -89,13 +89,13 @@ impl Window {
         }
     }
 
-    /// What is on the main picture's screen.
+    /// The published main picture.
     pub fn shown(&self) -> Shown {
         let render = self.harness.state().render_thread();
         render.shown(PictureSlot::Main).expect("a picture")
     }
 
-    /// What the main picture was last asked to be.
+    /// The last request of the main picture.
     pub fn order(&self) -> RenderRequest {
         let orders = self.session.borrow().orders();
         orders.pictures[PictureSlot::Main as usize]
@@ -122,7 +122,7 @@ impl Window {
         self.session.borrow().camera().expect("a camera")
     }
 
-    /// What the person works on.
+    /// The current session.
     #[allow(dead_code, reason = "for the tests of each panel")]
     pub fn session(&self) -> RefMut<'_, Session> {
         self.session.borrow_mut()

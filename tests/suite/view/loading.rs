@@ -260,7 +260,7 @@ fn a_scene_that_is_not_loaded_after_all_leaves_the_one_that_is_open() {
     assert!(window.shown().progress.is_done);
     let render = window.harness.state().render_thread();
     assert_eq!(render.activity(), None, "there is a picture");
-    // It can still be opened.
+    // The scene can still be opened.
     files::open(&mut window.session(), vec![folder.scene()]);
     window.settle();
     assert_eq!(window.session().title(), "scene.toml");
@@ -305,7 +305,7 @@ fn a_picture_keeps_its_samples_when_the_drafts_of_its_trees_are_replaced() {
     let before = samples(&picture);
     let trees = |picture: &ProgressiveImage| picture.shown().map(|shown| shown.trees_built);
     let built = trees(&picture);
-    // It is asked again and again; the trees are replaced once.
+    // The refined scene is set again and again; the trees are replaced once.
     for _ in 0..3 {
         ask(&mut picture, &refined);
         picture.step(false).expect("a step");

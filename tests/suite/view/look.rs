@@ -64,7 +64,7 @@ fn one_sample_lies_in_the_centre_and_several_are_spread() {
     assert_eq!(look.settings.antialias, Antialias::None);
     look.set_samples(2);
     assert_eq!(look.settings.antialias, Antialias::Stratified);
-    // What the person has chosen stays.
+    // The person's choice stays.
     look.settings.antialias = Antialias::Adaptive;
     look.set_samples(1);
     assert_eq!(look.settings.antialias, Antialias::Adaptive);
@@ -290,7 +290,7 @@ fn a_view_of_a_quantity_has_a_legend_with_its_range_and_unit() {
             found[0].contains(&glimray::app::legend::number(least)),
             "{found:?}"
         );
-        // What is saved and what the command line renders is what is shown.
+        // Saved pictures and those of the command line are as shown.
         let settings = window.order().settings;
         let mut renderer = start(&window.order().scene, &settings).expect("a renderer");
         while !renderer.is_done() {
@@ -326,7 +326,7 @@ fn stops_are_shown_with_two_decimals() {
 fn every_glyph_of_buttons_is_in_the_fonts() {
     let mut window = open();
     window.harness.step();
-    // Those of egui's colour picker, of panels and of tabs.
+    // Glyphs of egui's colour picker, of panels and of tabs.
     for glyph in "📋⚠↺↻➕≤≥→←↑↓×½°".chars() {
         let font = egui::FontId::proportional(13.0);
         let is_there = (window.harness.ctx).fonts_mut(|fonts| fonts.has_glyph(&font, glyph));

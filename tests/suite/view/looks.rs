@@ -1,4 +1,4 @@
-//! What the window looks like: pictures of it, held against those in `tests/snapshots`.
+//! The look of the window: pictures of it, held against those in `tests/snapshots`.
 //! `UPDATE_SNAPSHOTS=1 cargo test --profile ci --test suite looks` writes them anew.
 
 use super::harness::Window;

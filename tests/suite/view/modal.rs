@@ -105,7 +105,7 @@ fn the_pointer_leads_without_a_button_and_only_along_the_axis() {
     keys(&mut window, &[Key::X]);
     along(&window, 0);
     let both = DAffine3::from_translation(by) * start();
-    // The same axis again: all ways.
+    // Repeating the axis: all ways.
     keys(&mut window, &[Key::X]);
     assert_at(&window, both);
     // Across an axis: in the plane of the others.

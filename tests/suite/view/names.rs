@@ -13,7 +13,7 @@ use glimray::viewer::model::view_settings::Sharing;
 use glimray::viewer::state::dialogs::Dialog;
 use glimray::viewer::state::files::Intent;
 
-/// What a hand has to do with.
+/// Roles of interactive controls.
 const CONTROLS: [Role; 18] = [
     Role::Button,
     Role::CheckBox,

@@ -50,7 +50,7 @@ fn hiding_all_panels_and_showing_them_again_restores_the_layout() {
     }
     window.harness.key_press(Key::N);
     window.settle();
-    // What was hidden stays hidden, and the same tab of several is in front.
+    // Hidden panels stay hidden, and the same tab of several is in front.
     assert_eq!(layout(&window), before);
     assert_sizes(&window, widths, "shown again");
 }
@@ -137,7 +137,7 @@ fn quick(from: Pos2, to: Pos2) -> Vec<Vec<Event>> {
             Event::PointerMoved(to),
         ],
         vec![Event::PointerMoved(to), button(to, false)],
-        // What had to wait comes in frames without events.
+        // Delayed events come in frames without events.
         vec![],
         vec![],
         vec![],
@@ -216,7 +216,7 @@ fn a_click_of_one_frame_is_a_click() {
         vec![Event::PointerMoved(at), button(true), button(false)],
     );
     window.settle();
-    // Its panel is in front now.
+    // The tab's panel is in front now.
     let mut found = window.harness.query_all_by_label("Inspect rays");
     assert!(found.next().is_some());
 }

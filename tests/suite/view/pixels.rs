@@ -27,7 +27,7 @@ impl Bytes {
     }
 }
 
-/// What is on a screen.
+/// The contents of a screen.
 pub fn on(screen: &Screen, gpu: &Gpu) -> Bytes {
     let (_, _, device, queue) = gpu.handles();
     let (width, height) = screen.size();

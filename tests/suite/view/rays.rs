@@ -640,7 +640,7 @@ fn a_primary_ray_from_a_lens_is_a_point_in_its_own_picture() {
     let primary = lines.iter().find(|line| line.kind == RayKind::Primary);
     let primary = primary.expect("the primary ray");
     assert_eq!((primary.from, primary.pieces.len()), (primary.to, 0));
-    // What it hits is out of focus by a few pixels.
+    // The hit object is out of focus by a few pixels.
     assert!(primary.to.distance(dvec2(160.5, 120.5)) < 8.0);
     assert!(lines.iter().any(|line| !line.pieces.is_empty()));
 }

@@ -47,7 +47,7 @@ fn key(key: Key) -> [Event; 2] {
     })
 }
 
-/// What someone does who looks round: an orbit, a pan, the wheel, an integrator and back, exposure.
+/// The input of someone who looks round: an orbit, a pan, the wheel, an integrator and back, exposure.
 fn script(middle: Pos2) -> Vec<Vec<Event>> {
     let mut frames = Vec::new();
     for which in [PointerButton::Primary, PointerButton::Middle] {
@@ -211,7 +211,7 @@ fn resident() -> u64 {
         .expect("a number")
 }
 
-/// The same over and over, as often as [`SOAK`] says, in a process of its own: the memory that it takes
+/// Repeats the script as often as [`SOAK`] says, in a process of its own: the memory that it takes
 /// in the first two fifths of the rounds is compared with what it takes at the end.
 #[test]
 #[ignore = "run by the test below"]

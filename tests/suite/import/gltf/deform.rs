@@ -227,7 +227,7 @@ fn morph(model: &mut Model) {
     );
 }
 
-/// What the targets add to the position and the normal of a vertex.
+/// The targets' offsets of the position and the normal of a vertex.
 fn morphed(i: usize, time: f64) -> [DVec3; 2] {
     let [a, b] = weights(time);
     let is_aside = i >= COUNT;

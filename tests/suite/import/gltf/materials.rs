@@ -201,7 +201,7 @@ fn every_parameter_is_kept() {
     assert_eq!(*metallic_roughness(&found), expected);
 }
 
-/// What is noted of a material.
+/// The notes on a material.
 fn noted(material: Value) -> Vec<String> {
     super::scene("a.glb", model(material).glb()).skipped.clone()
 }
@@ -605,7 +605,7 @@ fn a_clear_coat_has_its_own_normal_map() {
     assert_eq!(scene.skipped, [] as [&str; 0]);
     let material = &scene.materials[0];
     let layers = material.layer_textures.as_ref().expect("textures");
-    // Its bytes are numbers and not colours.
+    // The map's bytes are numbers and not colours.
     assert_near(texels(&scene, layers.clearcoat_normal)[0], [0.2, 0.4, 1.0]);
     assert_eq!(material.textures.normal, None);
     assert_eq!(metallic_roughness(material).clearcoat_normal_scale, 0.5);

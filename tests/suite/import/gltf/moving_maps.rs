@@ -109,7 +109,7 @@ fn pointers_move_the_maps_that_they_name() {
     let normal = scene.materials[0].textures.normal.expect("a map");
     let frame = scene.frame(1.0);
     for (texture, offset, rotation, scale) in [
-        // What is not animated keeps the value of the file.
+        // Properties that are not animated keep the file's values.
         (base, [0.5, 1.5], 0.4, [2.0, 3.0]),
         (values, [0.5, 0.25], 0.5, [-1.0, 3.0]),
         (normal, [0.5, 0.25], 0.4, [2.0, 3.0]),

@@ -337,7 +337,7 @@ fn a_skin_shows_the_pose_of_its_joints() {
     let model = model.with(json!({
         "scenes": [{ "nodes": [0, 1] }],
         "nodes": [
-            // Its own transform has no effect.
+            // The skinned node's own transform has no effect.
             { "mesh": 0, "skin": 0, "translation": [100, 0, 0] },
             { "children": [2], "translation": [0, 0, 2] },
             { "translation": [0, 3, 0] },

@@ -1,4 +1,4 @@
-//! What the headers of Radiance HDR, PNG and JPEG files say.
+//! Headers of Radiance HDR, PNG and JPEG files.
 
 use super::{assert_near, texels, with_texture};
 use crate::import::{folder, message_in};
