@@ -1,4 +1,4 @@
-//! What every scene that was read must be.
+//! Invariants of every scene that was read.
 
 use glam::Vec3;
 use glimray::scene::{Background, Mesh, Scene};

@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 const VERTICES: usize = 6;
 
-/// What is in the buffer, in this order: number of elements, components, their glTF type, and whether they are
+/// Contents of the buffer, in this order: number of elements, components, their glTF type, and whether they are
 /// normalised bytes instead of floats.
 const PARTS: [(usize, usize, &str, bool); 16] = [
     (VERTICES, 3, "VEC3", false), // 0 positions
@@ -37,7 +37,7 @@ fn len((count, components, _, is_narrow): (usize, usize, &str, bool)) -> usize {
 /// The model whose buffer begins with `bytes`; the rest is zero.
 ///
 /// # Errors
-/// It is refused.
+/// The model is refused.
 pub fn model(bytes: &[u8]) -> Result<Scene, ImportError> {
     let total: usize = PARTS.into_iter().map(len).sum();
     let mut buffer = bytes[..bytes.len().min(total)].to_vec();
