@@ -12,8 +12,8 @@ pub struct ExecutionPolicy {
     pub host_copy: bool,
     /// How shaders read the scene.
     pub fetch: Fetch,
-    /// The storage that is faster on this adapter, if that is known ([`super::StorageTimes`]); only for
-    /// [`Fetch::Auto`] and [`Fetch::Packet`]. By default the kind of the adapter decides.
+    /// The storage to read the scene from, for [`Fetch::Auto`] and [`Fetch::Packet`]. By default the kind of the adapter
+    /// decides.
     pub storage: Option<Storage>,
     /// How many entries the stack of a walk has in fast memory.
     pub stack: Stack,
