@@ -5,7 +5,7 @@
 use super::Gpu;
 
 /// The checks that wgpu adds to kernels: all but its bound on loops, of which drivers of GPUs make code that takes up to 1.8 times
-/// as long (benches/LOG.md, 2026-11-26). Other adapters get a bound of our own: [`super::bound_loops`].
+/// as long (benches/log/2026-11.md, 2026-11-26). Other adapters get a bound of our own: [`super::bound_loops`].
 pub fn runtime_checks() -> wgpu::ShaderRuntimeChecks {
     wgpu::ShaderRuntimeChecks {
         force_loop_bounding: false,

@@ -1,8 +1,8 @@
 //! The table from which paths sample a picture in the background in proportion to its luminance above the mean.
 //!
-//! The table is a tree of sums over a grid of directions, see `shaders/lib/quad_warp.wesl`: the word of the root, the words of
+//! It is a tree of sums over a grid of directions, see `shaders/lib/quad_warp.wesl`: the word of the root, the words of
 //! each level row by row from the lowest elevation on, and then the density of each cell as a float. The sun of a sky is not in
-//! the table, but has a part of the samples.
+//! it, but has a part of the samples.
 
 use super::picture::PackedPicture;
 use super::{PackedScene, light_cluster::LUMINANCE};
@@ -21,9 +21,9 @@ const FINER_LEVELS: u32 = 2;
 /// The grid of a sky has 2 to this power rows: it is smooth, as its sun is not in the picture.
 const SKY_LEVELS: u32 = 7;
 
-/// A picture has no table if the variance of its luminance over all directions, divided by the square of the mean, is less than
-/// this: paths find its light so well that a second ray at each surface does not pay (`benches/LOG.md`, 2026-11-28). A gradient
-/// from black has 1/3.
+/// A picture has no table if the variance of its luminance over all directions, divided by the square of the mean, is less
+/// than this: paths find its light so well that a second ray at each surface does not pay (`benches/log/2026-11.md`,
+/// 2026-11-28). A gradient from black has 1/3.
 const LEAST_VARIANCE: f64 = 0.5;
 
 /// A chance is a multiple of 1 divided by this.
@@ -35,12 +35,12 @@ const LEAST_DENSITY: f64 = 1e-30;
 /// A picture in the background.
 #[derive(Clone, Debug)]
 pub struct Environment {
-    /// Index of the picture in the scene.
+    /// Its index in the scene.
     index: usize,
     picture: Arc<Picture>,
     /// The largest value of its texels that is shown.
     largest: f32,
-    /// The table; `None` if light samples do not pay.
+    /// Its table; `None` if light samples do not pay.
     table: Option<Table>,
 }
 
@@ -140,7 +140,7 @@ impl PackedScene {
     }
 }
 
-/// The spread of a texel over a row of cells.
+/// What a texel has of the light of a row of cells.
 struct Spread {
     /// The first cell that it lights. Beyond the last one the row begins anew.
     first: usize,

@@ -10,7 +10,7 @@ use crate::layout::{
 };
 use glam::DVec3;
 
-/// With fewer lights they are chosen by their power alone: see benches/LOG.md.
+/// With fewer lights they are chosen by their power alone: see benches/log/2026-11.md.
 pub const LEAST_LIGHTS: usize = 4;
 
 const BUCKETS: usize = 12;

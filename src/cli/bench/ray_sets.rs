@@ -21,7 +21,7 @@ pub struct RaySet {
     pub name: &'static str,
     /// The question that they answer.
     pub test: RayTest,
-    /// Incoherent if its rays are faster alone, by measurement (benches/LOG.md).
+    /// Incoherent if its rays are faster alone, by measurement (benches/log/2026-11.md).
     pub coherence: Coherence,
     /// The rays, in order.
     pub rays: Vec<QueryRay>,

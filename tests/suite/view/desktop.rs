@@ -499,7 +499,7 @@ fn a_window_opens_where_the_vectors_of_kernels_have_512_bits() {
 }
 
 /// Seconds from the start of the program to its first picture, and from a movement of the mouse to a
-/// changed one. See benches/LOG.md.
+/// changed one. See benches/log/2026-11.md.
 #[test]
 #[ignore = "measures"]
 fn how_soon_pictures_come() {
