@@ -360,6 +360,7 @@ fn links_of_pages_lead_to_files_and_pictures_of_the_gallery_are_on_pages() {
         "README.md",
         "CHANGELOG.md",
         "CONTRIBUTING.md",
+        "SECURITY.md",
         "Cargo.toml",
         "Makefile",
         "build.rs",
