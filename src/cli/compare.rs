@@ -50,11 +50,18 @@ pub fn run(arguments: &CompareArgs) -> Result<(), AppError> {
     match (a.is_dir(), b.is_dir()) {
         (true, true) => folders::run(arguments, &limits),
         (false, false) => pictures(arguments, &limits),
-        _ => Err(AppError::Refused(format!(
-            "cannot compare ({}, {}): one is a folder and the other is not. Give two pictures or two folders.",
-            a.display(),
-            b.display()
-        ))),
+        _ => {
+            let missing = [a, b].into_iter().find(|path| !path.exists());
+            let why = missing.map_or_else(
+                || "one is a folder and the other is not".to_owned(),
+                |path| format!("{} is not there", path.display()),
+            );
+            Err(AppError::Refused(format!(
+                "cannot compare ({}, {}): {why}. Give two pictures or two folders.",
+                a.display(),
+                b.display()
+            )))
+        }
     }
 }
 

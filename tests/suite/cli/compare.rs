@@ -261,6 +261,8 @@ fn compare_refuses_folders_without_pictures_and_goes_on_after_a_broken_one() {
     workspace.run("compare reference empty").expect(8);
     let run = workspace.run("compare reference a.png").expect(3);
     insta::assert_snapshot!(run.stderr, @"error: cannot compare (reference, a.png): one is a folder and the other is not. Give two pictures or two folders.");
+    let run = workspace.run("compare reference nowhere").expect(3);
+    insta::assert_snapshot!(run.stderr, @"error: cannot compare (reference, nowhere): nowhere is not there. Give two pictures or two folders.");
     for folder in ["reference", "new"] {
         workspace.write(&format!("{folder}/broken.png"), "no picture");
     }
