@@ -74,7 +74,7 @@ pub struct LayerFlags {
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Picture")]
 pub struct SizeFlags {
-    /// Width and height in pixels [default: the scene's, else 640x480]
+    /// Width and height in pixels [default: the scene's, else 640x480; 800x600 for models]
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = values::size)]
     pub size: Option<(u32, u32)>,
     /// Samples per pixel, 1 to 65536 [default: the scene's; 8 of models, which are denoised, also with more; else 64 for
@@ -99,7 +99,7 @@ pub struct PictureFlags {
     #[arg(long, value_name = "NOISE", allow_hyphen_values = true, value_parser = values::noise)]
     pub noise: Option<f32>,
     /// Bounces after the first hit, 0 to 1000; 0 is local shading only [default: the scene's, else 5; 0
-    /// for .scene; 16 for --integrator path]
+    /// for .scene; 16 for --integrator path; 8 for models by --integrator whitted]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub max_depth: Option<u32>,
     /// Terminate reflection and refraction rays below this throughput, 0 to 1 [default: 1/512]
