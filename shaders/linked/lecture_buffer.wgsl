@@ -17,11 +17,12 @@ fn lecture(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 }
 
 fn nearest_hit(ray: tracing__Ray) -> tracing__Hit {
+	let shear = triangle_watertight__shear_of(ray.direction);
 	var hit = tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	let end = bindings__frame.first_triangle + bindings__frame.triangle_count;
 	var i = bindings__frame.first_triangle;
 	for (; i < end; i += 1u) {
-		hit = nearer(ray, hit, intersect_triangle(ray, i), i);
+		hit = nearer(ray, hit, primitive__test_triangle(ray, fetch__load_triangle(i), shear), i);
 	}
 	loops__cut_off |= i < end;
 	i = 0u;
@@ -31,17 +32,6 @@ fn nearest_hit(ray: tracing__Ray) -> tracing__Hit {
 	}
 	loops__cut_off |= i < bindings__frame.shape_count;
 	return hit;
-}
-
-fn intersect_triangle(ray: tracing__Ray, index: u32) -> tracing__Candidate {
-	let corners = fetch__load_triangle(index);
-	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
-		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
-	}
-	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
-		return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
-	}
-	return triangle_watertight__intersect_triangle_watertight(ray.origin, triangle_watertight__shear_of(ray.direction), corners.v0, corners.v1, corners.v2);
 }
 
 fn nearer(ray: tracing__Ray, hit: tracing__Hit, candidate: tracing__Candidate, primitive: u32) -> tracing__Hit {
@@ -1235,37 +1225,6 @@ var<private> loops__nonfinite_samples: u32;
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
-fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
-	let e1 = v1 - v0;
-	let e2 = v2 - v0;
-	let n = cross(e1, e2);
-	let slope = dot(n, ray.direction);
-	let area = dot(n, n);
-	let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
-	let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
-	let w = ray.origin + t * ray.direction - v0;
-	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
-	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
-	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
-}
-
-fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
-	let e1 = v1 - v0;
-	let e2 = v2 - v0;
-	let p = cross(ray.direction, e2);
-	let det = dot(e1, p);
-	let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
-	let inv_det = 1.0 / select(1.0, det, usable);
-	let s = ray.origin - v0;
-	let b1 = inv_det * dot(s, p);
-	let q = cross(s, e1);
-	let b2 = inv_det * dot(ray.direction, q);
-	let t = inv_det * dot(e2, q);
-	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
-}
-
 struct triangle_watertight__Shear {
 	x: vec3f,
 	y: vec3f,
@@ -1303,6 +1262,47 @@ fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: tria
 	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
 	let t = dot(edges, depths) * inv_det;
 	return tracing__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+}
+
+fn primitive__test_triangle(ray: tracing__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> tracing__Candidate {
+	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
+		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
+	}
+	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
+		return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
+	}
+	return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
+}
+
+fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let n = cross(e1, e2);
+	let slope = dot(n, ray.direction);
+	let area = dot(n, n);
+	let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
+	let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
+	let w = ray.origin + t * ray.direction - v0;
+	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
+	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+}
+
+fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let p = cross(ray.direction, e2);
+	let det = dot(e1, p);
+	let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let s = ray.origin - v0;
+	let b1 = inv_det * dot(s, p);
+	let q = cross(s, e1);
+	let b2 = inv_det * dot(ray.direction, q);
+	let t = inv_det * dot(e2, q);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return tracing__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
 fn sphere__intersect_sphere(ray: tracing__Ray, center: vec3f, radius: f32) -> tracing__Candidate {
