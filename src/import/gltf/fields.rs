@@ -4,15 +4,11 @@
 use super::extensions::{LONGEST_NAME, support};
 use super::field_forms::{Form, Object, Use};
 use super::field_table::ROOT;
-use super::unused::Unused;
+use super::unused::{Tally, Unused};
 use crate::import::notes::Notes;
 use crate::import::source::quote_up_to;
 use serde_json::{Map, Number, Value};
-use std::collections::BTreeMap;
 use std::fmt;
-
-/// Most different properties that are told apart.
-const MOST: usize = 100;
 
 /// The longest name of a property that messages show whole.
 const LONGEST: usize = 64;
@@ -57,17 +53,9 @@ fn shown(key: &str) -> String {
     }
 }
 
-/// Properties that are alike: where the first one is, and how many there are.
-struct Alike {
-    first: String,
-    count: usize,
-}
-
 /// The findings of the check.
 struct Check<'n> {
-    unknown: BTreeMap<String, Alike>,
-    /// Unknown properties beyond [`MOST`] different ones.
-    more: usize,
+    unknown: Tally,
     unused: Unused,
     notes: &'n mut Notes,
 }
@@ -104,23 +92,13 @@ pub fn gltf_properties() -> Vec<String> {
 /// Returns what says nothing about the picture or is decided otherwise.
 pub(super) fn check(json: &mut Value, notes: &mut Notes) -> Unused {
     let mut check = Check {
-        unknown: BTreeMap::new(),
-        more: 0,
+        unknown: Tally::default(),
         unused: Unused::default(),
         notes,
     };
     check.object(json, &ROOT, Place::Root);
-    let mut lines = Vec::new();
-    for Alike { first, count } in check.unknown.into_values() {
-        let more = match count {
-            1 => String::new(),
-            _ => format!(" ({count} times)"),
-        };
-        lines.push(format!("{first} is not known and was ignored{more}"));
-    }
-    if check.more > 0 {
-        lines.push(format!("{} more properties are not known", check.more));
-    }
+    let sentence = |first: &str, _: &str| format!("{first} is not known and was ignored");
+    let lines = check.unknown.into_lines(sentence, "known");
     check.notes.keep("unknown properties", lines);
     check.unused
 }
@@ -161,15 +139,7 @@ impl Check<'_> {
             });
             return;
         }
-        let pattern = here.pattern();
-        if let Some(alike) = self.unknown.get_mut(&pattern) {
-            alike.count += 1;
-        } else if self.unknown.len() < MOST {
-            let first = here.to_string();
-            self.unknown.insert(pattern, Alike { first, count: 1 });
-        } else {
-            self.more += 1;
-        }
+        (self.unknown).add(here.pattern(), || here.to_string(), "");
     }
 
     /// Whether `value` has this form, perhaps after a repair; a note says what was wrong with it.

@@ -12,19 +12,16 @@ struct Alike {
     why: &'static str,
 }
 
-/// Properties and entries of a model that are not used.
+/// Properties by the pattern of their name, which has `[]` for each index.
 #[derive(Default)]
-pub(super) struct Unused {
-    /// By the pattern of their name, which has `[]` for each index.
+pub(super) struct Tally {
     found: BTreeMap<String, Alike>,
-    /// By the pattern, how often a property is there that says nothing about the picture.
-    idle: BTreeMap<String, usize>,
     /// Properties beyond [`MOST`] different ones.
     more: usize,
 }
 
-impl Unused {
-    /// Adds a property that is not used, by its pattern and its own name.
+impl Tally {
+    /// Adds a property by its pattern and its own name.
     pub fn add(&mut self, pattern: String, first: impl FnOnce() -> String, why: &'static str) {
         if let Some(alike) = self.found.get_mut(&pattern) {
             alike.count += 1;
@@ -34,6 +31,40 @@ impl Unused {
         } else {
             self.more += 1;
         }
+    }
+
+    /// A sentence for each name, made of it and the reason, and one for the rest, which are not `known` or `used`.
+    pub fn into_lines(self, sentence: impl Fn(&str, &str) -> String, what: &str) -> Vec<String> {
+        let found = self.found.into_values();
+        let mut lines: Vec<String> = found
+            .map(|it| sentence(&it.first, it.why) + &times(it.count))
+            .collect();
+        if self.more > 0 {
+            lines.push(format!("{} more properties are not {what}", self.more));
+        }
+        lines
+    }
+}
+
+fn times(count: usize) -> String {
+    match count {
+        1 => String::new(),
+        _ => format!(" ({count} times)"),
+    }
+}
+
+/// Properties and entries of a model that are not used.
+#[derive(Default)]
+pub(super) struct Unused {
+    tally: Tally,
+    /// By the pattern, how often a property is there that says nothing about the picture.
+    idle: BTreeMap<String, usize>,
+}
+
+impl Unused {
+    /// Adds a property that is not used, by its pattern and its own name.
+    pub fn add(&mut self, pattern: String, first: impl FnOnce() -> String, why: &'static str) {
+        self.tally.add(pattern, first, why);
     }
 
     /// Adds `property` of the entry `index` of `list`; all of the entry if it is empty.
@@ -48,23 +79,14 @@ impl Unused {
         if self.idle.len() < MOST || self.idle.contains_key(&pattern) {
             *self.idle.entry(pattern).or_default() += 1;
         } else {
-            self.more += 1;
+            self.tally.more += 1;
         }
     }
 
     /// A sentence for each name.
     pub fn into_lines(self) -> Vec<String> {
-        let times = |count: usize| match count {
-            1 => String::new(),
-            _ => format!(" ({count} times)"),
-        };
-        let found = self.found.into_values();
-        let mut lines: Vec<String> = found
-            .map(|it| format!("{} is not used: {}{}", it.first, it.why, times(it.count)))
-            .collect();
-        if self.more > 0 {
-            lines.push(format!("{} more properties are not used", self.more));
-        }
+        let sentence = |first: &str, why: &str| format!("{first} is not used: {why}");
+        let mut lines = self.tally.into_lines(sentence, "used");
         if !self.idle.is_empty() {
             let names = self.idle.into_iter();
             let names: Vec<String> = names
