@@ -51,6 +51,12 @@ pub(super) fn find(document: &Document, unused: &mut Unused, notes: &mut Notes) 
     for (index, material) in document.materials.iter().enumerate() {
         in_material(material, index, unused);
     }
+    in_textures(document, unused, notes);
+    in_buffers(document, unused);
+    in_clips(document, unused);
+}
+
+fn in_textures(document: &Document, unused: &mut Unused, notes: &mut Notes) {
     for (index, texture) in document.textures.iter().enumerate() {
         let found = texture.image();
         let extensions = &texture.extensions;
@@ -85,7 +91,9 @@ pub(super) fn find(document: &Document, unused: &mut Unused, notes: &mut Notes) 
             }
         }
     }
-    in_buffers(document, unused);
+}
+
+fn in_clips(document: &Document, unused: &mut Unused) {
     for (index, clip) in document.animations.iter().enumerate() {
         let list = format!("animations[{index}].channels");
         let mut is_used = vec![false; clip.samplers.len()];

@@ -111,21 +111,13 @@ impl Reader<'_> {
             let extensions = node.extensions.iter();
             lights.mark_all(extensions.filter_map(|it| Some(it.light.as_ref()?.light)));
         }
-        let shown = document.meshes.iter().zip(&meshes.marks);
-        let shown = shown.filter(|(_, mark)| **mark).map(|(mesh, _)| mesh);
-        for primitive in shown.flat_map(|mesh| &mesh.primitives) {
-            materials.mark_all(primitive.material);
-            let extensions = primitive.extensions.iter();
-            let variants = extensions.filter_map(|it| it.variants.as_ref());
-            materials.mark_all(variants.flat_map(|it| &it.mappings).map(|it| it.material));
-        }
-        for (m, mesh) in document.meshes.iter().enumerate() {
-            for (i, primitive) in mesh
-                .primitives
-                .iter()
-                .enumerate()
-                .filter(|_| meshes.marks[m])
-            {
+        let all = document.meshes.iter().enumerate();
+        for (m, mesh) in all.filter(|(m, _)| meshes.marks[*m]) {
+            for (i, primitive) in mesh.primitives.iter().enumerate() {
+                materials.mark_all(primitive.material);
+                let extensions = primitive.extensions.iter();
+                let variants = extensions.filter_map(|it| it.variants.as_ref());
+                materials.mark_all(variants.flat_map(|it| &it.mappings).map(|it| it.material));
                 self.find_unused_attributes(primitive, &format!("meshes[{m}].primitives[{i}]"));
             }
         }
@@ -148,6 +140,7 @@ impl Reader<'_> {
             list.report(&mut self.unused, "the scene does not show it");
         }
     }
+
     /// Adds the vertex attributes of the primitive at `here` that only maps show which its material has not.
     fn find_unused_attributes(&mut self, primitive: &Primitive, here: &str) {
         let index = self.material_index(primitive);
