@@ -29,9 +29,9 @@ pub fn run(session: Session, choice: &AdapterChoice) -> Result<(), AppError> {
     let session = Rc::new(RefCell::new(session));
     let events = EventLoop::with_user_event().build();
     let mut events = events.map_err(|error| no_display(reason(&error.to_string())))?;
+    session.borrow_mut().request.policy.storage = storage::requested()?;
     let mut losses = Vec::new();
     loop {
-        session.borrow_mut().request.policy.storage = storage::requested()?;
         let shown = Gpu::with_all_limits(choice)
             .map_err(AppError::from)
             .and_then(|gpu| show(&mut events, &session, &gpu));
