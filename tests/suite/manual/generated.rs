@@ -42,6 +42,10 @@ fn the_table_of_formats_has_every_ending_that_is_read() {
     let listed = SCENE_FORMATS.iter().flat_map(|format| format.endings);
     let listed: Vec<_> = listed.copied().collect();
     assert_eq!(listed, SCENE_ENDINGS);
+    let expected = [
+        "toml", "scene", "nff", "obj", "gltf", "glb", "ply", "stl", "zip",
+    ];
+    assert_eq!(listed, expected);
 }
 
 #[test]
