@@ -109,28 +109,12 @@
 //! bindings), `kernels/` (entry points). The binary embeds them linked to plain WGSL (`shaders/linked`),
 //! which `make shaders` updates.
 
-#![deny(unsafe_code)]
-#![warn(missing_docs)]
-
-#[cfg(feature = "cli")]
-pub mod app;
-pub mod bvh;
-pub mod bytes;
-#[cfg(feature = "cli")]
-pub mod cli;
-mod clock;
-pub mod export;
-pub mod gpu;
-pub mod image;
-pub mod import;
-pub mod layout;
 #[cfg(not(target_arch = "wasm32"))]
-pub mod output;
-pub mod pack;
-mod random;
-pub mod render;
-pub mod scene;
-mod text;
-pub mod threads;
-#[cfg(feature = "viewer")]
-pub mod viewer;
+#[doc(inline)]
+pub use glimray_io::output;
+#[doc(inline)]
+pub use glimray_io::{export, import};
+#[doc(inline)]
+pub use glimray_render::{self as render, bvh, gpu, layout, pack};
+#[doc(inline)]
+pub use glimray_scene::{self as scene, bytes, image, threads};

@@ -1,4 +1,4 @@
-//! The `glimray` program: passes its arguments, and its window if it has one, to [`glimray::cli`].
+//! The `glimray` program: passes its arguments, and its window if it has one, to [`glimray_cli`].
 
 #![forbid(unsafe_code)]
 
@@ -7,10 +7,10 @@ use std::time::Instant;
 
 fn main() -> ExitCode {
     let started = Instant::now();
-    glimray::cli::exit::install_panic_hook();
+    glimray_cli::exit::install_panic_hook();
     #[cfg(feature = "viewer")]
-    let window = Some(&glimray::viewer::WINDOW);
+    let window = Some(&glimray_viewer::WINDOW);
     #[cfg(not(feature = "viewer"))]
     let window = None;
-    glimray::cli::run(std::env::args_os(), started, window)
+    glimray_cli::run(std::env::args_os(), started, window)
 }

@@ -10,7 +10,7 @@ mod operands;
 mod private;
 mod returns;
 
-use super::specialize::simplify;
+use crate::specialize::simplify;
 use copy::with_inlined_calls;
 use naga::{Block, Expression, Function, Handle, LocalVariable, Module, Statement};
 use operands::with_operands;

@@ -3,6 +3,7 @@
 //! removing the code that overrides disable, and no disk cache saves that time. Loops end where lavapipe can leave
 //! them at once.
 
+use crate::files;
 use naga::{
     Arena, BinaryOperator, Block, Expression, Handle, Literal, LocalVariable, Module, Statement,
     UnaryOperator,
@@ -14,7 +15,7 @@ use std::{
 };
 
 /// Declares the overrides as `override NAME: TYPE = DEFAULT;`. Linked kernels lack those that they do not use.
-const BINDINGS: &str = include_str!("../../shaders/bindings.wesl");
+const BINDINGS: &str = "bindings.wesl";
 
 /// The prefix that the linker adds to the names of `bindings.wesl`.
 const PREFIX: &str = "bindings__";
@@ -24,8 +25,8 @@ const PREFIX: &str = "bindings__";
 /// # Errors
 /// An override does not exist, or naga rejects the source; its message shows the lines.
 pub fn specialize(source: &str, overrides: &[(&str, f64)]) -> Result<Module, String> {
-    let declared = declared();
-    if let Some((name, _)) = (overrides.iter()).find(|(name, _)| !declared.contains(name)) {
+    let declared = declared()?;
+    if let Some((name, _)) = (overrides.iter()).find(|(name, _)| !declared.contains(*name)) {
         return Err(format!("there is no override {name}"));
     }
     let source = with_constants(source, overrides);
@@ -36,16 +37,19 @@ pub fn specialize(source: &str, overrides: &[(&str, f64)]) -> Result<Module, Str
 }
 
 /// The names of all overrides.
-fn declared() -> &'static HashSet<&'static str> {
-    static NAMES: OnceLock<HashSet<&str>> = OnceLock::new();
-    NAMES.get_or_init(|| {
-        let declarations = BINDINGS.lines().filter_map(Override::parse);
-        declarations.map(|declared| declared.name).collect()
-    })
+fn declared() -> Result<&'static HashSet<String>, String> {
+    static NAMES: OnceLock<HashSet<String>> = OnceLock::new();
+    if let Some(names) = NAMES.get() {
+        return Ok(names);
+    }
+    let text = files::read(BINDINGS)?;
+    let declarations = text.lines().filter_map(Override::parse);
+    let names = declarations.map(|declared| declared.name.to_owned());
+    Ok(NAMES.get_or_init(|| names.collect()))
 }
 
 /// Folds branches on constants, and removes what is not used.
-pub fn simplify(module: &mut Module) {
+pub(crate) fn simplify(module: &mut Module) {
     for (_, function) in module.functions.iter_mut() {
         fold_function(function, &module.constants, &module.global_expressions);
     }

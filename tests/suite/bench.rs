@@ -6,10 +6,10 @@ mod packets;
 
 use crate::reference::compare::open_gpu;
 use crate::support::verdict::Verdict;
-use glimray::cli::bench::ray_sets::{self, RaySet};
-use glimray::cli::bench::scenes::{self, ALL, Detail};
 use glimray::pack;
 use glimray::render::{ExecutionPolicy, RayBatch, RayQuery, RaySteps, RayTest};
+use glimray_cli::bench::ray_sets::{self, RaySet};
+use glimray_cli::bench::scenes::{self, ALL, Detail};
 use std::sync::Arc;
 
 /// Side of the picture of the small ray sets.

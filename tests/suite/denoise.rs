@@ -7,7 +7,7 @@ use crate::support::verdict::Verdict;
 use glimray::image::{Image, ScreenImage};
 use glimray::render::{
     ExecutionPolicy, Features, Fetch, Filter, Integrator, PixelFeatures, RenderSettings, Renderer,
-    Tone,
+    Tone, denoise,
 };
 use glimray::scene::{Antialias, Transfer};
 use glimray::{import, pack};
@@ -38,9 +38,8 @@ fn picture(color: impl Fn(u32, u32) -> [f32; 3], variance: f32) -> (Image, Featu
 }
 
 fn denoised((image, features): &(Image, Features)) -> Image {
-    image
-        .denoised(&open_gpu(), features)
-        .expect("a denoised picture")
+    let denoised = denoise(image, &open_gpu(), features);
+    denoised.expect("a denoised picture").image
 }
 
 #[test]
@@ -64,7 +63,7 @@ fn passes_take_a_part_of_the_time() {
             pixel.transparency = transparency;
         }
         let started = Instant::now();
-        let denoised = given.0.denoise(&gpu, &given.1).expect("a picture");
+        let denoised = denoise(&given.0, &gpu, &given.1).expect("a picture");
         let whole = started.elapsed().as_secs_f64();
         // Adapters without timestamps have none.
         if let Some(passes) = denoised.pass_seconds {
@@ -397,8 +396,8 @@ fn renderers_and_films_denoise_to_the_same_bits() {
         let shown = renderer.develop(&tone).expect("a picture");
         let film = renderer.film().expect("a film");
         let features = film.features().expect("features");
-        let image = features.picture().denoised(renderer.gpu(), &features);
-        let image = image.expect("a denoised picture");
+        let image = denoise(&features.picture(), renderer.gpu(), &features);
+        let image = image.expect("a denoised picture").image;
         let saved = tone.develop(renderer.gpu(), &image).expect("a picture");
         assert_eq!(shown, saved);
         let raw = film.develop(renderer.gpu(), &tone).expect("a picture");

@@ -12,7 +12,7 @@ use glimray::bvh::{Aabb, Child, threads};
 use glimray::pack::{self, DRAFT_FROM, PackedScene};
 use glimray::render::{ExecutionPolicy, Integrator, RayQuery, RenderSettings, Slicing, Tone};
 use glimray::scene::{Deformation, Scene};
-use glimray::viewer::model::refinement::{Refined, Refinement};
+use glimray_viewer::model::refinement::{Refined, Refinement};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 

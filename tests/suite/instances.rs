@@ -12,7 +12,6 @@ use crate::{
 };
 use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::{
-    app::error::AppError,
     image::Image,
     pack::{self, PackedScene, PackedView},
     render::{ExecutionPolicy, Fetch, RenderError, RenderSettings, Renderer, Stats, Tone},
@@ -21,6 +20,7 @@ use glimray::{
         Node, NodeProperty, Pattern, Scene, Space, Target, Texture, Textures, Track, Values,
     },
 };
+use glimray_app::error::AppError;
 use std::{fmt::Write, fs, process::Command, sync::Arc};
 
 /// A linear picture of packed frames of a scene, and its statistics.

@@ -1,21 +1,19 @@
 //! Every kernel is valid WGSL within the minimum limits of WebGPU.
 
 use crate::support::{harness::gpu, verdict::Verdict};
-use glimray::gpu::{Kernel, Variant, inline_functions};
+use glimray_link as link;
+use glimray_shaders::{Kernel, Variant, inline_functions};
 use naga::{
     Expression, MathFunction, ScalarKind,
     valid::{Capabilities, ValidationFlags, Validator},
 };
-use std::{collections::HashMap, fs};
+use std::{collections::HashMap, fs, path::Path};
 
-#[path = "../../shaders/link.rs"]
-pub mod link;
-
-/// A build from stale sources stops by itself; this finds files that were edited by hand.
+/// Release builds from stale sources stop by themselves; others use the files as they are.
 #[test]
 fn linked_kernels_are_what_the_sources_link_to() {
     let mut verdict = Verdict::on("shaders/linked");
-    let linked = link::kernels().expect("the sources link");
+    let linked = link::kernels(Path::new("shaders")).expect("the sources link");
     for (name, text) in &linked {
         let kept = fs::read_to_string(format!("shaders/linked/{name}")).unwrap_or_default();
         verdict.that(name, kept == *text, || "differs: run `make shaders`");

@@ -6,11 +6,11 @@ use crate::support::{
     verdict::{Tolerance, Verdict},
 };
 use glam::{DVec3, Vec3, dvec3};
-use glimray::app::legend;
 use glimray::image::Image;
 use glimray::layout::{PackedTone, VIEW_DEPTH, VIEW_HEAT, VIEW_NORMALS};
 use glimray::render::{Antialias, Integrator, Levels, Quantity, RenderSettings, Renderer, Tone};
 use glimray::scene::{Background, Camera, Geometry, Material, Scene, Shape};
+use glimray_app::legend;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -4,9 +4,9 @@ use crate::support::program::Workspace;
 #[cfg(target_os = "linux")]
 use crate::support::skip::{Need, skip};
 use crate::support::verdict::Verdict;
-use glimray::app::error::AppError;
 use glimray::bytes;
 use glimray::gpu::GpuError;
+use glimray_app::error::AppError;
 use insta::assert_snapshot;
 use serde_json::Value;
 use std::process::{Command, Stdio};

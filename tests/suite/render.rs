@@ -9,7 +9,6 @@ use crate::reference::scenes::{self, Build, Random};
 use crate::reference::trace;
 use crate::support::skip::{Need, skip};
 use glam::{DAffine3, DVec3, Vec3, dvec3, vec3};
-use glimray::app::error::AppError;
 use glimray::gpu::{AdapterChoice, Gpu, GpuError};
 use glimray::image::Image;
 use glimray::pack;
@@ -20,6 +19,7 @@ use glimray::render::{
 use glimray::scene::{
     Attenuation, Camera, Light, LightKind, Material, Mesh, Scene, ToneCurve, Transfer,
 };
+use glimray_app::error::AppError;
 use std::ops::Range;
 use std::sync::Arc;
 

@@ -1,5 +1,7 @@
 //! `lib/albedo.wesl` and `pack/albedo.rs`: tables of directional albedos, and multiple scattering by them.
 
+mod table;
+
 use crate::bsdf::reference;
 use crate::support::{
     harness::gpu,
@@ -152,6 +154,29 @@ fn entry(first: usize, column: usize, row: usize) -> [f64; 2] {
 fn cosine(column: f64, alpha: f64) -> f64 {
     let square = (column / 31.0).powi(2);
     (4.0 * alpha * square / (1.0 + 4.0 * alpha - square)).min(1.0)
+}
+
+/// The functions of C round differently: an entry may be the next half float.
+#[test]
+fn words_are_the_table_that_is_computed() {
+    const PATH: &str = "crates/render/src/pack/albedo/words.bin";
+    let computed = table::words();
+    if std::env::var_os("UPDATE").is_some() {
+        let bytes: Vec<u8> = computed
+            .iter()
+            .flat_map(|word| word.to_le_bytes())
+            .collect();
+        std::fs::write(PATH, bytes).expect("a file");
+    }
+    let words = albedo::words();
+    assert_eq!(words.len(), computed.len());
+    let is_near = |(a, b): (u32, u32)| {
+        let halves = |word: u32| [word & 0xffff, word >> 16];
+        (halves(a).into_iter().zip(halves(b))).all(|(a, b)| a.abs_diff(b) <= 1)
+    };
+    let pairs = words.iter().copied().zip(computed);
+    let different = pairs.enumerate().find(|(_, pair)| !is_near(*pair));
+    assert_eq!(different, None, "in {PATH}; UPDATE=1 writes it");
 }
 
 #[test]

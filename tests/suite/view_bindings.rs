@@ -4,11 +4,11 @@ use eframe::egui::{
     Event, InputState, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, TouchPhase,
     vec2,
 };
-use glimray::viewer::model::bindings::{
+use glimray_viewer::model::bindings::{
     Action, Bindings, Category, Conflict, Manner, Mods, Preset, Trigger, markdown_table,
 };
-use glimray::viewer::model::camera::Flight;
-use glimray::viewer::model::tool::Tool;
+use glimray_viewer::model::camera::Flight;
+use glimray_viewer::model::tool::Tool;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 

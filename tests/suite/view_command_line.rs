@@ -3,7 +3,6 @@
 use crate::reference::compare::render;
 use crate::support::random::Random;
 use glam::{DAffine3, dvec2, dvec3, vec3};
-use glimray::cli::view::picture;
 use glimray::import;
 use glimray::output;
 use glimray::pack;
@@ -14,8 +13,9 @@ use glimray::scene::{
     Background, Beyond, Camera, CameraProperty, Curve, Easing, Filter, Interpolation, Lens, Node,
     OutputDefaults, Scene, Shutter, Target, ToneCurve, Track, Transfer, Values,
 };
-use glimray::viewer::model::camera::CameraController;
-use glimray::viewer::model::command_line::{CommandLine, Pasted, Shown, copy, paste};
+use glimray_cli::view::picture;
+use glimray_viewer::model::camera::CameraController;
+use glimray_viewer::model::command_line::{CommandLine, Pasted, Shown, copy, paste};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 use glimray::scene::{Camera, Geometry, Instance, Material, Mesh, Scene, Shape};
-use glimray::viewer::model::document::Document;
+use glimray_viewer::model::document::Document;
 use std::sync::Arc;
 
 fn scene() -> Scene {

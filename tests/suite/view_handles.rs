@@ -3,11 +3,11 @@
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, dvec2, dvec3};
 use glimray::scene::Camera;
-use glimray::viewer::model::handles::{
+use glimray_viewer::model::handles::{
     Eye, Grip, Handles, Part, angle_between, nearest_on_line, on_plane,
 };
-use glimray::viewer::model::objects::{Freedom, Scaling};
-use glimray::viewer::model::tool::Tool;
+use glimray_viewer::model::objects::{Freedom, Scaling};
+use glimray_viewer::model::tool::Tool;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const SIZE: DVec2 = DVec2::new(400.0, 300.0);

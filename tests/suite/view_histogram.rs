@@ -1,7 +1,7 @@
 //! The histogram of the window.
 
 use glimray::image::{Image, ScreenImage};
-use glimray::viewer::model::histogram::{Histogram, LEVELS};
+use glimray_viewer::model::histogram::{Histogram, LEVELS};
 
 #[test]
 fn a_ramp_has_one_pixel_at_each_level() {

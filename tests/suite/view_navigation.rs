@@ -3,7 +3,7 @@
 use crate::support::random::Random;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use glimray::scene::{Camera, Lens};
-use glimray::viewer::model::camera::{CameraController, Flight, Side, project, ray_through};
+use glimray_viewer::model::camera::{CameraController, Flight, Side, project, ray_through};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const SIZE: DVec2 = dvec2(640.0, 480.0);

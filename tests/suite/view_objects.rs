@@ -2,11 +2,11 @@
 
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 use glimray::scene::*;
-use glimray::viewer::model::objects;
-use glimray::viewer::model::objects::{
+use glimray_viewer::model::objects;
+use glimray_viewer::model::objects::{
     EditError, Id, assign, duplicate, freedom, is_visible, place, remove, set_place, set_visible,
 };
-use glimray::viewer::model::outline::{Outline, label};
+use glimray_viewer::model::outline::{Outline, label};
 use std::sync::Arc;
 
 const SHAPE: Id = Id::Object(ObjectRef::Shape(0));
@@ -632,7 +632,7 @@ fn a_sphere_moved_into_a_rotated_node_stays_a_sphere() {
 
 #[test]
 fn swatches_show_what_a_material_reflects_and_transmits() {
-    use glimray::viewer::model::swatch::Swatch;
+    use glimray_viewer::model::swatch::Swatch;
     // Nearly black but for its reflection, as metals are.
     let gold = Swatch::of(&Material {
         diffuse: Vec3::new(0.05, 0.03, 0.01),

@@ -3,8 +3,8 @@
 use crate::support::random::Random;
 use glam::dvec3;
 use glimray::scene::{Camera, Lens, ToneCurve};
-use glimray::viewer::model::bindings::{Action, Preset};
-use glimray::viewer::model::preferences::{
+use glimray_viewer::model::bindings::{Action, Preset};
+use glimray_viewer::model::preferences::{
     MAX_CAMERAS, MAX_RECENT, Preferences, SavedCamera, Store, Theme,
 };
 use std::collections::BTreeMap;

@@ -1,9 +1,9 @@
 //! Adds the command line's remedies to the library's errors: which flag or command helps. The library
 //! itself knows no flags.
 
-use crate::gpu::GpuError;
-use crate::import::ImportError;
-use crate::render::{LongPath, RenderError};
+use glimray_io::import::ImportError;
+use glimray_render::gpu::GpuError;
+use glimray_render::{LongPath, RenderError};
 use std::path::PathBuf;
 
 /// The message of a device error, with its remedy.

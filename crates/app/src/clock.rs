@@ -1,7 +1,7 @@
 //! Converts frames to times, and finds how long an animation lasts.
 
 use super::overrides::{Moment, TimingOverrides};
-use crate::scene::{OutputDefaults, Scene, Shutter};
+use glimray_scene::{OutputDefaults, Scene, Shutter};
 
 /// Frame rate and shutter.
 #[derive(Clone, Copy, Debug, PartialEq)]

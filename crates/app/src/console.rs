@@ -4,7 +4,7 @@
 //! With `--progress json` every line on standard error is a JSON object.
 
 use super::error::AppError;
-use crate::text;
+use glimray_scene::text;
 use serde_json::{Value, json};
 use std::fmt::Display;
 use std::io::{ErrorKind, IsTerminal, Write, stderr};

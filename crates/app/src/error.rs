@@ -1,11 +1,11 @@
 //! The error type of all commands, with its messages and exit codes.
 
 use super::advice;
-use crate::gpu::GpuError;
-use crate::import::ImportError;
-use crate::output::{self, OutputError};
-use crate::pack::PackError;
-use crate::render::{FilmError, RenderError};
+use glimray_io::import::ImportError;
+use glimray_io::output::{self, OutputError};
+use glimray_render::gpu::GpuError;
+use glimray_render::pack::PackError;
+use glimray_render::{FilmError, RenderError};
 use std::io;
 use std::path::PathBuf;
 

@@ -1,7 +1,7 @@
 //! The files that a run reads. No output may overwrite them, also not through links.
 
 use super::error::AppError;
-use crate::import::SceneFormat;
+use glimray_io::import::SceneFormat;
 use std::path::{Path, PathBuf};
 
 /// Files that were read, or that were looked for and not found.

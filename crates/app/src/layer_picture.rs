@@ -1,10 +1,10 @@
 //! Layers as pictures to look at: colours as they are, everything else in false colours.
 
 use super::layers::PictureLayer;
-use crate::gpu::Gpu;
-use crate::image::Image;
-use crate::render::{Features, PixelFeatures, RenderError, Tone};
-use crate::scene::Transfer;
+use glimray_render::gpu::Gpu;
+use glimray_render::{Features, PixelFeatures, RenderError, Tone};
+use glimray_scene::Transfer;
+use glimray_scene::image::Image;
 
 /// The grey level of the greatest distance.
 const FAR: f32 = 0.1;
@@ -122,7 +122,7 @@ fn number_color(number: u32) -> [f32; 3] {
 
 /// From black over blue, green, yellow and red to white, as the view of traversal costs.
 fn heat(place: f32) -> [f32; 3] {
-    let stops = super::legend::stops(crate::render::Quantity::Work);
+    let stops = super::legend::stops(glimray_render::Quantity::Work);
     let at = place * (stops.len() - 1) as f32;
     let index = (at as usize).min(stops.len() - 2);
     let share = at - index as f32;

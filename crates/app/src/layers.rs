@@ -1,9 +1,9 @@
 //! The layers of a picture file, and their channels.
 
 use super::value_names::ValueNames;
-use crate::image::Image;
-use crate::output::{Channel, ImageLayer};
-use crate::render::{Features, PixelFeatures};
+use glimray_io::output::{Channel, ImageLayer};
+use glimray_render::{Features, PixelFeatures};
+use glimray_scene::image::Image;
 
 /// A layer that a picture file can have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Legends for views of a quantity: what their grey levels and colours mean.
 
-use crate::render::Quantity;
+use glimray_render::Quantity;
 
 /// The legend as a sentence, such as "samples from 4 (black) to 64 (white)".
 pub fn sentence(quantity: Quantity, [least, most]: [f32; 2]) -> String {

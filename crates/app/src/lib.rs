@@ -7,7 +7,6 @@ pub mod console;
 pub mod error;
 pub mod folders;
 pub mod inputs;
-#[cfg(feature = "viewer")]
 pub mod layer_picture;
 pub mod layers;
 pub mod legend;

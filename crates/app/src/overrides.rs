@@ -1,15 +1,15 @@
 //! Overrides of a scene's values. The command line and the window fill them in.
 
 use super::error::AppError;
-use crate::render::{
+use glam::{DVec3, Vec3};
+use glimray_render::{
     Antialias, BsdfModel, Integrator, Levels, Quantity, RayOffset, RenderSettings, Shows, Tone,
     TriangleTest,
 };
-use crate::scene::{
+use glimray_scene::{
     Backdrop, Background, Camera, CameraProperty, Filter, OutputDefaults, Scene, Shutter, Target,
     ToneCurve, Transfer,
 };
-use glam::{DVec3, Vec3};
 
 /// Everything that a user may ask for. Values that are `None` are the scene's.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -313,7 +313,6 @@ impl CameraOverrides {
 
 /// Makes `camera`, in world space, the scene's camera, as overrides of all its properties would. A lens
 /// that is animated stays.
-#[cfg(feature = "viewer")]
 pub fn set_camera(scene: &mut Scene, camera: &Camera) {
     for property in [
         CameraProperty::LookFrom,

@@ -1,8 +1,8 @@
 //! Reads picture files with limits on size, because a file from elsewhere must not exhaust memory.
 
-use crate::app::error::AppError;
-use crate::image::Image;
-use crate::{import, output};
+use crate::error::AppError;
+use glimray_io::{import, output};
+use glimray_scene::image::Image;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;

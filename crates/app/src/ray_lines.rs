@@ -1,7 +1,7 @@
 //! Writes a ray tree as 3-D lines in a Wavefront OBJ file, which most 3-D programs can open.
 
-use crate::render::{RayKind, RayTree, TracedRay};
 use glam::DVec3;
+use glimray_render::{RayKind, RayTree, TracedRay};
 use std::fmt::Write;
 
 /// One line per ray, one group per kind and one object per sample. Rays without a hit are drawn as long as the

@@ -2,13 +2,13 @@
 
 pub mod path;
 
-use crate::app::error::AppError;
-use crate::render::{
+use crate::error::AppError;
+use glam::{DVec3, Vec3};
+use glimray_render::{
     Integrator, PhongTerms, RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay,
 };
-use crate::scene::ObjectRef;
-use crate::text;
-use glam::{DVec3, Vec3};
+use glimray_scene::ObjectRef;
+use glimray_scene::text;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::{self, Write};

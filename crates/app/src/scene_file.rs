@@ -1,10 +1,10 @@
 //! Saving a scene as a native file, with its meshes and pictures beside it.
 
 use super::error::AppError;
-use crate::export::{self, Export};
-use crate::import::{self, Baking, Memory, Options};
-use crate::output;
-use crate::scene::Scene;
+use glimray_io::export::{self, Export};
+use glimray_io::import::{self, Baking, Memory, Options};
+use glimray_io::output;
+use glimray_scene::Scene;
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -1,15 +1,15 @@
 //! The built-in scene: the window opens it without a file, and `glimray demo` renders its path-traced version.
 
 use super::error::AppError;
-use crate::import;
-use crate::scene::Scene;
+use glimray_io::import;
+use glimray_scene::Scene;
 
 /// The scene's name in reports.
 pub const NAME: &str = "showcase.toml";
 
 const TEXT: &str = include_str!(concat!(
     env!("CARGO_MANIFEST_DIR"),
-    "/assets/scenes/showcase.toml"
+    "/../../assets/scenes/showcase.toml"
 ));
 
 /// Overrides of the version for paths. The sun lights the balls from behind, and light that is scattered takes the place

@@ -1,7 +1,7 @@
 //! Where kernels read the scene from: images or buffers, by the environment or by the kind of the adapter.
 
 use super::error::AppError;
-use crate::render::{ExecutionPolicy, Renderer, Storage};
+use glimray_render::{ExecutionPolicy, Renderer, Storage};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::env;

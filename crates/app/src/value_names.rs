@@ -1,7 +1,7 @@
 //! The names of settings, as flags, reports and the window's lists show them.
 
-use crate::render::{self, Antialias, BsdfModel, Integrator, TriangleTest};
-use crate::scene::{Filter, ToneCurve, Transfer};
+use glimray_render::{self as render, Antialias, BsdfModel, Integrator, TriangleTest};
+use glimray_scene::{Filter, ToneCurve, Transfer};
 
 /// The names of one setting's values: each with a description and the value.
 pub struct ValueNames<T: 'static>(pub &'static [(&'static str, &'static str, T)]);

@@ -2,10 +2,10 @@
 
 use super::error::AppError;
 use super::overrides::RenderOverrides;
-use crate::gpu::AdapterChoice;
-use crate::import;
-use crate::render::ExecutionPolicy;
-use crate::scene::Scene;
+use glimray_io::import;
+use glimray_render::ExecutionPolicy;
+use glimray_render::gpu::AdapterChoice;
+use glimray_scene::Scene;
 use std::path::PathBuf;
 
 /// The functions of the window that the command line calls.

@@ -20,19 +20,19 @@ pub use pattern::Pattern;
 pub use target::Target;
 pub use timeline::Timeline;
 
-use crate::app::clock::Clock;
-use crate::app::error::AppError;
-use crate::app::overrides::picture_size;
-use crate::cli::args::{AnimateArgs, LogFlags, SequenceFlags};
-use crate::cli::idle_flags;
-use crate::cli::interrupt::Interrupt;
-use crate::cli::job::{Job, Outcome};
-use crate::cli::lock::Lock;
-use crate::cli::progress::FrameProgress;
-use crate::cli::report::{AnimationReport, Draft};
-use crate::output::video::{FrameRate, VideoOptions};
-use crate::render::Stats;
+use crate::args::{AnimateArgs, LogFlags, SequenceFlags};
+use crate::idle_flags;
+use crate::interrupt::Interrupt;
+use crate::job::{Job, Outcome};
+use crate::lock::Lock;
+use crate::progress::FrameProgress;
+use crate::report::{AnimationReport, Draft};
 use frame_renderer::{FrameRenderer, Sink};
+use glimray_app::clock::Clock;
+use glimray_app::error::AppError;
+use glimray_app::overrides::picture_size;
+use glimray_io::output::video::{FrameRate, VideoOptions};
+use glimray_render::Stats;
 use journal::Journal;
 use plan::Plan;
 use std::fs;
@@ -121,7 +121,7 @@ struct Frames {
     rendered: usize,
     /// Time for rendering, developing and writing them, in seconds.
     seconds: f64,
-    adapter: Option<crate::gpu::AdapterReport>,
+    adapter: Option<glimray_render::gpu::AdapterReport>,
     stats: Stats,
 }
 

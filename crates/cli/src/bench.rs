@@ -16,15 +16,15 @@ pub mod scenes;
 mod walk;
 mod workloads;
 
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::app::window::{BenchRequest, Window};
-use crate::cli::args::BenchArgs;
-use crate::cli::device;
-use crate::cli::interrupt::Interrupt;
-use crate::cli::job;
+use crate::args::BenchArgs;
+use crate::device;
+use crate::interrupt::Interrupt;
+use crate::job;
 use comparison::Baseline;
 use denoiser::Denoiser;
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_app::window::{BenchRequest, Window};
 use playing::Playing;
 use renders::Renders;
 use scene_runs::SceneRuns;
@@ -93,7 +93,7 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
 
     let mut run = serde_json::json!({
         "glimray": env!("CARGO_PKG_VERSION"),
-        "adapter": crate::cli::report::Adapter::from(gpu.adapter()),
+        "adapter": crate::report::Adapter::from(gpu.adapter()),
         "repeats": arguments.repeats(),
         "quick": is_quick,
         "first_pictures": pictures,

@@ -1,16 +1,16 @@
 //! The checkpoint file of a long render (`--checkpoint`): written now and then and when the run ends early, read at the
 //! start, removed once the picture is written.
 
-use crate::app::console;
-use crate::app::console::Console;
-use crate::app::error::AppError;
-use crate::app::inputs::is_same;
-use crate::cli::args::CheckpointFlags;
-use crate::cli::interrupt::Interrupt;
-use crate::cli::lock::Lock;
-use crate::cli::report::Draft;
-use crate::output::{self, OutputError};
-use crate::render::{CheckpointError, Renderer};
+use crate::args::CheckpointFlags;
+use crate::interrupt::Interrupt;
+use crate::lock::Lock;
+use crate::report::Draft;
+use glimray_app::console;
+use glimray_app::console::Console;
+use glimray_app::error::AppError;
+use glimray_app::inputs::is_same;
+use glimray_io::output::{self, OutputError};
+use glimray_render::{CheckpointError, Renderer};
 use std::fs::{self, File};
 use std::io::{BufReader, ErrorKind};
 use std::path::{Path, PathBuf};

@@ -1,9 +1,9 @@
 //! `glimray completions SHELL`: prints a shell completion script.
 
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::cli::args::{Cli, CompletionsArgs};
+use crate::args::{Cli, CompletionsArgs};
 use clap::CommandFactory;
+use glimray_app::console;
+use glimray_app::error::AppError;
 
 pub fn run(arguments: &CompletionsArgs) -> Result<(), AppError> {
     let mut script = Vec::new();

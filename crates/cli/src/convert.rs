@@ -1,13 +1,13 @@
 //! `glimray convert SCENE`: converts a scene in any format to the native one.
 
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::app::scene_file::save;
-use crate::cli::args::ConvertArgs;
-use crate::cli::idle_flags;
-use crate::cli::interrupt::Interrupt;
-use crate::cli::scene_file;
-use crate::import::{Baking, Options};
+use crate::args::ConvertArgs;
+use crate::idle_flags;
+use crate::interrupt::Interrupt;
+use crate::scene_file;
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_app::scene_file::save;
+use glimray_io::import::{Baking, Options};
 use std::path::PathBuf;
 
 pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {

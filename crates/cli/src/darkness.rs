@@ -1,11 +1,11 @@
 //! Pictures that are black, or nearly so, with the likely reason.
 
-use crate::app::console;
-use crate::app::overrides::label;
-use crate::cli::job::Job;
-use crate::image::Image;
-use crate::render::{RenderSettings, Shows, Tone};
-use crate::scene::{Camera, Sight, linear_from_srgb};
+use crate::job::Job;
+use glimray_app::console;
+use glimray_app::overrides::label;
+use glimray_render::{RenderSettings, Shows, Tone};
+use glimray_scene::image::Image;
+use glimray_scene::{Camera, Sight, linear_from_srgb};
 
 /// A pixel whose channels are all below this is black to the eye: five levels of 255.
 const BLACK: f32 = 0.02;

@@ -1,14 +1,14 @@
 //! `glimray demo`: renders the built-in showcase scene by path tracing.
 
-use crate::app::error::AppError;
-use crate::app::showcase;
-use crate::cli::args::{DemoArgs, DevelopFlags, LayerFlags, PartFlags, PictureFlags, SizeFlags};
-use crate::cli::destination::Destination;
-use crate::cli::device::Opening;
-use crate::cli::job;
-use crate::cli::job::Job;
-use crate::cli::picture;
-use crate::cli::report::Draft;
+use crate::args::{DemoArgs, DevelopFlags, LayerFlags, PartFlags, PictureFlags, SizeFlags};
+use crate::destination::Destination;
+use crate::device::Opening;
+use crate::job;
+use crate::job::Job;
+use crate::picture;
+use crate::report::Draft;
+use glimray_app::error::AppError;
+use glimray_app::showcase;
 use std::path::Path;
 use std::time::Instant;
 

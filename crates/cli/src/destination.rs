@@ -1,10 +1,10 @@
 //! Where a picture is written: a file, a pipe or standard output.
 
-use crate::app::error::AppError;
-use crate::cli::args::OutputFlags;
-use crate::cli::layers::Finished;
-use crate::output::{self, Format, SaveOptions};
-use crate::render::Film;
+use crate::args::OutputFlags;
+use crate::layers::Finished;
+use glimray_app::error::AppError;
+use glimray_io::output::{self, Format, SaveOptions};
+use glimray_render::Film;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 

@@ -1,15 +1,15 @@
 //! Creates renderers, and describes adapters for people.
 
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::app::storage;
-use crate::cli::args::DeviceFlags;
-use crate::cli::memory;
-use crate::cli::report::FetchReport;
-use crate::gpu::{AdapterChoice, AdapterReport, Backend, Gpu};
-use crate::pack::{self, PackedScene, PackedView};
-use crate::render::{ExecutionPolicy, RenderSettings, Renderer, Tone};
-use crate::scene::Scene;
+use crate::args::DeviceFlags;
+use crate::memory;
+use crate::report::FetchReport;
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_app::storage;
+use glimray_render::gpu::{AdapterChoice, AdapterReport, Backend, Gpu};
+use glimray_render::pack::{self, PackedScene, PackedView};
+use glimray_render::{ExecutionPolicy, RenderSettings, Renderer, Tone};
+use glimray_scene::Scene;
 use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};

@@ -2,14 +2,14 @@
 
 mod self_test;
 
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::app::storage::{self, Reason};
-use crate::bytes::size;
-use crate::cli::args::DoctorArgs;
-use crate::cli::device;
-use crate::gpu::{self, AdapterChoice, AdapterReport, Gpu};
-use crate::render::Storage;
+use crate::args::DoctorArgs;
+use crate::device;
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_app::storage::{self, Reason};
+use glimray_render::Storage;
+use glimray_render::gpu::{self, AdapterChoice, AdapterReport, Gpu};
+use glimray_scene::bytes::size;
 use self_test::Outcome;
 use serde_json::{Value, json};
 use std::fmt::{self, Write};

@@ -1,10 +1,10 @@
 //! Ends the program: prints the error and returns its exit code.
 
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::cli::{memory, snippet};
-use crate::gpu;
-use crate::output;
+use crate::{memory, snippet};
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_io::output;
+use glimray_render::gpu;
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 

@@ -1,20 +1,20 @@
 //! `glimray explain SCENE --pixel X,Y`: the ray tree or the paths of a pixel as text, JSON or OBJ lines.
 
-use crate::app::clock::Clock;
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::app::overrides::picture_size;
-use crate::app::value_names::INTEGRATORS;
-use crate::app::{ray_lines, ray_text};
-use crate::cli::args::ExplainArgs;
-use crate::cli::device;
-use crate::cli::idle_flags;
-use crate::cli::interrupt::Interrupt;
-use crate::cli::job;
-use crate::cli::memory;
-use crate::cli::scene_file;
-use crate::output;
-use crate::render::{Integrator, RenderSettings, Renderer};
+use crate::args::ExplainArgs;
+use crate::device;
+use crate::idle_flags;
+use crate::interrupt::Interrupt;
+use crate::job;
+use crate::memory;
+use crate::scene_file;
+use glimray_app::clock::Clock;
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_app::overrides::picture_size;
+use glimray_app::value_names::INTEGRATORS;
+use glimray_app::{ray_lines, ray_text};
+use glimray_io::output;
+use glimray_render::{Integrator, RenderSettings, Renderer};
 use std::ops::Range;
 
 pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {

@@ -25,10 +25,10 @@ mod work;
 
 pub use manifest::schema;
 
-use crate::app::error::AppError;
-use crate::cli::args::FarmCommand;
-use crate::output::{self, OutputError};
+use crate::args::FarmCommand;
 use clap::ArgMatches;
+use glimray_app::error::AppError;
+use glimray_io::output::{self, OutputError};
 use manifest::{Manifest, Part};
 use serde::{Deserialize, Serialize};
 use std::fs;

@@ -1,12 +1,12 @@
 //! Flags without effect. One that would change the picture of other settings gets a warning, as scripts may give the same
 //! flags for several pictures; one that asks for something that would be missing is refused.
 
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::app::inputs::may_be_model;
-use crate::app::value_names::{ANTIALIAS, INTEGRATORS};
-use crate::cli::args::{PictureFlags, SceneFlags};
-use crate::render::{Antialias, Integrator, RenderSettings};
+use crate::args::{PictureFlags, SceneFlags};
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_app::inputs::may_be_model;
+use glimray_app::value_names::{ANTIALIAS, INTEGRATORS};
+use glimray_render::{Antialias, Integrator, RenderSettings};
 use std::path::Path;
 
 /// Warns about flags that do not change a picture with these settings.

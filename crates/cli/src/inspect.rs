@@ -8,18 +8,18 @@ mod textures;
 
 pub use entries::Inspection;
 
-use crate::app::console::{self, quoted};
-use crate::app::error::AppError;
-use crate::app::value_names::{TONES, TRANSFERS};
-use crate::cli::args::InspectArgs;
-use crate::cli::idle_flags;
-use crate::cli::job::UNLIT;
-use crate::cli::report::SceneReport;
-use crate::cli::scene_file;
-use crate::import::{Baking, Options};
-use crate::render::{Integrator, Tone};
-use crate::scene::{Attenuation, Background, Camera, Light, LightKind, Scene};
+use crate::args::InspectArgs;
+use crate::idle_flags;
+use crate::job::UNLIT;
+use crate::report::SceneReport;
+use crate::scene_file;
 use glam::{DVec3, Vec3};
+use glimray_app::console::{self, quoted};
+use glimray_app::error::AppError;
+use glimray_app::value_names::{TONES, TRANSFERS};
+use glimray_io::import::{Baking, Options};
+use glimray_render::{Integrator, Tone};
+use glimray_scene::{Attenuation, Background, Camera, Light, LightKind, Scene};
 use std::fmt::{self, Write};
 
 /// Largest number of list items in the text output; JSON lists all.

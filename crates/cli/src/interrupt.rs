@@ -6,9 +6,9 @@
 //! ends the program. Writing a checkpoint ([`Interrupt::saving`]) may take longer. Either way no partial file
 //! is left.
 
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::output;
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_io::output;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::{flag, low_level};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

@@ -1,27 +1,27 @@
 //! Code shared by `render`, `demo` and `animate`: a scene with its command-line options, and the messages and
 //! statistics at the end.
 
-use crate::app::console;
-use crate::app::console::Console;
-use crate::app::error::AppError;
-use crate::app::inputs;
-use crate::app::overrides;
-use crate::app::value_names::{BSDF_MODELS, INTEGRATORS};
-use crate::bytes::size;
-use crate::cli::args::{DeviceFlags, LayerFlags, LogFlags, PictureFlags};
-use crate::cli::destination;
-use crate::cli::device;
-use crate::cli::idle_flags;
-use crate::cli::layers::Finished;
-use crate::cli::memory;
-use crate::cli::report;
-use crate::cli::report::{
+use crate::args::{DeviceFlags, LayerFlags, LogFlags, PictureFlags};
+use crate::destination;
+use crate::device;
+use crate::idle_flags;
+use crate::layers::Finished;
+use crate::memory;
+use crate::report;
+use crate::report::{
     AnimationReport, AnyReport, Draft, ImageReport, Memory, Report, SceneReport, Seconds,
 };
-use crate::gpu::{AdapterChoice, AdapterReport, Gpu};
-use crate::output;
-use crate::render::{ExecutionPolicy, Integrator, RenderSettings, Renderer, Stats, Tone};
-use crate::scene::{Backdrop, LightTransport, Scene};
+use glimray_app::console;
+use glimray_app::console::Console;
+use glimray_app::error::AppError;
+use glimray_app::inputs;
+use glimray_app::overrides;
+use glimray_app::value_names::{BSDF_MODELS, INTEGRATORS};
+use glimray_io::output;
+use glimray_render::gpu::{AdapterChoice, AdapterReport, Gpu};
+use glimray_render::{ExecutionPolicy, Integrator, RenderSettings, Renderer, Stats, Tone};
+use glimray_scene::bytes::size;
+use glimray_scene::{Backdrop, LightTransport, Scene};
 use std::path::Path;
 use std::time::Instant;
 

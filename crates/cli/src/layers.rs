@@ -1,12 +1,12 @@
 //! Layers of pictures on the command line, and denoised pictures.
 
-use crate::app::error::AppError;
-use crate::app::layers::{LAYERS, beside_raw};
-use crate::cli::args::LayerFlags;
-use crate::gpu::Gpu;
-use crate::image::Image;
-use crate::output::{self, ImageLayer, LayeredImage, OutputError, Place, SaveOptions};
-use crate::render::{Features, Film, Integrator, Tone};
+use crate::args::LayerFlags;
+use glimray_app::error::AppError;
+use glimray_app::layers::{LAYERS, beside_raw};
+use glimray_io::output::{self, ImageLayer, LayeredImage, OutputError, Place, SaveOptions};
+use glimray_render::gpu::Gpu;
+use glimray_render::{Features, Film, Integrator, Tone};
+use glimray_scene::image::Image;
 use std::path::Path;
 use std::time::Instant;
 
@@ -132,7 +132,7 @@ impl LayerFlags {
         let mut denoise_seconds = None;
         if tone.denoise {
             let started = Instant::now();
-            let picture = features.picture().denoised(gpu, &features)?;
+            let picture = glimray_render::denoise(&features.picture(), gpu, &features)?.image;
             denoise_seconds = Some(started.elapsed().as_secs_f64());
             denoised = Some(tone.develop(gpu, &picture)?);
         }

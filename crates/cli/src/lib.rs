@@ -38,11 +38,11 @@ mod turntable;
 #[cfg(feature = "viewer")]
 pub mod view;
 
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::app::window::Window;
 use args::{Cli, Command};
 use clap::{ArgMatches, CommandFactory, FromArgMatches};
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_app::window::Window;
 use std::ffi::OsString;
 use std::process::ExitCode;
 use std::time::Instant;

@@ -1,9 +1,9 @@
 //! Allows one run at a time per folder of frames and per checkpoint. The system releases the lock when a process ends,
 //! however it ends, so a killed run blocks nobody.
 
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::output::{self, OutputError, RemoveOnExit};
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_io::output::{self, OutputError, RemoveOnExit};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};

@@ -1,11 +1,11 @@
 //! `glimray man DIR`: the manual pages.
 
 use super::args::{Cli, ManArgs};
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::output;
 use clap::{Command, CommandFactory};
 use clap_mangen::Man;
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_io::output;
 use std::path::Path;
 
 /// Writes a page for the program and one for each command and subcommand, and prints their names.

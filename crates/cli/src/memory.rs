@@ -4,9 +4,9 @@
 //! beforehand, and [`exit_as_too_big`] gives any remaining failure the right exit code. Without such a limit
 //! nothing can be checked: the system kills a process that uses too much memory.
 
-use crate::app::error::AppError;
-use crate::bytes::sizes;
-use crate::scene::Scene;
+use glimray_app::error::AppError;
+use glimray_scene::Scene;
+use glimray_scene::bytes::sizes;
 use std::fs;
 use std::path::Path;
 

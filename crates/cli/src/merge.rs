@@ -3,17 +3,17 @@
 //! The outlines of all parts are read first: parts that do not belong together are refused before any sums are read. Then
 //! the sums of one part after the other are added, so that memory depends on the picture and not on the number of parts.
 
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::app::inputs::Inputs;
-use crate::app::overrides::picture_size;
-use crate::cli::args::MergeArgs;
-use crate::cli::destination::Destination;
-use crate::cli::interrupt::Interrupt;
-use crate::cli::job;
-use crate::gpu::Gpu;
-use crate::render::{Film, FilmError, FilmHeader, FilmOutline, Missing, RenderSettings};
-use crate::scene::OutputDefaults;
+use crate::args::MergeArgs;
+use crate::destination::Destination;
+use crate::interrupt::Interrupt;
+use crate::job;
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_app::inputs::Inputs;
+use glimray_app::overrides::picture_size;
+use glimray_render::gpu::Gpu;
+use glimray_render::{Film, FilmError, FilmHeader, FilmOutline, Missing, RenderSettings};
+use glimray_scene::OutputDefaults;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};

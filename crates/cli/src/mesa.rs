@@ -15,9 +15,9 @@
 //!   space before.
 
 #[cfg(target_os = "linux")]
-use crate::app::{console, folders};
+use glimray_app::{console, folders};
 #[cfg(target_os = "linux")]
-use crate::output;
+use glimray_io::output;
 #[cfg(target_os = "linux")]
 use std::{
     ffi::OsString,

@@ -1,19 +1,19 @@
 //! Renders a scene to a picture file, for `render` and `demo`.
 
-use crate::app::error::AppError;
-use crate::app::legend;
-use crate::app::overrides::picture_size;
-use crate::cli::args::PartFlags;
-use crate::cli::checkpoint::CheckpointFile;
-use crate::cli::destination::Destination;
-use crate::cli::device::{self, Opening};
-use crate::cli::interrupt::Interrupt;
-use crate::cli::job::{Job, Outcome};
-use crate::cli::layers::Finished;
-use crate::cli::memory;
-use crate::cli::progress::Progress;
-use crate::cli::report::Draft;
-use crate::render::{self, FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK};
+use crate::args::PartFlags;
+use crate::checkpoint::CheckpointFile;
+use crate::destination::Destination;
+use crate::device::{self, Opening};
+use crate::interrupt::Interrupt;
+use crate::job::{Job, Outcome};
+use crate::layers::Finished;
+use crate::memory;
+use crate::progress::Progress;
+use crate::report::Draft;
+use glimray_app::error::AppError;
+use glimray_app::legend;
+use glimray_app::overrides::picture_size;
+use glimray_render::{self as render, FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK};
 use std::ops::Range;
 use std::panic::resume_unwind;
 use std::thread;

@@ -1,7 +1,7 @@
 //! Progress of a picture or an animation: a bar on a terminal, JSON lines, or nothing; and once how long it will take.
 
-use crate::app::console::{self, Console};
-use crate::cli::args::{LogFlags, ProgressMode};
+use crate::args::{LogFlags, ProgressMode};
+use glimray_app::console::{self, Console};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};

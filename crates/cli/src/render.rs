@@ -1,15 +1,15 @@
 //! `glimray render SCENE`: renders one picture of a scene file.
 
-use crate::app::clock::Clock;
-use crate::app::error::AppError;
-use crate::cli::args::RenderArgs;
-use crate::cli::destination::Destination;
-use crate::cli::device::Opening;
-use crate::cli::idle_flags;
-use crate::cli::job;
-use crate::cli::job::Job;
-use crate::cli::picture;
-use crate::cli::report::Draft;
+use crate::args::RenderArgs;
+use crate::destination::Destination;
+use crate::device::Opening;
+use crate::idle_flags;
+use crate::job;
+use crate::job::Job;
+use crate::picture;
+use crate::report::Draft;
+use glimray_app::clock::Clock;
+use glimray_app::error::AppError;
 use std::path::Path;
 use std::time::Instant;
 

@@ -2,10 +2,10 @@
 
 use super::interrupt::Interrupt;
 use super::memory;
-use crate::app::error::AppError;
-use crate::app::inputs::Inputs;
-use crate::import::{self, Options};
-use crate::scene::Scene;
+use glimray_app::error::AppError;
+use glimray_app::inputs::Inputs;
+use glimray_io::import::{self, Options};
+use glimray_scene::Scene;
 use std::path::Path;
 
 /// Reads a scene; if `is_strict`, refuses one of which anything was skipped. The second value has the files

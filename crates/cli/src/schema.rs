@@ -5,10 +5,10 @@ use super::args::{SchemaArgs, Subject};
 use super::compare::ComparisonOutput;
 use super::inspect::Inspection;
 use super::report::AnyReport;
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::app::ray_text::Explanation;
-use crate::import;
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_app::ray_text::Explanation;
+use glimray_io::import;
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
@@ -16,7 +16,7 @@ use serde_json::Value;
 pub fn run(arguments: &SchemaArgs) -> Result<(), AppError> {
     #[cfg(feature = "archive")]
     if arguments.manifest {
-        return console::print_json(&crate::cli::farm::schema());
+        return console::print_json(&crate::farm::schema());
     }
     console::print_json(&match arguments.subject {
         Subject::Scene => import::native_schema(),

@@ -1,6 +1,6 @@
 //! Draws the line of a scene file that an error points at, for a terminal.
 
-use crate::import::Fault;
+use glimray_io::import::Fault;
 use unicode_width::UnicodeWidthStr;
 
 /// Longest line that is shown, in bytes.

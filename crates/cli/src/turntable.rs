@@ -1,14 +1,14 @@
 //! `glimray turntable MODEL`: a seamless turntable animation, as a video or as frames.
 
-use crate::app::clock::Clock;
-use crate::app::error::AppError;
-use crate::cli::animate;
-use crate::cli::animate::{Sequence, Target, Timeline};
-use crate::cli::args::{LayerFlags, MotionFlags, Range, RangeFlags, TurnFlags, TurntableArgs};
-use crate::cli::idle_flags;
-use crate::cli::job::Job;
-use crate::cli::report::Draft;
-use crate::scene::{self, Background, Scene, Turntable};
+use crate::animate;
+use crate::animate::{Sequence, Target, Timeline};
+use crate::args::{LayerFlags, MotionFlags, Range, RangeFlags, TurnFlags, TurntableArgs};
+use crate::idle_flags;
+use crate::job::Job;
+use crate::report::Draft;
+use glimray_app::clock::Clock;
+use glimray_app::error::AppError;
+use glimray_scene::{self as scene, Background, Scene, Turntable};
 use std::time::Instant;
 
 /// Samples per pixel, unless the model sets more than one.

@@ -2,11 +2,11 @@
 
 use super::args::{Cli, Command, ViewArgs};
 use super::job;
-use crate::app::error::AppError;
-use crate::app::overrides::{Moment, RenderOverrides};
-use crate::app::window::{PictureRequest, RecordingRequest, ViewRequest, Window};
-use crate::import::{Baking, Options};
 use clap::Parser;
+use glimray_app::error::AppError;
+use glimray_app::overrides::{Moment, RenderOverrides};
+use glimray_app::window::{PictureRequest, RecordingRequest, ViewRequest, Window};
+use glimray_io::import::{Baking, Options};
 
 pub(super) fn run(arguments: &ViewArgs, window: Option<&Window>) -> Result<(), AppError> {
     match window {

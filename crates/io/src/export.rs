@@ -26,8 +26,8 @@ mod shapes;
 mod text;
 mod textures;
 
-use crate::scene::Scene;
 use files::Beside;
+use glimray_scene::Scene;
 use names::Names;
 use std::collections::HashMap;
 use text::Text;

@@ -65,8 +65,7 @@ pub use folder::Folder;
 pub use formats::{FORMAT_KEYS, SCENE_ENDINGS, SCENE_FORMATS, SceneFormat};
 pub use gltf::{GLTF_EXTENSIONS, Support, gltf_properties};
 pub use options::{Axis, Baking, Environment, EnvironmentSource, Ground, Options, Staging};
-#[cfg(feature = "viewer")]
-pub(crate) use picture::smaller_pictures;
+pub use picture::smaller_pictures;
 pub use picture::{Pixels, pixels};
 pub use resolver::{FileError, Memory, Resolver};
 #[cfg(not(target_arch = "wasm32"))]
@@ -74,9 +73,9 @@ pub use step::Step;
 #[cfg(feature = "archive")]
 pub use zipped::SCENE_MEMBER;
 
-use crate::scene::{LightTransport, Picture, Scene};
 use error::fault;
 use formats::MAX_GEOMETRY_BYTES;
+use glimray_scene::{LightTransport, Picture, Scene};
 use paths::Files;
 use std::path::Path;
 #[cfg(not(target_arch = "wasm32"))]

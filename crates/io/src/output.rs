@@ -15,13 +15,13 @@ mod remove_on_exit;
 pub mod video;
 
 pub use error::OutputError;
-pub(crate) use error::reason;
+pub use error::reason;
 pub use format::Format;
 pub use layered::{Channel, ImageLayer, LayeredImage, save_layers, save_layers_to_stdout};
-pub(crate) use remove_on_exit::RemoveOnExit;
+pub use remove_on_exit::RemoveOnExit;
 pub use remove_on_exit::remove_unfinished_files;
 
-use crate::image::Image;
+use glimray_scene::image::Image;
 use std::fs;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};

@@ -12,7 +12,7 @@ mod ploc;
 mod reinsertion;
 mod wide;
 
-pub use crate::threads;
+pub use glimray_scene::threads;
 pub use wide::{Child, Children, WideNode};
 
 use binary::Tree;

@@ -11,12 +11,9 @@ use super::{
     policy::Storage,
     settings::RenderSettings,
 };
-use crate::{
-    gpu::{Gpu, GpuError, Kernel, Source, Timer, Variant},
-    image::Image,
-    threads,
-};
+use crate::gpu::{Gpu, GpuError, Kernel, Source, Timer, Variant};
 use bytemuck::{bytes_of, cast_slice};
+use glimray_scene::{image::Image, threads};
 use wgpu::{BindingResource::TextureView as View, BufferUsages, TextureView};
 
 /// The distances of pixels that the passes after the first average.
@@ -33,59 +30,49 @@ pub struct Denoised {
     pub pass_seconds: Option<f64>,
 }
 
-impl Image {
-    /// Denoises linear radiance with the features of its pixels, and opacity if these have transparency. Pixels that are not
-    /// finite are replaced by what is around them.
-    ///
-    /// # Errors
-    /// The device failed, or a side exceeds the adapter's textures. With the features of a picture of another size it is
-    /// returned as it is.
-    pub fn denoised(&self, gpu: &Gpu, features: &Features) -> Result<Self, RenderError> {
-        Ok(self.denoise(gpu, features)?.image)
+/// Denoises linear radiance with the features of its pixels, and opacity if these have transparency. Pixels that are not
+/// finite are replaced by what is around them.
+///
+/// # Errors
+/// The device failed, or a side exceeds the adapter's textures. With the features of a picture of another size it is
+/// returned as it is.
+pub fn denoise(image: &Image, gpu: &Gpu, features: &Features) -> Result<Denoised, RenderError> {
+    let (width, height) = (image.width, image.height);
+    let is_same = features.pixels.len() == image.pixels.len() && features.width == width;
+    if !is_same || image.pixels.is_empty() {
+        return Ok(Denoised {
+            image: image.clone(),
+            pass_seconds: None,
+        });
     }
-
-    /// As [`Self::denoised`], with the time that it took.
-    ///
-    /// # Errors
-    /// As [`Self::denoised`].
-    pub fn denoise(&self, gpu: &Gpu, features: &Features) -> Result<Denoised, RenderError> {
-        let (width, height) = (self.width, self.height);
-        let is_same = features.pixels.len() == self.pixels.len() && features.width == width;
-        if !is_same || self.pixels.is_empty() {
-            return Ok(Denoised {
-                image: self.clone(),
-                pass_seconds: None,
-            });
-        }
-        let pixels = &features.pixels;
-        let has_opacity = pixels.iter().any(|pixel| pixel.transparency > 0.0);
-        let pixel_bytes = Denoiser::pixel_bytes(has_opacity) + 4 * u64::from(TEXEL_BYTES);
-        check_memory(width, height, pixel_bytes)?;
-        let variant = match Storage::usual(gpu) {
-            Storage::Image => Variant::Image,
-            Storage::Buffer => Variant::Buffer,
-        };
-        let denoiser = Denoiser::new(gpu, variant, (width, height), has_opacity)?;
-        denoiser.write(gpu, self, pixels)?;
-        let Filtered {
-            colors,
-            covers,
-            pass_seconds,
-        } = denoiser.filter(gpu)?;
-        let color = |at: usize| {
-            let [r, g, b, _] = colors[at];
-            let opacity = (covers.as_ref()).map_or(self.pixels[at][3], |covers| covers[at][0]);
-            straight([r, g, b], opacity)
-        };
-        Ok(Denoised {
-            image: Self {
-                width,
-                height,
-                pixels: threads::collect(pixels.len(), color),
-            },
-            pass_seconds,
-        })
-    }
+    let pixels = &features.pixels;
+    let has_opacity = pixels.iter().any(|pixel| pixel.transparency > 0.0);
+    let pixel_bytes = Denoiser::pixel_bytes(has_opacity) + 4 * u64::from(TEXEL_BYTES);
+    check_memory(width, height, pixel_bytes)?;
+    let variant = match Storage::usual(gpu) {
+        Storage::Image => Variant::Image,
+        Storage::Buffer => Variant::Buffer,
+    };
+    let denoiser = Denoiser::new(gpu, variant, (width, height), has_opacity)?;
+    denoiser.write(gpu, image, pixels)?;
+    let Filtered {
+        colors,
+        covers,
+        pass_seconds,
+    } = denoiser.filter(gpu)?;
+    let color = |at: usize| {
+        let [r, g, b, _] = colors[at];
+        let opacity = (covers.as_ref()).map_or(image.pixels[at][3], |covers| covers[at][0]);
+        straight([r, g, b], opacity)
+    };
+    Ok(Denoised {
+        image: Image {
+            width,
+            height,
+            pixels: threads::collect(pixels.len(), color),
+        },
+        pass_seconds,
+    })
 }
 
 /// The cover of a pixel of a transparent picture.

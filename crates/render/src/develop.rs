@@ -3,23 +3,23 @@
 use super::{
     Fetch, Integrator, Quantity, RenderError, RenderSettings, Renderer, Slicing, Tone,
     bindings::Buffers,
+    denoise,
     film_tile::{FilmTile, GroupOrder, rectangles},
     layouts::{Layouts, group},
     levels, overrides, pipelines,
     slice::Slice,
     sums::PixelRows,
 };
-use crate::clock::Instant;
 use crate::{
     gpu::{Gpu, GpuError, Kernel, Ledger, MEMORY_LIMIT_BYTES, Source},
-    image::Image,
     layout::{
         PackedDispatch, PackedFrame, PackedLight, PackedTone, TONE_ACES, TONE_AGX, TONE_NEUTRAL,
         TONE_NONE, TONE_REINHARD, TRANSFER_LINEAR, TRANSFER_SRGB,
     },
-    scene::{ToneCurve, Transfer},
 };
 use bytemuck::{bytes_of, cast_slice};
+use glimray_scene::clock::Instant;
+use glimray_scene::{ToneCurve, Transfer, image::Image};
 use wgpu::BufferUsages;
 
 impl Tone {
@@ -128,7 +128,7 @@ impl Renderer {
     fn developed(&mut self, tone: &Tone) -> Result<Image, RenderError> {
         if self.denoises(tone) {
             let features = self.features()?;
-            let image = features.picture().denoised(self.gpu(), &features)?;
+            let image = denoise(&features.picture(), self.gpu(), &features)?.image;
             return tone.develop(self.gpu(), &image);
         }
         if let Some(image) = self.transparent_picture()? {

@@ -13,12 +13,12 @@ use super::{
     slice::Slice,
     task::Task,
 };
-use crate::clock::Instant;
 use crate::{
     gpu::{AdapterChoice, Compiled, Gpu, GpuError, Reading, Source},
     layout::{PackedCounters, PackedDispatch},
 };
 use bytemuck::{bytes_of, cast_slice, pod_read_unaligned};
+use glimray_scene::clock::Instant;
 use std::ops::Range;
 
 const ROW_BYTES: u64 = 16;

@@ -29,7 +29,7 @@ pub enum RenderError {
         /// The maximum.
         limit: u64,
     },
-    /// The scene has more than [`crate::render::Integrator::Lecture`] can show.
+    /// The scene has more than [`crate::Integrator::Lecture`] can show.
     #[error("cannot render the scene as the exercise alone: it has {parts}.")]
     BeyondLecture {
         /// The names of the other parts, separated by commas.

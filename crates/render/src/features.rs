@@ -7,11 +7,11 @@ use super::{
     opacity::{opacity, straight},
     sums::fill_rectangle,
 };
-use crate::image::Image;
 use crate::pack::{PackedScene, PackedView};
-use crate::scene::ObjectRef;
-use crate::threads;
 use glam::DVec3;
+use glimray_scene::ObjectRef;
+use glimray_scene::image::Image;
+use glimray_scene::threads;
 
 /// The features of the pixels of a rectangle.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -49,7 +49,7 @@ impl Features {
 pub struct PixelFeatures {
     /// Mean linear radiance, not negative; of a transparent picture, what that adds to the light behind it.
     pub radiance: [f32; 3],
-    /// How much of what lies behind is seen, 0 to 1; see [`crate::scene::Backdrop::Transparent`].
+    /// How much of what lies behind is seen, 0 to 1; see [`glimray_scene::Backdrop::Transparent`].
     pub transparency: f32,
     /// Mean albedo of what is seen through mirrors and clear glass, 0 to 1; of light its radiance, at most 1. Filters with
     /// negative lobes may make it negative, not below -1.
@@ -181,7 +181,7 @@ fn finite(number: f64) -> f32 {
 
 impl Renderer {
     /// Whether it denoises a picture of this tone.
-    pub(crate) fn denoises(&self, tone: &Tone) -> bool {
+    pub fn denoises(&self, tone: &Tone) -> bool {
         tone.denoise && self.settings.has_features()
     }
 

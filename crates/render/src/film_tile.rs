@@ -8,7 +8,8 @@ use super::{
     layers::{self, Layer, SQUARES},
     sums::{PixelRows, SAMPLE_BLOCK, Sums, Totals},
 };
-use crate::{gpu::Gpu, threads};
+use crate::gpu::Gpu;
+use glimray_scene::threads;
 use std::{borrow::Cow, ops::Range};
 
 /// Pixels of a workgroup.
@@ -361,7 +362,7 @@ fn gcd(a: u32, b: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::{FilmTile, GROUP_PIXELS, GroupOrder};
-    use crate::render::sums::PixelRows;
+    use crate::sums::PixelRows;
 
     /// Any quarter of the workgroups, one after the other, has about as many in each quarter of the picture: lavapipe gives
     /// each thread such a range.

@@ -5,32 +5,28 @@
 //! Allocation and pipeline creation run inside error scopes.
 
 mod adapter;
-mod bound;
 mod buffer;
 mod early;
 mod error;
 mod fault;
 mod guard;
-mod inline;
 mod lanes;
 mod limits;
 mod patience;
 mod readback;
 mod shader;
-mod specialize;
 mod timer;
 mod trusted;
 
 pub use adapter::{AdapterChoice, AdapterReport, Backend, adapter_identity, adapters};
-pub use bound::bound_loops;
 pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
 pub use early::EarlyModule;
 pub use error::GpuError;
+pub use glimray_shaders::{Kernel, Variant, bound_loops, inline_functions};
 pub use guard::{is_guarded, surviving_loss};
-pub use inline::inline_functions;
 pub(crate) use readback::{Reading, Source};
 pub(crate) use shader::Compiled;
-pub use shader::{Kernel, Overrides, Variant};
+pub use shader::Overrides;
 pub(crate) use timer::Timer;
 pub use trusted::runtime_checks;
 
@@ -161,7 +157,7 @@ impl Gpu {
     /// Wraps a device that another program opened, with its instance, adapter and queue. It needs at least the default
     /// limits of WebGPU; with five storage images in a shader, kernels can read the scene from images. The program keeps
     /// control of it: its limits decide which scenes can be rendered, its callbacks are not touched, and if it is lost the
-    /// program has to open another one ([`GpuError::Lost`]). [`crate::render::Screen`] has an example.
+    /// program has to open another one ([`GpuError::Lost`]). [`crate::Screen`] has an example.
     pub fn from_wgpu(
         instance: wgpu::Instance,
         adapter: wgpu::Adapter,

@@ -6,8 +6,8 @@ use super::levels::Quantity;
 use crate::{
     gpu::Kernel,
     layout::{VIEW_DEPTH, VIEW_HEAT, VIEW_IDS, VIEW_NORMALS, VIEW_UV},
-    scene::LightTransport,
 };
+use glimray_scene::LightTransport;
 
 /// What a camera ray computes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
@@ -198,7 +198,7 @@ impl Integrator {
         Some(entry.integrator)
     }
 
-    /// Whether it shades as [`Self::Whitted`] does, so that it shows [`crate::scene::Scene::bake_classical_maps`].
+    /// Whether it shades as [`Self::Whitted`] does, so that it shows [`glimray_scene::Scene::bake_classical_maps`].
     pub fn is_classical(self) -> bool {
         matches!(self, Self::Whitted | Self::Samples)
     }

@@ -93,7 +93,7 @@ packed! {
         flags: u32,
         /// Index of a [`PackedMaterial`].
         material: u32,
-        /// Index in [`crate::scene::Scene::shapes`], followed by those of visible lights.
+        /// Index in [`glimray_scene::Scene::shapes`], followed by those of visible lights.
         id: u32,
         #[doc(hidden)]
         _pad0: u32,
@@ -530,7 +530,7 @@ packed! {
         /// Workgroups that ran to their end, in the first of each 16 words: see `count_group` in `scene/groups.wesl`.
         groups_done: [[u32; 16]; 8],
     }
-    /// How film sums become an image: [`crate::render::Tone`].
+    /// How film sums become an image: [`crate::Tone`].
     PackedTone {
         /// Factor on linear radiance, above 0.
         exposure_scale: f32,

@@ -5,6 +5,7 @@ mod adaptive;
 mod arrays;
 mod binary;
 mod bindings;
+pub mod bvh;
 mod checkpoint;
 mod denoise;
 mod develop;
@@ -18,8 +19,10 @@ mod film;
 mod film_tile;
 mod film_tiles;
 mod fingerprint;
+pub mod gpu;
 mod integrator;
 mod layers;
+pub mod layout;
 mod layouts;
 mod lecture;
 mod levels;
@@ -27,6 +30,7 @@ mod losses;
 mod luminance;
 mod opacity;
 mod overrides;
+pub mod pack;
 mod pipelines;
 mod policy;
 mod query;
@@ -39,9 +43,8 @@ mod task;
 mod tone;
 mod work;
 
-pub use crate::scene::{Antialias, Filter};
 pub use checkpoint::{Checkpoint, CheckpointError};
-pub use denoise::Denoised;
+pub use denoise::{Denoised, denoise};
 pub use effort::LongPath;
 pub use error::RenderError;
 pub use explain::{
@@ -51,6 +54,7 @@ pub use explain::{
 pub use features::{Features, PixelFeatures};
 pub use film::{Film, FilmError, FilmHeader, FilmOutline, Missing};
 pub use fingerprint::Fingerprint;
+pub use glimray_scene::{Antialias, Filter};
 pub use integrator::{Integrator, IntegratorEntry, Shows, TABLE as INTEGRATORS};
 pub use layers::{Layer, LayerKind};
 pub use levels::{Levels, Quantity};
@@ -68,12 +72,12 @@ pub use work::Status;
 use crate::{
     gpu::{AdapterReport, Gpu, GpuError},
     pack::{PackedScene, PackedView},
-    threads,
 };
 use denoise::Denoiser;
 use device::Device;
 use film_tile::GroupOrder;
 use film_tiles::FilmTiles;
+use glimray_scene::threads;
 use losses::or_replacement;
 use slice::Planner;
 use std::{ops::Range, sync::Arc};

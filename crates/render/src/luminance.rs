@@ -1,6 +1,6 @@
 //! Luminance of linear Rec. 709.
 
-use crate::scene::LUMINANCE;
+use glimray_scene::LUMINANCE;
 
 /// The luminance of a linear colour.
 pub fn luminance(color: [f64; 3]) -> f64 {

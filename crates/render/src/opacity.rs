@@ -17,7 +17,7 @@ use super::{
     layers::{self, Layer},
     sums::{Sums, fill_rectangle},
 };
-use crate::image::Image;
+use glimray_scene::image::Image;
 use std::{borrow::Borrow, ops::AddAssign};
 
 /// The least opacity by which colours are divided.

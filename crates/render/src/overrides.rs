@@ -16,8 +16,8 @@ use crate::{
         TRIANGLE_TEST_WATERTIGHT,
     },
     pack::{Apart, PackedScene, PackedView},
-    scene::{Antialias, Backdrop, Filter},
 };
+use glimray_scene::{Antialias, Backdrop, Filter};
 
 /// Whether there are more shapes than triangles in BVHs.
 pub fn has_mostly_shapes(scene: &PackedScene) -> bool {

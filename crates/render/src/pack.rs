@@ -46,19 +46,17 @@ pub use nodes::with_float_planes;
 pub use segments::Segments;
 pub use trees::TreeWork;
 
-use crate::clock::Instant;
-use crate::{
-    layout::{
-        IMAGE_WIDTH_LOG2, LEAF_FIRST_MASK, NODE_ROWS, PackedMaterial, PackedNode, PackedShape,
-        PackedTangent, PackedTexture, PackedTriangle, PackedVertex, SHAPE, leaf_reference,
-    },
-    scene::{Geometry, Scene, Shadows},
+use crate::layout::{
+    IMAGE_WIDTH_LOG2, LEAF_FIRST_MASK, NODE_ROWS, PackedMaterial, PackedNode, PackedShape,
+    PackedTangent, PackedTexture, PackedTriangle, PackedVertex, SHAPE, leaf_reference,
 };
 use bytemuck::cast_slice;
 use deform::DeformingMesh;
 use environment::Environment;
 use geometry::Flat;
 use glam::DVec3;
+use glimray_scene::clock::Instant;
+use glimray_scene::{Geometry, Scene, Shadows};
 use glow::Glow;
 use instance::{Instance, InstancedBlas, Plan, TransformSource};
 use mesh::CachedMesh;
@@ -251,7 +249,7 @@ fn pack(
     let table = table.map(|table| table.words.clone());
     let mut texels = Segments::default();
     (packed_pictures.iter()).for_each(|packed| texels.append(&packed.words));
-    texels.append(&[albedo::shared_words()].into_iter().chain(table).collect());
+    texels.append(&[albedo::words()].into_iter().chain(table).collect());
     let bounded = joint.shapes.iter().chain(&*instanced_shapes);
     let features = Features {
         shape_kinds: bounded.fold(0, |kinds, shape| kinds | 1 << shape.kind),

@@ -213,12 +213,11 @@ fn least_rays(task: Task) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::{MIN_PACKET_RAYS, least_rays, waits_for_few_lanes};
-    use crate::{
-        pack,
-        render::{ExecutionPolicy, RenderSettings, task::Task},
-        scene::{Camera, Geometry, Instance, Light, LightKind, Material, Mesh, Scene, Shape},
-    };
+    use crate::{ExecutionPolicy, RenderSettings, pack, task::Task};
     use glam::{DAffine3, DVec3, Vec3};
+    use glimray_scene::{
+        Camera, Geometry, Instance, Light, LightKind, Material, Mesh, Scene, Shape,
+    };
     use std::sync::Arc;
 
     /// The result of `find` for a render of the scene's first frame.

@@ -16,12 +16,12 @@ use super::{
     stats::Uploads,
 };
 use crate::{
-    clock::Instant,
     gpu::{Compiled, Gpu, GpuError, Kernel, Source, Variant},
     layout::{NONE, PackedCounters, PackedDispatch},
     pack::{PackedScene, PackedView},
 };
 use bytemuck::{bytes_of, cast_slice, pod_collect_to_vec, pod_read_unaligned};
+use glimray_scene::clock::Instant;
 use std::sync::Arc;
 
 /// Rays of a workgroup.

@@ -1,7 +1,7 @@
 //! Render settings.
 
 use super::{Fingerprint, Integrator, fingerprint::Encoder};
-use crate::scene::{Antialias, Backdrop, Filter, LightTransport, OutputDefaults};
+use glimray_scene::{Antialias, Backdrop, Filter, LightTransport, OutputDefaults};
 use std::{fmt, ops::Range, str::FromStr};
 
 /// Largest width and height of a picture in pixels.

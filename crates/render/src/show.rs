@@ -10,10 +10,10 @@ use super::{
 };
 use crate::{
     gpu::{Gpu, GpuError, Kernel, Source, Variant},
-    image::ScreenImage,
     layout::PackedTone,
 };
 use bytemuck::{bytes_of, cast_slice};
+use glimray_scene::image::ScreenImage;
 use wgpu::BindingResource;
 
 /// A texture for display, as large as the picture: 8 bits per channel, encoded with the transfer function of

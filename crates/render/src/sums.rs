@@ -4,7 +4,7 @@
 //! added as integers, for which addition is associative and commutative. Any split of a picture between blocks,
 //! merged in any order, therefore has the same bits as a single run.
 
-use crate::threads;
+use glimray_scene::threads;
 use std::borrow::Cow;
 
 /// Samples of a pixel that are summed in f32. A picture can be split at multiples of this number; the last

@@ -1,7 +1,7 @@
 //! How radiance becomes a picture: exposure, curve and transfer function.
 
 use super::{Fingerprint, Integrator, Levels, fingerprint::Encoder};
-use crate::scene::{LightTransport, OutputDefaults, ToneCurve, Transfer};
+use glimray_scene::{LightTransport, OutputDefaults, ToneCurve, Transfer};
 use std::fmt;
 
 /// The bits of [`Tone::auto_exposure`] and [`Tone::denoise`] in the number of [`Tone::levels`].

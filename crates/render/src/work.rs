@@ -10,10 +10,10 @@ use super::{
     sums::SAMPLE_BLOCK,
 };
 use crate::{
-    clock::Instant,
     gpu::{GpuError, Reading},
     layout::{CUT_OFF_STACK, PackedCounters},
 };
+use glimray_scene::clock::Instant;
 
 /// Paths that a lane traces in one submission.
 const PATHS_PER_LANE: u32 = 32;

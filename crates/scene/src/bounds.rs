@@ -142,7 +142,7 @@ fn boxed(bounds: Bounds, place: DAffine3) -> Bounds {
 }
 
 /// The corners of a box. Bits 0 to 2 of an index say whether x, y and z are those of the maximum.
-pub(crate) fn corners((min, max): Bounds) -> [DVec3; 8] {
+pub fn corners((min, max): Bounds) -> [DVec3; 8] {
     std::array::from_fn(|i| {
         let side = |axis: usize| {
             if i >> axis & 1 == 0 {

@@ -4,7 +4,7 @@ mod difference;
 
 pub use difference::{Difference, Placed};
 
-/// A rectangle of pixels, as [`crate::output`] writes it.
+/// A rectangle of pixels, as `glimray_io::output` writes it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Image {
     /// In pixels.

@@ -1,6 +1,6 @@
 //! The host model: everything that defines an image, fully resolved.
 //!
-//! A [`Scene`] is resolved once, by [`crate::import`]. Every scene guarantees:
+//! A [`Scene`] is resolved once, by an importer (`glimray_io`). Every scene guarantees:
 //! * right-handed, +Y up, lengths in metres (or the file's unit), angles in radians;
 //! * colours are linear Rec. 709, finite and not negative;
 //! * every index is in range, every number is finite, every direction and normal has unit length;
@@ -11,11 +11,14 @@
 
 mod animation;
 mod bounds;
+pub mod bytes;
 mod classical;
+pub mod clock;
 mod curve;
 mod deformation;
 mod frame;
 mod framing;
+pub mod image;
 mod light;
 mod lit;
 mod material;
@@ -30,11 +33,14 @@ mod output;
 mod physical;
 mod picture;
 mod posed;
+pub mod random;
 mod shape;
 mod sight;
 pub mod sky;
 mod tangents;
+pub mod text;
 mod texture;
+pub mod threads;
 mod transform;
 mod turntable;
 
@@ -42,7 +48,7 @@ pub use animation::{
     Beyond, CameraProperty, Clip, Curve, Easing, Interpolation, LayerProperty, LightProperty,
     MaterialProperty, NodeProperty, Target, TextureProperty, Track, Values,
 };
-pub(crate) use bounds::corners;
+pub use bounds::corners;
 pub use classical::ClassicalMaps;
 pub use curve::Value;
 pub use deformation::{Deformation, Influences, Joint, MorphTarget, Pose, PosedMesh, Skin};
@@ -61,7 +67,7 @@ pub use picture::{
     LARGEST_TEXEL, LUMINANCE, MAX_PICTURE_BYTES, Origin, Picture, SrgbCurve, Texels,
     linear_from_srgb,
 };
-pub(crate) use picture::{SMALLEST_TEXEL, fit, scale_of};
+pub use picture::{SMALLEST_TEXEL, fit, scale_of};
 pub use shape::{CanonicalShape, Geometry, Shape};
 pub use sight::Sight;
 pub use texture::{Minify, Pattern, Space, Texture, UvTransform, Wrap};

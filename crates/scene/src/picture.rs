@@ -14,7 +14,7 @@ pub const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
 pub const LARGEST_TEXEL: f32 = 65504.0;
 
 /// Half of the smallest half float above 0: values up to it become 0.
-pub(crate) const SMALLEST_TEXEL: f32 = 1.0 / (1 << 25) as f32;
+pub const SMALLEST_TEXEL: f32 = 1.0 / (1 << 25) as f32;
 
 /// An image in memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,7 +91,7 @@ impl Picture {
 }
 
 /// Halves the largest pictures until all fit into [`MAX_PICTURE_BYTES`]. Returns how many times that was.
-pub(crate) fn fit<'p>(pictures: impl IntoIterator<Item = &'p mut Arc<Picture>>) -> usize {
+pub fn fit<'p>(pictures: impl IntoIterator<Item = &'p mut Arc<Picture>>) -> usize {
     let size = |picture: &Arc<Picture>| picture.texels.byte_len();
     let mut pictures: Vec<_> = pictures.into_iter().collect();
     let mut bytes: usize = pictures.iter().map(|picture| size(picture)).sum();
@@ -170,7 +170,7 @@ impl Texels {
 }
 
 /// The scale of texels whose brightest channels have these values: [`Texels::scale`].
-pub(crate) fn scale_of(values: impl Iterator<Item = f32>) -> f32 {
+pub fn scale_of(values: impl Iterator<Item = f32>) -> f32 {
     let largest = values.fold(0.0, f32::max);
     let mut scale = 1.0;
     while largest / scale > LARGEST_TEXEL {

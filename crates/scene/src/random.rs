@@ -5,11 +5,9 @@
 pub const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// A sequence of random numbers.
-#[cfg(any(test, feature = "cli"))]
 #[derive(Clone, Debug)]
 pub struct SplitMix64(u64);
 
-#[cfg(any(test, feature = "cli"))]
 impl SplitMix64 {
     /// The sequence with this seed.
     pub fn new(seed: u64) -> Self {

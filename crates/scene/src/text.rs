@@ -6,7 +6,7 @@ const REPLACEMENT: &str = "\u{fffd}";
 /// Whether `c` shows nothing itself and acts on a terminal or on the text around it: control characters, line and
 /// paragraph separators, zero-width characters, the marks, embeddings, overrides and isolates of right-to-left text
 /// (Unicode Standard Annex #9), and tags.
-pub(crate) fn is_control(c: char) -> bool {
+pub fn is_control(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
         || matches!(c, '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}')
@@ -14,13 +14,12 @@ pub(crate) fn is_control(c: char) -> bool {
 }
 
 /// `text` on one line, with a replacement character (�) for each that [`is_control`].
-pub(crate) fn one_line(text: &str) -> String {
+pub fn one_line(text: &str) -> String {
     text.replace(is_control, REPLACEMENT)
 }
 
 /// `text` with an escape (`\u{202e}`) for each character that [`is_control`], except those to `keep`.
-#[cfg(not(target_arch = "wasm32"))]
-pub(crate) fn escape(text: &str, keep: impl Fn(char) -> bool) -> String {
+pub fn escape(text: &str, keep: impl Fn(char) -> bool) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match is_control(c) && !keep(c) {
@@ -33,8 +32,7 @@ pub(crate) fn escape(text: &str, keep: impl Fn(char) -> bool) -> String {
 
 /// `json` with JSON's own escapes (`\u202e`) for the characters that [`is_control`]. They stand in strings only, but for the
 /// line feeds between values.
-#[cfg(feature = "cli")]
-pub(crate) fn escape_json(json: &str) -> String {
+pub fn escape_json(json: &str) -> String {
     let mut escaped = String::with_capacity(json.len());
     for c in json.chars() {
         match is_control(c) && c != '\n' {

@@ -1,17 +1,17 @@
 //! The viewer's latency, measured without a window: drives its render thread with requests like those of a
 //! user.
 
-use crate::app::error::AppError;
-use crate::app::showcase;
-use crate::app::window::{BenchRequest, median};
-use crate::gpu::{Gpu, GpuError};
-use crate::pack;
-use crate::render::{RenderSettings, Renderer, Tone};
-use crate::scene::Scene;
-use crate::viewer::model::camera::CameraController;
-use crate::viewer::worker::progressive_image::PictureSlot;
-use crate::viewer::worker::render_thread::{Fault, RenderRequests, RenderThread};
-use crate::viewer::worker::request::RenderRequest;
+use crate::model::camera::CameraController;
+use crate::worker::progressive_image::PictureSlot;
+use crate::worker::render_thread::{Fault, RenderRequests, RenderThread};
+use crate::worker::request::RenderRequest;
+use glimray_app::error::AppError;
+use glimray_app::showcase;
+use glimray_app::window::{BenchRequest, median};
+use glimray_render::gpu::{Gpu, GpuError};
+use glimray_render::pack;
+use glimray_render::{RenderSettings, Renderer, Tone};
+use glimray_scene::Scene;
 use serde::Serialize;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
@@ -175,7 +175,7 @@ impl Stage {
             background: None,
             shutter_interval: (0.0, 0.0),
             tone: Tone::LINEAR,
-            layer: crate::app::layers::PictureLayer::Beauty,
+            layer: glimray_app::layers::PictureLayer::Beauty,
         });
         thread.order(orders.clone());
         Ok(Self {

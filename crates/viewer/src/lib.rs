@@ -11,12 +11,12 @@ pub mod ui;
 pub mod window;
 pub mod worker;
 
-use crate::app::error::AppError;
-use crate::app::window::{ViewRequest, Window};
+use glimray_app::error::AppError;
+use glimray_app::window::{ViewRequest, Window};
 use model::preferences::Store;
 use state::session::Session;
 
-/// The window as [`crate::cli`] sees it.
+/// The window as [`glimray_cli`] sees it.
 pub const WINDOW: Window = Window {
     has_display: window::has_display,
     open,

@@ -1,7 +1,7 @@
 //! Copies a function, with those that it calls in place of the calls.
 
 use super::{Callee, Callees, Unsupported, operands::with_operands, returns::returns};
-use crate::gpu::specialize::is_temporary;
+use crate::specialize::is_temporary;
 use naga::{
     Arena, AtomicFunction, Block, Expression, Function, GatherMode, Handle, LocalVariable, Range,
     Span, Statement, SwitchCase,

@@ -1,6 +1,6 @@
 //! Functions that return at their ends only, so that their statements can stand in others.
 
-use crate::gpu::specialize::inner_blocks;
+use crate::specialize::inner_blocks;
 use naga::{Block, Span, Statement};
 
 /// Whether a statement of a block, or one inside it, returns.

@@ -217,8 +217,8 @@ fn the_showcase_needs_no_files() {
 /// The demo's version has the same objects, and nothing that needs many samples.
 #[test]
 fn the_demo_is_the_showcase_for_few_paths() {
-    let scene = glimray::app::showcase::scene().expect("the showcase");
-    let demo = glimray::app::showcase::path_traced().expect("the demo");
+    let scene = glimray_app::showcase::scene().expect("the showcase");
+    let demo = glimray_app::showcase::path_traced().expect("the demo");
     let shapes = demo.shapes.iter().zip(&scene.shapes);
     assert_eq!(demo.shapes.len(), scene.shapes.len());
     assert!(shapes.clone().all(|(a, b)| a.geometry == b.geometry));

@@ -27,7 +27,7 @@ fn check(path: &str, expected: &str) {
 #[cfg(feature = "viewer")]
 #[test]
 fn the_table_of_shortcuts_is_current() {
-    let table = glimray::viewer::model::bindings::markdown_table();
+    let table = glimray_viewer::model::bindings::markdown_table();
     check("docs/src/guide/shortcuts.md", &table);
 }
 

@@ -7,7 +7,7 @@ use crate::reference::scenes::Build;
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, Vec3, dvec3};
 use glimray::image::Image;
-use glimray::render::{Filter, RenderSettings};
+use glimray::render::{Filter, RenderSettings, denoise};
 use glimray::scene::{
     Antialias, Attenuation, Backdrop, Background, CanonicalShape, Coverage, Fresnel, Geometry,
     Light, LightKind, Material, Scene, Shape,
@@ -513,8 +513,8 @@ fn films_keep_opacity_however_they_are_cut() {
         assert!(image.pixels.iter().filter(partly).count() > 4);
         if features {
             let features = merged.features().expect("features");
-            let denoised = features.picture().denoised(&gpu, &features);
-            let denoised = denoised.expect("a picture");
+            let denoised = denoise(&features.picture(), &gpu, &features);
+            let denoised = denoised.expect("a picture").image;
             let apart = |(a, b): (&[f32; 4], &[f32; 4])| f64::from((a[3] - b[3]).abs());
             let pixels = image.pixels.iter().zip(&denoised.pixels);
             let mean = pixels.map(apart).sum::<f64>() / 256.0;

@@ -8,8 +8,8 @@ use super::{
     verdict::{Expected, Tolerance, Verdict},
     words::{Input, Output},
 };
-use crate::kernels::link::FEATURES;
 use glimray::gpu::{bound_loops, inline_functions, runtime_checks};
+use glimray_link::FEATURES;
 use std::{borrow::Cow, sync::OnceLock};
 use wesl::{FileResolver, Router, VirtualResolver, Wesl};
 use wgpu::{BufferUsages, util::DeviceExt};

@@ -16,10 +16,10 @@ use glimray::scene::{
     Background, Camera, LayerTextures, Material, MetallicRoughness, Minify, Pattern, Picture,
     Scene, Space, Texels, Texture, ToneCurve, Wrap,
 };
-use glimray::viewer::worker::progressive_image::PictureSlot;
-use glimray::viewer::worker::progressive_image::{Pace, Shown};
-use glimray::viewer::worker::render_thread::{Fault, RenderRequests, RenderThread};
-use glimray::viewer::worker::request::RenderRequest;
+use glimray_viewer::worker::progressive_image::PictureSlot;
+use glimray_viewer::worker::progressive_image::{Pace, Shown};
+use glimray_viewer::worker::render_thread::{Fault, RenderRequests, RenderThread};
+use glimray_viewer::worker::request::RenderRequest;
 use std::sync::Arc;
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
@@ -45,7 +45,7 @@ impl Easel {
             settings,
             policy: ExecutionPolicy::default(),
             tone: Tone::LINEAR,
-            layer: glimray::app::layers::PictureLayer::Beauty,
+            layer: glimray_app::layers::PictureLayer::Beauty,
         });
         let easel = Self {
             gpu,

@@ -7,11 +7,11 @@ use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable, by};
 use glam::Vec3;
 use glimray::scene::Background;
-use glimray::viewer::actions::comparing;
-use glimray::viewer::model::file_dialog::{FileDialogs, Reply};
-use glimray::viewer::model::gallery::MOST;
-use glimray::viewer::model::view_settings::{Sharing, Source};
-use glimray::viewer::worker::comparison::ShownDifference;
+use glimray_viewer::actions::comparing;
+use glimray_viewer::model::file_dialog::{FileDialogs, Reply};
+use glimray_viewer::model::gallery::MOST;
+use glimray_viewer::model::view_settings::{Sharing, Source};
+use glimray_viewer::worker::comparison::ShownDifference;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -165,7 +165,7 @@ fn a_difference_of_two_view_modes_is_that_of_their_pixels() {
     let comparison = window.session().view.comparison.expect("a comparison");
     assert_eq!(comparison.gain(), Some(4.0));
     let render = window.harness.state().render_thread();
-    let beside = glimray::viewer::worker::progressive_image::PictureSlot::Beside;
+    let beside = glimray_viewer::worker::progressive_image::PictureSlot::Beside;
     let beside = render.shown(beside).and_then(|shown| shown.screen);
     let beside = pixels::on(&beside.expect("a screen"), &window.gpu);
     let first = picture_pixels(&window);
@@ -275,7 +275,7 @@ fn a_reference_is_chosen_in_a_dialog_or_typed() {
     let path = reference(folder.path(), (64, 48), [9; 3]);
     let keys = Modifiers::COMMAND | Modifiers::SHIFT;
     let chosen = path.clone();
-    let answer = move |request: glimray::viewer::model::file_dialog::Request| {
+    let answer = move |request: glimray_viewer::model::file_dialog::Request| {
         assert!(!request.saves && request.kind.is_some(), "{request:?}");
         Reply::Chosen(chosen.clone())
     };

@@ -5,17 +5,17 @@ use crate::reference::compare::render;
 use eframe::egui::{Key, Pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{DVec3, dvec3, vec3};
-use glimray::app::scene_file;
 use glimray::import;
 use glimray::render::Tone;
 use glimray::scene::{Background, Geometry, ObjectRef, Scene};
-use glimray::viewer::actions::saving;
-use glimray::viewer::model::bindings::Action;
-use glimray::viewer::model::file_dialog::{FileDialogs, Reply};
-use glimray::viewer::model::objects::{self, Id};
-use glimray::viewer::model::tool::Tool;
-use glimray::viewer::state::dialogs::Dialog;
-use glimray::viewer::state::files::Intent;
+use glimray_app::scene_file;
+use glimray_viewer::actions::saving;
+use glimray_viewer::model::bindings::Action;
+use glimray_viewer::model::file_dialog::{FileDialogs, Reply};
+use glimray_viewer::model::objects::{self, Id};
+use glimray_viewer::model::tool::Tool;
+use glimray_viewer::state::dialogs::Dialog;
+use glimray_viewer::state::files::Intent;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -84,7 +84,7 @@ pub(super) fn on_screen(window: &Window, point: DVec3) -> Pos2 {
     let session = window.session();
     let viewport = session.viewport.expect("a picture");
     let camera = session.camera().expect("a camera");
-    let at = glimray::viewer::model::camera::project(&camera, point, viewport.extent());
+    let at = glimray_viewer::model::camera::project(&camera, point, viewport.extent());
     viewport.point(at.expect("in front of the camera"))
 }
 
@@ -441,7 +441,7 @@ fn a_saved_scene_that_someone_else_changed_is_not_replaced_without_a_question() 
     perform(&mut window, Action::SaveScene);
     assert_eq!(std::fs::read_to_string(&other).expect("the file"), BALLS);
     // Nor when it was read again.
-    glimray::viewer::actions::files::go_on(&mut window.session(), Intent::Reload);
+    glimray_viewer::actions::files::go_on(&mut window.session(), Intent::Reload);
     window.settle();
     perform(&mut window, Action::SaveScene);
     assert_eq!(std::fs::read_to_string(&other).expect("the file"), BALLS);
@@ -493,7 +493,7 @@ fn settings_of_the_picture_are_kept_in_the_scene_when_they_are_wanted_there() {
     assert_eq!(kept.background, Background::Color(vec3(0.5, 0.25, 0.125)));
     assert!(!window.session().has_unsaved_view_settings());
     let other = folder.path().join("kept.toml");
-    glimray::app::scene_file::save(&other, &kept, false).expect("a file");
+    glimray_app::scene_file::save(&other, &kept, false).expect("a file");
     let read = glimray::import::load(&other).expect("a scene");
     assert_eq!(read.output, kept.output);
     assert_shows(&mut window, &read, "kept");
@@ -791,7 +791,7 @@ fn no_camera_is_without_an_up() {
 
 /// Labels of all lines of the outline.
 fn labels(scene: &Scene) -> Vec<String> {
-    let outline = glimray::viewer::model::outline::Outline::of(scene);
+    let outline = glimray_viewer::model::outline::Outline::of(scene);
     outline
         .entries
         .into_iter()

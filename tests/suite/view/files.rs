@@ -6,10 +6,10 @@ use eframe::egui;
 use egui_kittest::kittest::{Queryable, by};
 use glimray::image::Image;
 use glimray::scene::Background;
-use glimray::viewer::actions::files::{self, pictures};
-use glimray::viewer::model::file_dialog::{FileDialogs, Reply};
-use glimray::viewer::model::messages::sentence;
-use glimray::viewer::state::files::{Intent, SaveSize};
+use glimray_viewer::actions::files::{self, pictures};
+use glimray_viewer::model::file_dialog::{FileDialogs, Reply};
+use glimray_viewer::model::messages::sentence;
+use glimray_viewer::state::files::{Intent, SaveSize};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -602,7 +602,7 @@ fn kept_cameras_come_after_the_scenes_own_and_outlive_the_window() {
     window.harness.key_press(egui::Key::CloseBracket);
     window.settle();
     assert_eq!(window.camera().look_from, kept.look_from);
-    glimray::viewer::actions::settings::write(&mut window.session());
+    glimray_viewer::actions::settings::write(&mut window.session());
     let text = fs::read_to_string(window.settings.path().join("viewer.toml")).expect("a file");
     assert!(text.contains("View 1"), "{text}");
 }
@@ -828,7 +828,7 @@ fn a_picture_saved_with_overlays_is_what_the_window_shows() {
     window.session().shows_overlays = false;
     window.session().preferences.hint_seen = true;
     let path = place.path("shot.png");
-    glimray::viewer::actions::files::pictures::open(&mut window.session(), true);
+    glimray_viewer::actions::files::pictures::open(&mut window.session(), true);
     window
         .session()
         .files
@@ -908,7 +908,7 @@ fn an_empty_window_offers_recent_files_and_the_built_in_scene() {
     let mut window = place.open("model.glb");
     window.harness.get_by_label("Built-in scene").click();
     window.settle();
-    let demo = glimray::app::showcase::scene().expect("the demo");
+    let demo = glimray_app::showcase::scene().expect("the demo");
     let session = window.session();
     assert_eq!(session.scene().expect("a scene").as_ref(), &demo);
     assert_eq!(session.title(), "demo");

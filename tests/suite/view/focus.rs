@@ -5,7 +5,7 @@ use super::harness::Window;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Role};
 use egui_kittest::kittest::{NodeT, Queryable};
 use glimray::scene::{Geometry, Scene};
-use glimray::viewer::model::tool::Tool;
+use glimray_viewer::model::tool::Tool;
 
 /// A click of the left button, each event in a frame of its own.
 pub fn click_at(window: &mut Window, pos: Pos2, button: PointerButton) {

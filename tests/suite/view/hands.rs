@@ -3,7 +3,7 @@
 use super::harness::Window;
 use eframe::egui::{self, Key, Modifiers, PointerButton, Pos2, Role};
 use egui_kittest::kittest::Queryable;
-use glimray::viewer::model::bindings::Action;
+use glimray_viewer::model::bindings::Action;
 
 fn open(scene: &str) -> Window {
     let path = format!("assets/scenes/{scene}");

@@ -4,18 +4,18 @@ use crate::support::PATIENCE;
 use crate::support::devices::Devices;
 use eframe::egui;
 use egui_kittest::Harness;
-use glimray::cli::view;
 use glimray::gpu::{AdapterChoice, Gpu};
 use glimray::image::Image;
 use glimray::render::Tone;
 use glimray::scene::Camera;
-use glimray::viewer::model::preferences::Store;
-use glimray::viewer::state::session::Session;
-use glimray::viewer::window;
-use glimray::viewer::window::viewer::Viewer;
-use glimray::viewer::worker::progressive_image::PictureSlot;
-use glimray::viewer::worker::progressive_image::Shown;
-use glimray::viewer::worker::request::RenderRequest;
+use glimray_cli::view;
+use glimray_viewer::model::preferences::Store;
+use glimray_viewer::state::session::Session;
+use glimray_viewer::window;
+use glimray_viewer::window::viewer::Viewer;
+use glimray_viewer::worker::progressive_image::PictureSlot;
+use glimray_viewer::worker::progressive_image::Shown;
+use glimray_viewer::worker::request::RenderRequest;
 use std::cell::{RefCell, RefMut};
 use std::rc::Rc;
 use std::sync::mpsc::channel;
@@ -109,7 +109,7 @@ impl Window {
         self.session.borrow_mut().ask(move |frame| {
             let (image, _) = frame.image(&tone).expect("a picture");
             sender.send(image).expect("someone who waits");
-            glimray::viewer::state::answer::Answer::Nothing
+            glimray_viewer::state::answer::Answer::Nothing
         });
         self.settle();
         // Without one there is no answer either.

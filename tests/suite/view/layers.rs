@@ -3,10 +3,10 @@
 use super::harness::Window;
 use crate::reference::compare::open_gpu;
 use eframe::egui::{Key, Modifiers};
-use glimray::app::layer_picture::picture;
-use glimray::app::layers::{LAYERS, PictureLayer};
 use glimray::image::ScreenImage;
 use glimray::render::{Features, PixelFeatures, Tone};
+use glimray_app::layer_picture::picture;
+use glimray_app::layers::{LAYERS, PictureLayer};
 
 #[test]
 fn keys_step_through_the_layers_of_the_running_picture() {
@@ -35,7 +35,7 @@ fn keys_step_through_the_layers_of_the_running_picture() {
                 sender
                     .send(frame.renderer.features().expect("features"))
                     .expect("someone who waits");
-                glimray::viewer::state::answer::Answer::Nothing
+                glimray_viewer::state::answer::Answer::Nothing
             });
             window.settle();
             (receiver.recv().expect("features"), tone)

@@ -9,12 +9,12 @@ use glimray::import::Options;
 use glimray::pack;
 use glimray::render::{ExecutionPolicy, Integrator, RenderSettings, Tone};
 use glimray::scene::Scene;
-use glimray::viewer::actions::files;
-use glimray::viewer::model::loader::{self, Loaded};
-use glimray::viewer::worker::progressive_image::{PictureSlot, ProgressiveImage};
-use glimray::viewer::worker::render_thread::{RenderRequests, RenderThread};
-use glimray::viewer::worker::request::{PreparedScene, RenderRequest};
-use glimray::viewer::worker::stage::Stage;
+use glimray_viewer::actions::files;
+use glimray_viewer::model::loader::{self, Loaded};
+use glimray_viewer::worker::progressive_image::{PictureSlot, ProgressiveImage};
+use glimray_viewer::worker::render_thread::{RenderRequests, RenderThread};
+use glimray_viewer::worker::request::{PreparedScene, RenderRequest};
+use glimray_viewer::worker::stage::Stage;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, mpsc};
@@ -103,7 +103,7 @@ fn order(scene: Arc<Scene>) -> RenderRequest {
         shutter_interval: (0.0, 0.0),
         policy: ExecutionPolicy::default(),
         tone: Tone::LINEAR,
-        layer: glimray::app::layers::PictureLayer::Beauty,
+        layer: glimray_app::layers::PictureLayer::Beauty,
     }
 }
 

@@ -7,10 +7,10 @@ use egui_kittest::kittest::{NodeT, Queryable, by};
 use glam::Vec3;
 use glimray::render::Integrator;
 use glimray::scene::{Antialias, Background};
-use glimray::viewer::model::preferences::Theme;
-use glimray::viewer::model::tool::Tool;
-use glimray::viewer::model::view_settings::{Comparison, Sharing, Source};
-use glimray::viewer::worker::progressive_image::PictureSlot;
+use glimray_viewer::model::preferences::Theme;
+use glimray_viewer::model::tool::Tool;
+use glimray_viewer::model::view_settings::{Comparison, Sharing, Source};
+use glimray_viewer::worker::progressive_image::PictureSlot;
 
 fn open() -> Window {
     let mut window = Window::open(&["--size", "64x48", "--samples", "4"]);
@@ -287,7 +287,7 @@ fn a_view_of_a_quantity_has_a_legend_with_its_range_and_unit() {
         let found = legends(&window);
         assert!(found.len() == 1 && found[0].contains(words), "{found:?}");
         assert!(
-            found[0].contains(&glimray::app::legend::number(least)),
+            found[0].contains(&glimray_app::legend::number(least)),
             "{found:?}"
         );
         // Saved pictures and those of the command line are as shown.

@@ -7,12 +7,12 @@ use eframe::egui::{self, Key};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{SnapshotError, SnapshotOptions, try_image_snapshot_options};
 use glimray::scene::{Geometry, ObjectRef};
-use glimray::viewer::actions::inspector;
-use glimray::viewer::model::objects::Id;
-use glimray::viewer::model::preferences::Theme;
-use glimray::viewer::model::tool::Tool;
-use glimray::viewer::model::view_settings::Sharing;
-use glimray::viewer::state::layout::Panel;
+use glimray_viewer::actions::inspector;
+use glimray_viewer::model::objects::Id;
+use glimray_viewer::model::preferences::Theme;
+use glimray_viewer::model::tool::Tool;
+use glimray_viewer::model::view_settings::Sharing;
+use glimray_viewer::state::layout::Panel;
 
 /// Other drivers round otherwise along edges: this many pixels of 700,000 may differ.
 const MAX_PIXELS: usize = 1000;

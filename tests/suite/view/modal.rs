@@ -5,10 +5,10 @@ use super::focus::click_at;
 use super::harness::Window;
 use eframe::egui::{Key, Modifiers, PointerButton, vec2};
 use glam::{DAffine3, DMat3, DVec3, dvec3};
-use glimray::viewer::model::bindings::Preset;
-use glimray::viewer::model::objects;
-use glimray::viewer::model::objects::Id;
-use glimray::viewer::model::tool::Tool;
+use glimray_viewer::model::bindings::Preset;
+use glimray_viewer::model::objects;
+use glimray_viewer::model::objects::Id;
+use glimray_viewer::model::tool::Tool;
 use std::f64::consts::FRAC_PI_2;
 
 /// Two balls, of which the red one is selected, and the pointer over the picture.

@@ -4,14 +4,14 @@ use super::harness::Window;
 use eframe::egui::{Key, Role};
 use egui_kittest::kittest::{NodeT, Queryable, by};
 use glimray::scene::ObjectRef;
-use glimray::viewer::actions::comparing;
-use glimray::viewer::actions::inspector;
-use glimray::viewer::actions::saving;
-use glimray::viewer::model::objects::Id;
-use glimray::viewer::model::tool::Tool;
-use glimray::viewer::model::view_settings::Sharing;
-use glimray::viewer::state::dialogs::Dialog;
-use glimray::viewer::state::files::Intent;
+use glimray_viewer::actions::comparing;
+use glimray_viewer::actions::inspector;
+use glimray_viewer::actions::saving;
+use glimray_viewer::model::objects::Id;
+use glimray_viewer::model::tool::Tool;
+use glimray_viewer::model::view_settings::Sharing;
+use glimray_viewer::state::dialogs::Dialog;
+use glimray_viewer::state::files::Intent;
 
 /// Roles of interactive controls.
 const CONTROLS: [Role; 18] = [

@@ -6,8 +6,8 @@ use eframe::egui::{Modifiers, PointerButton, Pos2, Role, pos2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{DVec3, dvec3};
 use glimray::scene::{ObjectRef, Scene};
-use glimray::viewer::model::bindings::Action;
-use glimray::viewer::model::objects::{self, Id};
+use glimray_viewer::model::bindings::Action;
+use glimray_viewer::model::objects::{self, Id};
 use std::path::PathBuf;
 use tempfile::TempDir;
 

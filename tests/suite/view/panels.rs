@@ -4,9 +4,9 @@ use super::harness::Window;
 use eframe::App;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Role, pos2, vec2};
 use egui_kittest::kittest::Queryable;
-use glimray::viewer::model::preferences::Store;
-use glimray::viewer::model::view_settings::{Comparison, Sharing};
-use glimray::viewer::state::layout::Panel;
+use glimray_viewer::model::preferences::Store;
+use glimray_viewer::model::view_settings::{Comparison, Sharing};
+use glimray_viewer::state::layout::Panel;
 
 fn open() -> Window {
     let mut window = Window::open(&["--size", "64x48", "--samples", "1"]);

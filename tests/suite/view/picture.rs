@@ -8,9 +8,9 @@ use eframe::egui::{
 };
 use egui_kittest::kittest::Queryable;
 use glam::{DVec3, dvec2};
-use glimray::viewer::actions::files::pictures;
-use glimray::viewer::model::viewport::{PixelZoom, Viewport};
-use glimray::viewer::state::files::SaveSize;
+use glimray_viewer::actions::files::pictures;
+use glimray_viewer::model::viewport::{PixelZoom, Viewport};
+use glimray_viewer::state::files::SaveSize;
 
 /// Moves the cursor to a pixel's centre and waits until it is known what is there.
 fn rest_on(window: &mut Window, [x, y]: [u32; 2]) {
@@ -78,7 +78,7 @@ fn a_resting_cursor_asks_once() {
     window.session().view.tone.exposure_ev -= 2.0;
     window.settle();
     let darker = window.session().cursor.probe.clone();
-    let sum = |probe: Option<glimray::viewer::state::cursor::Probe>| {
+    let sum = |probe: Option<glimray_viewer::state::cursor::Probe>| {
         let rgb = probe.and_then(|probe| probe.rgb).expect("a colour");
         rgb.map(u32::from).iter().sum::<u32>()
     };

@@ -9,16 +9,16 @@ use egui_kittest::kittest::{NodeT, Queryable, by};
 use glam::{DMat4, DVec2, DVec3, Vec3, dvec2};
 use glimray::render::{RayKind, RayTree, SampleTree, Tone, TracedRay};
 use glimray::scene::{Camera, ObjectRef};
-use glimray::viewer::actions::inspector;
-use glimray::viewer::actions::inspector::export;
-use glimray::viewer::actions::inspector::export::Format;
-use glimray::viewer::actions::inspector::{hidden, outside};
-use glimray::viewer::model::file_dialog::{FileDialogs, Reply};
-use glimray::viewer::model::objects::Id;
-use glimray::viewer::state::inspector::ray_labels;
-use glimray::viewer::state::inspector::rows;
-use glimray::viewer::state::inspector::rows::{Filter, Row};
-use glimray::viewer::state::inspector::{Inspected, PARTS};
+use glimray_viewer::actions::inspector;
+use glimray_viewer::actions::inspector::export;
+use glimray_viewer::actions::inspector::export::Format;
+use glimray_viewer::actions::inspector::{hidden, outside};
+use glimray_viewer::model::file_dialog::{FileDialogs, Reply};
+use glimray_viewer::model::objects::Id;
+use glimray_viewer::state::inspector::ray_labels;
+use glimray_viewer::state::inspector::rows;
+use glimray_viewer::state::inspector::rows::{Filter, Row};
+use glimray_viewer::state::inspector::{Inspected, PARTS};
 use std::collections::BTreeSet;
 use std::process::Command;
 
@@ -466,7 +466,7 @@ fn what_a_sphere_hides_of_a_ray_is_known() {
     let mut window = Window::open(&[SPHERE, "--size", "64x48", "--samples", "1"]);
     inspect(&mut window, [32, 24]);
     // From the other side, a little from above.
-    let outside = |session: &mut glimray::viewer::state::session::Session| {
+    let outside = |session: &mut glimray_viewer::state::session::Session| {
         let rig = session
             .inspector
             .outside

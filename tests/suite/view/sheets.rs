@@ -3,12 +3,12 @@
 use super::harness::Window;
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
-use glimray::viewer::actions::settings;
-use glimray::viewer::model::bindings::Action;
-use glimray::viewer::model::preferences::{Store, Theme};
-use glimray::viewer::model::tool::Tool;
-use glimray::viewer::state::dialogs::Dialog;
-use glimray::viewer::state::layout::Panel;
+use glimray_viewer::actions::settings;
+use glimray_viewer::model::bindings::Action;
+use glimray_viewer::model::preferences::{Store, Theme};
+use glimray_viewer::model::tool::Tool;
+use glimray_viewer::state::dialogs::Dialog;
+use glimray_viewer::state::layout::Panel;
 use std::fs;
 
 const SMALL: [&str; 4] = ["--size", "48x32", "--samples", "1"];

@@ -5,7 +5,7 @@ use super::pixels;
 use eframe::egui::{Key, Role};
 use egui_kittest::kittest::{NodeT, Queryable};
 use glimray::scene::Shutter;
-use glimray::viewer::state::layout::Panel;
+use glimray_viewer::state::layout::Panel;
 
 const SIZE: [&str; 4] = ["--size", "60x40", "--samples", "2"];
 

@@ -4,7 +4,7 @@ use super::edit::{file, on_screen, open};
 use super::focus::click_at;
 use eframe::egui::{Key, Modifiers, PointerButton};
 use glam::{DVec3, dvec3};
-use glimray::viewer::model::tool::Tool;
+use glimray_viewer::model::tool::Tool;
 
 /// The point of a ball of radius 0.75 that a camera at (0, 0, 8) sees at its centre.
 fn front(center: DVec3) -> DVec3 {

@@ -1,7 +1,7 @@
 //! Formats the rays of a path: one after the other, each with its light sample and the direction chosen at its end.
 
 use super::{color, object, quoted, short, target, vector, way, write_split};
-use crate::render::{
+use glimray_render::{
     LightSample, Lobe, PathStep, RayHit, ShadowRay, Sharing, StepOutcome, TracedRay,
 };
 use std::fmt::{self, Write};

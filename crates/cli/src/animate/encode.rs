@@ -1,9 +1,9 @@
 //! Encodes frame files to a video.
 
-use crate::app::error::AppError;
-use crate::cli::interrupt::Interrupt;
-use crate::output::OutputError;
-use crate::output::video::{self, VideoFormat, VideoOptions};
+use crate::interrupt::Interrupt;
+use glimray_app::error::AppError;
+use glimray_io::output::OutputError;
+use glimray_io::output::video::{self, VideoFormat, VideoOptions};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 

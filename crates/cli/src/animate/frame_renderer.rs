@@ -1,24 +1,26 @@
 //! Renders frames. All of them share one renderer, so that only moving geometry is uploaded per frame.
 
-use crate::app::error::AppError;
-use crate::app::storage;
-use crate::cli::animate::fingerprint;
-use crate::cli::animate::fingerprint::Fingerprint;
-use crate::cli::animate::journal::{Journal, Origin};
-use crate::cli::animate::plan::Plan;
-use crate::cli::animate::target::Files;
-use crate::cli::animate::{Frames, Sequence};
-use crate::cli::args::LayerFlags;
-use crate::cli::device;
-use crate::cli::interrupt::Interrupt;
-use crate::cli::layers::Finished;
-use crate::cli::progress::FrameProgress;
-use crate::cli::report::FetchReport;
-use crate::gpu::{AdapterReport, Gpu};
-use crate::output::video::{self, Picture8, VideoOptions, Y4mWriter};
-use crate::output::{self, Format, OutputError};
-use crate::pack::{self, PackedScene, PackedView};
-use crate::render::{self, CatcherLight, ExecutionPolicy, RenderSettings, Renderer, Stats, Tone};
+use crate::animate::fingerprint;
+use crate::animate::fingerprint::Fingerprint;
+use crate::animate::journal::{Journal, Origin};
+use crate::animate::plan::Plan;
+use crate::animate::target::Files;
+use crate::animate::{Frames, Sequence};
+use crate::args::LayerFlags;
+use crate::device;
+use crate::interrupt::Interrupt;
+use crate::layers::Finished;
+use crate::progress::FrameProgress;
+use crate::report::FetchReport;
+use glimray_app::error::AppError;
+use glimray_app::storage;
+use glimray_io::output::video::{self, Picture8, VideoOptions, Y4mWriter};
+use glimray_io::output::{self, Format, OutputError};
+use glimray_render::gpu::{AdapterReport, Gpu};
+use glimray_render::pack::{self, PackedScene, PackedView};
+use glimray_render::{
+    self as render, CatcherLight, ExecutionPolicy, RenderSettings, Renderer, Stats, Tone,
+};
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

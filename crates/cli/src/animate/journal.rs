@@ -3,12 +3,12 @@
 //! last line is ignored. A run that ends rewrites the file in frame order, so that the same frames give the
 //! same journal, in whatever order they were rendered.
 
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::cli::animate::fingerprint;
-use crate::cli::animate::fingerprint::Fingerprint;
-use crate::cli::animate::pattern::Pattern;
-use crate::output::{self, OutputError};
+use crate::animate::fingerprint;
+use crate::animate::fingerprint::Fingerprint;
+use crate::animate::pattern::Pattern;
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_io::output::{self, OutputError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};

@@ -1,12 +1,12 @@
 //! Decides which existing frames are reused and which are rendered.
 
-use crate::app::error::AppError;
-use crate::app::inputs::Inputs;
-use crate::cli::animate::Sequence;
-use crate::cli::animate::journal::{Journal, Origin, State};
-use crate::cli::interrupt::Interrupt;
-use crate::cli::report::Redone;
-use crate::output;
+use crate::animate::Sequence;
+use crate::animate::journal::{Journal, Origin, State};
+use crate::interrupt::Interrupt;
+use crate::report::Redone;
+use glimray_app::error::AppError;
+use glimray_app::inputs::Inputs;
+use glimray_io::output;
 
 /// Largest number of frame ranges in a message.
 const MAX_LISTED: usize = 6;

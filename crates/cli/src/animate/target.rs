@@ -1,12 +1,12 @@
 //! Where an animation is written: frame files, a video, or a stream.
 
-use crate::app::error::AppError;
-use crate::app::inputs::Inputs;
-use crate::cli::animate::pattern::Pattern;
-use crate::cli::args::{LogFlags, SequenceFlags, SequenceFormat};
-use crate::cli::{destination, job, lock};
-use crate::output::video::{self, VideoFormat, VideoOptions};
-use crate::output::{self, Format, OutputError, SaveOptions};
+use crate::animate::pattern::Pattern;
+use crate::args::{LogFlags, SequenceFlags, SequenceFormat};
+use crate::{destination, job, lock};
+use glimray_app::error::AppError;
+use glimray_app::inputs::Inputs;
+use glimray_io::output::video::{self, VideoFormat, VideoOptions};
+use glimray_io::output::{self, Format, OutputError, SaveOptions};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 

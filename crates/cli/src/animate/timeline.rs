@@ -1,10 +1,10 @@
 //! The frame range of an animation and its times.
 
-use crate::app::clock;
-use crate::app::clock::Clock;
-use crate::app::error::AppError;
-use crate::cli::args::{Range, RangeFlags};
-use crate::scene::Scene;
+use crate::args::{Range, RangeFlags};
+use glimray_app::clock;
+use glimray_app::clock::Clock;
+use glimray_app::error::AppError;
+use glimray_scene::Scene;
 
 /// The frames of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,11 +93,11 @@ fn end_of(scene: &Scene, fps: f64, repeat: bool) -> Result<u32, AppError> {
         )
     })?;
     let last = clock::last_frame(duration, fps, repeat);
-    if last > crate::cli::args::MAX_FRAME {
+    if last > crate::args::MAX_FRAME {
         return Err(AppError::Usage(format!(
             "too many frames (--fps): {duration} seconds at {fps} frames per second exceed the limit of {} \
              frames. Give a range with --frames.",
-            crate::cli::args::MAX_FRAME
+            crate::args::MAX_FRAME
         )));
     }
     Ok(last)

@@ -6,20 +6,20 @@ pub use log::{LogFlags, ProgressMode};
 
 use super::checkpoint::CheckpointFlags;
 use super::values::{self, BACKENDS, FORMATS, GROUNDS, Up};
-use crate::app::layers::{LAYERS, PictureLayer};
-use crate::app::overrides::{
-    BackgroundChoice, CameraOverrides, Exposure, PictureOverrides, ToneOverrides,
-};
-use crate::app::value_names::{
-    ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
-};
-use crate::gpu::{AdapterChoice, Backend};
-use crate::import;
-use crate::output::Format;
-use crate::render::{Antialias, BsdfModel, Integrator, RayOffset, TriangleTest};
-use crate::scene::{Filter, ToneCurve, Transfer};
 use clap::Args;
 use glam::DVec3;
+use glimray_app::layers::{LAYERS, PictureLayer};
+use glimray_app::overrides::{
+    BackgroundChoice, CameraOverrides, Exposure, PictureOverrides, ToneOverrides,
+};
+use glimray_app::value_names::{
+    ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
+};
+use glimray_io::import;
+use glimray_io::output::Format;
+use glimray_render::gpu::{AdapterChoice, Backend};
+use glimray_render::{Antialias, BsdfModel, Integrator, RayOffset, TriangleTest};
+use glimray_scene::{Filter, ToneCurve, Transfer};
 use std::num::NonZero;
 use std::path::PathBuf;
 

@@ -1,12 +1,12 @@
 //! Flags for animation.
 
 use super::values::{self, SEQUENCE_FORMATS};
-use crate::app::overrides::{Moment, TimingOverrides};
-use crate::output::Format;
-use crate::output::video::VideoFormat;
-use crate::scene::Shutter;
 use clap::Args;
 use glam::{DVec3, Vec3};
+use glimray_app::overrides::{Moment, TimingOverrides};
+use glimray_io::output::Format;
+use glimray_io::output::video::VideoFormat;
+use glimray_scene::Shutter;
 use std::path::PathBuf;
 
 /// The time at which a single picture is taken.

@@ -1,16 +1,16 @@
 //! Parsers for the values of flags, with their error messages.
 
-use crate::app::overrides::{BackgroundChoice, Exposure};
-use crate::app::value_names::ValueNames;
-use crate::cli::args::{ProgressMode, Range, SequenceFormat};
-use crate::gpu::Backend;
-use crate::import::{Axis, Baking, EnvironmentSource, Ground};
-use crate::output::Format;
-use crate::output::video::VideoFormat;
-use crate::render::{Integrator, MAX_SIDE};
-use crate::scene::{Shutter, sky};
+use crate::args::{ProgressMode, Range, SequenceFormat};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec3, Vec3};
+use glimray_app::overrides::{BackgroundChoice, Exposure};
+use glimray_app::value_names::ValueNames;
+use glimray_io::import::{Axis, Baking, EnvironmentSource, Ground};
+use glimray_io::output::Format;
+use glimray_io::output::video::VideoFormat;
+use glimray_render::gpu::Backend;
+use glimray_render::{Integrator, MAX_SIDE};
+use glimray_scene::{Shutter, sky};
 use std::fmt::Display;
 use std::num::NonZero;
 use std::str::FromStr;

@@ -1,7 +1,7 @@
 //! `--compare OLD.json`: the ratios of this run's figures to those of an earlier one.
 
-use crate::app::error::AppError;
-use crate::output;
+use glimray_app::error::AppError;
+use glimray_io::output;
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;

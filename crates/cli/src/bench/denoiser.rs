@@ -2,10 +2,10 @@
 
 use super::figure::Figure;
 use super::random::Random;
-use crate::app::error::AppError;
-use crate::gpu::Gpu;
-use crate::image::Image;
-use crate::render::{Features, PixelFeatures};
+use glimray_app::error::AppError;
+use glimray_render::gpu::Gpu;
+use glimray_render::{Features, PixelFeatures};
+use glimray_scene::image::Image;
 use serde::Serialize;
 use std::time::Instant;
 
@@ -52,7 +52,7 @@ impl Denoiser {
             pixels,
         };
         let picture = features.picture();
-        picture.denoise(gpu, &features)?;
+        glimray_render::denoise(&picture, gpu, &features)?;
         Ok(Self {
             picture,
             features,
@@ -67,7 +67,7 @@ impl Denoiser {
     /// The device failed.
     pub fn run(&mut self, gpu: &Gpu) -> Result<(), AppError> {
         let started = Instant::now();
-        let denoised = self.picture.denoise(gpu, &self.features)?;
+        let denoised = glimray_render::denoise(&self.picture, gpu, &self.features)?;
         self.seconds.push(started.elapsed().as_secs_f64());
         self.pass_seconds.extend(denoised.pass_seconds);
         Ok(())

@@ -4,11 +4,11 @@
 use super::ray_sets;
 use super::scene_runs;
 use super::scenes::{Detail, Procedural};
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::output::{self, OutputError};
-use crate::render::RayTest;
-use crate::scene::Scene;
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_io::output::{self, OutputError};
+use glimray_render::RayTest;
+use glimray_scene::Scene;
 use std::fs;
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! Measurements of one figure.
 
-use crate::app::window::median;
+use glimray_app::window::median;
 use serde::Serialize;
 use std::fmt;
 

@@ -2,8 +2,8 @@
 
 use super::figure::Figure;
 use super::workloads::course_text;
-use crate::app::error::AppError;
-use crate::cli::args::DeviceFlags;
+use crate::args::DeviceFlags;
+use glimray_app::error::AppError;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

@@ -2,18 +2,18 @@
 
 use super::figure::Figure;
 use super::scenes::parts::Builder;
-use crate::app::error::AppError;
-use crate::app::storage;
-use crate::cli::args::BenchArgs;
-use crate::cli::job;
-use crate::gpu::Gpu;
-use crate::pack::{self, PackedScene};
-use crate::render::{RenderSettings, Renderer};
-use crate::scene::{
+use crate::args::BenchArgs;
+use crate::job;
+use glam::{DAffine3, DQuat, DVec3, Vec3};
+use glimray_app::error::AppError;
+use glimray_app::storage;
+use glimray_render::gpu::Gpu;
+use glimray_render::pack::{self, PackedScene};
+use glimray_render::{RenderSettings, Renderer};
+use glimray_scene::{
     Attenuation, Beyond, Camera, Curve, Deformation, Easing, Influences, Instance, Interpolation,
     Joint, Light, LightKind, Node, NodeProperty, Scene, Skin, Target, Track, Values,
 };
-use glam::{DAffine3, DQuat, DVec3, Vec3};
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -86,7 +86,7 @@ pub fn figure() -> Scene {
             look_at: DVec3::new(0.0, 1.8, 0.0),
             ..Camera::default()
         }],
-        materials: vec![crate::scene::Material::default()],
+        materials: vec![glimray_scene::Material::default()],
         lights: vec![Light {
             kind: LightKind::Directional {
                 direction: DVec3::new(-0.4, -0.6, -0.7).normalize(),

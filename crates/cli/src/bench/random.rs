@@ -1,7 +1,7 @@
 //! Random numbers, points and directions of scenes and rays.
 
-use crate::random::{GAMMA, SplitMix64, mixed};
 use glam::{DVec3, dvec3};
+use glimray_scene::random::{GAMMA, SplitMix64, mixed};
 
 /// A sequence of random numbers. Results are computed with operations that IEEE 754 rounds correctly, without
 /// functions of a mathematics library.

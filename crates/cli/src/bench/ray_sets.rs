@@ -3,9 +3,9 @@
 
 use super::random::Random;
 use super::walk::{Found, Walker};
-use crate::render::{Coherence, QueryRay, RayTest};
-use crate::scene::{LightKind, Scene};
 use glam::{DVec3, dvec3};
+use glimray_render::{Coherence, QueryRay, RayTest};
+use glimray_scene::{LightKind, Scene};
 
 /// Side of a square of neighbouring pixels, whose rays follow each other in Morton order.
 const TILE: u32 = 8;

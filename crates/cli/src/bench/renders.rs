@@ -2,14 +2,14 @@
 
 use super::figure::Figure;
 use super::workloads::Workload;
-use crate::app::error::AppError;
-use crate::app::storage;
-use crate::app::window::median;
-use crate::cli::args::BenchArgs;
-use crate::cli::job;
-use crate::gpu::Gpu;
-use crate::pack::{self, PackedScene, PackedView};
-use crate::render::{Rays, RenderSettings, Renderer, Tone};
+use crate::args::BenchArgs;
+use crate::job;
+use glimray_app::error::AppError;
+use glimray_app::storage;
+use glimray_app::window::median;
+use glimray_render::gpu::Gpu;
+use glimray_render::pack::{self, PackedScene, PackedView};
+use glimray_render::{Rays, RenderSettings, Renderer, Tone};
 use serde::Serialize;
 use std::sync::Arc;
 use std::time::Instant;
@@ -217,9 +217,9 @@ impl Row {
 #[cfg(test)]
 mod tests {
     use super::{Purpose, Renders, Times};
-    use crate::cli::bench::workloads::Workload;
-    use crate::render::Rays;
-    use crate::scene::Scene;
+    use crate::bench::workloads::Workload;
+    use glimray_render::Rays;
+    use glimray_scene::Scene;
 
     /// A driver that takes long for the first render with each kernel: that which counts rays, and that which does not.
     #[test]

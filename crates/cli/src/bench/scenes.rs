@@ -15,8 +15,8 @@ pub use hairball::hairball;
 pub use hall::hall;
 pub use terrain::{height_field, hills, terrain};
 
-use crate::scene::{Background, Camera, Instance, Light, LightKind, Material, Mesh, Scene};
 use glam::{DAffine3, DVec3, Vec3};
+use glimray_scene::{Background, Camera, Instance, Light, LightKind, Material, Mesh, Scene};
 
 /// How large a scene is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

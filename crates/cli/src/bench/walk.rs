@@ -1,9 +1,9 @@
 //! Closest hits on the host, in double precision: the rays of the sets start from them, so that the sets are the
 //! same whatever adapter traces them. The result does not depend on the tree.
 
-use crate::bvh::{self, Aabb, Bvh, Child, Limits};
-use crate::scene::{Geometry, Mesh, Scene};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glimray_render::bvh::{self, Aabb, Bvh, Child, Limits};
+use glimray_scene::{Geometry, Mesh, Scene};
 
 /// A scene of meshes and spheres with its trees.
 pub struct Walker<'a> {

@@ -2,15 +2,15 @@
 
 use super::random::Random;
 use super::scenes::{Detail, glass, hills};
-use crate::app::error::AppError;
-use crate::app::showcase;
-use crate::import;
-use crate::pack;
-use crate::scene::{
+use glam::{DAffine3, DQuat, DVec3, Vec3};
+use glimray_app::error::AppError;
+use glimray_app::showcase;
+use glimray_io::import;
+use glimray_render::pack;
+use glimray_scene::{
     Background, Beyond, Camera, CameraProperty, Curve, Easing, Instance, Interpolation, Light,
     LightKind, Material, Scene, Target, Track, Values,
 };
-use glam::{DAffine3, DQuat, DVec3, Vec3};
 use std::fmt::Write;
 
 /// A scene with its render settings.

@@ -3,7 +3,7 @@
 //! RMSE and PSNR are computed over all channels of all pixels, with a peak of 1. FLIP is the mean of
 //! Andersson et al., "FLIP: A Difference Evaluator for Alternating Images" (2020).
 
-use crate::app::picture_file::Picture;
+use glimray_app::picture_file::Picture;
 
 /// Largest picture for FLIP, in pixels; larger ones would need gigabytes of memory.
 pub const MAX_FLIP_PIXELS: usize = 1 << 24;

@@ -3,11 +3,11 @@
 use super::comparison::Comparison;
 use super::limits::Limits;
 use super::{ComparisonOutput, Pair};
-use crate::app::error::AppError;
-use crate::app::inputs::Inputs;
-use crate::cli::args::CompareArgs;
-use crate::import::PICTURE_ENDINGS;
-use crate::output::{self, OutputError};
+use crate::args::CompareArgs;
+use glimray_app::error::AppError;
+use glimray_app::inputs::Inputs;
+use glimray_io::import::PICTURE_ENDINGS;
+use glimray_io::output::{self, OutputError};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeSet;

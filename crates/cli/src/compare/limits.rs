@@ -2,8 +2,8 @@
 
 use super::figures::{Figures, MAX_FLIP_PIXELS};
 use super::rounded;
-use crate::app::error::AppError;
-use crate::cli::args::CompareArgs;
+use crate::args::CompareArgs;
+use glimray_app::error::AppError;
 
 /// Differences up to these count as equal.
 pub struct Limits {

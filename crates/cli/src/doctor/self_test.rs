@@ -1,12 +1,12 @@
 //! The self-test of an adapter: renders one sphere and one light, and compares the centre pixel with Phong's
 //! formula evaluated here in f64.
 
-use crate::app::error::AppError;
-use crate::cli::device;
-use crate::gpu::Gpu;
-use crate::render::{ExecutionPolicy, RenderSettings, Tone};
-use crate::scene::{Camera, Geometry, Light, LightKind, Material, Scene, Shape};
+use crate::device;
 use glam::{DVec3, Vec3};
+use glimray_app::error::AppError;
+use glimray_render::gpu::Gpu;
+use glimray_render::{ExecutionPolicy, RenderSettings, Tone};
+use glimray_scene::{Camera, Geometry, Light, LightKind, Material, Scene, Shape};
 
 /// Odd, so that the ray through the centre pixel runs along the camera's axis.
 const SIDE: u32 = 33;

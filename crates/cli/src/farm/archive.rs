@@ -2,9 +2,9 @@
 
 use super::Folder;
 use super::manifest::{PackedFile, hash};
-use crate::app::error::AppError;
-use crate::import::SCENE_MEMBER;
-use crate::output;
+use glimray_app::error::AppError;
+use glimray_io::import::SCENE_MEMBER;
+use glimray_io::output;
 use std::fs;
 use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};

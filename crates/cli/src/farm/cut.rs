@@ -1,7 +1,7 @@
 //! Cuts a picture or an animation into parts of even cost. Pictures are cut by samples first, which all cost the same,
 //! and then into bands of rows, by what their rows cost. Animations are cut by frames, and frames as pictures are.
 
-use crate::render::SAMPLE_BLOCK;
+use glimray_render::SAMPLE_BLOCK;
 use std::ops::Range;
 
 /// A picture to cut.

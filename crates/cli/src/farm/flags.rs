@@ -1,6 +1,6 @@
 //! The flags of a plan that its parts are rendered with, as text.
 
-use crate::cli::args::Cli;
+use crate::args::Cli;
 use clap::{ArgAction, ArgMatches, CommandFactory, parser::ValueSource};
 
 /// Flags of `farm plan` that are not for rendering, or that the farm sets for each part.

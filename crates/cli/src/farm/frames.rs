@@ -4,10 +4,10 @@
 use super::manifest::{self, Manifest};
 use super::results::frame_ending;
 use super::{Folder, failed_io, flags, numbered, read, write};
-use crate::app::error::AppError;
-use crate::cli::args::{Cli, Command};
-use crate::cli::merge;
+use crate::args::{Cli, Command};
+use crate::merge;
 use clap::Parser;
+use glimray_app::error::AppError;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -77,7 +77,7 @@ fn last_hash(film: &Path) -> io::Result<String> {
     let mut file = File::open(film)?;
     file.seek(SeekFrom::End(-(hash.len() as i64)))?;
     file.read_exact(&mut hash)?;
-    Ok(crate::render::Fingerprint(u128::from_le_bytes(hash)).to_string())
+    Ok(glimray_render::Fingerprint(u128::from_le_bytes(hash)).to_string())
 }
 
 /// Merges films to a picture, as `glimray merge` does.

@@ -5,7 +5,7 @@
 //! Whoever finds that lease N has expired creates lease N + 1, which again only one process can do. Leases save work; they
 //! are not needed for correct results: two processes that render a part write the same bytes, each at once.
 
-use crate::output::RemoveOnExit;
+use glimray_io::output::RemoveOnExit;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Read, Write};

@@ -1,7 +1,7 @@
 //! The manifest of a farm: what is rendered, from which files, and the parts. It does not change once it is written.
 
-use crate::app::error::AppError;
-use crate::render::Fingerprint;
+use glimray_app::error::AppError;
+use glimray_render::Fingerprint;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Component, Path, PathBuf};

@@ -1,14 +1,14 @@
 //! Measures what a picture or an animation costs, by rendering a few rows with few samples.
 
-use crate::app::error::AppError;
-use crate::app::storage;
-use crate::cli::device;
-use crate::cli::interrupt::Interrupt;
-use crate::cli::job::Job;
-use crate::gpu::Gpu;
-use crate::image::Image;
-use crate::pack::{self, PackedScene};
-use crate::render::{Antialias, FilmOutline, RenderSettings, Renderer};
+use crate::device;
+use crate::interrupt::Interrupt;
+use crate::job::Job;
+use glimray_app::error::AppError;
+use glimray_app::storage;
+use glimray_render::gpu::Gpu;
+use glimray_render::pack::{self, PackedScene};
+use glimray_render::{Antialias, FilmOutline, RenderSettings, Renderer};
+use glimray_scene::image::Image;
 use std::sync::Arc;
 use std::time::Instant;
 

@@ -4,12 +4,12 @@
 use super::manifest::Part;
 use super::results::frame_ending;
 use super::work::Work;
-use crate::app::error::AppError;
-use crate::gpu::Gpu;
-use crate::image::Image;
-use crate::output::video::{self, FrameRate, VideoFormat, VideoOptions};
-use crate::output::{self, OutputError, SaveOptions};
-use crate::render::{Film, FilmError, FilmOutline, SAMPLE_BLOCK, Tone};
+use glimray_app::error::AppError;
+use glimray_io::output::video::{self, FrameRate, VideoFormat, VideoOptions};
+use glimray_io::output::{self, OutputError, SaveOptions};
+use glimray_render::gpu::Gpu;
+use glimray_render::{Film, FilmError, FilmOutline, SAMPLE_BLOCK, Tone};
+use glimray_scene::image::Image;
 use std::collections::BTreeSet;
 use std::hint::black_box;
 use std::path::Path;

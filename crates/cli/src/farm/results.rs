@@ -2,8 +2,8 @@
 
 use super::manifest::{self, Manifest, Part};
 use super::{Done, Folder, numbered};
-use crate::output::Format;
-use crate::render::{Film, FilmError, FilmHeader, FilmOutline};
+use glimray_io::output::Format;
+use glimray_render::{Film, FilmError, FilmHeader, FilmOutline};
 use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::{Path, PathBuf};

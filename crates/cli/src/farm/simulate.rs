@@ -3,7 +3,7 @@
 
 use super::merge_costs::MergeCosts;
 use super::work::Work;
-use crate::app::error::AppError;
+use glimray_app::error::AppError;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 

@@ -2,8 +2,8 @@
 
 use super::Folder;
 use super::manifest::Manifest;
-use crate::app::error::AppError;
-use crate::cli::args::FarmSubmitArgs;
+use crate::args::FarmSubmitArgs;
+use glimray_app::error::AppError;
 use std::path::Path;
 
 /// Seconds before the time limit at which Slurm sends SIGTERM: enough to write a checkpoint.

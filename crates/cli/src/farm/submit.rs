@@ -4,10 +4,10 @@
 use super::manifest::Manifest;
 use super::slurm::{self, Scripts};
 use super::{Folder, failed_io};
-use crate::app::console;
-use crate::app::error::AppError;
-use crate::cli::args::{Engine, FarmSubmitArgs};
-use crate::output;
+use crate::args::{Engine, FarmSubmitArgs};
+use glimray_app::console;
+use glimray_app::error::AppError;
+use glimray_io::output;
 use std::fs;
 use std::path::Path;
 use std::process::Command;

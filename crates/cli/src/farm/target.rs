@@ -1,12 +1,12 @@
 //! The output of a farm, checked before rendering: plans refuse what `render` and `animate` refuse.
 
-use crate::app::error::AppError;
-use crate::app::overrides::picture_size;
-use crate::cli::animate::{Pattern, Timeline, rate};
-use crate::cli::args::{FarmPlanArgs, MomentFlags};
-use crate::cli::job::Job;
-use crate::output::video::{self, VideoFormat, VideoOptions};
-use crate::output::{self, Format, SaveOptions};
+use crate::animate::{Pattern, Timeline, rate};
+use crate::args::{FarmPlanArgs, MomentFlags};
+use crate::job::Job;
+use glimray_app::error::AppError;
+use glimray_app::overrides::picture_size;
+use glimray_io::output::video::{self, VideoFormat, VideoOptions};
+use glimray_io::output::{self, Format, SaveOptions};
 use std::path::Path;
 
 /// A picture, its film, a video, or numbered frames.

@@ -3,9 +3,9 @@
 use super::cut::{self, Picture};
 use super::manifest::Part;
 use super::measure::Costs;
-use crate::app::error::AppError;
-use crate::cli::animate::Timeline;
-use crate::render::{FilmOutline, RenderSettings};
+use crate::animate::Timeline;
+use glimray_app::error::AppError;
+use glimray_render::{FilmOutline, RenderSettings};
 use std::ops::Range;
 
 /// The work to cut.

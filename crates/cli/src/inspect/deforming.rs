@@ -1,8 +1,8 @@
 //! The clips of a model, and its deforming meshes.
 
-use crate::app::console::quoted;
-use crate::cli::inspect::{list, number};
-use crate::scene::{Clip, Deformation, Scene};
+use crate::inspect::{list, number};
+use glimray_app::console::quoted;
+use glimray_scene::{Clip, Deformation, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::{self, Write};

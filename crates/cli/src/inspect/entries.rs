@@ -5,10 +5,10 @@ use super::deforming::{ClipEntry, DeformationEntry};
 use super::materials::MaterialEntry;
 use super::motion::MotionEntry;
 use super::textures::{PictureEntry, TextureEntry};
-use crate::app::value_names::{TONES, TRANSFERS};
-use crate::cli::report::SceneReport;
-use crate::render::{Integrator, Tone};
-use crate::scene::{Background, Camera, Light, LightKind, OutputDefaults, Scene};
+use crate::report::SceneReport;
+use glimray_app::value_names::{TONES, TRANSFERS};
+use glimray_render::{Integrator, Tone};
+use glimray_scene::{Background, Camera, Light, LightKind, OutputDefaults, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -1,9 +1,9 @@
 //! The materials of a scene in `glimray inspect`: physical ones with their own parameters.
 
 use super::color;
-use crate::app::console::quoted;
-use crate::scene::{Coverage, Material, MetallicRoughness};
 use glam::Vec3;
+use glimray_app::console::quoted;
+use glimray_scene::{Coverage, Material, MetallicRoughness};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::{self, Write};

@@ -1,8 +1,8 @@
 //! The animation of a scene: nodes, tracks, duration and frames.
 
-use crate::app::clock;
-use crate::cli::inspect::number;
-use crate::scene::{OutputDefaults, Scene, Shutter};
+use crate::inspect::number;
+use glimray_app::clock;
+use glimray_scene::{OutputDefaults, Scene, Shutter};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::{self, Write};

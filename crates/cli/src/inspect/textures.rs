@@ -1,7 +1,7 @@
 //! Textures and pictures in the output of `inspect`.
 
-use crate::cli::inspect::color;
-use crate::scene::{Pattern, Picture, Space, Texels, Texture, Wrap};
+use crate::inspect::color;
+use glimray_scene::{Pattern, Picture, Space, Texels, Texture, Wrap};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::{self, Write};

@@ -1,16 +1,16 @@
 //! The report of a run in progress. If the run fails, this is its report, with the error; values that are not
 //! known yet are null.
 
-use crate::app::error::AppError;
-use crate::app::inputs::Inputs;
-use crate::cli::args::LogFlags;
-use crate::cli::report::{
+use crate::args::LogFlags;
+use crate::report::{
     Adapter, AnyReport, FailedReport, FetchReport, ImageReport, SceneReport, Seconds,
 };
-use crate::cli::scene_file;
-use crate::import::Options;
-use crate::render::CatcherLight;
-use crate::scene::Scene;
+use crate::scene_file;
+use glimray_app::error::AppError;
+use glimray_app::inputs::Inputs;
+use glimray_io::import::Options;
+use glimray_render::CatcherLight;
+use glimray_scene::Scene;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -108,7 +108,7 @@ impl<'a> Draft<'a> {
         {
             // The run's own error matters more than a failure to write its report.
             let report = FailedReport::new(&self, error);
-            let _ = crate::cli::report::write(path, AnyReport::Failed(&report));
+            let _ = crate::report::write(path, AnyReport::Failed(&report));
         }
         outcome
     }

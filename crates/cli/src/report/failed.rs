@@ -1,9 +1,9 @@
 //! The report of a run that failed.
 
-use crate::app::error::AppError;
-use crate::cli::report::{
+use crate::report::{
     Adapter, Draft, FetchReport, ImageReport, Report, SceneReport, Seconds, host_peak_bytes,
 };
+use glimray_app::error::AppError;
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -3,11 +3,11 @@
 use super::materials::has_same_ambient;
 use super::text::{Table, list, number, quaternion, string, vector};
 use super::{Writer, exact};
-use crate::scene::{
+use glam::DVec3;
+use glimray_scene::{
     Beyond, CameraProperty, Curve, Easing, Interpolation, LightProperty, MaterialProperty,
     NodeProperty, Target, Track, Values,
 };
-use glam::DVec3;
 
 /// Longer lists of keys have one key per line.
 const MOST_IN_A_LINE: usize = 2;

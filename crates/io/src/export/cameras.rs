@@ -2,8 +2,8 @@
 
 use super::text::{Table, number, string, vector};
 use super::{Writer, exact};
-use crate::scene::Camera;
 use glam::DVec3;
+use glimray_scene::Camera;
 
 impl Writer<'_> {
     pub fn cameras(&mut self) {

@@ -1,8 +1,8 @@
 //! Numbers as they would be written by hand, provided that they preserve the exact value.
 
 use super::text::{self, Table};
-use crate::scene::{Transform, rotation};
 use glam::{DAffine3, DQuat, DVec3, EulerRot, Vec3};
+use glimray_scene::{Transform, rotation};
 
 /// The numbers of decimals that are tried, in order.
 const DECIMALS: [usize; 7] = [0, 1, 2, 3, 5, 8, 11];

@@ -2,8 +2,8 @@
 
 use super::text::{Table, color, number, number32, string, vector};
 use super::{Writer, exact};
-use crate::scene::{Attenuation, Light, LightKind};
 use glam::Vec3;
+use glimray_scene::{Attenuation, Light, LightKind};
 
 /// The importer's default number of shadow rays of area lights.
 const SAMPLES: u32 = 16;

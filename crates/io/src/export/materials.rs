@@ -3,8 +3,8 @@
 use super::exact::{same_bits, shortest};
 use super::text::{Table, color, key, number32, string};
 use super::{ExportError, Writer, physical};
-use crate::scene::{Coverage, Fresnel, Material, MaterialProperty, Mixing, Target, Textures};
 use glam::Vec3;
+use glimray_scene::{Coverage, Fresnel, Material, MaterialProperty, Mixing, Target, Textures};
 
 /// The defaults of a native material.
 const SHININESS: f32 = 32.0;

@@ -1,6 +1,6 @@
 //! Names for everything that a scene file refers to.
 
-use crate::scene::{Scene, Target};
+use glimray_scene::{Scene, Target};
 use std::collections::HashSet;
 
 /// Names by index in the scene's lists.

@@ -3,8 +3,8 @@
 use super::runs::{LEAST, runs};
 use super::text::{Table, key, list, scale, string, vector};
 use super::{Writer, exact, ply};
-use crate::scene::Node;
 use glam::{DAffine3, DVec3};
+use glimray_scene::Node;
 
 impl Writer<'_> {
     pub fn meshes(&mut self) {

@@ -3,11 +3,11 @@
 use super::pictures::Role;
 use super::text::{Table, color, list, number, number32};
 use super::{ExportError, Writer, exact};
-use crate::scene::{
+use glam::Vec3;
+use glimray_scene::{
     Antialias, Backdrop, Background, Filter, LightTransport, Origin, OutputDefaults, Shadows,
     ToneCurve, Transfer, sky,
 };
-use glam::Vec3;
 
 impl Writer<'_> {
     /// Keys outside of tables.
@@ -50,7 +50,7 @@ impl Writer<'_> {
         let mut table = Table::default();
         // Textures write their images first: this image may be among them, under the same name.
         for texture in &self.scene.textures {
-            if let crate::scene::Pattern::Picture { picture, .. } = texture.pattern {
+            if let glimray_scene::Pattern::Picture { picture, .. } = texture.pattern {
                 self.picture(picture, self.role(picture))?;
             }
         }

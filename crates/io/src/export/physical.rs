@@ -3,8 +3,8 @@
 use super::Writer;
 use super::exact::{same_bits, shortest};
 use super::text::{Table, color, list, number, number32, string};
-use crate::scene::{LayerTextures, Material, MetallicRoughness};
 use glam::Vec3;
+use glimray_scene::{LayerTextures, Material, MetallicRoughness};
 use std::sync::Arc;
 
 /// The material that the importer makes of `pbr` alone.

@@ -2,8 +2,8 @@
 
 use super::text::string;
 use super::{ExportError, Writer};
-use crate::scene::{Origin, Pattern, Picture, Texels, linear_from_srgb};
 use glam::Vec4;
+use glimray_scene::{Origin, Pattern, Picture, Texels, linear_from_srgb};
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 use std::io::Cursor;
 

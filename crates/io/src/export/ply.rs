@@ -1,7 +1,7 @@
 //! Meshes and transforms of copies as binary PLY files, which preserve every bit.
 
-use crate::scene::Mesh;
 use glam::{DAffine3, DMat3};
+use glimray_scene::Mesh;
 
 /// A mesh; `number_of` gives the numbers of its materials.
 pub(super) fn mesh(mesh: &Mesh, number_of: impl Fn(u32) -> u32, has_numbers: bool) -> Vec<u8> {

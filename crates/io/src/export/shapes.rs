@@ -5,8 +5,8 @@ use super::Writer;
 use super::exact::{is_same, shortest, transform};
 use super::runs::{LEAST, runs};
 use super::text::{Table, number, string, vector};
-use crate::scene::{CanonicalShape, Geometry, Shape};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glimray_scene::{CanonicalShape, Geometry, Shape};
 
 impl Writer<'_> {
     pub fn shapes(&mut self) {

@@ -1,7 +1,7 @@
 //! TOML text: numbers in the fewest digits that preserve all bits.
 
-use crate::text;
 use glam::{DAffine3, DQuat, DVec3, Vec3};
+use glimray_scene::text;
 use std::fmt::Write;
 
 /// A scene file being written.
@@ -131,7 +131,7 @@ pub(super) fn color(value: Vec3) -> String {
     let numbers = list(value.to_array().map(number32));
     let code = |channel: f32| {
         let is_it = |code: &u8| {
-            let linear = crate::scene::linear_from_srgb(f64::from(*code) / 255.0) as f32;
+            let linear = glimray_scene::linear_from_srgb(f64::from(*code) / 255.0) as f32;
             linear.to_bits() == channel.to_bits()
         };
         (0..=u8::MAX).find(is_it)

@@ -3,8 +3,8 @@
 use super::pictures::{Role, codes};
 use super::text::{self, Table, color, key, string};
 use super::{ExportError, Writer, exact};
-use crate::scene::{Minify, Origin, Pattern, Space, Texels, Texture, Transform, Wrap};
 use glam::{DAffine3, DVec3, Vec3};
+use glimray_scene::{Minify, Origin, Pattern, Space, Texels, Texture, Transform, Wrap};
 
 impl Writer<'_> {
     pub fn textures(&mut self) -> Result<(), ExportError> {

@@ -3,7 +3,7 @@
 //! later steps will need, and stop when it exceeds the file's budget.
 
 use super::error::{Fault, ImportError};
-use crate::bytes;
+use glimray_scene::bytes;
 
 /// Bytes of memory per byte of the file.
 const PER_BYTE: u64 = 8;

@@ -1,8 +1,8 @@
 //! Notes triangles whose corners have different materials where only a part of these is interpolated.
 
 use super::notes::Notes;
-use crate::scene::{LightTransport, Material, Mesh, Scene};
 use glam::Vec3;
+use glimray_scene::{LightTransport, Material, Mesh, Scene};
 use std::collections::HashMap;
 use std::sync::Arc;
 

@@ -24,12 +24,12 @@ use super::faults::Faults;
 use super::notes::{self, Notes};
 use super::source::{Source, Token};
 use super::suggest;
-use crate::scene::{
+use area::Area;
+use glam::{DAffine3, DVec3, Vec3};
+use glimray_scene::{
     Background, Camera, Geometry, Instance, Light, LightKind, Mesh, OutputDefaults, Scene, Shape,
     Transfer,
 };
-use area::Area;
-use glam::{DAffine3, DVec3, Vec3};
 use palette::Palette;
 use tokens::Tokens;
 

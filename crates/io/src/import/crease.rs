@@ -5,8 +5,8 @@
 //! faces within the crease angle of the corner's own face. Vertices are split where their corners differ in
 //! normal or material.
 
-use crate::scene::{Mesh, area_normal};
 use glam::{DVec3, Vec3};
+use glimray_scene::{Mesh, area_normal};
 use std::collections::HashMap;
 
 /// Where more faces than this meet in a vertex, faces of nearly equal direction are taken together:

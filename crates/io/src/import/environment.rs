@@ -4,7 +4,7 @@ use super::error::{ImportError, fault};
 use super::options::{Environment, EnvironmentSource, Options};
 use super::step::{self, Step};
 use super::{folder, paths, picture, range, source};
-use crate::scene::{Background, Picture, Scene, sky};
+use glimray_scene::{Background, Picture, Scene, sky};
 use std::path::Path;
 use std::sync::Arc;
 

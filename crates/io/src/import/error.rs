@@ -1,6 +1,6 @@
 //! Errors of importers and their text.
 
-use crate::text::one_line;
+use glimray_scene::text::one_line;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};

@@ -9,7 +9,7 @@ use super::source::{Source, quote};
 #[cfg(feature = "archive")]
 use super::zipped;
 use super::{course, gltf, native, nff, obj, ply, stl};
-use crate::scene::Scene;
+use glimray_scene::Scene;
 use std::path::Path;
 
 /// A format of scenes or models.
@@ -268,7 +268,7 @@ impl SceneFormat {
 }
 
 /// The keys of formats that are read by key, each with the extension of its files. A key that is read and has no effect
-/// on the scene is listed in [`crate::scene::Scene::skipped`].
+/// on the scene is listed in [`glimray_scene::Scene::skipped`].
 pub const FORMAT_KEYS: &[(&str, &[&str])] = &[
     ("obj", &obj::KEYS),
     ("mtl", &obj::LIBRARY_KEYS),

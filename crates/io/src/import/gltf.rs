@@ -46,8 +46,6 @@ use super::notes::Notes;
 use super::paths::Files;
 use super::source::{Source, quote};
 use super::{Axis, Options, stage, suggest};
-use crate::scene::{Clip, LightTransport, OutputDefaults, Scene, Shadows};
-use crate::text::one_line;
 use accessor::Accessors;
 use blame::{Blame, Ledger};
 use buffers::Buffers;
@@ -56,6 +54,8 @@ use document::{Document, Primitive, TextureInfo};
 pub use extensions::{GLTF_EXTENSIONS, Support};
 pub use fields::gltf_properties;
 use glam::DAffine3;
+use glimray_scene::text::one_line;
+use glimray_scene::{Clip, LightTransport, OutputDefaults, Scene, Shadows};
 use materials::{MaterialKey, Surface};
 use mesh::MeshKey;
 use skins::Bound;
@@ -393,7 +393,7 @@ impl Reader<'_> {
         }
         scene.pictures = self.store.pictures.finish(&mut self.notes);
         if scene.materials.is_empty() {
-            scene.materials.push(crate::scene::Material::default());
+            scene.materials.push(glimray_scene::Material::default());
         }
         scene.remarks.extend(self.unused.into_lines());
         scene.remarks.extend(self.notes.take_remarks());

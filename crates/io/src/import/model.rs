@@ -2,11 +2,11 @@
 
 use super::notes::Notes;
 use super::{Axis, Options, stage};
-use crate::scene::{
+use glam::{DAffine3, DVec3};
+use glimray_scene::{
     Geometry, Instance, LightTransport, Material, Mesh, OutputDefaults, Picture, Scene, Shadows,
     Shape, Texture,
 };
-use glam::{DAffine3, DVec3};
 use std::sync::Arc;
 
 /// The contents of a model file.

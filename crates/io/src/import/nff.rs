@@ -32,11 +32,11 @@ use super::faults::{CLAMPED, Faults};
 use super::notes::Notes;
 use super::source::{Source, Token};
 use super::{number, suggest};
-use crate::scene::{
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glimray_scene::{
     Background, CanonicalShape, Fresnel, Geometry, Light, LightKind, Material, Mixing,
     OutputDefaults, Scene, Shape, Transfer,
 };
-use glam::{DAffine3, DMat3, DVec3, Vec3};
 use mesh::Surface;
 use std::collections::HashMap;
 use words::Words;

@@ -1,12 +1,12 @@
 //! Notes about skipped features. A file may cause millions of similar notes, so the first few of each
 //! kind are kept and the others counted.
 
-use crate::text::one_line;
+use glimray_scene::text::one_line;
 
 /// Number of notes kept per kind.
 const MOST: usize = 8;
 
-/// Notes for [`crate::scene::Scene::skipped`], in order, grouped by kind, and those for its remarks.
+/// Notes for [`glimray_scene::Scene::skipped`], in order, grouped by kind, and those for its remarks.
 #[derive(Debug, Default)]
 pub(super) struct Notes {
     kinds: Vec<Kind>,
@@ -86,8 +86,8 @@ impl Notes {
     }
 }
 
-/// Notes the repairs that [`crate::scene::Mesh::repair`] made.
-pub(super) fn of_repairs(notes: &mut Notes, repairs: crate::scene::Repairs) {
+/// Notes the repairs that [`glimray_scene::Mesh::repair`] made.
+pub(super) fn of_repairs(notes: &mut Notes, repairs: glimray_scene::Repairs) {
     const WHAT: &str = "repaired meshes";
     let count = |count: usize, what: &str| match count {
         1 => format!("1 {what}"),

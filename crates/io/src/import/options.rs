@@ -1,7 +1,7 @@
 //! Options for importing a scene or model file.
 
-use crate::scene::LightTransport;
 use glam::{DAffine3, DMat3, DVec3};
+use glimray_scene::LightTransport;
 use std::num::NonZero;
 use std::ops::Neg;
 use std::path::PathBuf;
@@ -25,7 +25,7 @@ pub struct Options {
     /// +Y. Scenes that are not models ignore it.
     pub up: Option<Axis>,
     /// The longest side that pictures of textures and backgrounds may have, in texels: larger ones are halved until
-    /// they fit, which [`crate::scene::Scene::skipped`] reports. `None` is no limit.
+    /// they fit, which [`glimray_scene::Scene::skipped`] reports. `None` is no limit.
     pub texture_limit: Option<NonZero<u32>>,
     /// Width and height of the picture that a model without a camera is framed for; `None` for the scene's
     /// own size.
@@ -41,7 +41,7 @@ pub struct Options {
     pub environment: Environment,
 }
 
-/// Whether [`crate::scene::Scene::bake_classical_maps`] is called. Only classical shading shows the result.
+/// Whether [`glimray_scene::Scene::bake_classical_maps`] is called. Only classical shading shows the result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Baking {
     /// No.
@@ -69,7 +69,7 @@ pub struct Environment {
 pub enum EnvironmentSource {
     /// An equirectangular picture: PNG, JPEG, WebP, HDR or EXR.
     File(PathBuf),
-    /// The clear sky of [`crate::scene::sky`].
+    /// The clear sky of [`glimray_scene::sky`].
     Sky {
         /// Angle of the sun above the horizon in degrees, 0 to 90.
         elevation_deg: f64,
@@ -132,7 +132,7 @@ pub enum Ground {
     Default,
     /// That surface in any case.
     Surface,
-    /// A shadow catcher in any case, and a transparent background: see [`crate::scene::Material::shadow_catcher`].
+    /// A shadow catcher in any case, and a transparent background: see [`glimray_scene::Material::shadow_catcher`].
     Shadow,
 }
 

@@ -3,7 +3,7 @@
 use super::error::{Fault, ImportError, fault};
 use super::resolver::{FileError, Resolver};
 use super::source::quote;
-use crate::bytes::sizes;
+use glimray_scene::bytes::sizes;
 use std::io;
 use std::path::{Path, PathBuf};
 

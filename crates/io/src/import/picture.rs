@@ -19,15 +19,15 @@ mod texels;
 
 pub use pixels::{Pixels, pixels};
 #[cfg(not(target_arch = "wasm32"))]
-pub(crate) use store::smaller_pictures;
+pub use store::smaller_pictures;
 pub(super) use store::{Pictures, Place, Read};
 
 use super::error::{Fault, ImportError};
 use super::paths::{Files, Refusal};
-pub(super) use crate::scene::linear_from_srgb;
-use crate::scene::{Origin, Picture};
-use crate::text::one_line;
 use glam::Vec4;
+pub(super) use glimray_scene::linear_from_srgb;
+use glimray_scene::text::one_line;
+use glimray_scene::{Origin, Picture};
 use opened::Unfit;
 use std::borrow::Cow;
 use std::path::Path;
@@ -51,7 +51,7 @@ const KINDS: &str = if cfg!(feature = "basis") {
 pub(super) enum Role {
     /// Colours in sRGB.
     Color,
-    /// As [`Role::Color`], around the whole scene: twice as wide as high. Floats may be above [`crate::scene::LARGEST_TEXEL`].
+    /// As [`Role::Color`], around the whole scene: twice as wide as high. Floats may be above [`glimray_scene::LARGEST_TEXEL`].
     Environment,
     /// Numbers, such as the coordinates of normals.
     Data,
@@ -108,7 +108,7 @@ impl Refused {
         }
     }
 
-    /// As a clause for [`crate::scene::Scene::skipped`].
+    /// As a clause for [`glimray_scene::Scene::skipped`].
     pub fn into_note(self) -> String {
         match self {
             Self::File(Refusal::Missing(why) | Refusal::Outside(why) | Refusal::Unfit(why)) => why,

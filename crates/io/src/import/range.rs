@@ -2,11 +2,11 @@
 //! stays finite over many bounces. Real scenes are far within these ranges.
 
 use super::notes::Notes;
-use crate::scene::{
+use glam::{DVec3, Vec3, Vec4};
+use glimray_scene::{
     Attenuation, Background, Light, LightProperty, Material, MaterialProperty, Pattern, Scene,
     Target, Texture, Values,
 };
-use glam::{DVec3, Vec3, Vec4};
 use std::sync::Arc;
 
 /// Limit of coefficients, such as diffuse colours, and of pattern colours, which are multiplied with

@@ -1,6 +1,6 @@
 //! Where importers get files from: a folder, memory, or any implementation of [`Resolver`].
 
-use crate::bytes::size;
+use glimray_scene::bytes::size;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Component, Path, PathBuf};

@@ -1,8 +1,8 @@
 //! Notes where the arithmetic of the renderer, in f32, would lose light or change it.
 
 use super::notes::Notes;
-use crate::scene::{LightKind, Material, Mesh, Scene, area_normal};
 use glam::{DAffine3, DVec3, Vec3};
+use glimray_scene::{LightKind, Material, Mesh, Scene, area_normal};
 
 /// The sizes of scenes in which products of lengths are in the range of f32: areas of triangles and of lights, and squares
 /// of distances.

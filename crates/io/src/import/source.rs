@@ -2,7 +2,7 @@
 
 use super::encoding;
 use super::error::{Excerpt, ImportError, Position, fault};
-use crate::text::one_line;
+use glimray_scene::text::one_line;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 

@@ -1,11 +1,11 @@
 //! The studio that models are shown in: a camera that frames the model, two soft lamps, a backdrop and a ground.
 
 use super::{Ground, Options, Staging, visibility};
-use crate::scene::{
+use glam::{DVec3, Vec3};
+use glimray_scene::{
     Attenuation, Backdrop, Background, Camera, Framing, Geometry, Light, LightKind, LightTransport,
     Material, Scene, Shape, Sight, ToneCurve,
 };
-use glam::{DVec3, Vec3};
 
 /// The field of view of the camera, in radians.
 const FOV_Y: f64 = 32.0 * std::f64::consts::PI / 180.0;

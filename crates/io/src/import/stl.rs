@@ -18,8 +18,8 @@ use super::source::Source;
 use super::tint::{self, Rgb};
 use super::weld::Welder;
 use super::{Axis, Options};
-use crate::scene::{Material, Mesh, Repairs, Scene};
 use glam::{DVec3, Vec3};
+use glimray_scene::{Material, Mesh, Repairs, Scene};
 use std::path::Path;
 
 /// All keywords of the text form, and the parts of the binary one.

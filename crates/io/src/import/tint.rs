@@ -2,8 +2,8 @@
 //! so each of their distinct colours becomes a material.
 
 use super::budget;
-use crate::scene::{Material, linear_from_srgb};
 use glam::{Vec3, Vec4};
+use glimray_scene::{Material, linear_from_srgb};
 use std::collections::HashMap;
 
 /// Limit of the number of materials. If there are more, colours keep fewer bits.

@@ -1,7 +1,7 @@
 //! Whether anything of a model can be seen.
 
-use crate::scene::{Coverage, Fresnel, Material, Pattern, Scene};
 use glam::Vec3;
+use glimray_scene::{Coverage, Fresnel, Material, Pattern, Scene};
 
 /// Notes it if all surfaces of `scene`, a model, are wholly transparent: its picture would be empty without a reason.
 pub(super) fn note(scene: &mut Scene) {

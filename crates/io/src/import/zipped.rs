@@ -6,8 +6,8 @@ use super::paths::{self, Files};
 use super::resolver::{FileError, Resolver};
 use super::source::quote;
 use super::{Options, SCENE_ENDINGS, SceneFormat};
-use crate::scene::Scene;
-use crate::text::one_line;
+use glimray_scene::Scene;
+use glimray_scene::text::one_line;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 

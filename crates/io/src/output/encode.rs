@@ -2,11 +2,11 @@
 //! written in `Drop`), but writing to memory cannot fail.
 
 use super::{Format, OutputError, SaveOptions, layered};
-use crate::image::Image;
 use ::image::codecs::{
     hdr::HdrEncoder, jpeg::JpegEncoder, openexr::OpenExrEncoder, png::PngEncoder,
 };
 use ::image::{DynamicImage, ImageBuffer, Pixel, Rgb, Rgba};
+use glimray_scene::image::Image;
 use std::io::Cursor;
 
 /// The contents of the file. It has opacity if the format supports it, and either the options ask for it or any pixel is

@@ -2,8 +2,8 @@
 
 use super::Format;
 use super::video::{FrameRate, VideoFormat};
-use crate::bytes::sizes;
-use crate::text;
+use glimray_scene::bytes::sizes;
+use glimray_scene::text;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -295,7 +295,7 @@ fn show(path: &Path) -> String {
 }
 
 /// The system's message without its number, as a clause.
-pub(crate) fn reason(error: &io::Error) -> String {
+pub fn reason(error: &io::Error) -> String {
     let text = error.to_string();
     let text = text.split(" (os error").next().unwrap_or_default();
     let mut chars = text.chars();

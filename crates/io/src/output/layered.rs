@@ -1,11 +1,11 @@
 //! Pictures of several layers in one OpenEXR file.
 
 use super::{OutputError, Place, SaveOptions, atomic};
-use crate::image::Image as Picture;
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
     LayerAttributes, Text, Vec2, WritableImage,
 };
+use glimray_scene::image::Image as Picture;
 use half::f16;
 use std::io::{Cursor, Write};
 use std::path::Path;

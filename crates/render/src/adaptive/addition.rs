@@ -2,12 +2,10 @@
 
 use super::{Adaptive, Estimate, FilmTile, GROUP_SIDE, Measure, PixelStatistics};
 use crate::{
-    render::{
-        layers::{self, SQUARES},
-        sums::{PixelRows, Totals},
-    },
-    threads,
+    layers::{self, SQUARES},
+    sums::{PixelRows, Totals},
 };
+use glimray_scene::threads;
 use std::{iter, ops::Range};
 
 /// A part of the region, of the same width.

@@ -5,7 +5,7 @@
 //! them, are considered.
 
 use super::{Adaptive, Estimate, GROUP_SIDE, NEIGHBOUR_ROUNDS};
-use crate::threads;
+use glimray_scene::threads;
 use std::{collections::BTreeMap, ops::Range};
 
 /// A pixel with this many times fewer samples than a noisy neighbour needs more.

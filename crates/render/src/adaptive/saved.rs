@@ -3,12 +3,10 @@
 
 use super::{Adaptive, FilmTile, PixelStatistics};
 use crate::{
-    render::{
-        binary::{ReadError, Reader, Writer},
-        layers,
-    },
-    threads,
+    binary::{ReadError, Reader, Writer},
+    layers,
 };
+use glimray_scene::threads;
 use std::io::{self, Read, Write};
 
 /// More rounds than there can be: each doubles the samples.

@@ -1,8 +1,8 @@
 //! The statistics of a pixel, and what they say about its noise.
 
 #[cfg(doc)]
-use crate::render::layers;
-use crate::render::luminance::luminance;
+use crate::layers;
+use crate::luminance::luminance;
 use bytemuck::Zeroable;
 
 /// The statistics of a pixel.

@@ -2,12 +2,12 @@
 
 use super::Adaptive;
 use crate::{
+    Antialias, Integrator, RenderSettings,
+    film_tile::{FilmTile, GroupOrder},
+    sums::SAMPLE_BLOCK,
+};
+use glimray_scene::{
     random::{SplitMix64, mixed, unit},
-    render::{
-        Antialias, Integrator, RenderSettings,
-        film_tile::{FilmTile, GroupOrder},
-        sums::SAMPLE_BLOCK,
-    },
     threads,
 };
 use std::ops::Range;

@@ -1,7 +1,7 @@
 //! The counts of the statistics, which go on with the picture. Times are those of a run.
 
 use super::{ReadError, Reader, Writer, damaged};
-use crate::render::{Rays, Stats};
+use crate::{Rays, Stats};
 use std::io::{self, Read, Write};
 
 /// The counts of a picture so far.

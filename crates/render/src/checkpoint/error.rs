@@ -1,7 +1,7 @@
 //! Why a checkpoint cannot be used.
 
 use super::ReadError;
-use crate::bytes::size;
+use glimray_scene::bytes::size;
 use std::io;
 
 /// Why a checkpoint cannot be used.

@@ -1,7 +1,7 @@
 //! Identifies the job of a checkpoint; a different job cannot resume from it.
 
 use super::{CheckpointError, ReadError, Reader, Renderer, Writer};
-use crate::render::Fingerprint;
+use crate::Fingerprint;
 use std::io::{self, Read, Write};
 
 /// Everything that the bits of the sums and their order in the file depend on.

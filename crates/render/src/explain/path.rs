@@ -1,13 +1,11 @@
 //! The steps of a path along its rays: the light samples at its surfaces, the directions that it chooses, and how
 //! the two ways to find a light share it.
 
-use crate::{
-    layout::{
-        LOBE_COAT, LOBE_DIFFUSE, LOBE_GLOSSY, LOBE_SHEEN, PackedRay, RAY_UNTRACED, SOURCE_EMITTER,
-        SOURCE_LIGHT, STEP_LIMIT, STEP_PASSED, STEP_ROULETTE, STEP_SCATTERED,
-    },
-    scene::ObjectRef,
+use crate::layout::{
+    LOBE_COAT, LOBE_DIFFUSE, LOBE_GLOSSY, LOBE_SHEEN, PackedRay, RAY_UNTRACED, SOURCE_EMITTER,
+    SOURCE_LIGHT, STEP_LIMIT, STEP_PASSED, STEP_ROULETTE, STEP_SCATTERED,
 };
+use glimray_scene::ObjectRef;
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -3,16 +3,16 @@
 use super::path::{LightSample, LightSource, Lobe, PathStep, Sharing, StepOutcome};
 use super::phong::PhongTerms;
 use crate::{
+    Integrator,
     layout::{
         LARGEST_RADIANCE_BITS, MATERIAL_FRESNEL, NONE, PackedProbe, PackedRay, RAY_BOUNDARY,
         RAY_OUTSIDE, RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_TOTAL, RAY_TRANSPARENT,
         SHAPE,
     },
     pack::{PackedScene, PackedView},
-    render::Integrator,
-    scene::ObjectRef,
 };
 use glam::{DVec3, Vec3};
+use glimray_scene::ObjectRef;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -79,7 +79,7 @@ pub struct TracedRay {
     /// Set for shadow rays.
     pub shadow: Option<ShadowRay>,
     /// Materials of the dielectric volumes around its origin, outermost first: indices into
-    /// [`crate::scene::Scene::materials`]. Empty if nothing is transparent.
+    /// [`glimray_scene::Scene::materials`]. Empty if nothing is transparent.
     pub media: Vec<usize>,
     /// Its throughput at the origin. For a shadow ray that of one sample of the light.
     pub throughput: [f32; 3],
@@ -125,7 +125,7 @@ pub struct RayHit {
     pub name: Option<String>,
     /// Index of the triangle or the shape on the GPU.
     pub primitive: u32,
-    /// Index into [`crate::scene::Scene::materials`]; `None` for lamps, and for shadow rays.
+    /// Index into [`glimray_scene::Scene::materials`]; `None` for lamps, and for shadow rays.
     pub material: Option<usize>,
     /// The name of the material, if it has one.
     pub material_name: Option<String>,
@@ -174,7 +174,7 @@ pub struct RaySplit {
 /// The result of a shadow ray.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ShadowRay {
-    /// Index into [`crate::scene::Scene::lights`]; `None` for emissive triangles and the background.
+    /// Index into [`glimray_scene::Scene::lights`]; `None` for emissive triangles and the background.
     pub light: Option<usize>,
     /// The name of the light, if it has one.
     pub light_name: Option<String>,

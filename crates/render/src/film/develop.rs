@@ -2,16 +2,13 @@
 
 use super::Film;
 use crate::{
+    Levels, Quantity, RenderError, Tone,
+    develop::{PIXEL_BYTES, check_memory, develop_sums, sample_count_image},
     gpu::Gpu,
-    image::Image,
-    render::{
-        Levels, Quantity, RenderError, Tone,
-        develop::{PIXEL_BYTES, check_memory, develop_sums, sample_count_image},
-        layers::{self, LayerKind},
-        levels, opacity,
-    },
-    threads,
+    layers::{self, LayerKind},
+    levels, opacity,
 };
+use glimray_scene::{image::Image, threads};
 
 impl Film {
     /// Develops the bounding rectangle of all pixels, with the same result as the renderer that made the film, except
@@ -51,7 +48,7 @@ impl Film {
         )
     }
 
-    /// The minimum and maximum, without [`Quantity::outliers`]; see [`crate::render::Renderer::range`].
+    /// The minimum and maximum, without [`Quantity::outliers`]; see [`crate::Renderer::range`].
     pub fn range(&self) -> Option<[f32; 2]> {
         let quantity = self.header.integrator.quantity()?;
         let values = match quantity {

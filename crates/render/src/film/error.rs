@@ -1,7 +1,7 @@
 //! Errors of merging and reading films.
 
 use super::super::sums::SAMPLE_BLOCK;
-use crate::bytes::size;
+use glimray_scene::bytes::size;
 use std::{io, ops::Range};
 
 /// Errors of merging and reading films.

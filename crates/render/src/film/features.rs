@@ -1,7 +1,7 @@
 //! The features of a film.
 
 use super::Film;
-use crate::render::{
+use crate::{
     features::{Features, PixelFeatures, Places},
     layers,
     sums::fill_rectangle,
@@ -9,7 +9,7 @@ use crate::render::{
 
 impl Film {
     /// The features of the pixels of [`Film::region`]; `None` if the film was rendered without
-    /// [`crate::render::RenderSettings::features`].
+    /// [`crate::RenderSettings::features`].
     pub fn features(&self) -> Option<Features> {
         let places = Places::new(self.header.layers)?;
         let rows = layers::pixel_rows(self.header.layers);

@@ -4,19 +4,17 @@ use super::{
     Film, FilmHeader, FilmOutline,
     coverage::{Coverage, SampleSet},
 };
-use crate::render::{
+use crate::pack::{PackedScene, PackedView};
+use crate::{
     Fingerprint, RenderError, RenderSettings, Renderer, Tone,
     features::{in_world, number_of},
     layers,
     sums::Sums,
 };
-use crate::{
-    pack::{PackedScene, PackedView},
-    threads,
-};
+use glimray_scene::threads;
 
 impl Renderer {
-    /// The film of all finished blocks of samples so far ([`crate::render::SAMPLE_BLOCK`]); of all samples once
+    /// The film of all finished blocks of samples so far ([`crate::SAMPLE_BLOCK`]); of all samples once
     /// the render is done.
     ///
     /// # Errors

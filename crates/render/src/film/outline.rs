@@ -7,7 +7,7 @@ use super::{
     coverage::{Coverage, SampleSet},
     united,
 };
-use crate::render::layers;
+use crate::layers;
 use std::ops::Range;
 
 /// The header of a film, and the pixels and samples that it has.
@@ -45,7 +45,7 @@ impl FilmOutline {
     /// The outline of another part of the picture: these samples of a rectangle (x, y, width, height).
     ///
     /// # Errors
-    /// The samples are not whole blocks ([`crate::render::SAMPLE_BLOCK`]).
+    /// The samples are not whole blocks ([`crate::SAMPLE_BLOCK`]).
     pub fn part(&self, region: [u32; 4], samples: Range<u32>) -> Result<Self, FilmError> {
         let header = self.header.clone();
         let coverage = Coverage::rectangle(region, header.blocks(samples)?);

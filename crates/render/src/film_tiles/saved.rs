@@ -2,7 +2,7 @@
 //! sampling, from the statistics of the rounds before; only the sums are stored.
 
 use super::FilmTiles;
-use crate::render::binary::{ReadError, Reader, Writer};
+use crate::binary::{ReadError, Reader, Writer};
 use std::io::{self, Read, Write};
 
 impl FilmTiles {

@@ -2,7 +2,7 @@
 //! checked against a limit before anything is allocated.
 
 use super::{Gpu, GpuError, fault};
-use crate::bytes::size;
+use glimray_scene::bytes::size;
 
 /// The default memory limit, in bytes.
 pub const MEMORY_LIMIT_BYTES: u64 = 4 << 30;

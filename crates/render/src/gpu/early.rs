@@ -1,14 +1,12 @@
 //! Modules that are made before a device is open.
 
-use super::{
-    Gpu, Kernel, Overrides, Variant, guard,
-    shader::{ModuleKey, Target},
-};
-use naga::Module;
+use super::{Gpu, Overrides, guard, shader::ModuleKey};
+use glimray_shaders::{AdapterKind, Kernel, Variant};
 use std::{
     sync::PoisonError,
     thread::{self, JoinHandle},
 };
+use wgpu::naga::Module;
 
 /// The module of a pipeline that will be needed, made by a thread while the device is being opened.
 pub struct EarlyModule {
@@ -28,7 +26,7 @@ impl EarlyModule {
         };
         // A panic must not end the program: the adapter may turn out to be another.
         let make =
-            move || guard::catch(|| kernel.module(variant, &overrides, Target::Lavapipe)).ok();
+            move || guard::catch(|| kernel.module(variant, &overrides, AdapterKind::Lavapipe)).ok();
         let thread = thread::Builder::new().spawn(make).ok()?;
         Some(Self { key, thread })
     }
@@ -37,7 +35,7 @@ impl EarlyModule {
 impl Gpu {
     /// Gives the device a module, used if a pipeline needs just that; only lavapipe keeps it.
     pub fn with_early_module(self, module: Option<EarlyModule>) -> Self {
-        let module = module.filter(|_| self.target() == Target::Lavapipe);
+        let module = module.filter(|_| self.adapter_kind() == AdapterKind::Lavapipe);
         *self.early.lock().unwrap_or_else(PoisonError::into_inner) = module;
         self
     }

@@ -1,6 +1,6 @@
 //! Errors of the device and its driver.
 
-use crate::bytes::sizes;
+use glimray_scene::bytes::sizes;
 
 /// An error of the device or its driver.
 #[derive(Debug, thiserror::Error)]
@@ -40,7 +40,7 @@ pub enum GpuError {
         /// The driver's message.
         why: String,
     },
-    /// The device is lost, with all data on it. A [`crate::render::Renderer`] opens another one.
+    /// The device is lost, with all data on it. A [`crate::Renderer`] opens another one.
     #[error("the GPU was lost (driver reset or time-out): its work is gone. Try again.")]
     Lost,
     /// Devices were lost, or did not complete their work, too often for one picture.
@@ -61,7 +61,7 @@ pub enum GpuError {
         /// Whether both are in bytes.
         in_bytes: bool,
     },
-    /// The total of all allocations would exceed [`crate::render::ExecutionPolicy::memory_limit_bytes`].
+    /// The total of all allocations would exceed [`crate::ExecutionPolicy::memory_limit_bytes`].
     #[error("too big for the memory limit ({what}): {} needed in all, {} allowed.", sizes([*need, *limit])[0], sizes([*need, *limit])[1])]
     Budget {
         /// The largest allocation and its size.

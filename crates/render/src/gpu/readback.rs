@@ -1,7 +1,7 @@
 //! Readback from the GPU; all of it happens here.
 
 use super::{Gpu, GpuError, guard};
-use crate::bytes::sizes;
+use glimray_scene::bytes::sizes;
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::Duration;
 

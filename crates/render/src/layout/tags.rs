@@ -65,17 +65,17 @@ pub const LAYER_ROWS_LOG2: u32 = 10;
 pub const SHAPE_SPHERE: u32 = 0;
 /// [`super::PackedShape::kind`]: an infinite plane.
 pub const SHAPE_PLANE: u32 = 1;
-/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Disc`].
+/// [`super::PackedShape::kind`]: [`glimray_scene::CanonicalShape::Disc`].
 pub const SHAPE_DISC: u32 = 2;
-/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Rectangle`].
+/// [`super::PackedShape::kind`]: [`glimray_scene::CanonicalShape::Rectangle`].
 pub const SHAPE_RECTANGLE: u32 = 3;
-/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Box`].
+/// [`super::PackedShape::kind`]: [`glimray_scene::CanonicalShape::Box`].
 pub const SHAPE_BOX: u32 = 4;
-/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Cone`].
+/// [`super::PackedShape::kind`]: [`glimray_scene::CanonicalShape::Cone`].
 pub const SHAPE_CONE: u32 = 5;
-/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Torus`].
+/// [`super::PackedShape::kind`]: [`glimray_scene::CanonicalShape::Torus`].
 pub const SHAPE_TORUS: u32 = 6;
-/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Ellipsoid`].
+/// [`super::PackedShape::kind`]: [`glimray_scene::CanonicalShape::Ellipsoid`].
 pub const SHAPE_ELLIPSOID: u32 = 7;
 /// [`super::PackedShape::kind`]: a sphere that is huge compared to its distance from the origin of render
 /// space.
@@ -112,9 +112,9 @@ pub const MATERIAL_TWO_SIDED: u32 = 1;
 pub const MATERIAL_FRESNEL: u32 = 2;
 /// Bit of [`super::PackedMaterial::flags`]: with [`MATERIAL_FRESNEL`], Schlick's approximation is used.
 pub const MATERIAL_SCHLICK: u32 = 4;
-/// Bit of [`super::PackedMaterial::flags`]: [`crate::scene::Mixing::Sum`].
+/// Bit of [`super::PackedMaterial::flags`]: [`glimray_scene::Mixing::Sum`].
 pub const MATERIAL_SUM: u32 = 8;
-/// Bit of [`super::PackedMaterial::flags`]: [`crate::scene::Mixing::Blend`].
+/// Bit of [`super::PackedMaterial::flags`]: [`glimray_scene::Mixing::Blend`].
 pub const MATERIAL_BLEND: u32 = 16;
 /// Bit of [`super::PackedMaterial::flags`]: alpha says how much of the surface is there.
 pub const MATERIAL_COVERAGE: u32 = 32;
@@ -124,7 +124,7 @@ pub const MATERIAL_MASK: u32 = 64;
 pub const MATERIAL_THIN: u32 = 128;
 /// Bit of [`super::PackedMaterial::flags`]: its layers are those of a metallic-roughness material.
 pub const MATERIAL_METALLIC_ROUGHNESS: u32 = 256;
-/// Bit of [`super::PackedMaterial::flags`]: [`crate::scene::Material::shadow_catcher`].
+/// Bit of [`super::PackedMaterial::flags`]: [`glimray_scene::Material::shadow_catcher`].
 pub const MATERIAL_SHADOW_CATCHER: u32 = 512;
 /// Bit of [`super::PackedMaterial::flags`]: the back emits as the front does.
 pub const MATERIAL_TWO_SIDED_EMISSION: u32 = 1024;
@@ -221,65 +221,65 @@ pub const PICTURE_SRGB: u32 = 0x4000_0000;
 /// The other bits of [`super::PackedTexture::picture`].
 pub const PICTURE_FIRST_MASK: u32 = 0x3fff_ffff;
 
-/// Override `BACKGROUND`: [`crate::scene::Background::Color`].
+/// Override `BACKGROUND`: [`glimray_scene::Background::Color`].
 pub const BACKGROUND_COLOR: u32 = 0;
-/// Override `BACKGROUND`: [`crate::scene::Background::Gradient`].
+/// Override `BACKGROUND`: [`glimray_scene::Background::Gradient`].
 pub const BACKGROUND_GRADIENT: u32 = 1;
-/// Override `BACKGROUND`: [`crate::scene::Background::Picture`].
+/// Override `BACKGROUND`: [`glimray_scene::Background::Picture`].
 pub const BACKGROUND_PICTURE: u32 = 2;
-/// Override `BACKGROUND`: a picture of [`crate::scene::sky`], to which a sun is added.
+/// Override `BACKGROUND`: a picture of [`glimray_scene::sky`], to which a sun is added.
 pub const BACKGROUND_SKY: u32 = 3;
 
-/// Override `BACKDROP`: [`crate::scene::Backdrop::Background`].
+/// Override `BACKDROP`: [`glimray_scene::Backdrop::Background`].
 pub const BACKDROP_BACKGROUND: u32 = 0;
-/// Override `BACKDROP`: [`crate::scene::Backdrop::Color`].
+/// Override `BACKDROP`: [`glimray_scene::Backdrop::Color`].
 pub const BACKDROP_COLOR: u32 = 1;
-/// Override `BACKDROP`: [`crate::scene::Backdrop::Transparent`].
+/// Override `BACKDROP`: [`glimray_scene::Backdrop::Transparent`].
 pub const BACKDROP_TRANSPARENT: u32 = 2;
 
-/// Override `FILTER`: [`crate::scene::Filter::Box`].
+/// Override `FILTER`: [`glimray_scene::Filter::Box`].
 pub const FILTER_BOX: u32 = 0;
-/// Override `FILTER`: [`crate::scene::Filter::Tent`].
+/// Override `FILTER`: [`glimray_scene::Filter::Tent`].
 pub const FILTER_TENT: u32 = 1;
-/// Override `FILTER`: [`crate::scene::Filter::Gaussian`].
+/// Override `FILTER`: [`glimray_scene::Filter::Gaussian`].
 pub const FILTER_GAUSSIAN: u32 = 2;
-/// Override `FILTER`: [`crate::scene::Filter::BlackmanHarris`].
+/// Override `FILTER`: [`glimray_scene::Filter::BlackmanHarris`].
 pub const FILTER_BLACKMAN_HARRIS: u32 = 3;
-/// Override `FILTER`: [`crate::scene::Filter::Mitchell`].
+/// Override `FILTER`: [`glimray_scene::Filter::Mitchell`].
 pub const FILTER_MITCHELL: u32 = 4;
 
-/// Override `TRIANGLE_TEST`: [`crate::render::TriangleTest::Plane`].
+/// Override `TRIANGLE_TEST`: [`crate::TriangleTest::Plane`].
 pub const TRIANGLE_TEST_PLANE: u32 = 0;
-/// Override `TRIANGLE_TEST`: [`crate::render::TriangleTest::MollerTrumbore`].
+/// Override `TRIANGLE_TEST`: [`crate::TriangleTest::MollerTrumbore`].
 pub const TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1;
-/// Override `TRIANGLE_TEST`: [`crate::render::TriangleTest::Watertight`].
+/// Override `TRIANGLE_TEST`: [`crate::TriangleTest::Watertight`].
 pub const TRIANGLE_TEST_WATERTIGHT: u32 = 2;
 
-/// Override `VIEW`: [`crate::render::Integrator::Normals`].
+/// Override `VIEW`: [`crate::Integrator::Normals`].
 pub const VIEW_NORMALS: u32 = 0;
-/// Override `VIEW`: [`crate::render::Integrator::Depth`].
+/// Override `VIEW`: [`crate::Integrator::Depth`].
 pub const VIEW_DEPTH: u32 = 1;
-/// Override `VIEW`: [`crate::render::Integrator::Ids`].
+/// Override `VIEW`: [`crate::Integrator::Ids`].
 pub const VIEW_IDS: u32 = 2;
-/// Override `VIEW`: [`crate::render::Integrator::Heat`].
+/// Override `VIEW`: [`crate::Integrator::Heat`].
 pub const VIEW_HEAT: u32 = 3;
-/// Override `VIEW`: [`crate::render::Integrator::Uv`].
+/// Override `VIEW`: [`crate::Integrator::Uv`].
 pub const VIEW_UV: u32 = 4;
 
-/// [`super::PackedTone::curve`]: [`crate::scene::ToneCurve::None`].
+/// [`super::PackedTone::curve`]: [`glimray_scene::ToneCurve::None`].
 pub const TONE_NONE: u32 = 0;
-/// [`super::PackedTone::curve`]: [`crate::scene::ToneCurve::Aces`].
+/// [`super::PackedTone::curve`]: [`glimray_scene::ToneCurve::Aces`].
 pub const TONE_ACES: u32 = 1;
-/// [`super::PackedTone::curve`]: [`crate::scene::ToneCurve::Agx`].
+/// [`super::PackedTone::curve`]: [`glimray_scene::ToneCurve::Agx`].
 pub const TONE_AGX: u32 = 2;
-/// [`super::PackedTone::curve`]: [`crate::scene::ToneCurve::Reinhard`].
+/// [`super::PackedTone::curve`]: [`glimray_scene::ToneCurve::Reinhard`].
 pub const TONE_REINHARD: u32 = 3;
-/// [`super::PackedTone::curve`]: [`crate::scene::ToneCurve::Neutral`].
+/// [`super::PackedTone::curve`]: [`glimray_scene::ToneCurve::Neutral`].
 pub const TONE_NEUTRAL: u32 = 4;
 
-/// [`super::PackedTone::transfer`]: [`crate::scene::Transfer::Srgb`].
+/// [`super::PackedTone::transfer`]: [`glimray_scene::Transfer::Srgb`].
 pub const TRANSFER_SRGB: u32 = 0;
-/// [`super::PackedTone::transfer`]: [`crate::scene::Transfer::Linear`].
+/// [`super::PackedTone::transfer`]: [`glimray_scene::Transfer::Linear`].
 pub const TRANSFER_LINEAR: u32 = 1;
 
 /// [`super::PackedRay::kind`]: a camera ray.

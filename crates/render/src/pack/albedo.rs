@@ -16,13 +16,13 @@ use std::sync::{Arc, OnceLock};
 /// are of the larger width w to the power of 2/3. With θ' for the angle whose tangent is v/w · tan θ, where v is the width
 /// along the azimuth φ of the direction, columns have w for α and tan(π/4 - θ'/2) for c. There is a table for each
 /// 1 - cos φ', where tan φ' = r^¾ tan φ for the ratio r of the widths, and within these for each √r.
-pub fn words() -> &'static [u32] {
-    static WORDS: [u32; 63296] = include!(concat!(env!("OUT_DIR"), "/albedo.txt"));
-    &WORDS
-}
-
-/// The words of the tables, shared by all scenes.
-pub fn shared_words() -> Arc<[u32]> {
+///
+/// A test computes them (`tests/suite/shader_albedo/table.rs`).
+pub fn words() -> Arc<[u32]> {
     static WORDS: OnceLock<Arc<[u32]>> = OnceLock::new();
-    WORDS.get_or_init(|| words().into()).clone()
+    let read = || {
+        let bytes = include_bytes!("albedo/words.bin").as_chunks().0;
+        bytes.iter().copied().map(u32::from_le_bytes).collect()
+    };
+    WORDS.get_or_init(read).clone()
 }

@@ -1,16 +1,14 @@
 //! Packs the background of a frame.
 
 use super::PackedScene;
-use crate::{
-    layout::{
-        BACKGROUND_COLOR, BACKGROUND_GRADIENT, BACKGROUND_PICTURE, BACKGROUND_SKY, PackedFrame,
-    },
-    scene::{
-        Background,
-        sky::{self, Sun},
-    },
+use crate::layout::{
+    BACKGROUND_COLOR, BACKGROUND_GRADIENT, BACKGROUND_PICTURE, BACKGROUND_SKY, PackedFrame,
 };
 use glam::DQuat;
+use glimray_scene::{
+    Background,
+    sky::{self, Sun},
+};
 
 impl PackedScene {
     /// The background members of a frame.

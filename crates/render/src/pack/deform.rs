@@ -12,12 +12,10 @@ use super::{
     topology::{Fit, Topology},
     trees::Trees,
 };
-use crate::{
-    layout::{PackedNode, PackedShape, PackedTangent, PackedTriangle, PackedVertex},
-    scene::{Deformation, Frame, Pose, Scene},
-};
+use crate::layout::{PackedNode, PackedShape, PackedTangent, PackedTriangle, PackedVertex};
 use bytemuck::cast_slice;
 use glam::{DVec3, Vec3};
+use glimray_scene::{Deformation, Frame, Pose, Scene};
 use std::sync::Arc;
 
 /// A BLAS is rebuilt if its cost exceeds that of the mesh at rest by this factor.

@@ -6,8 +6,8 @@
 
 use super::picture::PackedPicture;
 use super::{PackedScene, light_cluster::LUMINANCE};
-use crate::scene::{self, Background, LARGEST_TEXEL, Picture, Scene, sky};
 use glam::Vec3;
+use glimray_scene::{self as scene, Background, LARGEST_TEXEL, Picture, Scene, sky};
 use std::f64::consts::PI;
 use std::sync::Arc;
 

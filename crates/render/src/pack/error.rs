@@ -1,7 +1,7 @@
 //! Why a scene cannot be packed.
 
 #[cfg(doc)]
-use crate::scene::Scene;
+use glimray_scene::Scene;
 
 /// A scene that cannot be packed: it exceeds a limit, has no camera, or a mesh contradicts itself.
 #[derive(Debug, thiserror::Error)]

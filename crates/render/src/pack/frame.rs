@@ -9,16 +9,13 @@ use super::{
     material, media,
     tlas::Tlas,
 };
-use crate::{
-    layout::{
-        CAMERA_ROWS, INSTANCE_ROWS, KEY_ROWS, LIGHT_RECTANGLE, LIGHT_ROWS, MOVING, NODE_ROWS,
-        PackedCamera, PackedEmitter, PackedFrame, PackedLight, PackedMaterial, PackedTexture,
-        SHAPE,
-    },
-    scene::{Camera, Frame},
+use crate::layout::{
+    CAMERA_ROWS, INSTANCE_ROWS, KEY_ROWS, LIGHT_RECTANGLE, LIGHT_ROWS, MOVING, NODE_ROWS,
+    PackedCamera, PackedEmitter, PackedFrame, PackedLight, PackedMaterial, PackedTexture, SHAPE,
 };
 use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
+use glimray_scene::{Camera, Frame};
 use std::{slice, sync::Arc};
 
 /// Rows of 16 bytes of a [`crate::layout::PackedTriangle`].
@@ -69,7 +66,7 @@ impl PackedScene {
         self.view(slice::from_ref(frame))
     }
 
-    /// Packs the result of [`crate::scene::Scene::motion_samples`] for the scene that this was packed from: at
+    /// Packs the result of [`glimray_scene::Scene::motion_samples`] for the scene that this was packed from: at
     /// least one frame, evenly spaced over the shutter interval.
     pub fn view(&self, frames: &[Frame]) -> Result<PackedView, PackError> {
         self.view_from(None, frames)

@@ -11,9 +11,9 @@ use crate::{
         SHAPE_CONE, SHAPE_DISC, SHAPE_ELLIPSOID, SHAPE_GLOBE, SHAPE_PLANE, SHAPE_RECTANGLE,
         SHAPE_SPHERE, SHAPE_TORUS,
     },
-    scene::{CanonicalShape, Geometry, Mesh, PosedMesh},
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3, Vec4};
+use glimray_scene::{CanonicalShape, Geometry, Mesh, PosedMesh};
 use std::sync::Arc;
 
 /// Beyond this limit, squares of coordinates overflow f32.

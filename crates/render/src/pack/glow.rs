@@ -2,8 +2,8 @@
 //! should not look for light there.
 
 use super::light_cluster::LUMINANCE;
-use crate::scene::{Material, Pattern, Picture, Scene, Space, Target, Texture, Wrap};
 use glam::{DAffine3, DVec2, USizeVec2};
+use glimray_scene::{Material, Pattern, Picture, Scene, Space, Target, Texture, Wrap};
 use std::sync::Arc;
 
 /// Texels that are looked at for all triangles together, about a tenth of a second.

@@ -2,12 +2,9 @@
 //! several copies, and everything that moves or deforms.
 
 use super::{PackError, light};
-use crate::{
-    bvh::Aabb,
-    layout::NO_INSTANCE,
-    scene::{Deformation, Frame, Geometry, LightProperty, ObjectRef, Scene, Target},
-};
+use crate::{bvh::Aabb, layout::NO_INSTANCE};
 use glam::{DAffine3, DVec3};
+use glimray_scene::{Deformation, Frame, Geometry, LightProperty, ObjectRef, Scene, Target};
 use std::collections::HashMap;
 
 /// Copies of a static mesh are baked into the world if they have at most this many triangles in total: rays

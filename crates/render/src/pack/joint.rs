@@ -4,11 +4,9 @@ use super::{
     PackError, blas::Blas, features::Apart, geometry::Flat, instance::Plan, light,
     mesh::CachedMesh, nodes::Offsets,
 };
-use crate::{
-    layout::{PackedShape, SHAPE_TORUS},
-    scene::{Frame, Geometry, Scene},
-};
+use crate::layout::{PackedShape, SHAPE_TORUS};
 use glam::{DAffine3, DVec3};
+use glimray_scene::{Frame, Geometry, Scene};
 use std::sync::Arc;
 
 /// The most triangles and the most shapes that are in no BVH. With more of them, on lavapipe, rays are faster with all in a

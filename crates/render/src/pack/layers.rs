@@ -1,16 +1,14 @@
 //! Packs what the path tracer sees of a material.
 
-use crate::{
-    layout::{
-        NO_TEXTURE, NONE, PackedLayers, SLOT_ANISOTROPY, SLOT_BASE, SLOT_COAT, SLOT_COAT_NORMAL,
-        SLOT_COAT_ROUGHNESS, SLOT_DIFFUSE_TRANSMISSION, SLOT_DIFFUSE_TRANSMISSION_COLOR,
-        SLOT_EMISSION, SLOT_F0, SLOT_F90, SLOT_FILM_THICKNESS, SLOT_IRIDESCENCE, SLOT_METALLIC,
-        SLOT_METALLIC_ROUGHNESS, SLOT_REFLECT, SLOT_ROUGHNESS, SLOT_SHEEN, SLOT_SHEEN_ROUGHNESS,
-        SLOT_TRANSMISSION,
-    },
-    scene::{Material, MetallicRoughness},
+use crate::layout::{
+    NO_TEXTURE, NONE, PackedLayers, SLOT_ANISOTROPY, SLOT_BASE, SLOT_COAT, SLOT_COAT_NORMAL,
+    SLOT_COAT_ROUGHNESS, SLOT_DIFFUSE_TRANSMISSION, SLOT_DIFFUSE_TRANSMISSION_COLOR, SLOT_EMISSION,
+    SLOT_F0, SLOT_F90, SLOT_FILM_THICKNESS, SLOT_IRIDESCENCE, SLOT_METALLIC,
+    SLOT_METALLIC_ROUGHNESS, SLOT_REFLECT, SLOT_ROUGHNESS, SLOT_SHEEN, SLOT_SHEEN_ROUGHNESS,
+    SLOT_TRANSMISSION,
 };
 use glam::Vec3;
+use glimray_scene::{Material, MetallicRoughness};
 
 /// The layers of a material. `light` is the index of the light whose surface it is.
 pub fn packed(material: &Material, light: Option<usize>) -> PackedLayers {

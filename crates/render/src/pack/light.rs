@@ -4,16 +4,14 @@ use super::{
     PackError,
     geometry::{in_range, render_point},
 };
-use crate::{
-    layout::{
-        ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, LIGHT_DIRECTIONAL, LIGHT_DISC, LIGHT_POINT,
-        LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, PackedLight,
-    },
-    scene::{
-        Attenuation, CanonicalShape, Frame, Geometry, LUMINANCE, Light, LightKind, Material, Scene,
-    },
+use crate::layout::{
+    ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, LIGHT_DIRECTIONAL, LIGHT_DISC, LIGHT_POINT,
+    LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, PackedLight,
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glimray_scene::{
+    Attenuation, CanonicalShape, Frame, Geometry, LUMINANCE, Light, LightKind, Material, Scene,
+};
 
 /// The indices of visible lights, in scene order.
 pub fn visible(scene: &Scene) -> impl Iterator<Item = usize> + '_ {

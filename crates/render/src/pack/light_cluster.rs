@@ -4,8 +4,8 @@ use crate::layout::{
     LIGHT_DISC, LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TWO_SIDED,
     PackedCluster, PackedLight,
 };
-use crate::scene;
 use glam::{DQuat, DVec2, DVec3, Vec3};
+use glimray_scene as scene;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// [`scene::LUMINANCE`] in f32.

@@ -1,11 +1,9 @@
 //! Dielectric volumes around the camera.
 
 use super::{PackError, light, material, mesh::CachedMesh, shell::Shell};
-use crate::{
-    layout::NONE,
-    scene::{CanonicalShape, Frame, Geometry, Instance, Scene},
-};
+use crate::layout::NONE;
 use glam::{DAffine3, DVec3, Vec3};
+use glimray_scene::{CanonicalShape, Frame, Geometry, Instance, Scene};
 use std::sync::Arc;
 
 /// Maximum number of media in the list of a ray.

@@ -5,7 +5,7 @@ use super::{
     shell::{self, Shell},
     topology::Topology,
 };
-use crate::scene::{Mesh, Scene};
+use glimray_scene::{Mesh, Scene};
 use std::{
     collections::HashMap,
     sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError},

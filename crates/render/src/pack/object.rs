@@ -1,10 +1,8 @@
 //! Maps packed primitives back to objects of the scene.
 
 use super::{PackedScene, PackedView, instance::Plan, light, trees::Trees};
-use crate::{
-    layout::{NO_INSTANCE, SHAPE},
-    scene::{ObjectRef, Scene},
-};
+use crate::layout::{NO_INSTANCE, SHAPE};
+use glimray_scene::{ObjectRef, Scene};
 
 /// The objects of the scene behind packed primitives, instances and materials.
 #[derive(Clone, Debug)]

@@ -5,9 +5,9 @@ use super::segments::{Run, Segments};
 use crate::{
     bvh::threads,
     layout::{PICTURE_HALF, PICTURE_SRGB},
-    scene::{LARGEST_TEXEL, Pattern, Picture, Scene, Texels},
 };
 use bytemuck::try_cast_slice;
+use glimray_scene::{LARGEST_TEXEL, Pattern, Picture, Scene, Texels};
 use half::f16;
 use std::sync::Arc;
 

@@ -1,11 +1,9 @@
 //! Divides long oblique shapes into pieces for the BVH, as `triangle_pieces` does triangles: slices across the longest axis.
 
 use super::divided::Divided;
-use crate::{
-    bvh::Aabb,
-    scene::{CanonicalShape, Geometry},
-};
+use crate::bvh::Aabb;
 use glam::{DAffine3, DVec3, Vec3Swizzles};
+use glimray_scene::{CanonicalShape, Geometry};
 
 /// A division must reduce the area of the boxes by this factor.
 const GAIN: f64 = 1.2;

@@ -1,7 +1,7 @@
 //! The surface of a mesh as a closed volume: inside tests and connected components.
 
-use crate::scene::Mesh;
 use glam::{DAffine3, DVec3, Vec3};
+use glimray_scene::Mesh;
 use std::collections::{HashMap, HashSet};
 
 /// The triangles of a mesh, in its own space.

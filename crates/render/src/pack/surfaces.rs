@@ -2,7 +2,7 @@
 
 use super::{glow::Glow, light, material};
 use crate::layout::PackedMaterial;
-use crate::scene::{Frame, Material, Scene};
+use glimray_scene::{Frame, Material, Scene};
 use std::sync::Arc;
 
 /// The source of the packed materials, if they may change over time.

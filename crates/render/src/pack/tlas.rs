@@ -12,9 +12,9 @@ use super::{
 use crate::{
     bvh::{self, Aabb, Bvh, Child},
     layout::{INSTANCE, MOVING, PackedInstance, PackedKey, PackedNode, STACK_SIZE},
-    scene::Frame,
 };
 use glam::{DAffine3, DMat3, DVec3};
+use glimray_scene::Frame;
 use std::sync::Arc;
 
 /// The input of the TLAS that does not depend on the frame.

@@ -15,9 +15,9 @@ use super::{
 use crate::{
     bvh::{self, Aabb, Child},
     layout::{PackedNode, PackedTangent, PackedTriangle, PackedVertex, STACK_SIZE},
-    scene::{Frame, Scene},
 };
 use glam::{DAffine3, DVec3};
+use glimray_scene::{Frame, Scene};
 use std::{collections::HashMap, sync::Arc};
 
 /// Stack limit for baked geometry: the last store of a traversal step writes one entry beyond the top.

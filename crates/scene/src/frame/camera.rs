@@ -1,7 +1,7 @@
 //! The camera at one moment.
 
 use super::NodeState;
-use crate::scene::{Camera, CameraProperty, Scene, Target, Value};
+use crate::{Camera, CameraProperty, Scene, Target, Value};
 use glam::{DAffine3, DVec3};
 use std::f64::consts::PI;
 
@@ -15,7 +15,7 @@ impl Scene {
     /// The default camera in world space. A camera attached to a node sees the node's space as it would
     /// without the transform, unless the node scales unevenly: then its viewing direction and up vector
     /// are transformed, and its field of view stays.
-    pub(in crate::scene) fn camera_at(&self, time: f64, nodes: &[NodeState]) -> Camera {
+    pub(crate) fn camera_at(&self, time: f64, nodes: &[NodeState]) -> Camera {
         self.any_camera_at(self.camera_index, time, nodes)
     }
 

@@ -1,17 +1,12 @@
 //! Lights at one moment.
 
 use super::{NodeState, color, is_on};
-use crate::scene::{Light, LightKind, LightProperty, Scene, Target, Value};
+use crate::{Light, LightKind, LightProperty, Scene, Target, Value};
 use glam::{DAffine3, DVec3, Vec3};
 
 impl Scene {
     /// All lights in world space; lights that are off or attached to an invisible node are black.
-    pub(in crate::scene) fn lights_at(
-        &self,
-        time: f64,
-        opened: f64,
-        nodes: &[NodeState],
-    ) -> Vec<Light> {
+    pub(crate) fn lights_at(&self, time: f64, opened: f64, nodes: &[NodeState]) -> Vec<Light> {
         let mut lights = self.lights.clone();
         let mut factors = vec![1.0; lights.len()];
         for track in &self.tracks {

@@ -1,7 +1,7 @@
 //! Materials at one moment.
 
 use super::color;
-use crate::scene::{LayerProperty, Material, MaterialProperty, Scene, Target, Value};
+use crate::{LayerProperty, Material, MaterialProperty, Scene, Target, Value};
 use glam::Vec3;
 use std::sync::Arc;
 

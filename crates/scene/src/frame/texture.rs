@@ -1,6 +1,6 @@
 //! Textures at one moment.
 
-use crate::scene::{Scene, Target, Texture, TextureProperty, UvTransform, Value};
+use crate::{Scene, Target, Texture, TextureProperty, UvTransform, Value};
 use std::collections::BTreeMap;
 
 impl Scene {

@@ -1,8 +1,8 @@
 //! Where curves have keys, and how fast they turn.
 
 use super::{MAX_KEYS, moment};
-use crate::scene::frame::rotation_from;
-use crate::scene::{Beyond, Curve, Easing, Interpolation, Value};
+use crate::frame::rotation_from;
+use crate::{Beyond, Curve, Easing, Interpolation, Value};
 use glam::DVec3;
 
 impl Curve {

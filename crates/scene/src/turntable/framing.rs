@@ -22,8 +22,8 @@
 //! unless the width requires a larger d; then it is the t for which the third holds with equality too.
 
 use super::Turntable;
-use crate::scene::posed::Posed;
-use crate::scene::{CanonicalShape, Geometry, Scene, corners};
+use crate::posed::Posed;
+use crate::{CanonicalShape, Geometry, Scene, corners};
 use glam::DAffine3;
 
 /// The geometry to be framed, around an axis along y.

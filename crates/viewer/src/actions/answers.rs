@@ -1,11 +1,11 @@
 //! Handles the answers of the render thread.
 
-use crate::viewer::actions::comparing;
-use crate::viewer::actions::files::pictures;
-use crate::viewer::actions::inspector;
-use crate::viewer::actions::tools;
-use crate::viewer::state::answer::Answer;
-use crate::viewer::state::session::Session;
+use crate::actions::comparing;
+use crate::actions::files::pictures;
+use crate::actions::inspector;
+use crate::actions::tools;
+use crate::state::answer::Answer;
+use crate::state::session::Session;
 
 impl Session {
     /// Handles an answer of the render thread.

@@ -1,15 +1,15 @@
 //! Dispatches all commands, whether from keys, menus or buttons.
 
-use crate::viewer::actions::{comparing, dialogs, editing, files, modal, saving, selecting, tools};
-use crate::viewer::model::bindings::Action;
-use crate::viewer::model::camera::{CameraController, Side};
-use crate::viewer::model::preferences::Theme;
-use crate::viewer::model::tool::Tool;
-use crate::viewer::model::view_settings::{GAIN, Sharing};
-use crate::viewer::model::viewport::PixelZoom;
-use crate::viewer::state::dialogs::Dialog;
-use crate::viewer::state::layout::{Layout, Panel};
-use crate::viewer::state::session::Session;
+use crate::actions::{comparing, dialogs, editing, files, modal, saving, selecting, tools};
+use crate::model::bindings::Action;
+use crate::model::camera::{CameraController, Side};
+use crate::model::preferences::Theme;
+use crate::model::tool::Tool;
+use crate::model::view_settings::{GAIN, Sharing};
+use crate::model::viewport::PixelZoom;
+use crate::state::dialogs::Dialog;
+use crate::state::layout::{Layout, Panel};
+use crate::state::session::Session;
 use eframe::egui::{self, ViewportCommand};
 use glam::DVec3;
 use std::f64::consts::PI;

@@ -1,16 +1,16 @@
 //! Keeps snapshots and opens reference pictures to compare with.
 
-use crate::app::{advice, picture_file};
-use crate::image::Image;
-use crate::render::{Shows, Tone};
-use crate::viewer::model::file_dialog::{self, Reply, Request};
-use crate::viewer::model::gallery::{MOST, Snapshot, StillId};
-use crate::viewer::model::view_settings::Source;
-use crate::viewer::state::answer::Answer;
-use crate::viewer::state::comparing::Reading;
-use crate::viewer::state::session::Session;
-use crate::viewer::worker::progressive_image::FrameRenderer;
+use crate::model::file_dialog::{self, Reply, Request};
+use crate::model::gallery::{MOST, Snapshot, StillId};
+use crate::model::view_settings::Source;
+use crate::state::answer::Answer;
+use crate::state::comparing::Reading;
+use crate::state::session::Session;
+use crate::worker::progressive_image::FrameRenderer;
 use eframe::egui;
+use glimray_app::{advice, picture_file};
+use glimray_render::{Shows, Tone};
+use glimray_scene::image::Image;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{TryRecvError, channel};
 
@@ -79,7 +79,7 @@ pub fn ask_reference(session: &mut Session, ctx: &egui::Context) {
     let folder = session.path.as_deref().and_then(Path::parent);
     let request = Request {
         saves: false,
-        kind: Some(("Pictures", crate::import::PICTURE_ENDINGS)),
+        kind: Some(("Pictures", glimray_io::import::PICTURE_ENDINGS)),
         title: "Open a reference picture".to_owned(),
         folder: folder.map(Path::to_owned),
         name: None,

@@ -1,11 +1,11 @@
 //! Asks the renderer what the pixel under the cursor shows.
 
-use crate::viewer::model::objects::Id;
-use crate::viewer::model::outline;
-use crate::viewer::state::answer::Answer;
-use crate::viewer::state::cursor::{Probe, REST, Subject, Surface};
-use crate::viewer::state::session::Session;
-use crate::viewer::worker::progressive_image::{FrameRenderer, PictureSlot, Progress};
+use crate::model::objects::Id;
+use crate::model::outline;
+use crate::state::answer::Answer;
+use crate::state::cursor::{Probe, REST, Subject, Surface};
+use crate::state::session::Session;
+use crate::worker::progressive_image::{FrameRenderer, PictureSlot, Progress};
 use glam::DVec3;
 
 /// Asks about the pixel under the cursor, once the cursor rests there and the camera rests too. Asks again

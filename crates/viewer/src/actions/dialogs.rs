@@ -1,8 +1,8 @@
 //! Commands and keys of dialogs.
 
-use crate::viewer::model::bindings::{Action, Trigger};
-use crate::viewer::state::dialogs::Dialog;
-use crate::viewer::state::session::Session;
+use crate::model::bindings::{Action, Trigger};
+use crate::state::dialogs::Dialog;
+use crate::state::session::Session;
 use eframe::egui::{self, Key};
 
 /// Whether keys belong to a dialog or leave a field, so that they perform no commands. Escape closes a

@@ -1,14 +1,14 @@
 //! Commands that edit the scene, and the focus of the outline.
 
-use crate::app::overrides;
-use crate::scene::{Camera, Scene};
-use crate::viewer::model::document::Document;
-use crate::viewer::model::objects;
-use crate::viewer::model::objects::{EditError, Id};
-use crate::viewer::model::outline;
-use crate::viewer::model::tool::Tool;
-use crate::viewer::state::session::Session;
+use crate::model::document::Document;
+use crate::model::objects;
+use crate::model::objects::{EditError, Id};
+use crate::model::outline;
+use crate::model::tool::Tool;
+use crate::state::session::Session;
 use eframe::egui::{self, Key, Modifiers};
+use glimray_app::overrides;
+use glimray_scene::{Camera, Scene};
 use std::sync::Arc;
 
 /// Whether the outline handles arrow keys. Other keys perform commands.

@@ -1,9 +1,9 @@
 //! Measures the histogram of the picture on the render thread.
 
-use crate::viewer::model::histogram::Histogram;
-use crate::viewer::state::answer::Answer;
-use crate::viewer::state::session::Session;
-use crate::viewer::worker::progressive_image::{FrameRenderer, Progress};
+use crate::model::histogram::Histogram;
+use crate::state::answer::Answer;
+use crate::state::session::Session;
+use crate::worker::progressive_image::{FrameRenderer, Progress};
 
 /// Asks for the histogram if the picture was presented anew. Previews are not measured. Returns whether a frame is
 /// needed to send the question.

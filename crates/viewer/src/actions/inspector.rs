@@ -4,17 +4,17 @@ pub mod export;
 pub mod hidden;
 pub mod outside;
 
-use crate::app::advice;
-use crate::render::Integrator;
-use crate::viewer::model::tool::Tool;
-use crate::viewer::model::viewport::Viewport;
-use crate::viewer::state::answer::Answer;
-use crate::viewer::state::inspector::{Hidden, Inspected};
-use crate::viewer::state::layout::{Layout, Panel};
-use crate::viewer::state::session::Session;
-use crate::viewer::worker::progressive_image::{FrameRenderer, PictureSlot};
-use crate::viewer::worker::request::RenderRequest;
+use crate::model::tool::Tool;
+use crate::model::viewport::Viewport;
+use crate::state::answer::Answer;
+use crate::state::inspector::{Hidden, Inspected};
+use crate::state::layout::{Layout, Panel};
+use crate::state::session::Session;
+use crate::worker::progressive_image::{FrameRenderer, PictureSlot};
+use crate::worker::request::RenderRequest;
 use eframe::egui;
+use glimray_app::advice;
+use glimray_render::Integrator;
 
 /// Minimum width of a readable ray tree, in points.
 const READABLE: f32 = 420.0;
@@ -123,7 +123,7 @@ pub fn is_stale(session: &Session) -> bool {
     match (inspected, now) {
         (Some(inspected), Some(now)) => {
             // Debug views show the surfaces of the classical tree.
-            let settings = |order: &RenderRequest| crate::render::RenderSettings {
+            let settings = |order: &RenderRequest| glimray_render::RenderSettings {
                 integrator: match order.settings.integrator {
                     Integrator::Path => Integrator::Path,
                     _ => Integrator::Whitted,

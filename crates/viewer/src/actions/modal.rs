@@ -2,11 +2,11 @@
 //! and Z constrain the axis (with Shift the plane), digits set the amount, and Enter or a click confirms.
 //! Escape or a right click cancels.
 
-use crate::viewer::model::bindings::{Action, Preset};
-use crate::viewer::model::modal::Modal;
-use crate::viewer::model::objects;
-use crate::viewer::model::tool::Tool;
-use crate::viewer::state::session::Session;
+use crate::model::bindings::{Action, Preset};
+use crate::model::modal::Modal;
+use crate::model::objects;
+use crate::model::tool::Tool;
+use crate::state::session::Session;
 use eframe::egui::{Event, Key};
 
 /// Activates a tool with handles. With Blender's bindings, that starts a modal transform of the selection.

@@ -1,8 +1,8 @@
 //! Saves the window's settings to the scene.
 
-use crate::scene::OutputDefaults;
-use crate::viewer::state::session::Session;
-use crate::viewer::state::session::opening::samples_of;
+use crate::state::session::Session;
+use crate::state::session::opening::samples_of;
+use glimray_scene::OutputDefaults;
 
 impl Session {
     /// The output defaults that the scene would need; `None` if it has them.

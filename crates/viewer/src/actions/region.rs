@@ -1,9 +1,9 @@
 //! The render region: draws a rectangle and drags its edges.
 
-use crate::viewer::model::region::Grip;
-use crate::viewer::model::tool::Tool;
-use crate::viewer::model::viewport::Viewport;
-use crate::viewer::state::session::Session;
+use crate::model::region::Grip;
+use crate::model::tool::Tool;
+use crate::model::viewport::Viewport;
+use crate::state::session::Session;
 use eframe::egui::{self, CursorIcon, PointerButton, Pos2};
 use glam::DVec2;
 

@@ -1,12 +1,12 @@
 //! Saving the scene as a native file.
 
-use crate::app::{inputs, scene_file};
-use crate::viewer::actions::files;
-use crate::viewer::actions::files::cameras;
-use crate::viewer::model::file_dialog::{self, Reply, Request, SCENES};
-use crate::viewer::state::editing::Saving;
-use crate::viewer::state::session::Session;
+use crate::actions::files;
+use crate::actions::files::cameras;
+use crate::model::file_dialog::{self, Reply, Request, SCENES};
+use crate::state::editing::Saving;
+use crate::state::session::Session;
 use eframe::egui;
+use glimray_app::{inputs, scene_file};
 use std::path::{Path, PathBuf};
 
 /// Saves to the file that was saved before, else asks.

@@ -1,9 +1,9 @@
 //! Selecting several things, and the commands that act on all of them.
 
-use crate::viewer::actions::editing;
-use crate::viewer::model::objects::{self, Id};
-use crate::viewer::state::editing::Group;
-use crate::viewer::state::session::Session;
+use crate::actions::editing;
+use crate::model::objects::{self, Id};
+use crate::state::editing::Group;
+use crate::state::session::Session;
 
 /// The effect of a click in the outline on the selection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

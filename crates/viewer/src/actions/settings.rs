@@ -1,9 +1,9 @@
 //! Applies the preferences to the window and writes them to the settings file.
 
-use crate::viewer::model::preferences::Theme;
-use crate::viewer::state::dialogs::Dialog;
-use crate::viewer::state::layout::Layout;
-use crate::viewer::state::session::Session;
+use crate::model::preferences::Theme;
+use crate::state::dialogs::Dialog;
+use crate::state::layout::Layout;
+use crate::state::session::Session;
 use eframe::egui::{self, ThemePreference};
 use std::time::Duration;
 

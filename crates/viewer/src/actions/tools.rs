@@ -1,20 +1,20 @@
 //! The mouse in the picture: the active tool, and camera navigation.
 
-use crate::app::advice;
-use crate::app::legend::number;
-use crate::scene::ObjectRef;
-use crate::viewer::actions::{inspector, modal};
-use crate::viewer::model::bindings::{Action, Drag};
-use crate::viewer::model::camera::CameraController;
-use crate::viewer::model::objects::Id;
-use crate::viewer::model::tool::{Purpose, Tool};
-use crate::viewer::model::viewport::Viewport;
-use crate::viewer::state::answer::Answer;
-use crate::viewer::state::layout::Layout;
-use crate::viewer::state::session::Session;
-use crate::viewer::worker::progressive_image::FrameRenderer;
+use crate::actions::{inspector, modal};
+use crate::model::bindings::{Action, Drag};
+use crate::model::camera::CameraController;
+use crate::model::objects::Id;
+use crate::model::tool::{Purpose, Tool};
+use crate::model::viewport::Viewport;
+use crate::state::answer::Answer;
+use crate::state::layout::Layout;
+use crate::state::session::Session;
+use crate::worker::progressive_image::FrameRenderer;
 use eframe::egui::{self, LayerId, PointerButton, Pos2, Vec2};
 use glam::{DVec2, DVec3};
+use glimray_app::advice;
+use glimray_app::legend::number;
+use glimray_scene::ObjectRef;
 
 /// All mouse buttons.
 const BUTTONS: [PointerButton; 5] = [

@@ -1,7 +1,7 @@
 //! Per-frame updates.
 
 use super::{comparing, editing, files, inspector};
-use crate::viewer::state::session::Session;
+use crate::state::session::Session;
 use eframe::egui;
 
 /// Drops requests and drags of the previous window.

@@ -9,7 +9,7 @@ pub use action::{Action, Category, Manner};
 pub use preset::Preset;
 pub use trigger::{Mods, Trigger};
 
-use crate::viewer::model::camera::Flight;
+use crate::model::camera::Flight;
 use eframe::egui::{Event, InputState, Key, MouseWheelUnit, PointerButton, Pos2};
 use std::collections::BTreeMap;
 use std::fmt::Write;

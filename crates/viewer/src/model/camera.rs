@@ -15,8 +15,8 @@ mod project;
 pub use pose::{Pose, Upright};
 pub use project::{project, project_line, ray_through};
 
-use crate::scene::{Camera, Lens};
 use glam::{DVec2, DVec3};
+use glimray_scene::{Camera, Lens};
 use std::f64::consts::PI;
 
 /// Time constant of animated jumps, in seconds.
@@ -94,7 +94,7 @@ struct Known {
 }
 
 impl CameraController {
-    /// A controller that starts at `camera`, which is in world space, as in [`crate::scene::Frame`].
+    /// A controller that starts at `camera`, which is in world space, as in [`glimray_scene::Frame`].
     /// `bounds` are those of the visible geometry; flying speed and limits depend on their size.
     pub fn new(camera: &Camera, bounds: Option<(DVec3, DVec3)>) -> Self {
         let upright = Upright::of(camera);

@@ -5,12 +5,12 @@
 
 mod flags;
 
-use crate::app::clock::Clock;
-use crate::app::inputs::may_be_model;
-use crate::app::window::{ParsePicture, PictureRequest};
-use crate::import::{EnvironmentSource, Ground, Staging};
-use crate::render::{RenderSettings, Tone};
-use crate::scene::{Background, Camera, Scene, Shutter, Target};
+use glimray_app::clock::Clock;
+use glimray_app::inputs::may_be_model;
+use glimray_app::window::{ParsePicture, PictureRequest};
+use glimray_io::import::{EnvironmentSource, Ground, Staging};
+use glimray_render::{RenderSettings, Tone};
+use glimray_scene::{Background, Camera, Scene, Shutter, Target};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -22,7 +22,7 @@ pub struct Shown<'a> {
     /// The scene's file.
     pub path: &'a Path,
     /// The importer options from `--set` and `--allow-dir`.
-    pub options: &'a crate::import::Options,
+    pub options: &'a glimray_io::import::Options,
     /// The scene as imported, without flags.
     pub scene: &'a Scene,
     /// The camera in world space at that time.

@@ -2,7 +2,7 @@
 //!
 //! A step stores the previous scene. This is cheap because meshes and images are shared.
 
-use crate::scene::{Camera, Instance, Light, Material, Mesh, Node, Scene, Shape, Texture, Track};
+use glimray_scene::{Camera, Instance, Light, Material, Mesh, Node, Scene, Shape, Texture, Track};
 use std::mem::size_of;
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! Native file dialogs, opened without blocking. Tests replace them.
 
-use crate::import;
 use eframe::egui;
+use glimray_io::import;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};

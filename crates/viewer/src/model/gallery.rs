@@ -1,6 +1,6 @@
 //! Stills that the picture is compared with: snapshots of it, and reference pictures from files.
 
-use crate::image::Image;
+use glimray_scene::image::Image;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

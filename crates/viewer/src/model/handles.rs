@@ -4,11 +4,11 @@
 
 mod amounts;
 
-use crate::scene::Camera;
-use crate::viewer::model::camera::{project, ray_through};
-use crate::viewer::model::objects::{Freedom, Scaling};
-use crate::viewer::model::tool::Tool;
+use crate::model::camera::{project, ray_through};
+use crate::model::objects::{Freedom, Scaling};
+use crate::model::tool::Tool;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
+use glimray_scene::Camera;
 use std::f64::consts::{PI, TAU};
 
 /// Segments of a ring.

@@ -1,8 +1,8 @@
 //! The visible rows of the outline, updated when the scene or the search changes.
 
-use crate::scene::Scene;
-use crate::viewer::model::objects::Id;
-use crate::viewer::model::outline::{Entry, Outline};
+use crate::model::objects::Id;
+use crate::model::outline::{Entry, Outline};
+use glimray_scene::Scene;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;

@@ -1,10 +1,10 @@
 //! Loads scenes in the background.
 
-use crate::app::advice;
-use crate::import::{self, Fault, ImportError, Step};
-use crate::pack::{self, PackedScene};
-use crate::scene::Scene;
-use crate::viewer::worker::stage::{Activity, Stage};
+use crate::worker::stage::{Activity, Stage};
+use glimray_app::advice;
+use glimray_io::import::{self, Fault, ImportError, Step};
+use glimray_render::pack::{self, PackedScene};
+use glimray_scene::Scene;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

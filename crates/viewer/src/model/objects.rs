@@ -10,7 +10,7 @@ pub use parent::set_parent;
 pub use place::{Freedom, Scaling, freedom, place, set_place};
 pub use scope::{bounds, hide_others, is_there, name, rename, same, show_all, subject};
 
-use crate::scene::{Node, ObjectRef, Scene, Target};
+use glimray_scene::{Node, ObjectRef, Scene, Target};
 use std::sync::Arc;
 
 /// A selectable part of a scene. Indices are those of the scene's lists.
@@ -131,7 +131,7 @@ pub fn is_visible(scene: &Scene, id: Id) -> bool {
 pub fn set_visible(scene: &mut Scene, id: Id, visible: bool) -> Result<(), EditError> {
     check(scene, id)?;
     if let Id::Node(index) = id {
-        let property = crate::scene::NodeProperty::Visible;
+        let property = glimray_scene::NodeProperty::Visible;
         let mut targets = scene.tracks.iter().flat_map(|track| &track.targets);
         if targets.any(|target| *target == Target::Node(index, property)) {
             let property = "visibility";

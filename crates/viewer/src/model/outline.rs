@@ -1,8 +1,8 @@
 //! The contents of a scene as rows, indented by hierarchy.
 
-use crate::scene::{CanonicalShape, Geometry, LightKind, ObjectRef, Scene};
-use crate::viewer::model::objects;
-use crate::viewer::model::objects::Id;
+use crate::model::objects;
+use crate::model::objects::Id;
+use glimray_scene::{CanonicalShape, Geometry, LightKind, ObjectRef, Scene};
 use std::collections::BTreeMap;
 
 /// The heading of the objects.

@@ -1,8 +1,8 @@
 //! Playback of the animation; the time is always at a whole frame.
 
-use crate::app::clock;
-use crate::app::clock::Clock;
-use crate::scene::{Scene, Shutter};
+use glimray_app::clock;
+use glimray_app::clock::Clock;
+use glimray_scene::{Scene, Shutter};
 
 /// Limit of the playback speed, as a factor in both directions.
 pub const MAX_SPEED: f64 = 16.0;

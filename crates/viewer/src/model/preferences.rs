@@ -6,10 +6,10 @@ mod saved_camera;
 
 pub use saved_camera::SavedCamera;
 
-use crate::app::folders::{self, SETTINGS_VARIABLE};
-use crate::output::{self, OutputError};
-use crate::scene::ToneCurve;
-use crate::viewer::model::bindings::Bindings;
+use crate::model::bindings::Bindings;
+use glimray_app::folders::{self, SETTINGS_VARIABLE};
+use glimray_io::output::{self, OutputError};
+use glimray_scene::ToneCurve;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -1,10 +1,10 @@
 //! Records and replays user input: one line of JSON per egui event, with its time.
 
-use crate::app::error::AppError;
-use crate::app::inputs::Inputs;
-use crate::app::window::RecordingRequest;
-use crate::output::reason;
 use eframe::egui::{self, DroppedFile, Event, RawInput};
+use glimray_app::error::AppError;
+use glimray_app::inputs::Inputs;
+use glimray_app::window::RecordingRequest;
+use glimray_io::output::reason;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::fs::File;

@@ -1,8 +1,8 @@
 //! Builds the usual BVHs of a scene in the background while it is shown with drafts of them.
 
-use crate::pack::{self, PackError, PackedScene};
-use crate::scene::Scene;
-use crate::viewer::worker::request::PreparedScene;
+use crate::worker::request::PreparedScene;
+use glimray_render::pack::{self, PackError, PackedScene};
+use glimray_scene::Scene;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 

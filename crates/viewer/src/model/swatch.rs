@@ -1,7 +1,7 @@
 //! How a material looks in a small patch of colour.
 
-use crate::scene::{Fresnel, Material};
 use glam::Vec3;
+use glimray_scene::{Fresnel, Material};
 
 /// The thickness of glass that its absorption tints, in scene units.
 const THICKNESS: f32 = 0.5;

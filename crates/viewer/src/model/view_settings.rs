@@ -1,11 +1,11 @@
 //! Render and view settings that do not change the scene.
 
-use crate::app::layers::{LAYERS, PictureLayer};
-use crate::render::{Antialias, Integrator, Levels, RenderSettings, Shows, Tone};
-use crate::scene::{Background, LightTransport, OutputDefaults, ToneCurve};
-use crate::viewer::model::gallery::StillId;
-use crate::viewer::model::playback::Playback;
+use crate::model::gallery::StillId;
+use crate::model::playback::Playback;
 use glam::Vec3;
+use glimray_app::layers::{LAYERS, PictureLayer};
+use glimray_render::{Antialias, Integrator, Levels, RenderSettings, Shows, Tone};
+use glimray_scene::{Background, LightTransport, OutputDefaults, ToneCurve};
 
 /// Maximum samples per pixel.
 pub const MAX_SAMPLES: u32 = 65_536;

@@ -1,13 +1,13 @@
 //! Answers of the render thread.
 
-use crate::scene::ObjectRef;
-use crate::viewer::model::gallery::Snapshot;
-use crate::viewer::model::histogram::Histogram;
-use crate::viewer::model::tool::Purpose;
-use crate::viewer::state::cursor::Probe;
-use crate::viewer::state::files::Captured;
-use crate::viewer::state::inspector::{Inspected, Parts};
+use crate::model::gallery::Snapshot;
+use crate::model::histogram::Histogram;
+use crate::model::tool::Purpose;
+use crate::state::cursor::Probe;
+use crate::state::files::Captured;
+use crate::state::inspector::{Inspected, Parts};
 use glam::DVec3;
+use glimray_scene::ObjectRef;
 
 /// The result of a question to the render thread.
 #[derive(Debug)]

@@ -1,16 +1,16 @@
 //! The stills that the picture is compared with, and the reference picture that is being opened.
 
-use crate::app::error::AppError;
-use crate::app::picture_file::Picture;
-use crate::viewer::model::file_dialog::Reply;
-use crate::viewer::model::gallery::Gallery;
+use crate::model::file_dialog::Reply;
+use crate::model::gallery::Gallery;
+use glimray_app::error::AppError;
+use glimray_app::picture_file::Picture;
 use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
 
 /// A reference picture on its way from the disk.
 pub struct Reading {
-    pub(in crate::viewer) path: PathBuf,
-    pub(in crate::viewer) outcome: Receiver<Result<Picture, AppError>>,
+    pub(crate) path: PathBuf,
+    pub(crate) outcome: Receiver<Result<Picture, AppError>>,
 }
 
 /// The state of comparisons.
@@ -21,8 +21,8 @@ pub struct Comparing {
     /// The typed path of a reference picture.
     pub typed: Option<String>,
     /// The pending reply of the file dialog.
-    pub(in crate::viewer) asked: Option<Receiver<Reply>>,
-    pub(in crate::viewer) reading: Option<Reading>,
+    pub(crate) asked: Option<Receiver<Reply>>,
+    pub(crate) reading: Option<Reading>,
 }
 
 impl Comparing {

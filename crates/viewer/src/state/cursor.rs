@@ -1,6 +1,6 @@
 //! The pixel under the cursor and what it shows.
 
-use crate::viewer::worker::request::RenderRequest;
+use crate::worker::request::RenderRequest;
 
 /// Seconds that the cursor must rest on a pixel before the renderer is asked about it: long enough that a drag
 /// that begins there does not wait for the answer.
@@ -29,10 +29,10 @@ pub struct Surface {
 /// The inputs of an answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Subject {
-    pub(in crate::viewer) pixel: [u32; 2],
-    pub(in crate::viewer) order: RenderRequest,
+    pub(crate) pixel: [u32; 2],
+    pub(crate) order: RenderRequest,
     /// Whether the picture is done, and how often it was shown; before, how often its samples have doubled.
-    pub(in crate::viewer) stage: (bool, u64),
+    pub(crate) stage: (bool, u64),
 }
 
 /// The pixel under the cursor.
@@ -43,10 +43,10 @@ pub struct Cursor {
     /// Whether that is the main picture, and not what it is compared with.
     pub is_in_main: bool,
     /// When the cursor came there, in egui's time.
-    pub(in crate::viewer) since: f64,
+    pub(crate) since: f64,
     /// The last answer.
     pub probe: Option<Probe>,
-    pub(in crate::viewer) asked: Option<Subject>,
+    pub(crate) asked: Option<Subject>,
 }
 
 impl Cursor {

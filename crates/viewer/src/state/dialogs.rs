@@ -1,7 +1,7 @@
 //! The state of dialogs.
 
-use crate::viewer::model::bindings::Action;
-use crate::viewer::model::preferences::{Preferences, Theme};
+use crate::model::bindings::Action;
+use crate::model::preferences::{Preferences, Theme};
 use eframe::egui::Rect;
 use std::collections::BTreeMap;
 
@@ -23,14 +23,14 @@ pub enum Dialog {
 /// The open dialogs and their state.
 #[derive(Default)]
 pub struct Dialogs {
-    pub(in crate::viewer) open: Vec<Dialog>,
+    pub(crate) open: Vec<Dialog>,
     /// The state of the shortcuts dialog.
     pub bindings: ShortcutsDialog,
-    pub(in crate::viewer) names: Names,
-    pub(in crate::viewer) is_resetting: bool,
+    pub(crate) names: Names,
+    pub(crate) is_resetting: bool,
     /// Whether a field had the keyboard in the last frame: egui clears the focus before Escape is seen.
-    pub(in crate::viewer) had_keyboard: bool,
-    pub(in crate::viewer) preferences_file: PreferencesFile,
+    pub(crate) had_keyboard: bool,
+    pub(crate) preferences_file: PreferencesFile,
 }
 
 impl Dialogs {
@@ -70,22 +70,22 @@ pub type Names = BTreeMap<String, String>;
 /// The state of the shortcuts dialog.
 #[derive(Default)]
 pub struct ShortcutsDialog {
-    pub(in crate::viewer) search: String,
+    pub(crate) search: String,
     /// The command that waits for a trigger.
-    pub(in crate::viewer) capture: Option<Capture>,
+    pub(crate) capture: Option<Capture>,
     /// Why the last trigger was rejected.
-    pub(in crate::viewer) refusal: Option<(Action, String)>,
+    pub(crate) refusal: Option<(Action, String)>,
 }
 
 /// A command that waits for its new trigger.
 #[derive(Clone, Copy)]
 pub struct Capture {
-    pub(in crate::viewer) action: Action,
-    pub(in crate::viewer) adds: bool,
+    pub(crate) action: Action,
+    pub(crate) adds: bool,
     /// Screen area in which buttons and the wheel count.
-    pub(in crate::viewer) place: Option<Rect>,
+    pub(crate) place: Option<Rect>,
     /// Whether the click that started it is over.
-    pub(in crate::viewer) is_ready: bool,
+    pub(crate) is_ready: bool,
 }
 
 impl ShortcutsDialog {
@@ -98,15 +98,15 @@ impl ShortcutsDialog {
 /// The state of the settings file.
 #[derive(Default)]
 pub struct PreferencesFile {
-    pub(in crate::viewer) written: Option<Preferences>,
+    pub(crate) written: Option<Preferences>,
     /// Time of the last check, by the window's clock in seconds.
-    pub(in crate::viewer) looked: Option<f64>,
-    pub(in crate::viewer) has_failed: bool,
-    pub(in crate::viewer) is_begun: bool,
+    pub(crate) looked: Option<f64>,
+    pub(crate) has_failed: bool,
+    pub(crate) is_begun: bool,
     /// Whether the layout must be stored.
-    pub(in crate::viewer) is_due: bool,
+    pub(crate) is_due: bool,
     /// The theme and scale applied to the window.
-    pub(in crate::viewer) applied: Option<(Theme, f32)>,
+    pub(crate) applied: Option<(Theme, f32)>,
 }
 
 impl PreferencesFile {

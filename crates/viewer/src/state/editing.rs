@@ -1,13 +1,13 @@
 //! The state of editing.
 
-use crate::scene::{Camera, Mesh, Scene};
-use crate::viewer::model::file_dialog::Reply;
-use crate::viewer::model::handles::Grip;
-use crate::viewer::model::listing::Listing;
-use crate::viewer::model::modal::Modal;
-use crate::viewer::model::objects::Id;
+use crate::model::file_dialog::Reply;
+use crate::model::handles::Grip;
+use crate::model::listing::Listing;
+use crate::model::modal::Modal;
+use crate::model::objects::Id;
 use eframe::egui::{self, Pos2};
 use glam::DVec3;
+use glimray_scene::{Camera, Mesh, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
@@ -31,17 +31,17 @@ pub struct Editing {
     /// The visible range of the outline, in points from its start.
     pub visible_range: egui::Rangef,
     /// The dialog that asks where to save the scene.
-    pub(in crate::viewer) saving: Option<Saving>,
+    pub(crate) saving: Option<Saving>,
     /// The file saved from this window, which may be replaced without asking.
-    pub(in crate::viewer) written: Option<PathBuf>,
+    pub(crate) written: Option<PathBuf>,
     /// The last scene that dependents were updated for.
-    pub(in crate::viewer) known: Option<Arc<Scene>>,
+    pub(crate) known: Option<Arc<Scene>>,
     /// The scene's camera in world space.
-    pub(in crate::viewer) home: Option<Camera>,
+    pub(crate) home: Option<Camera>,
     /// Whether bounds must still be updated.
-    pub(in crate::viewer) owes_bounds: bool,
+    pub(crate) owes_bounds: bool,
     /// Cached bounds of a mesh.
-    pub(in crate::viewer) mesh_box: Option<(Arc<Mesh>, Bounds)>,
+    pub(crate) mesh_box: Option<(Arc<Mesh>, Bounds)>,
 }
 
 /// Minimum and maximum corner of a box; `None` without bounds.
@@ -106,10 +106,10 @@ pub struct Group {
 
 /// The dialog that asks where to save the scene.
 pub struct Saving {
-    pub(in crate::viewer) name: String,
+    pub(crate) name: String,
     /// Why the name is invalid.
-    pub(in crate::viewer) trouble: Option<String>,
-    pub(in crate::viewer) is_new: bool,
+    pub(crate) trouble: Option<String>,
+    pub(crate) is_new: bool,
     /// The pending reply of the desktop's dialog.
-    pub(in crate::viewer) asked: Option<Receiver<Reply>>,
+    pub(crate) asked: Option<Receiver<Reply>>,
 }

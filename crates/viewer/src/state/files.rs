@@ -1,14 +1,14 @@
 //! The state of files: open, watched, requested and being written.
 
-use crate::app::inputs::Inputs;
-use crate::import::ImportError;
-use crate::output::Format;
-use crate::scene::Picture;
-use crate::viewer::model::file_dialog::{FileDialogs, Reply};
-use crate::viewer::model::loader::Trouble;
-use crate::viewer::model::watch::Watch;
-use crate::viewer::worker::still::Still;
+use crate::model::file_dialog::{FileDialogs, Reply};
+use crate::model::loader::Trouble;
+use crate::model::watch::Watch;
+use crate::worker::still::Still;
 use eframe::egui::ColorImage;
+use glimray_app::inputs::Inputs;
+use glimray_io::import::ImportError;
+use glimray_io::output::Format;
+use glimray_scene::Picture;
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -33,24 +33,24 @@ pub struct Files {
     /// The action that waits for an answer about unsaved changes.
     pub undecided: Option<Intent>,
     /// The pending reply of the open dialog.
-    pub(in crate::viewer) asked: Option<Receiver<Reply>>,
+    pub(crate) asked: Option<Receiver<Reply>>,
     /// Scenes to try next if one cannot be read, and the message if one can.
-    pub(in crate::viewer) candidates: VecDeque<PathBuf>,
-    pub(in crate::viewer) notice: Option<String>,
-    pub(in crate::viewer) pending: Pending,
+    pub(crate) candidates: VecDeque<PathBuf>,
+    pub(crate) notice: Option<String>,
+    pub(crate) pending: Pending,
     /// The environment image that is loading.
-    pub(in crate::viewer) environment: Option<(PathBuf, Receiver<PictureRead>)>,
+    pub(crate) environment: Option<(PathBuf, Receiver<PictureRead>)>,
     /// Environment images loaded so far.
-    pub(in crate::viewer) surroundings: Vec<PathBuf>,
-    pub(in crate::viewer) watch: Watch,
+    pub(crate) surroundings: Vec<PathBuf>,
+    pub(crate) watch: Watch,
     /// The files to watch from now on.
-    pub(in crate::viewer) to_watch: Option<(Vec<PathBuf>, SystemTime)>,
+    pub(crate) to_watch: Option<(Vec<PathBuf>, SystemTime)>,
     /// Whether the scene's file does not exist any more.
-    pub(in crate::viewer) is_gone: bool,
+    pub(crate) is_gone: bool,
     /// Number of frames in which a paste is taken as a camera; an empty clipboard gives none.
-    pub(in crate::viewer) awaits_paste: u8,
-    pub(in crate::viewer) may_close: bool,
-    pub(in crate::viewer) title: String,
+    pub(crate) awaits_paste: u8,
+    pub(crate) may_close: bool,
+    pub(crate) title: String,
 }
 
 /// A scene that cannot be read.
@@ -163,9 +163,9 @@ impl SaveSize {
 /// A picture that is rendered for a file.
 pub struct Rendering {
     /// The outcome: a message, `None` if it was cancelled, or an error.
-    pub(in crate::viewer) receiver: Receiver<Result<Option<String>, String>>,
+    pub(crate) receiver: Receiver<Result<Option<String>, String>>,
     /// Set to cancel it.
-    pub(in crate::viewer) is_cancelled: Arc<AtomicBool>,
+    pub(crate) is_cancelled: Arc<AtomicBool>,
 }
 
 /// The state of the dialog for saving the picture.
@@ -181,38 +181,38 @@ pub struct SaveDialog {
     /// Whether the name field has not been focused yet.
     pub is_new: bool,
     /// The input files of the scene, which no picture may replace.
-    pub(in crate::viewer) inputs: Inputs,
+    pub(crate) inputs: Inputs,
     /// The path from a file dialog, which has confirmed replacing it.
-    pub(in crate::viewer) agreed: Option<PathBuf>,
-    pub(in crate::viewer) asked: Option<Receiver<Reply>>,
+    pub(crate) agreed: Option<PathBuf>,
+    pub(crate) asked: Option<Receiver<Reply>>,
 }
 
 /// A picture from the render thread, with its target.
 #[derive(Debug)]
 pub struct Captured {
     /// `None` if the picture must be finished first.
-    pub(in crate::viewer) still: Result<Option<Still>, String>,
-    pub(in crate::viewer) samples: u32,
-    pub(in crate::viewer) of: u32,
-    pub(in crate::viewer) target: Target,
+    pub(crate) still: Result<Option<Still>, String>,
+    pub(crate) samples: u32,
+    pub(crate) of: u32,
+    pub(crate) target: Target,
     /// For a picture that waits: the index of its scene.
-    pub(in crate::viewer) waits: Option<u32>,
+    pub(crate) waits: Option<u32>,
 }
 
 /// Pictures on their way to the disk.
 #[derive(Default)]
 pub struct Pending {
     /// Pictures to be saved when finished.
-    pub(in crate::viewer) waiting: Vec<Target>,
+    pub(crate) waiting: Vec<Target>,
     /// Index of the current scene.
-    pub(in crate::viewer) turn: u32,
+    pub(crate) turn: u32,
     /// Number of requests to the render thread.
-    pub(in crate::viewer) asked: u32,
-    pub(in crate::viewer) pose: Option<Pose>,
-    pub(in crate::viewer) writing: Vec<Receiver<Result<String, String>>>,
-    pub(in crate::viewer) rendering: Vec<Rendering>,
-    pub(in crate::viewer) quality: Option<u8>,
-    pub(in crate::viewer) folder: Option<PathBuf>,
+    pub(crate) asked: u32,
+    pub(crate) pose: Option<Pose>,
+    pub(crate) writing: Vec<Receiver<Result<String, String>>>,
+    pub(crate) rendering: Vec<Rendering>,
+    pub(crate) quality: Option<u8>,
+    pub(crate) folder: Option<PathBuf>,
 }
 
 impl Pending {
@@ -285,9 +285,9 @@ const FRAMES: u32 = 2;
 
 /// A screenshot in progress.
 pub struct Pose {
-    pub(in crate::viewer) target: Target,
-    pub(in crate::viewer) frames: u32,
-    pub(in crate::viewer) screenshot: Option<Receiver<Arc<ColorImage>>>,
+    pub(crate) target: Target,
+    pub(crate) frames: u32,
+    pub(crate) screenshot: Option<Receiver<Arc<ColorImage>>>,
 }
 
 impl Pose {

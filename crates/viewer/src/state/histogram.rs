@@ -1,6 +1,6 @@
 //! The histogram in the window.
 
-use crate::viewer::model::histogram::Histogram;
+use crate::model::histogram::Histogram;
 
 /// The histogram of the main picture.
 #[derive(Debug, Default)]
@@ -22,7 +22,7 @@ impl HistogramView {
     }
 
     /// Whether the presentation with this number is to be measured now: only the newest is, one at a time.
-    pub(in crate::viewer) fn is_due(&mut self, look: u64) -> bool {
+    pub(crate) fn is_due(&mut self, look: u64) -> bool {
         let is_due = !self.is_awaited && self.asked != Some(look);
         if is_due {
             self.asked = Some(look);
@@ -32,7 +32,7 @@ impl HistogramView {
     }
 
     /// Takes the answer.
-    pub(in crate::viewer) fn set(&mut self, histogram: Option<Box<Histogram>>) {
+    pub(crate) fn set(&mut self, histogram: Option<Box<Histogram>>) {
         self.is_awaited = false;
         if histogram.is_some() {
             self.latest = histogram;

@@ -1,17 +1,17 @@
 //! The state of the ray inspector.
 
-use crate::render::{RayTree, TracedRay};
-use crate::scene::Camera;
-use crate::viewer::model::camera::CameraController;
-use crate::viewer::model::file_dialog::Reply;
-use crate::viewer::model::objects::Id;
-use crate::viewer::model::outline;
+use crate::model::camera::CameraController;
+use crate::model::file_dialog::Reply;
+use crate::model::objects::Id;
+use crate::model::outline;
+use glimray_render::{RayTree, TracedRay};
+use glimray_scene::Camera;
 pub mod ray_labels;
 pub mod rows;
 
-use crate::viewer::model::bindings::Drag;
-use crate::viewer::model::viewport::Viewport;
-use crate::viewer::worker::request::RenderRequest;
+use crate::model::bindings::Drag;
+use crate::model::viewport::Viewport;
+use crate::worker::request::RenderRequest;
 use rows::{Filter, RayId, Row};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::mpsc::Receiver;
@@ -31,7 +31,7 @@ pub struct Inspected {
     /// The number of bounces before each ray, by sample and ray.
     pub bounces: Vec<Vec<u32>>,
     /// The outline's labels of all objects hit.
-    pub(in crate::viewer) labels: BTreeMap<Id, String>,
+    pub(crate) labels: BTreeMap<Id, String>,
 }
 
 impl Inspected {
@@ -99,9 +99,9 @@ pub struct Inspector {
     pub tree_count: u32,
     /// The export that waits for a file name.
     pub export: Export,
-    pub(in crate::viewer) rows: Option<Vec<Row>>,
-    pub(in crate::viewer) is_asked: bool,
-    pub(in crate::viewer) is_wanted: bool,
+    pub(crate) rows: Option<Vec<Row>>,
+    pub(crate) is_asked: bool,
+    pub(crate) is_wanted: bool,
 }
 
 impl Inspector {
@@ -187,17 +187,17 @@ pub type Parts = HashMap<RayId, Vec<bool>>;
 /// The known result and the pending request.
 #[derive(Default)]
 pub struct Hidden {
-    pub(in crate::viewer) known: Option<(View, Parts)>,
-    pub(in crate::viewer) asked: Option<View>,
+    pub(crate) known: Option<(View, Parts)>,
+    pub(crate) asked: Option<View>,
 }
 
 /// The inputs of the result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    pub(in crate::viewer) order: RenderRequest,
-    pub(in crate::viewer) filter: Filter,
+    pub(crate) order: RenderRequest,
+    pub(crate) filter: Filter,
     /// The index of the tree.
-    pub(in crate::viewer) tree: u32,
+    pub(crate) tree: u32,
 }
 
 impl Hidden {
@@ -224,7 +224,7 @@ pub struct Outside {
     /// The view's size in pixels in this frame; `None` if it was not drawn.
     pub space: Option<(u32, u32)>,
     /// The view's size in the last frame.
-    pub(in crate::viewer) shown: Option<(u32, u32)>,
+    pub(crate) shown: Option<(u32, u32)>,
     /// The current drag.
     pub drag: Option<Drag>,
 }

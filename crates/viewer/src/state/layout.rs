@@ -1,6 +1,6 @@
 //! The layout of panels: tiles that can be dragged, resized and closed.
 
-use crate::viewer::model::preferences::Preferences;
+use crate::model::preferences::Preferences;
 use eframe::egui;
 use egui_tiles::{Container, Linear, LinearDir, Shares, Tile, TileId, Tiles, Tree};
 use serde::{Deserialize, Serialize};

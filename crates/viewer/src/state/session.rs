@@ -4,38 +4,38 @@ pub mod opening;
 mod orders;
 mod room;
 
-use crate::app::clock::Clock;
-use crate::app::error::AppError;
-use crate::app::showcase;
-use crate::app::window::ViewRequest;
-use crate::render::{Integrator, RenderSettings};
-use crate::scene::{Camera, Scene};
-use crate::viewer::model::bindings::{Action, Drag};
-use crate::viewer::model::camera::CameraController;
-use crate::viewer::model::document::Document;
-use crate::viewer::model::loader::Loader;
-use crate::viewer::model::messages::Messages;
-use crate::viewer::model::objects;
-use crate::viewer::model::objects::Id;
-use crate::viewer::model::playback::Playback;
-use crate::viewer::model::preferences::{Preferences, Store};
-use crate::viewer::model::recording::InputRecording;
-use crate::viewer::model::refinement::Refinement;
-use crate::viewer::model::tool::{Tool, ToolState};
-use crate::viewer::model::view_settings::ViewSettings;
-use crate::viewer::model::viewport::{PixelZoom, Viewport};
-use crate::viewer::state::answer::Answer;
-use crate::viewer::state::comparing::Comparing;
-use crate::viewer::state::cursor::Cursor;
-use crate::viewer::state::dialogs::Dialogs;
-use crate::viewer::state::editing::Editing;
-use crate::viewer::state::files::Files;
-use crate::viewer::state::histogram::HistogramView;
-use crate::viewer::state::inspector::Inspector;
-use crate::viewer::worker::progressive_image::FrameRenderer;
-use crate::viewer::worker::render_thread::Question;
-use crate::viewer::worker::request::PreparedScene;
+use crate::model::bindings::{Action, Drag};
+use crate::model::camera::CameraController;
+use crate::model::document::Document;
+use crate::model::loader::Loader;
+use crate::model::messages::Messages;
+use crate::model::objects;
+use crate::model::objects::Id;
+use crate::model::playback::Playback;
+use crate::model::preferences::{Preferences, Store};
+use crate::model::recording::InputRecording;
+use crate::model::refinement::Refinement;
+use crate::model::tool::{Tool, ToolState};
+use crate::model::view_settings::ViewSettings;
+use crate::model::viewport::{PixelZoom, Viewport};
+use crate::state::answer::Answer;
+use crate::state::comparing::Comparing;
+use crate::state::cursor::Cursor;
+use crate::state::dialogs::Dialogs;
+use crate::state::editing::Editing;
+use crate::state::files::Files;
+use crate::state::histogram::HistogramView;
+use crate::state::inspector::Inspector;
+use crate::worker::progressive_image::FrameRenderer;
+use crate::worker::render_thread::Question;
+use crate::worker::request::PreparedScene;
 use glam::DVec3;
+use glimray_app::clock::Clock;
+use glimray_app::error::AppError;
+use glimray_app::showcase;
+use glimray_app::window::ViewRequest;
+use glimray_render::{Integrator, RenderSettings};
+use glimray_scene::{Camera, Scene};
 use room::Room;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -110,21 +110,21 @@ pub struct Session {
     pub request: ViewRequest,
     /// Questions that wait for the render thread.
     pub questions: Vec<Question<Answer>>,
-    pub(in crate::viewer) loader: Option<Loader>,
+    pub(crate) loader: Option<Loader>,
     /// The packed scene as it was loaded or refined, until it is edited.
-    pub(in crate::viewer) prepared: Option<PreparedScene>,
+    pub(crate) prepared: Option<PreparedScene>,
     /// While better BVHs are built for a scene with drafts.
-    pub(in crate::viewer) refinement: Option<Refinement>,
+    pub(crate) refinement: Option<Refinement>,
     /// The scene that may be replaced by the one being opened.
-    pub(in crate::viewer) left: Option<Arc<Scene>>,
+    pub(crate) left: Option<Arc<Scene>>,
     /// Number of restarts of the picture.
-    pub(in crate::viewer) restarts: u32,
+    pub(crate) restarts: u32,
     room: Room,
     /// Time of the last motion, and the current time of egui.
-    pub(in crate::viewer) last_motion: f64,
-    pub(in crate::viewer) now: f64,
-    pub(in crate::viewer) is_device_lost: bool,
-    pub(in crate::viewer) refusal: Option<String>,
+    pub(crate) last_motion: f64,
+    pub(crate) now: f64,
+    pub(crate) is_device_lost: bool,
+    pub(crate) refusal: Option<String>,
 }
 
 impl Session {

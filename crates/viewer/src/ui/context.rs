@@ -1,11 +1,11 @@
 //! The context of panels and dialogs.
 
 use super::textures::Textures;
-use crate::viewer::state::answer::Answer;
-use crate::viewer::state::session::Session;
-use crate::viewer::worker::progressive_image::{PictureSlot, Shown};
-use crate::viewer::worker::render_thread::RenderThread;
-use crate::viewer::worker::stage::Activity;
+use crate::state::answer::Answer;
+use crate::state::session::Session;
+use crate::worker::progressive_image::{PictureSlot, Shown};
+use crate::worker::render_thread::RenderThread;
+use crate::worker::stage::Activity;
 use std::time::Duration;
 
 /// Shorter work is not announced over a picture.

@@ -9,14 +9,14 @@ mod questions;
 mod save_scene;
 mod shortcuts;
 
-use crate::viewer::actions::commands;
-use crate::viewer::actions::editing;
-use crate::viewer::actions::files;
-use crate::viewer::actions::{self, settings};
-use crate::viewer::model::bindings::Action;
-use crate::viewer::state::dialogs::Dialog;
-use crate::viewer::state::layout::Layout;
-use crate::viewer::ui::context::PanelContext;
+use crate::actions::commands;
+use crate::actions::editing;
+use crate::actions::files;
+use crate::actions::{self, settings};
+use crate::model::bindings::Action;
+use crate::state::dialogs::Dialog;
+use crate::state::layout::Layout;
+use crate::ui::context::PanelContext;
 use eframe::egui;
 use std::path::Path;
 

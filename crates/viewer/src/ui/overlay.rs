@@ -1,23 +1,23 @@
 //! Editing overlays of the picture: the outline of the selection and its handles.
 
-use crate::scene::{Camera, Geometry, LightKind, ObjectRef, Scene, corners};
-use crate::viewer::model::bindings::Action;
-use crate::viewer::model::handles::{Eye, Grip, Handles, Part};
-use crate::viewer::model::modal::Modal;
-use crate::viewer::model::objects;
-use crate::viewer::model::objects::Id;
-use crate::viewer::model::tool::Tool;
-use crate::viewer::model::viewport::Viewport;
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::world_painter::{SHADE, WorldPainter};
+use crate::model::bindings::Action;
+use crate::model::handles::{Eye, Grip, Handles, Part};
+use crate::model::modal::Modal;
+use crate::model::objects;
+use crate::model::objects::Id;
+use crate::model::tool::Tool;
+use crate::model::viewport::Viewport;
+use crate::state::session::Session;
+use crate::ui::world_painter::{SHADE, WorldPainter};
 use eframe::egui::{self, Color32, Painter, Pos2, Shape, Stroke};
 use glam::{DAffine3, DVec3};
+use glimray_scene::{Camera, Geometry, LightKind, ObjectRef, Scene, corners};
 
 /// Length of handles, and the distance for hit testing, in points.
 const LENGTH: f32 = 84.0;
 const SLACK: f32 = 7.0;
 /// Colours of x, y and z: legible on black and on white.
-pub(in crate::viewer::ui) const COLORS: [Color32; 3] = [
+pub(in crate::ui) const COLORS: [Color32; 3] = [
     Color32::from_rgb(235, 64, 72),
     Color32::from_rgb(96, 178, 30),
     Color32::from_rgb(58, 128, 246),
@@ -350,7 +350,7 @@ fn pyramid(camera: &Camera) -> Vec<[DVec3; 2]> {
     let length = 0.25 * camera.look_from.distance(camera.look_at);
     let corners = [(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (0.0, 2.0)].map(|(x, y)| {
         let at = glam::DVec2::new(x, y);
-        let (from, direction) = crate::viewer::model::camera::ray_through(camera, at, size);
+        let (from, direction) = crate::model::camera::ray_through(camera, at, size);
         (from, from + direction * length)
     });
     let next = corners.iter().cycle().skip(1);

@@ -17,8 +17,8 @@ pub use menu::menu;
 pub use messages::messages;
 pub use status::status;
 
-use crate::viewer::state::layout::Panel;
-use crate::viewer::ui::context::PanelContext;
+use crate::state::layout::Panel;
+use crate::ui::context::PanelContext;
 use eframe::egui;
 
 /// Draws one of the panels that a layout has.

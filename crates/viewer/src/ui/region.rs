@@ -1,6 +1,6 @@
 //! The outline of the render region.
 
-use crate::viewer::model::viewport::Viewport;
+use crate::model::viewport::Viewport;
 use eframe::egui::{self, Color32, Stroke, StrokeKind};
 
 /// Draws the edges, to be seen on any picture.

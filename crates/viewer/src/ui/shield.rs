@@ -1,7 +1,7 @@
 //! Blocks mouse input to the window during a modal transform.
 
-use crate::viewer::actions::modal;
-use crate::viewer::state::session::Session;
+use crate::actions::modal;
+use crate::state::session::Session;
 use eframe::egui::{self, Id, Order, PointerButton, Sense};
 
 /// Covers the whole window during a modal transform: a click confirms or cancels it.

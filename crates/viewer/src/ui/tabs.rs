@@ -2,7 +2,7 @@
 
 use super::context::PanelContext;
 use super::panels;
-use crate::viewer::state::layout::{Layout, Panel};
+use crate::state::layout::{Layout, Panel};
 use eframe::egui;
 use egui_tiles::{Behavior, TileId, UiResponse};
 

@@ -1,9 +1,9 @@
 //! Registers screens as egui textures.
 
-use crate::render::Screen;
 use eframe::egui::TextureId;
 use eframe::egui_wgpu::RenderState;
 use eframe::wgpu::FilterMode;
+use glimray_render::Screen;
 
 /// Screens registered with egui. Those unused in a frame are released.
 pub struct Textures {

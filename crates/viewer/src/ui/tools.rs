@@ -1,13 +1,13 @@
 //! The overlays of the tools. The handles of the selection are in `overlay.rs`.
 
-use crate::app::legend::number;
-use crate::viewer::model::handles::Eye;
-use crate::viewer::model::tool::Tool;
-use crate::viewer::model::viewport::Viewport;
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::panels::rays;
-use crate::viewer::ui::world_painter::{SHADE, WorldPainter};
+use crate::model::handles::Eye;
+use crate::model::tool::Tool;
+use crate::model::viewport::Viewport;
+use crate::state::session::Session;
+use crate::ui::panels::rays;
+use crate::ui::world_painter::{SHADE, WorldPainter};
 use eframe::egui::{Color32, Painter, Stroke, StrokeKind, vec2};
+use glimray_app::legend::number;
 
 /// The colour of measurements.
 const MEASURE: Color32 = Color32::from_rgb(255, 214, 64);

@@ -1,7 +1,7 @@
 //! Lines and text over the picture, at places in world space.
 
-use crate::viewer::model::handles::Eye;
-use crate::viewer::model::viewport::Viewport;
+use crate::model::handles::Eye;
+use crate::model::viewport::Viewport;
 use eframe::egui::{self, Align2, Color32, FontId, Painter, Pos2, Stroke};
 use glam::DVec3;
 

@@ -1,8 +1,8 @@
 //! Runs eframe's event loop with a panic handler: if the device is lost during a frame, only that window
 //! closes.
 
-use crate::gpu::{self, Gpu, GpuError};
 use eframe::{EframeWinitApplication, UserEvent};
+use glimray_render::gpu::{self, Gpu, GpuError};
 use winit::application::ApplicationHandler;
 use winit::error::EventLoopError;
 use winit::event::{DeviceEvent, DeviceId, StartCause, WindowEvent};

@@ -1,22 +1,22 @@
 //! The contents of the window: passes input to the [`Session`], requests pictures and draws them.
 
-use crate::gpu::Gpu;
-use crate::viewer::actions::commands;
-use crate::viewer::actions::cursor;
-use crate::viewer::actions::files::pictures;
-use crate::viewer::actions::{settings, update};
-use crate::viewer::state::answer::Answer;
-use crate::viewer::state::layout::Layout;
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::dialogs;
-use crate::viewer::ui::textures::Textures;
-use crate::viewer::ui::{panels, shield, tabs};
-use crate::viewer::window::presses::Presses;
-use crate::viewer::worker::progressive_image::PictureSlot;
-use crate::viewer::worker::progressive_image::patience;
-use crate::viewer::worker::render_thread::{Fault, RenderRequests, RenderThread};
+use crate::actions::commands;
+use crate::actions::cursor;
+use crate::actions::files::pictures;
+use crate::actions::{settings, update};
+use crate::state::answer::Answer;
+use crate::state::layout::Layout;
+use crate::state::session::Session;
+use crate::ui::context::PanelContext;
+use crate::ui::dialogs;
+use crate::ui::textures::Textures;
+use crate::ui::{panels, shield, tabs};
+use crate::window::presses::Presses;
+use crate::worker::progressive_image::PictureSlot;
+use crate::worker::progressive_image::patience;
+use crate::worker::render_thread::{Fault, RenderRequests, RenderThread};
 use eframe::egui;
+use glimray_render::gpu::Gpu;
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Duration;

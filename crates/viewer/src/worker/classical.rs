@@ -1,7 +1,7 @@
 //! The scene that a picture shows.
 
-use crate::scene::{ClassicalMaps, Scene};
-use crate::viewer::worker::request::RenderRequest;
+use crate::worker::request::RenderRequest;
+use glimray_scene::{ClassicalMaps, Scene};
 use std::sync::Arc;
 
 /// Scenes with the pictures that only the classical integrator needs: computed when it is chosen, as most scenes with

@@ -1,9 +1,9 @@
 //! The second picture of a comparison where it is not rendered, and the difference of both pictures.
 
-use crate::gpu::Gpu;
-use crate::image::{Difference, Image, Placed, ScreenImage};
-use crate::render::{RenderError, Screen, Tone};
-use crate::viewer::worker::progressive_image::{ProgressiveImage, Shown};
+use crate::worker::progressive_image::{ProgressiveImage, Shown};
+use glimray_render::gpu::Gpu;
+use glimray_render::{RenderError, Screen, Tone};
+use glimray_scene::image::{Difference, Image, Placed, ScreenImage};
 use std::sync::Arc;
 
 /// A picture that is compared with the rendered one.

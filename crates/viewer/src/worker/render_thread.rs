@@ -4,14 +4,14 @@
 //! The thread and the window never block each other: requests replace earlier ones, and the window draws
 //! what was published last.
 
-use crate::gpu::{Gpu, GpuError};
-use crate::render::{RenderError, Screen};
-use crate::viewer::worker::comparison::{Compared, ShownDifference, StillRequest};
-use crate::viewer::worker::progressive_image::{
+use crate::worker::comparison::{Compared, ShownDifference, StillRequest};
+use crate::worker::progressive_image::{
     FrameRenderer, ImageError, PictureSlot, ProgressiveImage, Shown,
 };
-use crate::viewer::worker::request::{PreparedScene, RenderRequest};
-use crate::viewer::worker::stage::{Activity, ReportStage, Stage};
+use crate::worker::request::{PreparedScene, RenderRequest};
+use crate::worker::stage::{Activity, ReportStage, Stage};
+use glimray_render::gpu::{Gpu, GpuError};
+use glimray_render::{RenderError, Screen};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};

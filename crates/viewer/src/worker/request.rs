@@ -1,9 +1,9 @@
 //! The request of a picture in the window.
 
-use crate::app::layers::PictureLayer;
-use crate::pack::PackedScene;
-use crate::render::{ExecutionPolicy, RenderSettings, Tone};
-use crate::scene::{Background, Camera, Scene};
+use glimray_app::layers::PictureLayer;
+use glimray_render::pack::PackedScene;
+use glimray_render::{ExecutionPolicy, RenderSettings, Tone};
+use glimray_scene::{Background, Camera, Scene};
 use std::sync::Arc;
 
 /// All inputs of a picture, as on the command line.

@@ -1,12 +1,12 @@
 //! Pictures for files: what the window shows, or one that is rendered beside it.
 
-use crate::gpu::Gpu;
-use crate::image::Image;
-use crate::pack;
-use crate::render::{RenderError, Renderer, Tone};
-use crate::viewer::worker::classical::ShownScenes;
-use crate::viewer::worker::progressive_image::{ImageError, packing, policy};
-use crate::viewer::worker::request::RenderRequest;
+use crate::worker::classical::ShownScenes;
+use crate::worker::progressive_image::{ImageError, packing, policy};
+use crate::worker::request::RenderRequest;
+use glimray_render::gpu::Gpu;
+use glimray_render::pack;
+use glimray_render::{RenderError, Renderer, Tone};
+use glimray_scene::image::Image;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 

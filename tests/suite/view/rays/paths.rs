@@ -6,12 +6,12 @@ use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use glam::{DVec2, DVec3, Vec3};
 use glimray::render::{Integrator, RayKind, Tone};
-use glimray::viewer::actions::inspector;
-use glimray::viewer::actions::inspector::export;
-use glimray::viewer::actions::inspector::export::Format;
-use glimray::viewer::actions::inspector::outside;
-use glimray::viewer::state::inspector::rows;
-use glimray::viewer::state::inspector::rows::{Filter, Row};
+use glimray_viewer::actions::inspector;
+use glimray_viewer::actions::inspector::export;
+use glimray_viewer::actions::inspector::export::Format;
+use glimray_viewer::actions::inspector::outside;
+use glimray_viewer::state::inspector::rows;
+use glimray_viewer::state::inspector::rows::{Filter, Row};
 use std::collections::BTreeSet;
 use std::process::Command;
 

@@ -1,6 +1,6 @@
 //! The flags for messages and the report.
 
-use crate::cli::args::values::{self, PROGRESS};
+use crate::args::values::{self, PROGRESS};
 use clap::Args;
 use std::path::PathBuf;
 

@@ -1,8 +1,8 @@
 //! A sphereflake: spheres of very different sizes that touch each other.
 
 use super::{Detail, empty};
-use crate::scene::{Geometry, Material, Scene, Shape};
 use glam::{DMat3, DVec3, Vec3, dvec3};
+use glimray_scene::{Geometry, Material, Scene, Shape};
 
 /// A sphere with nine smaller spheres on it, and so on, after `balls` of Haines' Standard Procedural Databases
 /// (1987): 7,381 spheres.

@@ -1,9 +1,9 @@
 //! A forest: many instances of a few meshes, in a TLAS whose leaves overlap.
 
 use super::{Detail, empty, hills, parts::Builder, placed};
-use crate::cli::bench::random::Random;
-use crate::scene::{Mesh, Scene};
+use crate::bench::random::Random;
 use glam::{DAffine3, DMat3, DVec3, dvec3};
+use glimray_scene::{Mesh, Scene};
 
 /// Different trees.
 const KINDS: u64 = 4;

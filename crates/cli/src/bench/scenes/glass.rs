@@ -1,8 +1,8 @@
 //! Mirrors and glass: paths of many bounces. It has no ray sets; the whole render is measured.
 
 use super::{Detail, empty, parts::Builder, placed};
-use crate::scene::{Fresnel, Geometry, Material, Mesh, Scene, Shape};
 use glam::{DAffine3, DVec3, Vec3, dvec3};
+use glimray_scene::{Fresnel, Geometry, Material, Mesh, Scene, Shape};
 
 /// Bounces after the first hit.
 const DEPTH: u32 = 12;

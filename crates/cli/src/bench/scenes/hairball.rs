@@ -1,9 +1,9 @@
 //! A hairball: thin triangles in all directions, whose boxes overlap and are mostly empty.
 
 use super::{Detail, of_mesh, parts::Builder};
-use crate::cli::bench::random::Random;
-use crate::scene::Scene;
+use crate::bench::random::Random;
 use glam::{DVec3, dvec3};
+use glimray_scene::Scene;
 
 /// Length of a segment of a hair.
 const STEP: f64 = 0.012;

@@ -1,9 +1,9 @@
 //! A hall: long and short triangles in one tree, seen from inside.
 
 use super::{Detail, of_mesh, parts::Builder};
-use crate::cli::bench::random::Random;
-use crate::scene::Scene;
+use crate::bench::random::Random;
 use glam::{DVec3, dvec3};
+use glimray_scene::Scene;
 
 /// Half the width, the height and half the length of the hall.
 const SIZE: DVec3 = DVec3::new(10.0, 12.0, 30.0);

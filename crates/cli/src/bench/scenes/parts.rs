@@ -1,7 +1,7 @@
 //! Parts of meshes.
 
-use crate::scene::Mesh;
 use glam::{DVec3, dvec3};
+use glimray_scene::Mesh;
 
 /// A mesh under construction.
 #[derive(Default)]

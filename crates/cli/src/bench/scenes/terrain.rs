@@ -1,9 +1,9 @@
 //! Height fields: triangles of one size, most of them visible.
 
 use super::{Detail, of_mesh, parts::Builder};
-use crate::cli::bench::random::{Random, sine};
-use crate::scene::{Mesh, Scene};
+use crate::bench::random::{Random, sine};
 use glam::dvec3;
+use glimray_scene::{Mesh, Scene};
 
 /// Number of octaves of the terrain.
 const OCTAVES: u32 = 10;

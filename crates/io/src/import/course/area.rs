@@ -3,8 +3,8 @@
 use crate::import::error::ImportError;
 use crate::import::faults::Faults;
 use crate::import::source::{Source, Token};
-use crate::scene::{Light, LightKind};
 use glam::DVec3;
+use glimray_scene::{Light, LightKind};
 
 /// Shadow rays per point if `samples:` is missing.
 const SAMPLES: u32 = 16;

@@ -1,8 +1,8 @@
 //! Deduplicates the materials of a format that repeats them at every vertex.
 
 use crate::import::budget;
-use crate::scene::{Material, Mixing};
 use glam::Vec3;
+use glimray_scene::{Material, Mixing};
 use std::collections::HashMap;
 
 /// Distinct materials, in order of appearance.

@@ -6,7 +6,7 @@ use super::buffers::Buffers;
 use super::document::{Accessor, Document, Kind};
 use crate::import::budget;
 use crate::import::error::ImportError;
-use crate::threads;
+use glimray_scene::threads;
 
 /// Reads the accessors of a document.
 pub(super) struct Accessors<'a> {

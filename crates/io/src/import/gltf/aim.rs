@@ -6,11 +6,11 @@ use super::document::{ChannelTarget, Kind, Material as Source, TextureInfo};
 use super::map_kinds::{MapKind, all_maps};
 use super::materials::MaterialKey;
 use crate::import::error::ImportError;
-use crate::scene::{
+use glam::{DVec3, Vec3};
+use glimray_scene::{
     CameraProperty, Coverage, LayerProperty, LightProperty, Material, MaterialProperty,
     NodeProperty, Target, TextureProperty,
 };
-use glam::{DVec3, Vec3};
 use std::f64::consts::PI;
 
 /// A property of something in the file, by its number there.

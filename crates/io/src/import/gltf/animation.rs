@@ -9,12 +9,12 @@ use super::node_transform::{extended, unit};
 use crate::import::budget;
 use crate::import::error::ImportError;
 use crate::import::source::quote_up_to;
-use crate::scene::{
+use glam::{DQuat, DVec3};
+use glimray_scene::text::one_line;
+use glimray_scene::{
     Beyond, Curve, Easing, Interpolation, LightProperty, NodeProperty, Target, TextureProperty,
     Track, Values,
 };
-use crate::text::one_line;
-use glam::{DQuat, DVec3};
 use std::collections::HashSet;
 
 /// The values of a sampler: one per key, or with tangents three.

@@ -4,7 +4,7 @@ use super::Reader;
 use super::document::{Node, Orthographic, Perspective};
 use super::values::Checked;
 use crate::import::error::ImportError;
-use crate::scene::Camera;
+use glimray_scene::Camera;
 use std::f64::consts::PI;
 
 /// The widest pictures that cameras are made for, in heights.

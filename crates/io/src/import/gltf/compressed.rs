@@ -11,9 +11,9 @@ use super::blame::Blame;
 use super::buffers::Buffers;
 use super::document::{ABSENT, CompressedView, Document};
 use super::meshopt::{self, Filter, Mode};
-use crate::bytes::size;
 use crate::import::error::ImportError;
-use crate::threads;
+use glimray_scene::bytes::size;
+use glimray_scene::threads;
 
 /// Bytes that a byte of the file may become, and those that every file may have in addition.
 const PER_BYTE: u64 = 64;

@@ -1,8 +1,8 @@
 //! The two containers of glTF 2.0: plain JSON, and binary GLB (section 4 of the specification).
 
 use super::blame::Blame;
-use crate::bytes::sizes;
 use crate::import::error::ImportError;
+use glimray_scene::bytes::sizes;
 use std::ops::Range;
 
 const MAGIC: &[u8] = b"glTF";

@@ -7,8 +7,8 @@ use super::skins::Bound;
 use crate::import::budget;
 use crate::import::error::ImportError;
 use crate::import::notes;
-use crate::scene::{Deformation, Influences, Joint, Mesh, MorphTarget, Skin};
 use glam::Vec3;
+use glimray_scene::{Deformation, Influences, Joint, Mesh, MorphTarget, Skin};
 use std::ops::Range;
 use std::sync::Arc;
 

@@ -6,8 +6,8 @@ use super::document::{Kind, Node as Source};
 use super::node_transform::{extended, is_invertible, linear, thickened, unit};
 use crate::import::budget;
 use crate::import::error::ImportError;
-use crate::scene::{Instance, Node};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glimray_scene::{Instance, Node};
 
 /// A node of the file that is to be visited.
 struct Visit {

@@ -7,8 +7,8 @@ use super::Reader;
 use super::document::Spot;
 use super::values::Checked;
 use crate::import::error::ImportError;
-use crate::scene::{Attenuation, Light, LightKind};
 use glam::DVec3;
+use glimray_scene::{Attenuation, Light, LightKind};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 /// The range of the intensity of a light: `import/range.rs` limits what it sends into the scene.

@@ -3,7 +3,7 @@
 use super::Reader;
 use super::document::TextureInfo;
 use crate::import::error::ImportError;
-use crate::scene::{Minify, UvTransform, Wrap};
+use glimray_scene::{Minify, UvTransform, Wrap};
 
 const NEAREST: u32 = 9728;
 const LINEAR: u32 = 9729;

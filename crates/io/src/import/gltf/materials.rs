@@ -8,8 +8,8 @@ use super::map_kinds::{ShownBy, all_maps};
 use super::values::{Checked, MOST};
 use crate::import::error::ImportError;
 use crate::import::{budget, range};
-use crate::scene::{Coverage, LayerTextures, Material, MetallicRoughness};
 use glam::{DVec3, Vec3};
+use glimray_scene::{Coverage, LayerTextures, Material, MetallicRoughness};
 use std::sync::Arc;
 
 /// Least and most of the factor on the slopes of normal maps.

@@ -12,8 +12,8 @@ use crate::import::notes;
 use crate::import::rounding;
 use crate::import::tangent::tangent;
 use crate::import::uvs;
-use crate::scene::Mesh;
 use glam::{Vec2, Vec3, Vec4};
+use glimray_scene::Mesh;
 use std::collections::HashSet;
 use std::fmt::Display;
 

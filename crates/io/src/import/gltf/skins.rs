@@ -5,8 +5,8 @@ use super::Reader;
 use super::document::{Kind, Node};
 use crate::import::budget;
 use crate::import::error::ImportError;
-use crate::scene::{Joint, Pose};
 use glam::{DAffine3, DMat3, DVec3};
+use glimray_scene::{Joint, Pose};
 use std::sync::Arc;
 
 /// A joint: its node in the file, and the transform from the mesh as it was modelled to that node.

@@ -9,10 +9,10 @@ use super::uv_sets::Sets;
 use super::values::Checked;
 use crate::import::error::ImportError;
 use crate::import::picture::Role;
-use crate::scene::{
+use glam::Vec3;
+use glimray_scene::{
     Coverage, LayerProperty, LayerTextures, Material, MetallicRoughness, Pattern, Space, Texture,
 };
-use glam::Vec3;
 use std::sync::Arc;
 
 impl Reader<'_> {

@@ -5,8 +5,8 @@ use super::document::{Material as Source, Primitive};
 use super::map_kinds::{MapKind, all_maps};
 use crate::import::error::ImportError;
 use crate::import::source::quote;
-use crate::scene::{MetallicRoughness, Space};
 use glam::Vec3;
+use glimray_scene::{MetallicRoughness, Space};
 use std::collections::HashMap;
 
 /// How much a map matters, from the most: where there are too many sets, the last ones are not shown.

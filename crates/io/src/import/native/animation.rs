@@ -12,11 +12,11 @@ use crate::import::error::ImportError;
 use crate::import::notes::Notes;
 use crate::import::source::quote;
 use crate::import::suggest;
-use crate::scene::{
+use PropertyName as P;
+use glimray_scene::{
     Camera, CameraProperty, Curve, LightKind, LightProperty, MaterialProperty, NodeProperty,
     Target, Track, Values,
 };
-use PropertyName as P;
 use std::collections::{HashMap, HashSet};
 use toml::Spanned;
 

@@ -6,8 +6,8 @@ use super::nodes::Nodes;
 use crate::import::error::ImportError;
 use crate::import::number::in_range;
 use crate::import::source::quote;
-use crate::scene::{Camera, Lens};
 use glam::DVec3;
+use glimray_scene::{Camera, Lens};
 use toml::Spanned;
 
 /// Limits of the lens radius and of its ratio to the focus distance, within the range of f32.

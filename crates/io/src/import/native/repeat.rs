@@ -5,9 +5,9 @@ use super::file::{GridTable, PointsTable, RepeatTable, RingTable, ScatterTable};
 use crate::import::error::ImportError;
 use crate::import::paths::Files;
 use crate::import::{MAX_GEOMETRY_BYTES, ply};
-use crate::random::{GAMMA, mixed, unit};
-use crate::scene::Transform;
 use glam::{DAffine3, DQuat, DVec3};
+use glimray_scene::Transform;
+use glimray_scene::random::{GAMMA, mixed, unit};
 use std::f64::consts::TAU;
 use toml::Spanned;
 

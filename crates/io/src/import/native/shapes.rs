@@ -7,8 +7,8 @@ use super::file::{
 };
 use super::transforms::{chain, normal_matrix};
 use crate::import::error::ImportError;
-use crate::scene::{CanonicalShape, Geometry};
 use glam::{DAffine3, DMat3, DVec3};
+use glimray_scene::{CanonicalShape, Geometry};
 use std::ops::Range;
 
 /// Edges are parallel if the sine of the angle between them is at most this.

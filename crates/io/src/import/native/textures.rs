@@ -11,10 +11,10 @@ use crate::import::paths::Files;
 use crate::import::picture::{self, Pictures, Place, Refused, Role};
 use crate::import::source::quote;
 use crate::import::{Options, suggest};
-use crate::scene::{
+use glam::{DVec3, Vec3};
+use glimray_scene::{
     Background, LARGEST_TEXEL, Minify, Pattern, Space, Texture, Transform, Wrap, sky,
 };
-use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;

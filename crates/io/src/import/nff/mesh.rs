@@ -6,8 +6,8 @@ use crate::import::error::ImportError;
 use crate::import::notes::{self, Notes};
 use crate::import::polygon::{self, Cutter, Defect};
 use crate::import::source::Token;
-use crate::scene::{Instance, Mesh, Scene};
 use glam::{DAffine3, DVec3, Vec3};
+use glimray_scene::{Instance, Mesh, Scene};
 
 /// Limit of corners of one polygon.
 const MAX_CORNERS: f64 = 65_536.0;

@@ -4,8 +4,8 @@ use super::Reader;
 use crate::import::error::ImportError;
 use crate::import::source::Token;
 use crate::import::suggest;
-use crate::scene::Camera;
 use glam::DVec3;
+use glimray_scene::Camera;
 
 /// The keys of a view, in the order of the specification.
 pub(super) const KEYS: [&str; 6] = ["from", "at", "up", "angle", "hither", "resolution"];

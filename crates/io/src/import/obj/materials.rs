@@ -7,8 +7,8 @@ use crate::import::paths::Refusal;
 use crate::import::picture::{self, Place, Refused, Role};
 use crate::import::source::{Source, Token, quote};
 use crate::import::tint;
-use crate::scene::{Coverage, LayerTextures, Material, Minify, Pattern, Space, Texture, Wrap};
 use glam::{Vec3, Vec4};
+use glimray_scene::{Coverage, LayerTextures, Material, Minify, Pattern, Space, Texture, Wrap};
 use std::path::Path;
 
 /// Size limit of a material file in bytes.

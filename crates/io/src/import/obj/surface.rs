@@ -3,8 +3,8 @@
 //! Sources: Wavefront, Object Files and MTL, version 4.2, 1995; Exocortex, Physically Based Extensions of
 //! MTL, 2012.
 
-use crate::scene::{Coverage, Fresnel, Material, MetallicRoughness};
 use glam::Vec3;
+use glimray_scene::{Coverage, Fresnel, Material, MetallicRoughness};
 use std::f32::consts::TAU;
 
 /// The values of a material, by their keys.

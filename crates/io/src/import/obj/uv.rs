@@ -4,8 +4,8 @@ use super::Reader;
 use super::face;
 use super::lines::Line;
 use crate::import::source::Token;
-use crate::scene::Material;
 use glam::Vec2;
+use glimray_scene::Material;
 
 impl Reader<'_> {
     /// Reads u and optionally v. Only solid textures use w, so another than 0 is reported.

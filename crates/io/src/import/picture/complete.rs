@@ -1,7 +1,7 @@
 //! Checks whether an image file can contain what its header announces, before memory is allocated.
 //! Decoders fill the missing part of a truncated JPEG with grey, and allocate whatever a header claims.
 
-use crate::bytes::size;
+use glimray_scene::bytes::size;
 use image::ImageFormat;
 
 /// The message for a file that ends too early.

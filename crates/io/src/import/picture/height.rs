@@ -1,7 +1,7 @@
 //! From the height of a surface to its normal map (Blinn, Simulation of Wrinkled Surfaces, 1978).
 
-use crate::scene::{SrgbCurve, Texels};
 use glam::{Vec3, Vec4};
+use glimray_scene::{SrgbCurve, Texels};
 
 /// The normal map of a surface of these heights, from central differences; `amount` is the height of white, in texels.
 /// The picture is repeated. `None` if texels have colours.

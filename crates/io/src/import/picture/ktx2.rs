@@ -6,9 +6,9 @@
 
 use super::opened::{Ignored, Unfit};
 use super::{Refused, complete};
-use crate::bytes::sizes;
 use basisu::basislz::etc1s::Etc1sTranscoder;
 use basisu::uastc::unpack::unpack_uastc;
+use glimray_scene::bytes::sizes;
 use image::{DynamicImage, RgbImage, RgbaImage};
 use std::borrow::Cow;
 use std::io::Read;

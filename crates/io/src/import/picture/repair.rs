@@ -2,8 +2,8 @@
 
 use super::Role;
 use crate::import::range;
-use crate::scene::{LARGEST_TEXEL, LUMINANCE, SMALLEST_TEXEL, scale_of};
 use glam::{Vec3, Vec4};
+use glimray_scene::{LARGEST_TEXEL, LUMINANCE, SMALLEST_TEXEL, scale_of};
 use std::f64::consts::PI;
 
 /// Changes to the values of a picture.

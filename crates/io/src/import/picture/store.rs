@@ -11,8 +11,8 @@ use super::{Announced, Role, decode};
 use crate::import::Options;
 use crate::import::notes::Notes;
 use crate::import::picture::Refused;
-use crate::scene::{MAX_PICTURE_BYTES, Picture, fit};
-use crate::threads;
+use glimray_scene::threads;
+use glimray_scene::{MAX_PICTURE_BYTES, Picture, fit};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::PathBuf;
@@ -340,7 +340,7 @@ impl Pictures {
 }
 
 /// The note on pictures that were halved so many times for lack of memory.
-pub(crate) fn smaller_pictures(count: usize) -> String {
+pub fn smaller_pictures(count: usize) -> String {
     format!("pictures were halved {count} times to fit into memory")
 }
 

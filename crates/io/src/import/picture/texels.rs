@@ -3,9 +3,9 @@
 use super::opened::{Opened, Values};
 use super::repair::{self, Repairs};
 use super::{Role, linear_from_srgb};
-use crate::scene::{LUMINANCE, Texels};
 use bytemuck::allocation::try_cast_vec;
 use glam::{Vec3, Vec4};
+use glimray_scene::{LUMINANCE, Texels};
 use image::DynamicImage;
 
 /// The part of a colour's largest value that another may be below 0 without being outside of the gamut: the precision of

@@ -6,8 +6,8 @@ use super::{AGAIN, Purpose, points};
 use crate::import::budget;
 use crate::import::error::ImportError;
 use crate::import::tint::{self, Rgb};
-use crate::scene::Shape;
 use glam::{DVec3, Vec2, Vec3, Vec4};
+use glimray_scene::Shape;
 
 /// The names of a vertex's colour.
 pub(super) const COLORS: [[&str; 3]; 3] = [

@@ -2,8 +2,8 @@
 
 use super::Content;
 use crate::import::notes::Notes;
-use crate::scene::{Geometry, Shape};
 use glam::DVec3;
+use glimray_scene::{Geometry, Shape};
 
 /// Limit of the number of spheres: of more points, every second, third … is shown.
 pub(super) const MOST: usize = 1 << 19;

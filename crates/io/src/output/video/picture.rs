@@ -1,9 +1,9 @@
 //! A frame of 8 bits per channel, from a file or from a developed image.
 
-use crate::image::Image;
 use crate::output::OutputError;
 use crate::output::encode::level;
 use ::image::{DynamicImage, ImageReader};
+use glimray_scene::image::Image;
 use std::path::Path;
 
 /// An image of 8 bits per channel, sRGB-encoded.

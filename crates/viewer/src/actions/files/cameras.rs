@@ -1,13 +1,13 @@
 //! Cameras and bookmarks, and copying and pasting them as command lines.
 
-use crate::scene::Camera;
-use crate::viewer::actions::files::short;
-use crate::viewer::model::command_line;
-use crate::viewer::model::command_line::Shown;
-use crate::viewer::model::preferences::SavedCamera;
-use crate::viewer::state::session::Session;
-use crate::viewer::worker::progressive_image::PictureSlot;
+use crate::actions::files::short;
+use crate::model::command_line;
+use crate::model::command_line::Shown;
+use crate::model::preferences::SavedCamera;
+use crate::state::session::Session;
+use crate::worker::progressive_image::PictureSlot;
 use eframe::egui;
+use glimray_scene::Camera;
 use std::path::{Path, PathBuf};
 
 /// The key of the demo's bookmarks; no file has this name.

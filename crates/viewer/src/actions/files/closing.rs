@@ -1,7 +1,7 @@
 //! Closing the window.
 
-use crate::viewer::state::files::Intent;
-use crate::viewer::state::session::Session;
+use crate::state::files::Intent;
+use crate::state::session::Session;
 use eframe::egui::{self, ViewportCommand};
 
 /// Asks about unsaved changes before closing, and waits for pictures that are being written unless the user

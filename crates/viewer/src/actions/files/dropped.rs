@@ -1,9 +1,9 @@
 //! Opens files by name: dropped, chosen, or next in the folder.
 
-use crate::import::SCENE_ENDINGS;
-use crate::viewer::actions::files::{intend, is_picture, is_scene, short, surround};
-use crate::viewer::state::files::Intent;
-use crate::viewer::state::session::Session;
+use crate::actions::files::{intend, is_picture, is_scene, short, surround};
+use crate::state::files::Intent;
+use crate::state::session::Session;
+use glimray_io::import::SCENE_ENDINGS;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 

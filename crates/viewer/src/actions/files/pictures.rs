@@ -1,20 +1,20 @@
 //! Saves the picture to a file, as `glimray render` would.
 
-use crate::app::advice;
-use crate::app::layers::beside_raw;
-use crate::output::{self, LayeredImage, SaveOptions};
-use crate::render::Tone;
-use crate::viewer::actions::files::{NO_DIALOG, short};
-use crate::viewer::model::file_dialog::{self, PICTURES, Reply, Request};
-use crate::viewer::state::answer::Answer;
-use crate::viewer::state::files::Captured;
-use crate::viewer::state::files::SaveDialog;
-use crate::viewer::state::files::Target;
-use crate::viewer::state::files::{Pose, Rendering, SaveSize};
-use crate::viewer::state::session::Session;
-use crate::viewer::worker::progressive_image::{FrameRenderer, PictureSlot};
-use crate::viewer::worker::still::{self, Still};
+use crate::actions::files::{NO_DIALOG, short};
+use crate::model::file_dialog::{self, PICTURES, Reply, Request};
+use crate::state::answer::Answer;
+use crate::state::files::Captured;
+use crate::state::files::SaveDialog;
+use crate::state::files::Target;
+use crate::state::files::{Pose, Rendering, SaveSize};
+use crate::state::session::Session;
+use crate::worker::progressive_image::{FrameRenderer, PictureSlot};
+use crate::worker::still::{self, Still};
 use eframe::egui;
+use glimray_app::advice;
+use glimray_app::layers::beside_raw;
+use glimray_io::output::{self, LayeredImage, SaveOptions};
+use glimray_render::Tone;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

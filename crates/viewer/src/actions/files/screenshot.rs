@@ -1,10 +1,10 @@
 //! Saves the picture with its overlays: a screenshot of the window, cropped to the picture.
 
-use crate::image::Image;
-use crate::viewer::actions::files::pictures;
-use crate::viewer::state::session::Session;
-use crate::viewer::worker::still::Still;
+use crate::actions::files::pictures;
+use crate::state::session::Session;
+use crate::worker::still::Still;
 use eframe::egui::{self, ColorImage, Rect};
+use glimray_scene::image::Image;
 use std::sync::mpsc::{TryRecvError, channel};
 
 /// Requests the screenshot and handles its result.

@@ -1,14 +1,14 @@
 //! Exports the rays of a pixel as `glimray explain` does, and copies its command line.
 
-use crate::app::{ray_lines, ray_text};
-use crate::output;
-use crate::render::RenderSettings;
-use crate::viewer::model::command_line;
-use crate::viewer::model::command_line::{CommandLine, Shown};
-use crate::viewer::model::file_dialog::{self, Kind, Reply, Request};
-use crate::viewer::state::inspector::{Export, Inspected};
-use crate::viewer::state::session::Session;
+use crate::model::command_line;
+use crate::model::command_line::{CommandLine, Shown};
+use crate::model::file_dialog::{self, Kind, Reply, Request};
+use crate::state::inspector::{Export, Inspected};
+use crate::state::session::Session;
 use eframe::egui;
+use glimray_app::{ray_lines, ray_text};
+use glimray_io::output;
+use glimray_render::RenderSettings;
 use std::path::Path;
 
 /// A file format for a tree.

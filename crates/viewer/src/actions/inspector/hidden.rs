@@ -1,17 +1,17 @@
 //! Finds the hidden parts of rays in the ray view, by tracing visibility rays with its renderer.
 
-use crate::app::advice;
-use crate::viewer::actions::inspector::outside;
-use crate::viewer::model::camera::project;
-use crate::viewer::state::answer::Answer;
-use crate::viewer::state::inspector::PARTS;
-use crate::viewer::state::inspector::Parts;
-use crate::viewer::state::inspector::View;
-use crate::viewer::state::inspector::rows::RayId;
-use crate::viewer::state::session::Session;
-use crate::viewer::worker::progressive_image::FrameRenderer;
-use crate::viewer::worker::request::RenderRequest;
+use crate::actions::inspector::outside;
+use crate::model::camera::project;
+use crate::state::answer::Answer;
+use crate::state::inspector::PARTS;
+use crate::state::inspector::Parts;
+use crate::state::inspector::View;
+use crate::state::inspector::rows::RayId;
+use crate::state::session::Session;
+use crate::worker::progressive_image::FrameRenderer;
+use crate::worker::request::RenderRequest;
 use glam::{DVec3, dvec2};
+use glimray_app::advice;
 
 /// Maximum number of rays tested; others are drawn as visible.
 const MOST_LINES: usize = 256;

@@ -1,14 +1,14 @@
 //! The ray view: the scene and the inspected rays, seen by a second camera.
 
-use crate::render::{RayKind, TracedRay};
-use crate::scene::Camera;
-use crate::viewer::model::camera::{CameraController, project, project_line, ray_through};
-use crate::viewer::state::inspector::Inspected;
-use crate::viewer::state::inspector::PARTS;
-use crate::viewer::state::inspector::Parts;
-use crate::viewer::state::inspector::rows::{Filter, RayId};
-use crate::viewer::state::session::Session;
+use crate::model::camera::{CameraController, project, project_line, ray_through};
+use crate::state::inspector::Inspected;
+use crate::state::inspector::PARTS;
+use crate::state::inspector::Parts;
+use crate::state::inspector::rows::{Filter, RayId};
+use crate::state::session::Session;
 use glam::{DVec2, DVec3};
+use glimray_render::{RayKind, TracedRay};
+use glimray_scene::Camera;
 use std::f64::consts::PI;
 
 /// Maximum number of rays drawn.

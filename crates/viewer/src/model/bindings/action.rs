@@ -1,7 +1,7 @@
 //! The table of every command in the viewer.
 
-use crate::render::Integrator;
-use crate::viewer::model::tool::Tool;
+use crate::model::tool::Tool;
+use glimray_render::Integrator;
 
 /// Groups of commands, in the order of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -1,7 +1,7 @@
 //! Bindings that match other programs.
 
-use crate::viewer::model::bindings::{Action, Trigger};
-use crate::viewer::model::tool::Tool;
+use crate::model::bindings::{Action, Trigger};
+use crate::model::tool::Tool;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 

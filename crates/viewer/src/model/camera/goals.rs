@@ -1,8 +1,8 @@
 //! Animated jumps of the camera.
 
-use crate::scene::Camera;
-use crate::viewer::model::camera::{CameraController, Known, MARGIN, NEAREST, Pose, Side};
+use crate::model::camera::{CameraController, Known, MARGIN, NEAREST, Pose, Side};
 use glam::DVec3;
+use glimray_scene::Camera;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 impl CameraController {

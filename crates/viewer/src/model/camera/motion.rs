@@ -1,6 +1,6 @@
 //! Continuous motion: animated jumps and flying.
 
-use crate::viewer::model::camera::{CameraController, Flight, GLIDE, INERTIA};
+use crate::model::camera::{CameraController, Flight, GLIDE, INERTIA};
 use glam::DVec3;
 
 impl CameraController {

@@ -1,7 +1,7 @@
 //! The pose of a camera as angles around a pivot, which can be dragged without roll or gimbal lock.
 
-use crate::scene::Camera;
 use glam::{DMat3, DQuat, DVec3};
+use glimray_scene::Camera;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Sine of the angle between viewing direction and up axis below which the up direction is undefined.

@@ -1,7 +1,7 @@
 //! Projection between picture and world, matching the renderer's cameras.
 
-use crate::scene::Camera;
 use glam::{DMat3, DVec2, DVec3};
+use glimray_scene::Camera;
 
 /// Right, up and back of a camera in world space.
 fn axes(camera: &Camera) -> DMat3 {

@@ -1,11 +1,11 @@
 //! The flag for each difference.
 
-use crate::app::value_names::{
+use crate::model::command_line::{Pasted, Shown};
+use glam::DVec3;
+use glimray_app::value_names::{
     ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
 };
-use crate::scene::{Backdrop, Background, Camera, Scene, Shutter};
-use crate::viewer::model::command_line::{Pasted, Shown};
-use glam::DVec3;
+use glimray_scene::{Backdrop, Background, Camera, Scene, Shutter};
 
 /// A difference between a line and the view.
 pub(super) struct Difference {

@@ -1,7 +1,7 @@
 //! The result of a move, rotation or scale by an amount, dragged or typed.
 
-use crate::viewer::model::handles::{Dragged, Eye, Grip, Part};
-use crate::viewer::model::tool::Tool;
+use crate::model::handles::{Dragged, Eye, Grip, Part};
+use crate::model::tool::Tool;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 /// Smallest scale factor of a drag.

@@ -1,7 +1,7 @@
 //! Canonical frames of shapes and lights: origin, axes and size as one map.
 
-use crate::scene::{CanonicalShape, Geometry, LightKind};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glimray_scene::{CanonicalShape, Geometry, LightKind};
 
 /// The transform of the canonical surface: a unit sphere, a plane y = 0 that faces +y, or the
 /// [`CanonicalShape`].

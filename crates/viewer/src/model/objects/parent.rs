@@ -2,8 +2,8 @@
 
 use super::place::{place, set_place};
 use super::{EditError, Id, carrier, check, is_visible, set_visible, shown_carrier, slot};
-use crate::scene::{Geometry, ObjectRef, Scene, Space};
 use glam::{DAffine3, DMat3};
+use glimray_scene::{Geometry, ObjectRef, Scene, Space};
 
 /// Largest difference from a rotation with even scale, as a fraction of the scale.
 const TOLERANCE: f64 = 1e-9;

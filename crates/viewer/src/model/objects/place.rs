@@ -1,9 +1,9 @@
 //! Reads and sets the world transform of an object, whatever its parents.
 
-use crate::scene::{Geometry, LightKind, LightProperty, NodeProperty, ObjectRef, Scene, Target};
-use crate::viewer::model::objects::frame::{geometry_in, light_in, of_geometry, of_light};
-use crate::viewer::model::objects::{EditError, Id, check};
+use crate::model::objects::frame::{geometry_in, light_in, of_geometry, of_light};
+use crate::model::objects::{EditError, Id, check};
 use glam::{DAffine3, DVec3};
+use glimray_scene::{Geometry, LightKind, LightProperty, NodeProperty, ObjectRef, Scene, Target};
 
 /// Larger numbers overflow on the GPU.
 const LARGEST: f64 = f32::MAX as f64;

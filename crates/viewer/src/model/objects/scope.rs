@@ -1,8 +1,8 @@
 //! Names, and operations on several objects.
 
-use crate::scene::{ObjectRef, Scene};
-use crate::viewer::model::objects::{EditError, Id, check, is_visible, set_visible};
+use crate::model::objects::{EditError, Id, check, is_visible, set_visible};
 use glam::DVec3;
+use glimray_scene::{ObjectRef, Scene};
 
 /// Whether something is in the scene.
 pub fn is_there(scene: &Scene, id: Id) -> bool {
@@ -62,7 +62,7 @@ pub fn show_all(scene: &mut Scene) {
     let lights = (0..scene.lights.len()).map(ObjectRef::Light);
     let objects: Vec<_> = surfaces(scene).into_iter().chain(lights).collect();
     for index in 0..scene.nodes.len() {
-        if !crate::viewer::model::objects::is_hider(scene, index) {
+        if !crate::model::objects::is_hider(scene, index) {
             let _ = set_visible(scene, Id::Node(index), true);
         }
     }
@@ -109,7 +109,7 @@ fn surfaces(scene: &Scene) -> Vec<ObjectRef> {
 }
 
 fn is_carried_by(scene: &Scene, object: ObjectRef, node: usize) -> bool {
-    let own = crate::viewer::model::objects::carrier(scene, Id::Object(object));
+    let own = crate::model::objects::carrier(scene, Id::Object(object));
     std::iter::successors(own, |&index| scene.nodes[index].parent).any(|index| index == node)
 }
 

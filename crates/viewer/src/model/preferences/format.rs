@@ -1,7 +1,7 @@
 //! The settings file. Users may edit it, so every invalid value falls back to its default alone.
 
-use crate::viewer::model::bindings::{Bindings, Preset};
-use crate::viewer::model::preferences::{MAX_RECENT, Preferences, SavedCamera};
+use crate::model::bindings::{Bindings, Preset};
+use crate::model::preferences::{MAX_RECENT, Preferences, SavedCamera};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -172,8 +172,8 @@ pub(super) fn cameras<S: Serializer>(
 
 /// A tone curve by its name on the command line.
 pub(super) mod tone {
-    use crate::app::value_names::TONES;
-    use crate::scene::ToneCurve;
+    use glimray_app::value_names::TONES;
+    use glimray_scene::ToneCurve;
     use serde::de::Error;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

@@ -1,7 +1,7 @@
 //! Bookmarked views, stored without loss of precision.
 
-use crate::scene::{Camera, Lens};
 use glam::DVec3;
+use glimray_scene::{Camera, Lens};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 

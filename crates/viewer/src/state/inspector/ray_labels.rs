@@ -1,13 +1,13 @@
 //! Describes a ray: a headline and its properties.
 
-use crate::app::ray_text::path::{lobe_of, outcome};
-use crate::app::ray_text::{color, short, vector, way};
-use crate::render::{
+use crate::model::objects::Id;
+use crate::state::inspector::Inspected;
+use glimray_app::ray_text::path::{lobe_of, outcome};
+use glimray_app::ray_text::{color, short, vector, way};
+use glimray_render::{
     LightSample, PathStep, RayHit, RaySplit, RayTree, ShadowRay, Sharing, TracedRay,
 };
-use crate::scene::ObjectRef;
-use crate::viewer::model::objects::Id;
-use crate::viewer::state::inspector::Inspected;
+use glimray_scene::ObjectRef;
 use std::collections::BTreeSet;
 
 /// All objects and materials that rays of a tree hit, target or pass through.

@@ -1,9 +1,9 @@
 //! The rows of a ray tree, and the contribution of each bounce.
 
-use crate::render::{Integrator, RayKind, SampleTree, TracedRay};
-use crate::viewer::state::inspector::Inspected;
-use crate::viewer::state::inspector::ray_labels;
+use crate::state::inspector::Inspected;
+use crate::state::inspector::ray_labels;
 use glam::{DVec3, Vec3};
+use glimray_render::{Integrator, RayKind, SampleTree, TracedRay};
 use std::collections::BTreeSet;
 
 /// A ray: the index of its sample in the pixel, and its index in the sample.

@@ -1,14 +1,14 @@
 //! The render requests of the session.
 
 use super::Session;
-use crate::app::layers::PictureLayer;
-use crate::render::{Antialias, Integrator, RenderSettings};
-use crate::viewer::model::gallery::Still;
-use crate::viewer::model::view_settings::Source;
-use crate::viewer::worker::comparison::StillRequest;
-use crate::viewer::worker::progressive_image::PictureSlot;
-use crate::viewer::worker::render_thread::RenderRequests;
-use crate::viewer::worker::request::RenderRequest;
+use crate::model::gallery::Still;
+use crate::model::view_settings::Source;
+use crate::worker::comparison::StillRequest;
+use crate::worker::progressive_image::PictureSlot;
+use crate::worker::render_thread::RenderRequests;
+use crate::worker::request::RenderRequest;
+use glimray_app::layers::PictureLayer;
+use glimray_render::{Antialias, Integrator, RenderSettings};
 
 /// Samples per pixel of the ray view.
 const SAMPLES: u32 = 4;
@@ -39,7 +39,7 @@ impl Session {
         orders
     }
 
-    pub(in crate::viewer) fn order(&self, integrator: Integrator) -> Option<RenderRequest> {
+    pub(crate) fn order(&self, integrator: Integrator) -> Option<RenderRequest> {
         let (scene, controller) = (self.scene()?, self.controller.as_ref()?);
         Some(RenderRequest {
             scene: scene.clone(),

@@ -1,8 +1,8 @@
 //! The size of the picture panel. A picture in progress keeps its size, so that its samples outlast a resize
 //! of the window.
 
-use crate::viewer::state::session::Session;
-use crate::viewer::worker::request::RenderRequest;
+use crate::state::session::Session;
+use crate::worker::request::RenderRequest;
 
 /// Seconds of tracing beyond which a resize does not restart the picture.
 const WORTH_KEEPING: f64 = 2.0;

@@ -1,8 +1,8 @@
 //! The hint of the first run.
 
-use crate::viewer::model::bindings::Action;
-use crate::viewer::state::dialogs::Dialog;
-use crate::viewer::state::session::Session;
+use crate::model::bindings::Action;
+use crate::state::dialogs::Dialog;
+use crate::state::session::Session;
 use eframe::egui::{self, Align2, Grid, RichText};
 
 /// The first commands to learn.

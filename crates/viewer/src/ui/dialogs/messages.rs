@@ -1,11 +1,11 @@
 //! The list of all messages.
 
-use crate::viewer::state::session::Session;
+use crate::state::session::Session;
 use eframe::egui::{self, Label, RichText, vec2};
 
 /// Draws the dialog. Returns whether it stays open.
 pub fn show(ctx: &egui::Context, session: &mut Session) -> bool {
-    crate::viewer::ui::dialogs::window(ctx, "Messages", vec2(520.0, 360.0), |ui| {
+    crate::ui::dialogs::window(ctx, "Messages", vec2(520.0, 360.0), |ui| {
         let messages = session.messages.all();
         if messages.is_empty() {
             ui.weak("No messages yet.");

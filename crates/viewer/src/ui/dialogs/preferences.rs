@@ -1,13 +1,13 @@
 //! The preferences: theme, interface scale, shortcuts, and defaults of new scenes.
 
-use crate::app::value_names::TONES;
-use crate::scene::ToneCurve;
-use crate::viewer::model::bindings::Preset;
-use crate::viewer::model::preferences::Theme;
-use crate::viewer::state::dialogs::Dialog;
-use crate::viewer::state::layout::Layout;
-use crate::viewer::state::session::Session;
+use crate::model::bindings::Preset;
+use crate::model::preferences::Theme;
+use crate::state::dialogs::Dialog;
+use crate::state::layout::Layout;
+use crate::state::session::Session;
 use eframe::egui::{self, ComboBox, DragValue, Grid, Slider, vec2};
+use glimray_app::value_names::TONES;
+use glimray_scene::ToneCurve;
 
 /// Default when the user overrides a scene's samples.
 const SAMPLES: u32 = 16;
@@ -16,7 +16,7 @@ const SAMPLES: u32 = 16;
 pub fn show(ctx: &egui::Context, session: &mut Session, layout: &mut Layout) -> bool {
     let mut is_resetting = session.dialogs.is_resetting;
     let mut is_reset = false;
-    let stays = crate::viewer::ui::dialogs::window(ctx, "Preferences", vec2(420.0, 300.0), |ui| {
+    let stays = crate::ui::dialogs::window(ctx, "Preferences", vec2(420.0, 300.0), |ui| {
         Grid::new("preferences")
             .num_columns(2)
             .spacing([24.0, 8.0])

@@ -1,14 +1,14 @@
 //! Questions that must be answered first: file names and unsaved changes.
 
-use crate::output::Format;
-use crate::viewer::actions::comparing;
-use crate::viewer::actions::files;
-use crate::viewer::actions::files::pictures;
-use crate::viewer::state::files::{Intent, SaveSize};
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::worker::progressive_image::PictureSlot;
+use crate::actions::comparing;
+use crate::actions::files;
+use crate::actions::files::pictures;
+use crate::state::files::{Intent, SaveSize};
+use crate::state::session::Session;
+use crate::ui::context::PanelContext;
+use crate::worker::progressive_image::PictureSlot;
 use eframe::egui::{self, Align2, Button, Key, Modal, RichText, Slider, TextEdit, Ui, vec2};
+use glimray_io::output::Format;
 use std::path::PathBuf;
 
 /// The user's decision about unsaved changes.
@@ -43,7 +43,7 @@ fn path(
 ) -> Option<PathBuf> {
     let mut text = typed.take()?;
     let mut path = None;
-    let stays = crate::viewer::ui::dialogs::window(ctx, title, vec2(440.0, 90.0), |ui| {
+    let stays = crate::ui::dialogs::window(ctx, title, vec2(440.0, 90.0), |ui| {
         let field = TextEdit::singleline(&mut text)
             .hint_text(hint)
             .desired_width(f32::INFINITY);
@@ -88,7 +88,7 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
         true => "Save the picture with overlays",
         false => "Save the picture",
     };
-    let stays = crate::viewer::ui::dialogs::window(ctx, title, vec2(460.0, 170.0), |ui| {
+    let stays = crate::ui::dialogs::window(ctx, title, vec2(460.0, 170.0), |ui| {
         ui.horizontal(|ui| {
             let width = ui.available_width() - 90.0;
             let field = TextEdit::singleline(&mut dialog.path).desired_width(width);

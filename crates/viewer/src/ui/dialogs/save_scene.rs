@@ -1,7 +1,7 @@
 //! The dialog for saving the scene.
 
-use crate::viewer::actions::saving::{browse, is_own, take_reply, target, write};
-use crate::viewer::ui::context::PanelContext;
+use crate::actions::saving::{browse, is_own, take_reply, target, write};
+use crate::ui::context::PanelContext;
 use eframe::egui::{self, Button, Ui};
 
 /// Shows why a name is invalid, or what saving will do.

@@ -1,10 +1,10 @@
 //! The dialog of keyboard shortcuts: generated from the table, with a search, editable.
 
-use crate::viewer::actions::dialogs;
-use crate::viewer::model::bindings::{Action, Category, Manner, Mods, Preset, Trigger, zooms};
-use crate::viewer::model::messages::sentence;
-use crate::viewer::state::dialogs::Capture;
-use crate::viewer::state::session::Session;
+use crate::actions::dialogs;
+use crate::model::bindings::{Action, Category, Manner, Mods, Preset, Trigger, zooms};
+use crate::model::messages::sentence;
+use crate::state::dialogs::Capture;
+use crate::state::session::Session;
 use eframe::egui::{
     self, Align, Button, Event, Key, Label, Layout, Pos2, Rect, RichText, TextEdit, Ui, Vec2, vec2,
 };
@@ -16,15 +16,14 @@ const GAP: f32 = 4.0;
 /// Draws the dialog. Returns whether it stays open.
 pub fn show(ctx: &egui::Context, session: &mut Session) -> bool {
     capture(ctx, session);
-    let stays =
-        crate::viewer::ui::dialogs::window(ctx, "Keyboard shortcuts", vec2(620.0, 520.0), |ui| {
-            head(ui, session);
-            ui.separator();
-            let search = session.dialogs.bindings.search.to_lowercase();
-            egui::ScrollArea::vertical()
-                .auto_shrink([false, false])
-                .show(ui, |ui| table(ui, session, &search));
-        });
+    let stays = crate::ui::dialogs::window(ctx, "Keyboard shortcuts", vec2(620.0, 520.0), |ui| {
+        head(ui, session);
+        ui.separator();
+        let search = session.dialogs.bindings.search.to_lowercase();
+        egui::ScrollArea::vertical()
+            .auto_shrink([false, false])
+            .show(ui, |ui| table(ui, session, &search));
+    });
     if !stays {
         session.dialogs.bindings.capture = None;
     }

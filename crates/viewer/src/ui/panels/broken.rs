@@ -1,10 +1,10 @@
 //! Shows the error of a scene that cannot be read, above the last valid picture.
 
-use crate::viewer::actions::files;
-use crate::viewer::model::loader::SourceLine;
-use crate::viewer::model::messages::sentence;
-use crate::viewer::state::files::Intent;
-use crate::viewer::ui::context::PanelContext;
+use crate::actions::files;
+use crate::model::loader::SourceLine;
+use crate::model::messages::sentence;
+use crate::state::files::Intent;
+use crate::ui::context::PanelContext;
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{self, Color32, FontId, RichText, Stroke, Ui};
 

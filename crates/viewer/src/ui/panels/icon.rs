@@ -1,10 +1,10 @@
 //! Icons for kinds of objects, painted because fonts lack them; and accessible names of widgets.
 
-use crate::scene::{CanonicalShape, Geometry, LightKind, ObjectRef, Scene};
-use crate::viewer::model::objects::Id;
-use crate::viewer::model::swatch::Swatch;
+use crate::model::objects::Id;
+use crate::model::swatch::Swatch;
 use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke, vec2};
 use glam::Vec3;
+use glimray_scene::{CanonicalShape, Geometry, LightKind, ObjectRef, Scene};
 
 /// Sets the accessible name of a widget without text.
 pub fn named(response: &egui::Response, name: &str) {

@@ -1,16 +1,16 @@
 //! The menu bar, and below it the error of the scene's file.
 
-use crate::viewer::actions::commands;
-use crate::viewer::actions::files;
-use crate::viewer::actions::files::cameras;
-use crate::viewer::actions::tools;
-use crate::viewer::model::bindings::Action as A;
-use crate::viewer::model::document::Document;
-use crate::viewer::model::tool::{Tool, ToolMenu};
-use crate::viewer::model::view_settings::Sharing;
-use crate::viewer::state::dialogs::Dialog;
-use crate::viewer::state::layout::{Layout, Panel};
-use crate::viewer::ui::context::PanelContext;
+use crate::actions::commands;
+use crate::actions::files;
+use crate::actions::files::cameras;
+use crate::actions::tools;
+use crate::model::bindings::Action as A;
+use crate::model::document::Document;
+use crate::model::tool::{Tool, ToolMenu};
+use crate::model::view_settings::Sharing;
+use crate::state::dialogs::Dialog;
+use crate::state::layout::{Layout, Panel};
+use crate::ui::context::PanelContext;
 use eframe::egui::{self, Button, RichText, Ui};
 
 /// Draws the menu bar.
@@ -61,7 +61,7 @@ pub fn menu(ui: &mut Ui, context: &mut PanelContext, layout: &mut Layout) {
             });
         });
     });
-    crate::viewer::ui::panels::broken::broken(ui, context);
+    crate::ui::panels::broken::broken(ui, context);
 }
 
 /// The context of a menu.

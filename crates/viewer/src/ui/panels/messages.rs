@@ -1,6 +1,6 @@
 //! Shows messages until they expire.
 
-use crate::viewer::ui::context::PanelContext;
+use crate::ui::context::PanelContext;
 use eframe::egui::{self, Align2, Area, Frame, Id, RichText};
 
 /// Maximum width of a message, in points.

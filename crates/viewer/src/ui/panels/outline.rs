@@ -1,19 +1,19 @@
 //! The outline of the scene.
 
-use crate::scene::Scene;
-use crate::viewer::actions::editing;
-use crate::viewer::actions::selecting::Pick;
-use crate::viewer::model::bindings::Action;
-use crate::viewer::model::objects;
-use crate::viewer::model::objects::Id;
-use crate::viewer::model::outline::{self, Entry};
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::icon;
+use crate::actions::editing;
+use crate::actions::selecting::Pick;
+use crate::model::bindings::Action;
+use crate::model::objects;
+use crate::model::objects::Id;
+use crate::model::outline::{self, Entry};
+use crate::state::session::Session;
+use crate::ui::context::PanelContext;
+use crate::ui::panels::icon;
 use eframe::egui::{
     self, Color32, DragAndDrop, Key, Rect, RichText, Sense, StrokeKind, WidgetInfo, WidgetText,
     vec2,
 };
+use glimray_scene::Scene;
 
 /// Indentation per level.
 const INDENT: f32 = 12.0;

@@ -8,15 +8,15 @@ mod legend;
 pub mod loading;
 mod start;
 
-use crate::viewer::actions::region;
-use crate::viewer::actions::tools;
-use crate::viewer::model::view_settings::{Comparison, Sharing};
-use crate::viewer::model::viewport::Viewport;
-use crate::viewer::state::cursor::REST;
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::{self, overlay};
-use crate::viewer::worker::progressive_image::PictureSlot;
-use crate::viewer::worker::progressive_image::Shown;
+use crate::actions::region;
+use crate::actions::tools;
+use crate::model::view_settings::{Comparison, Sharing};
+use crate::model::viewport::Viewport;
+use crate::state::cursor::REST;
+use crate::ui::context::PanelContext;
+use crate::ui::{self, overlay};
+use crate::worker::progressive_image::PictureSlot;
+use crate::worker::progressive_image::Shown;
 use eframe::egui::{self, Align2, Color32, Pos2, Rect, Vec2};
 
 /// Texture coordinates of a whole texture.

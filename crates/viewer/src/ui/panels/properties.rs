@@ -7,16 +7,16 @@ mod light;
 mod material;
 mod place;
 
-use crate::scene::ObjectRef;
-use crate::viewer::model::bindings::Action;
-use crate::viewer::model::objects;
-use crate::viewer::model::objects::Id;
-use crate::viewer::model::tool::Tool;
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::icon;
+use crate::model::bindings::Action;
+use crate::model::objects;
+use crate::model::objects::Id;
+use crate::model::tool::Tool;
+use crate::state::session::Session;
+use crate::ui::context::PanelContext;
+use crate::ui::panels::icon;
 use eframe::egui::{self, vec2};
 use fields::{Change, Fields};
+use glimray_scene::ObjectRef;
 
 /// Draws the properties of the selection.
 pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {

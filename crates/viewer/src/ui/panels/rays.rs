@@ -7,16 +7,16 @@ pub mod space;
 
 pub use drawing::path;
 
-use crate::app::ray_text::{color, ray_sum, weighted_sum};
-use crate::viewer::actions::inspector;
-use crate::viewer::actions::inspector::export;
-use crate::viewer::model::tool::Tool;
-use crate::viewer::state::inspector::Inspected;
-use crate::viewer::state::inspector::rows;
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::context::PanelContext;
+use crate::actions::inspector;
+use crate::actions::inspector::export;
+use crate::model::tool::Tool;
+use crate::state::inspector::Inspected;
+use crate::state::inspector::rows;
+use crate::state::session::Session;
+use crate::ui::context::PanelContext;
 use eframe::egui::{self, Align, Layout};
 use glam::DVec3;
+use glimray_app::ray_text::{color, ray_sum, weighted_sum};
 
 /// Gap between controls, so that each line fits the default width of the panel, in points.
 const GAP: f32 = 4.0;

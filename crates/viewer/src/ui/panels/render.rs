@@ -8,16 +8,16 @@ mod statistics;
 
 pub use statistics::{remaining, seconds};
 
-use crate::app::layers::{LAYERS, PictureLayer};
-use crate::app::value_names::{
+use crate::model::view_settings::{MAX_SAMPLES, ViewSettings};
+use crate::ui::context::PanelContext;
+use crate::ui::panels::setting_rows::{choice, line, number};
+use eframe::egui::{self, Ui};
+use glimray_app::layers::{LAYERS, PictureLayer};
+use glimray_app::value_names::{
     ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
 };
-use crate::render::Integrator;
-use crate::scene::Antialias;
-use crate::viewer::model::view_settings::{MAX_SAMPLES, ViewSettings};
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::setting_rows::{choice, line, number};
-use eframe::egui::{self, Ui};
+use glimray_render::Integrator;
+use glimray_scene::Antialias;
 
 /// Width of the label column, in points, so that all sections line up.
 const NAMES: f32 = 96.0;

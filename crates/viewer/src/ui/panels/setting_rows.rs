@@ -1,8 +1,8 @@
 //! Rows of settings with a reset button, and titles of command-line values.
 
-use crate::app::value_names::ValueNames;
-use crate::render::Integrator;
 use eframe::egui::{self, Response, RichText, Ui, WidgetInfo};
+use glimray_app::value_names::ValueNames;
+use glimray_render::Integrator;
 use std::ops::RangeInclusive;
 
 /// The title of a command-line value: `side-by-side` becomes `Side by side`.

@@ -1,12 +1,12 @@
 //! The status bar.
 
-use crate::app::legend::number;
-use crate::viewer::state::cursor::Surface;
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::picture::loading;
-use crate::viewer::ui::panels::render::{remaining, seconds};
-use crate::viewer::worker::progressive_image::PictureSlot;
+use crate::state::cursor::Surface;
+use crate::ui::context::PanelContext;
+use crate::ui::panels::picture::loading;
+use crate::ui::panels::render::{remaining, seconds};
+use crate::worker::progressive_image::PictureSlot;
 use eframe::egui;
+use glimray_app::legend::number;
 
 /// Samples, time, speed and noise of the picture, and the frame time of the window.
 pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {

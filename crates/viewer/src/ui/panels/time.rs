@@ -2,12 +2,12 @@
 
 mod icon;
 
-use crate::scene::Shutter;
-use crate::viewer::model::bindings::Action;
-use crate::viewer::model::playback::{MAX_SPEED, Playback};
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::setting_rows::number;
+use crate::model::bindings::Action;
+use crate::model::playback::{MAX_SPEED, Playback};
+use crate::ui::context::PanelContext;
+use crate::ui::panels::setting_rows::number;
 use eframe::egui::{self, Ui};
+use glimray_scene::Shutter;
 use icon::{Icon, button};
 
 /// Maximum shutter time, and maximum distance from the frame's time, in frames.

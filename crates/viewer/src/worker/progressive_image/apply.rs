@@ -1,11 +1,11 @@
 //! Applies requests: what of the picture is still valid stays.
 
 use super::{ImageError, Noise, ProgressiveImage, Spent, pace, packing::view};
-use crate::pack::{self, PackedScene};
-use crate::render::{Integrator, RenderSettings, Renderer};
-use crate::scene::Scene;
-use crate::viewer::worker::request::{PreparedScene, RenderRequest};
-use crate::viewer::worker::stage::Stage;
+use crate::worker::request::{PreparedScene, RenderRequest};
+use crate::worker::stage::Stage;
+use glimray_render::pack::{self, PackedScene};
+use glimray_render::{Integrator, RenderSettings, Renderer};
+use glimray_scene::Scene;
 use std::sync::Arc;
 
 impl ProgressiveImage {

@@ -1,9 +1,9 @@
 //! The interface of a progressive image: its slot, access for questions, and its errors.
 
-use crate::app::advice;
-use crate::image::{Image, ScreenImage};
-use crate::render::{RenderError, RenderSettings, Renderer, Screen, Tone};
-use crate::viewer::worker::request::RenderRequest;
+use crate::worker::request::RenderRequest;
+use glimray_app::advice;
+use glimray_render::{RenderError, RenderSettings, Renderer, Screen, Tone};
+use glimray_scene::image::{Image, ScreenImage};
 
 /// The slot of a picture in the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,7 +78,7 @@ impl FrameRenderer<'_> {
 pub enum ImageError {
     /// The scene cannot be packed.
     #[error(transparent)]
-    Pack(#[from] crate::pack::PackError),
+    Pack(#[from] glimray_render::pack::PackError),
     /// The scene cannot be rendered.
     #[error("{}", advice::render(.0))]
     Render(#[from] RenderError),

@@ -1,6 +1,6 @@
 //! Estimates the noise of a picture.
 
-use crate::image::Image;
+use glimray_scene::image::Image;
 
 /// Two states of the same picture give its noise: the mean of n samples differs from that of the first m
 /// with a variance of σ²(1/m − 1/n), and its own variance is σ²/n.

@@ -1,7 +1,7 @@
 //! Chooses the resolution of previews and the length of time slices.
 
-use crate::gpu::Gpu;
-use crate::render::{Antialias, ExecutionPolicy, RenderSettings, Slicing};
+use glimray_render::gpu::Gpu;
+use glimray_render::{Antialias, ExecutionPolicy, RenderSettings, Slicing};
 use std::time::Duration;
 
 /// Target time of a submission while the window is active: on software, the cores that draw the window also

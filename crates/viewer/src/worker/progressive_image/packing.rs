@@ -1,8 +1,8 @@
 //! Packs a request for the renderer.
 
-use crate::pack::{self, PackedScene, PackedView};
-use crate::scene::Frame;
-use crate::viewer::worker::request::RenderRequest;
+use crate::worker::request::RenderRequest;
+use glimray_render::pack::{self, PackedScene, PackedView};
+use glimray_scene::Frame;
 
 /// The frames with the request's camera and background. `previous` is the view before it.
 pub fn view(

@@ -1,7 +1,7 @@
 //! The published picture and its progress.
 
 use super::ProgressiveImage;
-use crate::render::{Screen, Stats};
+use glimray_render::{Screen, Stats};
 use std::sync::Arc;
 
 /// A published picture.

@@ -9,8 +9,8 @@ use crate::import::native::values::{
     Absorption, Color, Direction, Fraction, NonNegative, Number, NumberOrVector, Positive,
     Quaternion, RefractiveIndex, Scale, Share, Vector, ViewAngle, ViewRadians, elements,
 };
-use crate::scene::{Curve, Easing, Values};
 use glam::{DQuat, DVec3, DVec4};
+use glimray_scene::{Curve, Easing, Values};
 use serde::Deserialize;
 use serde::de::{Deserializer, value};
 use toml::Spanned;

@@ -2,7 +2,7 @@
 
 use super::keys::Key;
 use crate::import::native::values::Pace;
-use crate::scene::{Beyond, Interpolation};
+use glimray_scene::{Beyond, Interpolation};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;

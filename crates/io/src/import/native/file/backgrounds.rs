@@ -2,7 +2,7 @@
 
 use super::color_or::color_or;
 use crate::import::native::values::{Angle, Color, NonNegative, Number};
-use crate::scene::sky;
+use glimray_scene::sky;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};

@@ -1,8 +1,8 @@
 //! Nodes and transforms in a native scene.
 
 use crate::import::native::values::{Matrix, Quaternion, Scale, Vector};
-use crate::scene;
 use glam::{DAffine3, DQuat, DVec3};
+use glimray_scene as scene;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;

@@ -5,8 +5,8 @@ use crate::import::native::values::{
     Color, Fraction, Matrix, NonNegative, Number, Octaves, Scale, Vector,
 };
 use crate::import::picture::Role;
-use crate::scene::{Minify, Wrap};
 use glam::Vec3;
+use glimray_scene::{Minify, Wrap};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};

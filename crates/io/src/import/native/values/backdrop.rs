@@ -1,7 +1,7 @@
 //! The backdrop, which paths from the camera see where there is nothing.
 
 use super::ColorVisitor;
-use crate::scene::Backdrop;
+use glimray_scene::Backdrop;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 use std::borrow::Cow;

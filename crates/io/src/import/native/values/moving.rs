@@ -2,8 +2,8 @@
 
 use super::{Color, Fraction, Number, Positive, elements, is_unit, number};
 use crate::import::source::quote;
-use crate::scene::Easing;
 use glam::{DQuat, Vec3};
+use glimray_scene::Easing;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, IntoDeserializer, SeqAccess, Visitor};
 use std::borrow::Cow;

@@ -1,6 +1,6 @@
 //! Enumerations of a native scene.
 
-use crate::scene::{
+use glimray_scene::{
     Antialias, Attenuation, Filter, Fresnel, LightTransport, Mixing, Shadows, ToneCurve, Transfer,
 };
 use schemars::JsonSchema;

@@ -2,7 +2,7 @@
 
 use super::{Pictures, Planned, Read};
 use crate::import::picture::{Announced, Refused};
-use crate::scene::MAX_PICTURE_BYTES;
+use glimray_scene::MAX_PICTURE_BYTES;
 
 /// Bytes of files that are kept between the reading of their headers and their decoding. Others are read again.
 const KEPT_BYTES: usize = 256 << 20;

@@ -1,16 +1,16 @@
 //! The comparison of two pictures: layout, second picture, wipe line and labels.
 
-use crate::app::value_names::INTEGRATORS;
-use crate::viewer::model::view_settings::{Comparison, Sharing, Source};
-use crate::viewer::model::viewport::Viewport;
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::icon;
-use crate::viewer::ui::panels::picture::caption::label;
-use crate::viewer::ui::panels::picture::{WHOLE, draw};
-use crate::viewer::ui::panels::setting_rows::title;
-use crate::viewer::worker::progressive_image::PictureSlot;
+use crate::model::view_settings::{Comparison, Sharing, Source};
+use crate::model::viewport::Viewport;
+use crate::state::session::Session;
+use crate::ui::context::PanelContext;
+use crate::ui::panels::icon;
+use crate::ui::panels::picture::caption::label;
+use crate::ui::panels::picture::{WHOLE, draw};
+use crate::ui::panels::setting_rows::title;
+use crate::worker::progressive_image::PictureSlot;
 use eframe::egui::{self, Align2, Color32, CursorIcon, EventFilter, Key, Pos2, Rect, Stroke, vec2};
+use glimray_app::value_names::INTEGRATORS;
 
 /// Distance within which the line can be dragged, in points.
 const REACH: f32 = 5.0;

@@ -1,7 +1,7 @@
 //! The frame of the scene's own size over a picture of other proportions.
 
-use crate::viewer::model::viewport::Viewport;
-use crate::viewer::ui::panels::picture::caption::label;
+use crate::model::viewport::Viewport;
+use crate::ui::panels::picture::caption::label;
 use eframe::egui::{Align2, Color32, Painter, Stroke, StrokeKind};
 
 /// Proportions that differ by less than this share are the same.

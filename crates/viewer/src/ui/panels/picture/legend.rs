@@ -1,12 +1,12 @@
 //! The colour legend of a view that shows a quantity, with its range and unit.
 
-use crate::app::legend::{number, sentence, stops};
-use crate::render::{Integrator, Quantity};
-use crate::viewer::ui::panels::icon;
-use crate::viewer::worker::progressive_image::Shown;
+use crate::ui::panels::icon;
+use crate::worker::progressive_image::Shown;
 use eframe::egui::{
     self, Align2, Color32, FontId, Mesh, Rect, Sense, Shape, Stroke, StrokeKind, vec2,
 };
+use glimray_app::legend::{number, sentence, stops};
+use glimray_render::{Integrator, Quantity};
 
 /// Size of the bar and the margin around it, in points.
 const BAR: egui::Vec2 = vec2(150.0, 10.0);

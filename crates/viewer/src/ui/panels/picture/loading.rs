@@ -1,9 +1,9 @@
 //! The stage of a scene that is being loaded, over the picture.
 
-use crate::viewer::actions::files;
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::render::seconds;
-use crate::viewer::worker::stage::Stage;
+use crate::actions::files;
+use crate::ui::context::PanelContext;
+use crate::ui::panels::render::seconds;
+use crate::worker::stage::Stage;
 use eframe::egui::{self, Align2, Color32, Rect, Sense, Vec2};
 use std::f32::consts::TAU;
 use std::time::Duration;

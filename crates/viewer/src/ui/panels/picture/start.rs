@@ -1,8 +1,8 @@
 //! Ways to open a scene if there is none.
 
-use crate::viewer::actions::files;
-use crate::viewer::model::bindings::Action;
-use crate::viewer::state::session::Session;
+use crate::actions::files;
+use crate::model::bindings::Action;
+use crate::state::session::Session;
 use eframe::egui::{self, Align2, Button, Rect, RichText, Vec2};
 use std::path::PathBuf;
 

@@ -1,10 +1,10 @@
 //! The properties of a camera.
 
-use crate::scene::{Camera, CameraProperty, Lens, Scene, Target};
-use crate::viewer::model::objects::Id;
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::panels::properties::fields::{Change, Fields, Limits};
+use crate::model::objects::Id;
+use crate::state::session::Session;
+use crate::ui::panels::properties::fields::{Change, Fields, Limits};
 use glam::DVec3;
+use glimray_scene::{Camera, CameraProperty, Lens, Scene, Target};
 
 /// Limits of scene files: the largest lens in scene units, and relative to the focus distance.
 const MAX_LENS: f64 = 1e9;

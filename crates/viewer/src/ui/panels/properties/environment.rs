@@ -1,9 +1,9 @@
 //! The properties of the scene as a whole.
 
-use crate::scene::{Background, Origin, Scene, Shadows, sky};
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
+use crate::state::session::Session;
+use crate::ui::panels::properties::fields::{Fields, Limits};
 use glam::Vec3;
+use glimray_scene::{Background, Origin, Scene, Shadows, sky};
 
 /// Background, ambient light, shadows and the camera.
 pub fn show(fields: &mut Fields, session: &mut Session) {

@@ -1,11 +1,11 @@
 //! Rows with a label and a value. Every edit becomes a named change of the scene.
 
-use crate::scene::{Scene, Target};
-use crate::viewer::model::objects::EditError;
-use crate::viewer::ui::overlay::COLORS;
-use crate::viewer::ui::panels::icon::{edge, named};
+use crate::model::objects::EditError;
+use crate::ui::overlay::COLORS;
+use crate::ui::panels::icon::{edge, named};
 use eframe::egui::{self, DragValue, Ui, UiBuilder, vec2};
 use glam::{DVec3, Vec3};
+use glimray_scene::{Scene, Target};
 
 /// Width of the letter of an axis.
 const AXIS: f32 = 8.0;

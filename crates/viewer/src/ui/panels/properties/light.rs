@@ -1,8 +1,8 @@
 //! The properties of a light.
 
-use crate::scene::{Attenuation, Light, LightKind, LightProperty, Scene, Target};
-use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
+use crate::ui::panels::properties::fields::{Fields, Limits};
 use glam::DVec3;
+use glimray_scene::{Attenuation, Light, LightKind, LightProperty, Scene, Target};
 use std::f64::consts::FRAC_PI_2;
 
 /// Draws all properties of a light except its transform.

@@ -1,14 +1,14 @@
 //! The properties of a material.
 
-use crate::scene::{
+use crate::model::objects;
+use crate::model::objects::Id;
+use crate::state::session::Session;
+use crate::ui::panels::icon;
+use crate::ui::panels::properties::fields::{Fields, Limits};
+use glam::Vec3;
+use glimray_scene::{
     Fresnel, Material, MaterialProperty, Mixing, ObjectRef, Pattern, Scene, Target, Textures,
 };
-use crate::viewer::model::objects;
-use crate::viewer::model::objects::Id;
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::panels::icon;
-use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
-use glam::Vec3;
 
 /// The option that links the ambient colour to the diffuse colour.
 const FOLLOWS: &str = "Ambient follows diffuse";

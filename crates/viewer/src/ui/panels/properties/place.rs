@@ -1,10 +1,10 @@
 //! The transform and shape of an object.
 
-use crate::scene::{CanonicalShape, Geometry, ObjectRef, Scene, Transform};
-use crate::viewer::model::objects;
-use crate::viewer::model::objects::{Id, Scaling};
-use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
+use crate::model::objects;
+use crate::model::objects::{Id, Scaling};
+use crate::ui::panels::properties::fields::{Fields, Limits};
 use glam::DVec3;
+use glimray_scene::{CanonicalShape, Geometry, ObjectRef, Scene, Transform};
 
 /// Position, rotation and scale in world space.
 pub fn show(fields: &mut Fields, id: Id, time: f64) {

@@ -1,10 +1,10 @@
 //! Rays as lines, in the ray view and over the picture.
 
-use crate::viewer::actions::inspector::outside;
-use crate::viewer::actions::inspector::outside::{End, Line};
-use crate::viewer::model::viewport::Viewport;
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::panels::rays::paint::colour;
+use crate::actions::inspector::outside;
+use crate::actions::inspector::outside::{End, Line};
+use crate::model::viewport::Viewport;
+use crate::state::session::Session;
+use crate::ui::panels::rays::paint::colour;
 use eframe::egui::{self, Color32, Pos2, Shape, Stroke, vec2};
 
 /// Draws the inspected rays over the picture at `viewport`, as its current camera sees them. After the camera has moved, they are still at their place in the scene.

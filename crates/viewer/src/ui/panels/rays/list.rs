@@ -1,11 +1,11 @@
 //! The rows of the tree. Only visible rows are drawn.
 
-use crate::app::ray_text::{color, ray_sum};
-use crate::viewer::state::inspector::ray_labels;
-use crate::viewer::state::inspector::rows::{RayId, Row};
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::panels::rays::paint;
+use crate::state::inspector::ray_labels;
+use crate::state::inspector::rows::{RayId, Row};
+use crate::state::session::Session;
+use crate::ui::panels::rays::paint;
 use eframe::egui::{self, Align, Layout, RichText, Sense, vec2};
+use glimray_app::ray_text::{color, ray_sum};
 
 /// Indentation per level in points, and the maximum number of levels.
 const INDENT: f32 = 11.0;

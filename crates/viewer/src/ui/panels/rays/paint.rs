@@ -1,11 +1,11 @@
 //! Icons, colours and swatches of rays.
 
-use crate::app::ray_text::{color, kind};
-use crate::render::RayKind;
-use crate::viewer::state::inspector::rows::RayId;
-use crate::viewer::ui::panels::icon;
+use crate::state::inspector::rows::RayId;
+use crate::ui::panels::icon;
 use eframe::egui::{self, Color32, Rect, Response, Rgba, Sense, Shape, Stroke, StrokeKind, vec2};
 use glam::DVec3;
+use glimray_app::ray_text::{color, kind};
+use glimray_render::RayKind;
 
 /// The colour of a ray on a dark or light background.
 pub fn colour(kind: RayKind, blocked: bool, is_dark: bool) -> Color32 {

@@ -1,18 +1,18 @@
 //! The ray view: the scene from a second camera, with the rays of a pixel.
 
-use crate::render::{Integrator, RayKind};
-use crate::viewer::actions::inspector::hidden;
-use crate::viewer::actions::inspector::outside;
-use crate::viewer::actions::inspector::outside::Line;
-use crate::viewer::actions::tools;
-use crate::viewer::model::bindings::{Action, Drag};
-use crate::viewer::model::viewport::Viewport;
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::rays::drawing;
-use crate::viewer::worker::progressive_image::PictureSlot;
+use crate::actions::inspector::hidden;
+use crate::actions::inspector::outside;
+use crate::actions::inspector::outside::Line;
+use crate::actions::tools;
+use crate::model::bindings::{Action, Drag};
+use crate::model::viewport::Viewport;
+use crate::state::session::Session;
+use crate::ui::context::PanelContext;
+use crate::ui::panels::rays::drawing;
+use crate::worker::progressive_image::PictureSlot;
 use eframe::egui::{self, Color32, Pos2, Rect, Stroke, Vec2};
 use glam::{DVec2, dvec2};
+use glimray_render::{Integrator, RayKind};
 
 /// Tint of the picture, so that rays stand out.
 const DIMMED: Color32 = Color32::from_gray(132);
@@ -184,7 +184,7 @@ fn controls(ui: &mut egui::Ui, session: &mut Session) {
         // Only paths tell what goes straight on from what is refracted.
         let is_shown = |kind: RayKind| is_path || kind != RayKind::Passage;
         for (kind, blocked, name) in kinds.into_iter().filter(|(kind, ..)| is_shown(*kind)) {
-            crate::viewer::ui::panels::rays::paint::icon(ui, kind, blocked);
+            crate::ui::panels::rays::paint::icon(ui, kind, blocked);
             ui.label(egui::RichText::new(name).small());
         }
     });

@@ -1,11 +1,11 @@
 //! The background override.
 
-use crate::render::Integrator;
-use crate::scene::{Backdrop, Background};
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::setting_rows::reset_button;
+use crate::ui::context::PanelContext;
+use crate::ui::panels::setting_rows::reset_button;
 use eframe::egui::{self, Ui};
 use glam::Vec3;
+use glimray_render::Integrator;
+use glimray_scene::{Backdrop, Background};
 
 /// Initial linear radiance of a new background.
 const GREY: Vec3 = Vec3::splat(0.18);

@@ -1,14 +1,14 @@
 //! The settings of a comparison, and the stills to compare with.
 
-use crate::app::value_names::INTEGRATORS;
-use crate::viewer::actions::comparing;
-use crate::viewer::model::bindings::Action;
-use crate::viewer::model::gallery::{Still, StillId};
-use crate::viewer::model::view_settings::{Comparison, GAIN, MAX_GAIN, Sharing, Source};
-use crate::viewer::state::session::Session;
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::setting_rows::{line, title};
+use crate::actions::comparing;
+use crate::model::bindings::Action;
+use crate::model::gallery::{Still, StillId};
+use crate::model::view_settings::{Comparison, GAIN, MAX_GAIN, Sharing, Source};
+use crate::state::session::Session;
+use crate::ui::context::PanelContext;
+use crate::ui::panels::setting_rows::{line, title};
 use eframe::egui::{self, Ui};
+use glimray_app::value_names::INTEGRATORS;
 
 /// Width of the second picture's name, in points: a button stands beside it.
 const SECOND: f32 = 92.0;

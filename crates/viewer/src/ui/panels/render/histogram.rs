@@ -1,9 +1,9 @@
 //! The histogram of the displayed picture.
 
-use crate::viewer::actions::histogram;
-use crate::viewer::model::histogram::{Histogram, LEVELS};
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::worker::progressive_image::PictureSlot;
+use crate::actions::histogram;
+use crate::model::histogram::{Histogram, LEVELS};
+use crate::ui::context::PanelContext;
+use crate::worker::progressive_image::PictureSlot;
 use eframe::egui::{self, Color32, Mesh, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 
 /// Height of the plot and its greatest width, in points.

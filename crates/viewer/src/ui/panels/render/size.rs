@@ -1,8 +1,8 @@
 //! The size of the picture and its region.
 
-use crate::viewer::model::view_settings::ViewSettings;
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::setting_rows::{number, reset_button};
+use crate::model::view_settings::ViewSettings;
+use crate::ui::context::PanelContext;
+use crate::ui::panels::setting_rows::{number, reset_button};
 use eframe::egui::{self, Ui};
 
 /// Maximum side length that can be entered, in pixels.

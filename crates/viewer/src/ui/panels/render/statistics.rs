@@ -1,11 +1,11 @@
 //! Progress and statistics of the picture.
 
-use crate::bytes::size;
-use crate::viewer::model::bindings::Action;
-use crate::viewer::ui::context::PanelContext;
-use crate::viewer::worker::progressive_image::PictureSlot;
-use crate::viewer::worker::progressive_image::{Progress, Shown};
+use crate::model::bindings::Action;
+use crate::ui::context::PanelContext;
+use crate::worker::progressive_image::PictureSlot;
+use crate::worker::progressive_image::{Progress, Shown};
 use eframe::egui::{self, Ui};
+use glimray_scene::bytes::size;
 
 /// The progress bar, and the buttons that control rendering.
 pub fn progress(ui: &mut Ui, context: &mut PanelContext) {

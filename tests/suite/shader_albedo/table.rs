@@ -1,5 +1,4 @@
-//! Computes the tables of directional albedos that `lib/albedo.wesl` reads. `build.rs` includes this file, so it may
-//! use only the standard library.
+//! Computes the tables of directional albedos that `lib/albedo.wesl` reads.
 
 use std::{f64::consts::PI, thread};
 

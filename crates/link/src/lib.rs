@@ -1,5 +1,10 @@
-//! Links every kernel to plain WGSL, once for each of its variants. `build.rs` does so with the feature `link`;
-//! a test compares the result with the files in `shaders/linked`.
+//! Links every kernel to plain WGSL, once for each of its variants. `make shaders` writes the result to `shaders/linked`;
+//! a test compares them.
+
+#[path = "../../../shaders/sources.rs"]
+mod sources;
+
+pub use sources::{SOURCES, sums};
 
 use naga::{
     Expression, Function, MathFunction, Module, ScalarKind, TypeInner,
@@ -9,6 +14,7 @@ use std::{
     collections::{BTreeMap, BTreeSet},
     error::Error,
     panic::resume_unwind,
+    path::Path,
     thread,
 };
 
@@ -68,8 +74,11 @@ fn indented_by_tabs(text: &str) -> String {
     text.lines().map(line).collect()
 }
 
-/// Names of files for `shaders/linked`, and their text. A broken import is an error.
-pub fn kernels() -> Result<Vec<(String, String)>, Box<dyn Error>> {
+/// Names of files for `shaders/linked`, and their text, of the sources in `folder`.
+///
+/// # Errors
+/// An import is broken, or naga rejects what was linked.
+pub fn kernels(folder: &Path) -> Result<Vec<(String, String)>, Box<dyn Error>> {
     // wesl takes seconds for each, on one thread.
     thread::scope(|scope| {
         let mut threads = Vec::new();
@@ -78,7 +87,8 @@ pub fn kernels() -> Result<Vec<(String, String)>, Box<dyn Error>> {
                 if variants.contains(&variant) {
                     let name = format!("{kernel}_{variant}.wgsl");
                     let text = scope.spawn(move || {
-                        linked(module, &[own, features].concat()).map_err(|error| error.to_string())
+                        linked(folder, module, &[own, features].concat())
+                            .map_err(|error| error.to_string())
                     });
                     threads.push((name, text));
                 }
@@ -93,8 +103,8 @@ pub fn kernels() -> Result<Vec<(String, String)>, Box<dyn Error>> {
 }
 
 /// A module of `shaders/kernels` with these features and all that it imports.
-fn linked(module: &str, features: &[&str]) -> Result<String, Box<dyn Error>> {
-    let mut compiler = wesl::Wesl::new("shaders");
+fn linked(folder: &Path, module: &str, features: &[&str]) -> Result<String, Box<dyn Error>> {
+    let mut compiler = wesl::Wesl::new(folder);
     compiler.set_custom_mangler(ShortNames);
     for feature in FEATURES {
         compiler.set_feature(feature, features.contains(&feature));
