@@ -20,18 +20,15 @@ export GLIMRAY_REQUIRE
 endif
 
 # Followed by names of Debian packages.
-install = sh -c 'echo "missing, to be installed: $$*"; \
-	command -v apt-get >/dev/null || { echo "There is no apt-get: install them by hand." >&2; exit 1; }; \
-	as_root=; [ "$$(id -u)" -eq 0 ] || as_root=sudo; \
-	$$as_root apt-get update && \
-	$$as_root env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-remove --no-install-recommends "$$@"' install
+install = $(MAKE) --no-print-directory setup PACKAGES=
 
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test test-all farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint features headless wasm
+.PHONY: help setup demo test test-all farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint features headless wasm
 
 help:
+	@echo 'make setup     install the packages of Debian or Ubuntu that targets need; a target calls it for those that it misses'
 	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
 	@echo 'make test      format, lints, documentation, all tests (about 40 minutes the first time)'
 	@echo 'make test-all  the same, and other sets of features, and WebAssembly (about 50 minutes the first time)'
@@ -47,8 +44,19 @@ help:
 	@echo 'make fuzz      fuzz everything that is read from files, each kind for ten minutes (nightly Rust)'
 	@echo 'make hand-in NAME=YourName'
 	@echo '               pack the exercise: code, readme, JPEG frames and video, in Exercise4-YourName.zip'
-	@echo 'The times are for 2 cores. Where no Vulkan adapter is found, each first installs the Vulkan loader'
-	@echo 'and the software driver of Mesa (Debian and Ubuntu, with apt-get).'
+	@echo 'The times are for 2 cores.'
+
+# A target that misses packages calls it for these alone. Installed packages stay as they are.
+PACKAGES := gcc libc6-dev g++ libvulkan1 mesa-vulkan-drivers libegl1 libgl1-mesa-dri xvfb xdotool
+setup:
+	@command -v apt-get >/dev/null || { echo 'There is no apt-get. Install by hand: $(PACKAGES)' >&2; exit 1; }; \
+	status() { dpkg-query --show --showformat='$${db:Status-Status}' "$$1" 2>/dev/null; }; \
+	missing=$$(for name in $(PACKAGES); do [ "$$(status "$$name")" = installed ] || echo "$$name"; done); \
+	[ -n "$$missing" ] || { echo 'All packages are installed: $(PACKAGES)'; exit 0; }; \
+	echo 'Installing with apt-get:' $$missing; \
+	as_root=; [ "$$(id -u)" -eq 0 ] || as_root=sudo; \
+	$$as_root apt-get update && \
+	$$as_root env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-remove --no-install-recommends $$missing
 
 # The renderer and its commands, without the window, videos and FLIP: a third of all crates, and no C++.
 demo: linker shaders
@@ -69,7 +77,7 @@ test-all: test features headless wasm
 # Skipped where it cannot be installed or started: it needs Debian or Ubuntu and root.
 farm-test: build driver
 	@{ command -v slurmctld && command -v slurmd && command -v munged; } >/dev/null || \
-		$(install) slurm-wlm munge || { echo 'farm-test: skipped, Slurm cannot be installed here'; exit 0; }; \
+		$(install)'slurm-wlm munge' || { echo 'farm-test: skipped, Slurm cannot be installed here'; exit 0; }; \
 		[ "$$(id -u)" -eq 0 ] || { echo 'farm-test: skipped, Slurm needs root here'; exit 0; }; \
 		command -v slurmctld >/dev/null || exit 0; \
 		tests/farm/slurm.sh $(GLIMRAY) assets/scenes
@@ -159,30 +167,30 @@ shaders: linker
 
 # Rust links with it.
 linker:
-	@command -v cc >/dev/null || { $(install) gcc libc6-dev; }
+	@command -v cc >/dev/null || $(install)'gcc libc6-dev'
 
 # FLIP, by which `compare` judges pictures, and the H.264 encoder are C++.
 compiler: linker
-	@command -v c++ >/dev/null || { $(install) g++; }
+	@command -v c++ >/dev/null || $(install)g++
 
 # Exit code 5 of `doctor`: there is no usable adapter.
 driver:
 	@if [ "$$(uname -s)" != Linux ]; then exit 0; fi; \
 	status=0; $(GLIMRAY) doctor --backend vulkan >/dev/null 2>&1 || status=$$?; \
 	if [ $$status -ne 5 ]; then exit 0; fi; \
-	$(install) libvulkan1 mesa-vulkan-drivers && $(GLIMRAY) doctor --backend vulkan
+	$(install)'libvulkan1 mesa-vulkan-drivers' && $(GLIMRAY) doctor --backend vulkan
 
 # The second driver that scenes are rendered with. Without it that test is skipped.
 opengl:
 	@if [ "$$(uname -s)" != Linux ]; then exit 0; fi; \
 	status=0; $(GLIMRAY) doctor --backend gl >/dev/null 2>&1 || status=$$?; \
-	if [ $$status -eq 5 ] && command -v apt-get >/dev/null; then $(install) libegl1 libgl1-mesa-dri; fi
+	if [ $$status -eq 5 ] && command -v apt-get >/dev/null; then $(install)'libegl1 libgl1-mesa-dri'; fi
 
 # An X server without a screen, and a program that moves its mouse. Without them tests of the real
 # window are skipped.
 display:
 	@if [ "$$(uname -s)" = Linux ] && command -v apt-get >/dev/null && \
-		! { command -v Xvfb && command -v xdotool; } >/dev/null; then $(install) xvfb xdotool; fi
+		! { command -v Xvfb && command -v xdotool; } >/dev/null; then $(install)'xvfb xdotool'; fi
 
 lint: compiler shaders
 	@$(CARGO) fmt --version >/dev/null && $(CARGO) clippy --version >/dev/null || \
@@ -229,7 +237,7 @@ wasm:
 		[ -f "$$($(DEBIAN_RUSTC) --print sysroot 2>/dev/null)/lib/rustlib/src/rust/library/Cargo.toml" ] && \
 			$(DEBIAN_RUSTC) --version | awk '{ split($$2, v, "."); exit v[2] < $(RUST_MINOR) }'; \
 	}; \
-	if ! has_debian_rustc && command -v apt-get >/dev/null; then $(install) rustc-web rust-web-src; fi; \
+	if ! has_debian_rustc && command -v apt-get >/dev/null; then $(install)'rustc-web rust-web-src'; fi; \
 	if has_debian_rustc; then \
 		RUSTC_BOOTSTRAP=1 RUSTC=$(DEBIAN_RUSTC) $(CARGO) $(WASM) -Z build-std=std,panic_abort \
 			--target-dir $(TARGET)/wasm; exit; \
