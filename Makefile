@@ -22,16 +22,19 @@ endif
 # Followed by names of Debian packages.
 install = $(MAKE) --no-print-directory setup PACKAGES=
 
+# A reason, and the name by which GLIMRAY_REQUIRE asks for what is skipped.
+skip = echo 'skipped: $(1) ($(2))' >&2; case ",$$GLIMRAY_REQUIRE," in *,$(2),*) exit 1;; esac
+
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help setup demo test test-all farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint features headless wasm
+.PHONY: help setup demo test test-all farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint typos features headless wasm
 
 help:
 	@echo 'make setup     install the packages of Debian or Ubuntu that targets need; a target calls it for those that it misses'
 	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
 	@echo 'make test      format, lints, documentation, all tests (about 40 minutes the first time)'
-	@echo 'make test-all  the same, and other sets of features, and WebAssembly (about 50 minutes the first time)'
+	@echo 'make test-all  the same, spelling, sets of features, WebAssembly (about 50 minutes the first time)'
 	@echo 'make farm-test render on a Slurm of its own, which it installs (Debian, as root), and compare the bytes'
 	@echo 'make drivers   test on Mesa of Debian 13 and unstable and on SwiftShader, which it fetches (Debian)'
 	@echo 'make bench     measure speed on built-in scenes'
@@ -72,7 +75,7 @@ test: lint
 	$(CARGO) test $(FLAGS)
 
 # Checks that take long and seldom fail after a change that passes the tests.
-test-all: test features headless wasm
+test-all: typos test features headless wasm
 
 # Skipped where it cannot be installed or started: it needs Debian or Ubuntu and root.
 farm-test: build driver
@@ -199,6 +202,14 @@ lint: compiler shaders
 	$(CARGO) clippy $(FLAGS) --all-targets -- --deny warnings
 	RUSTDOCFLAGS=--deny=warnings $(CARGO) doc $(FLAGS) --no-deps
 
+# Spelling, by typos.toml. PyPI has the program as a wheel; cargo would take minutes to compile it.
+typos:
+	@PATH="$$PATH:$(TOOLS)/typos/bin"; \
+	command -v typos >/dev/null || \
+		{ python3 -m venv $(TOOLS)/typos && $(TOOLS)/typos/bin/pip install typos==1.52.0; } >/dev/null 2>&1; \
+	if command -v typos >/dev/null; then typos; \
+	else $(call skip,typos is missing: it needs PyPI and python3 with venv,typos); fi
+
 # The library alone, with what links its kernels, and sets of features: each feature is in one set with which each other
 # one is not, so that none uses what only another one has (a test checks it). Nine features need five sets; each by itself
 # would take twice the time. `link` is a feature of the build script alone. The sets have some packages of `archive` and
@@ -242,5 +253,4 @@ wasm:
 		RUSTC_BOOTSTRAP=1 RUSTC=$(DEBIAN_RUSTC) $(CARGO) $(WASM) -Z build-std=std,panic_abort \
 			--target-dir $(TARGET)/wasm; exit; \
 	fi; \
-	echo 'skipped: there is no compiler for wasm32-unknown-unknown (wasm)' >&2; \
-	case ",$$GLIMRAY_REQUIRE," in *,wasm,*) exit 1;; esac
+	$(call skip,there is no compiler for wasm32-unknown-unknown,wasm)

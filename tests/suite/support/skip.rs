@@ -25,6 +25,8 @@ pub enum Need {
     Special,
     /// The scenes of the Standard Procedural Database.
     Spd,
+    /// The spelling checker `typos`. No test needs it: `make typos` does.
+    Typos,
     /// A compiler for WebAssembly. No test needs it: `make wasm` does.
     Wasm,
     /// An X server without a screen, and xdotool to move its mouse.
@@ -32,7 +34,7 @@ pub enum Need {
 }
 
 impl Need {
-    const ALL: [Self; 11] = [
+    const ALL: [Self; 12] = [
         Self::Examples,
         Self::Ffmpeg,
         Self::Git,
@@ -42,6 +44,7 @@ impl Need {
         Self::Mounts,
         Self::Special,
         Self::Spd,
+        Self::Typos,
         Self::Wasm,
         Self::Xvfb,
     ];
@@ -57,6 +60,7 @@ impl Need {
             Self::Mounts => "mounts",
             Self::Special => "special",
             Self::Spd => "spd",
+            Self::Typos => "typos",
             Self::Wasm => "wasm",
             Self::Xvfb => "xvfb",
         }
