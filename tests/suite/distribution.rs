@@ -378,6 +378,7 @@ fn links_of_pages_lead_to_files_and_pictures_of_the_gallery_are_on_pages() {
             "Dockerfile",
             "LICENSE-APACHE",
             "LICENSE-MIT",
+            "deny.toml",
             "typos.toml",
         ]
         .map(str::to_owned),

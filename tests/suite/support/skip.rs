@@ -7,6 +7,10 @@ use std::io::Write;
 /// Optional requirements of tests, and their names in `GLIMRAY_REQUIRE`: `GLIMRAY_REQUIRE=gl,xvfb`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
+    /// The database of advisories on crates. No test needs it: `make deny` does.
+    Advisories,
+    /// `cargo-deny`. No test needs it: `make deny` does.
+    Deny,
     /// Built examples, which `cargo test` without `--test` builds.
     Examples,
     /// The programs of FFmpeg, `ffmpeg` and `ffprobe`.
@@ -34,7 +38,9 @@ pub enum Need {
 }
 
 impl Need {
-    const ALL: [Self; 12] = [
+    const ALL: [Self; 14] = [
+        Self::Advisories,
+        Self::Deny,
         Self::Examples,
         Self::Ffmpeg,
         Self::Git,
@@ -51,6 +57,8 @@ impl Need {
 
     fn name(self) -> &'static str {
         match self {
+            Self::Advisories => "advisories",
+            Self::Deny => "deny",
             Self::Examples => "examples",
             Self::Ffmpeg => "ffmpeg",
             Self::Git => "git",
