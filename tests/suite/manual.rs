@@ -4,6 +4,7 @@
 mod commands;
 mod formats;
 mod generated;
+mod items;
 mod links;
 mod native_reference;
 mod pages;
