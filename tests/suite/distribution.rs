@@ -358,6 +358,7 @@ fn cargo(arguments: &[&str]) -> Output {
 fn links_of_pages_lead_to_files_and_pictures_of_the_gallery_are_on_pages() {
     let mut names: Vec<String> = [
         "README.md",
+        "ARCHITECTURE.md",
         "CHANGELOG.md",
         "CONTRIBUTING.md",
         "SECURITY.md",

@@ -1,11 +1,12 @@
-//! Recipes name items with their files, as in `src/scene/shape.rs: CanonicalShape`, and the files have them.
+//! Recipes and the map of the code name items with their files, as in `src/scene/shape.rs: CanonicalShape`, and the
+//! files have them.
 
 use super::pages::manual;
 use crate::support::verdict::Verdict;
 use std::fs;
 
 /// Pages whose quotations are read.
-const PAGES: [&str; 1] = ["docs/src/contributing/"];
+const PAGES: [&str; 2] = ["ARCHITECTURE.md", "docs/src/contributing/"];
 
 /// The file and the items of a quotation of the form `path: item, item`; `None` for other forms.
 fn file_and_items(quoted: &str) -> Option<(&str, Vec<&str>)> {
@@ -42,8 +43,8 @@ fn items_are_told_from_other_quotations() {
 }
 
 #[test]
-fn items_of_recipes_are_in_their_files() {
-    let mut verdict = Verdict::on("items of recipes");
+fn items_are_in_their_files() {
+    let mut verdict = Verdict::on("items of pages");
     let is_read = |path: &str| PAGES.iter().any(|start| path.starts_with(start));
     for page in manual().into_iter().filter(|page| is_read(&page.path)) {
         for quoted in page.quoted() {
