@@ -8,7 +8,7 @@ FLAGS := --profile ci --locked
 GLIMRAY = $(TARGET)/release/glimray
 demo test drivers: GLIMRAY = $(TARGET)/ci/glimray
 
-# Mesa's device-select layer complains on machines without a desktop session (see src/cli/mesa.rs).
+# Mesa's device-select layer complains on machines without a desktop session (see crates/cli/src/mesa.rs).
 export NODEVICE_SELECT := 1
 
 # A test that lacks one of these fails instead of being skipped (tests/suite/support/skip.rs): what
@@ -70,9 +70,9 @@ demo: linker shaders
 
 # Tests are built first, the program with them: `driver` needs it.
 test: lint
-	$(CARGO) test $(FLAGS) --no-run
+	$(CARGO) test $(FLAGS) --workspace --no-run
 	@$(MAKE) --no-print-directory driver opengl display GLIMRAY=$(GLIMRAY)
-	$(CARGO) test $(FLAGS)
+	$(CARGO) test $(FLAGS) --workspace
 
 # Checks that take long and seldom fail after a change that passes the tests.
 test-all: typos deny test features headless wasm
@@ -111,7 +111,7 @@ gallery: build driver display
 MDBOOK_VERSION := 0.5.4
 TOOLS := $(abspath $(TARGET)/tools)
 SITE := $(abspath $(TARGET)/site)
-LINKED := assets benches examples shaders src tests build.rs
+LINKED := assets benches crates examples shaders src tests
 docs: linker
 	@[ -x $(TOOLS)/bin/mdbook ] || $(CARGO) install mdbook --version $(MDBOOK_VERSION) --locked \
 		--no-default-features --features search --root $(TOOLS)
@@ -166,7 +166,7 @@ build: compiler shaders
 shaders: linker
 	@cd shaders && find * -name '*.wesl' | LC_ALL=C sort | xargs cksum | diff - linked/sources.txt > /dev/null 2>&1 || { \
 		cd .. && echo 'A shader has changed: linking the kernels again.' && \
-		$(CARGO) check $(FLAGS) --lib --no-default-features --features link; }
+		$(CARGO) run $(FLAGS) --quiet --package glimray-link; }
 
 # Rust links with it.
 linker:
@@ -198,9 +198,9 @@ display:
 lint: compiler shaders
 	@$(CARGO) fmt --version >/dev/null && $(CARGO) clippy --version >/dev/null || \
 		rustup component add rustfmt clippy
-	$(CARGO) fmt --check
-	$(CARGO) clippy $(FLAGS) --all-targets -- --deny warnings
-	RUSTDOCFLAGS=--deny=warnings $(CARGO) doc $(FLAGS) --no-deps
+	$(CARGO) fmt --all --check
+	$(CARGO) clippy $(FLAGS) --workspace --all-targets -- --deny warnings
+	RUSTDOCFLAGS=--deny=warnings $(CARGO) doc $(FLAGS) --workspace --no-deps
 
 # Spelling, by typos.toml. PyPI has the program as a wheel; cargo would take minutes to compile it.
 typos:
@@ -219,9 +219,9 @@ deny:
 	if $(CARGO) deny --locked fetch db; then $(CARGO) deny --locked check advisories; \
 	else $(call skip,the database of advisories cannot be reached,advisories); fi
 
-# The library alone, with what links its kernels, and sets of features: each feature is in one set with which each other
+# Sets of features: each feature is in one set with which each other
 # one is not, so that none uses what only another one has (a test checks it). Nine features need five sets; each by itself
-# would take twice the time. `link` is a feature of the build script alone. The sets have some packages of `archive` and
+# would take twice the time. The sets have some packages of `archive` and
 # `gl` in common: then they share what they build. Other code that uses these packages shows without any set.
 FEATURE_SETS := draco,flip,video archive,basis,draco,gl gl,parallel,video archive,flip,viewer basis,parallel,viewer
 SHARED_PACKAGES := rustix/process wgpu/gles zip/deflate-flate2-zlib-rs
@@ -230,7 +230,7 @@ features: compiler
 		echo "without default features, with: $$1"; \
 		$(CARGO) clippy --quiet $(FLAGS) --lib --bins --no-default-features --features "$$1 $$2" -- --deny warnings; \
 	}; \
-	lint link && for features in $(FEATURE_SETS); do lint "$$features" '$(SHARED_PACKAGES)' || exit; done
+	for features in $(FEATURE_SETS); do lint "$$features" '$(SHARED_PACKAGES)' || exit; done
 
 # The library alone and the demo have nothing of a window system, or of C and C++; the library nothing of
 # the program either.

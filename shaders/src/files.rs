@@ -22,8 +22,7 @@ pub fn read(path: &str) -> Result<String, String> {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
     std::fs::read_to_string(&path).map_err(|error| {
         format!(
-            "{}: {error}. This is a development build, which reads kernels when they are needed; \
-             a release build embeds them.",
+            "{}: {error}. Link the kernels with `make shaders`. Only release builds embed them.",
             path.display()
         )
     })

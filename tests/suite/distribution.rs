@@ -364,12 +364,11 @@ fn links_of_pages_lead_to_files_and_pictures_of_the_gallery_are_on_pages() {
         "SECURITY.md",
         "Cargo.toml",
         "Makefile",
-        "build.rs",
     ]
     .map(str::to_owned)
     .to_vec();
     for folder in [
-        "assets", "benches", "docs", "examples", "shaders", "src", "tests",
+        "assets", "benches", "crates", "docs", "examples", "shaders", "src", "tests",
     ] {
         names.extend(all_files(Path::new(folder)));
     }
@@ -410,10 +409,17 @@ fn links_of_pages_lead_to_files_and_pictures_of_the_gallery_are_on_pages() {
 /// Bytes that the package may have before it is compressed: twice what source, shaders and scenes need.
 const MOST_PACKED: u64 = 12 << 20;
 
+/// Names of the files in a package.
+fn packed(package: &str) -> Vec<String> {
+    let list = ["package", "--list", "--allow-dirty", "--offline", "--package", package];
+    let list = String::from_utf8(cargo(&list).stdout).expect("UTF-8");
+    list.replace('\\', "/").lines().map(str::to_owned).collect()
+}
+
 #[test]
 fn the_package_has_what_is_built_and_shown_and_nothing_else() {
-    const PARTS: [&str; 4] = ["assets/scenes/", "examples/", "shaders/", "src/"];
-    const FILES: [&str; 9] = [
+    const PARTS: [&str; 3] = ["assets/scenes/", "examples/", "src/"];
+    const FILES: [&str; 8] = [
         ".cargo_vcs_info.json",
         "CHANGELOG.md",
         "Cargo.lock",
@@ -422,52 +428,53 @@ fn the_package_has_what_is_built_and_shown_and_nothing_else() {
         "LICENSE-APACHE",
         "LICENSE-MIT",
         "README.md",
-        "build.rs",
     ];
-    let list = cargo(&["package", "--list", "--allow-dirty", "--offline"]).stdout;
-    let list = String::from_utf8(list).expect("UTF-8").replace('\\', "/");
-    let is_made = |name: &&str| name.starts_with(".cargo_vcs") || name.ends_with(".orig");
-    let files: BTreeMap<_, _> = (list.lines())
-        .filter(|name| !is_made(name))
-        .map(|name| (name.to_owned(), fs::read(name).expect(name)))
-        .collect();
+    let names = packed("glimray");
     let mut verdict = Verdict::on("the package");
-    for name in files.keys() {
+    for name in &names {
         let is_known = FILES.contains(&&**name) || PARTS.iter().any(|part| name.starts_with(part));
         verdict.that(name, is_known, || "has no business there");
     }
-    // All that the compiler reads is there.
-    for folder in ["src", "shaders", "examples"] {
-        for name in all_files(Path::new(folder)) {
-            verdict.that(&name, has(files.keys(), &name), || "is missing");
+    let files = names.iter().filter_map(|name| fs::metadata(name).ok());
+    let size: u64 = files.map(|file| file.len()).sum();
+    verdict.that("size", size < MOST_PACKED, || format!("{size} bytes"));
+    verdict.close();
+}
+
+/// Folders of published packages, and the folders there that the compiler reads.
+const PUBLISHED: [(&str, &str, &[&str]); 5] = [
+    ("glimray", "", &["src", "examples", "assets/scenes"]),
+    ("glimray-io", "crates/io/", &["src"]),
+    ("glimray-render", "crates/render/", &["src"]),
+    ("glimray-scene", "crates/scene/", &["src"]),
+    (
+        "glimray-shaders",
+        "shaders/",
+        &["src", "kernels", "lib", "linked", "scene", "types"],
+    ),
+];
+
+#[test]
+fn packages_have_all_that_the_compiler_reads() {
+    let mut verdict = Verdict::on("packages");
+    for (package, root, folders) in PUBLISHED {
+        let names = packed(package);
+        for folder in folders {
+            for name in all_files(Path::new(&format!("{root}{folder}"))) {
+                let name = name.strip_prefix(root).expect("the root");
+                // Models are left out.
+                let is_there = name.ends_with(".glb") || names.iter().any(|known| known == name);
+                verdict.that(format!("{package}: {name}"), is_there, || "is missing");
+            }
         }
-    }
-    let mut read_by_sources = 0;
-    for (name, text) in files.iter().filter(|(name, _)| name.ends_with(".rs")) {
-        let text = String::from_utf8_lossy(text);
-        for (_, rest) in text
-            .match_indices("assets/")
-            .map(|(at, _)| text.split_at(at))
-        {
-            let path: String = rest
-                .chars()
-                .take_while(|c| c.is_alphanumeric() || "/._".contains(*c))
-                .collect();
-            if path.ends_with(".toml") || path.ends_with(".scene") {
-                read_by_sources += 1;
-                verdict.that(
-                    format!("{name}: {path}"),
-                    has(files.keys(), &path),
-                    || "is missing",
-                );
+        for name in names.iter().filter(|name| name.ends_with(".rs")) {
+            let text = fs::read_to_string(format!("{root}{name}")).expect("a source");
+            for embedded in text.split("include_").skip(1) {
+                let climbs = (embedded.split(';').next()).is_some_and(|call| call.contains("../"));
+                verdict.that(format!("{package}: {name}"), !climbs, || "reads a file outside");
             }
         }
     }
-    assert!(read_by_sources > 3, "{read_by_sources}");
-    let size: usize = files.values().map(Vec::len).sum();
-    verdict.that("size", (size as u64) < MOST_PACKED, || {
-        format!("{size} bytes")
-    });
     verdict.close();
 }
 

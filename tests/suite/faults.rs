@@ -1,4 +1,4 @@
-//! GPU failures as a user sees them, injected through `GLIMRAY_FAULT` (see `src/gpu/fault.rs`): the same
+//! GPU failures as a user sees them, injected through `GLIMRAY_FAULT` (see `crates/render/src/gpu/fault.rs`): the same
 //! picture after a lost device, or one clear line and an exit code, and never a partial file.
 
 use crate::reference::compare::assert_none;

@@ -354,7 +354,7 @@ fn no_kernel_needs_more_storage_buffers_than_webgpu_guarantees() {
 #[test]
 fn the_host_sets_every_override() {
     let mut verdict = Verdict::on("overrides");
-    let host: String = ["src/gpu", "src/render"]
+    let host: String = ["crates/render/src/gpu", "crates/render/src", "shaders/src"]
         .iter()
         .flat_map(|folder| fs::read_dir(folder).expect("a folder"))
         .filter_map(|entry| fs::read_to_string(entry.expect("an entry").path()).ok())

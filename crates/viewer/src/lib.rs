@@ -16,7 +16,7 @@ use glimray_app::window::{ViewRequest, Window};
 use model::preferences::Store;
 use state::session::Session;
 
-/// The window as [`glimray_cli`] sees it.
+/// The window as the command line sees it.
 pub const WINDOW: Window = Window {
     has_display: window::has_display,
     open,

@@ -1,26 +1,25 @@
 //! Modules beside each other form no circle, and the window's tiers import downwards only: a reader of a
 //! module need not read its users first.
 
-use super::{code, files};
+use super::{code, package_of, rust_files};
 use crate::support::verdict::Verdict;
 use std::{
     collections::{BTreeMap, BTreeSet},
+    iter,
     path::{Path, PathBuf},
 };
 
-/// A module by the names that lead to it from the crate's root.
+/// A module by its package and the names that lead to it from its root.
 type Name = Vec<String>;
 
-/// The module in a file below `src/`; the crate's root for `lib.rs` and `main.rs`.
+/// The module in a source; the root of the package for `lib.rs` and `main.rs`.
 fn module_of(path: &Path) -> Name {
-    let names = path.with_extension("");
-    let names: Name = (names.iter().skip(1))
-        .map(|name| name.to_string_lossy().into_owned())
-        .collect();
-    match names[0].as_str() {
-        "lib" | "main" => Vec::new(),
-        _ => names,
-    }
+    let (package, below) = package_of(path);
+    let below = below.with_extension("");
+    let names = below.iter().map(|name| name.to_string_lossy().into_owned());
+    let is_root = below == Path::new("lib") || below == Path::new("main");
+    let names = names.take(if is_root { 0 } else { usize::MAX });
+    iter::once(package).chain(names).collect()
 }
 
 /// Every path in the code that begins with `crate`, `super`, `self` or a module below, lists taken apart.
@@ -77,7 +76,7 @@ fn take_apart<'a>(tree: &'a str, before: &[&'a str], found: &mut Vec<Vec<&'a str
 fn target(path: &[&str], here: &Name, modules: &BTreeSet<Name>) -> Option<Name> {
     let climbs = path.iter().take_while(|name| **name == "super").count();
     let start: &[String] = match path.first() {
-        Some(&"crate") => &[],
+        Some(&"crate") => &here[..1],
         Some(&"super") => here.get(..here.len().checked_sub(climbs)?)?,
         _ => here,
     };
@@ -137,7 +136,7 @@ fn leads(uses: &BTreeMap<String, BTreeSet<String>>, from: &str, to: &str) -> boo
 #[test]
 fn modules_beside_each_other_form_no_circle() {
     let mut verdict = Verdict::on("circles");
-    for (folder, uses) in uses(&files("src", "rs")) {
+    for (folder, uses) in uses(&rust_files()) {
         for (user, used) in &uses {
             for used in used {
                 let is_circle = leads(&uses, used, user);
@@ -155,7 +154,7 @@ const WINDOW_TIERS: [&str; 7] = [
     "window", "bench", "ui", "actions", "state", "model", "worker",
 ];
 
-/// Imports in `src/viewer` that do not lead down the tiers.
+/// Imports in `crates/viewer/src` that do not lead down the tiers.
 fn upward_imports(files: &[(PathBuf, String)]) -> Vec<(String, String)> {
     let tier = |name: &str| WINDOW_TIERS.iter().position(|tier| *tier == name);
     let uses = uses(files).remove("viewer").unwrap_or_default();
@@ -169,29 +168,30 @@ fn upward_imports(files: &[(PathBuf, String)]) -> Vec<(String, String)> {
 
 #[test]
 fn the_windows_tiers_import_downwards_only() {
-    let mut files = files("src", "rs");
+    let mut files = rust_files();
     assert_eq!(upward_imports(&files), []);
     let folders: BTreeSet<_> = (files.iter())
-        .filter_map(|(path, _)| path.strip_prefix("src/viewer").ok())
+        .filter_map(|(path, _)| path.strip_prefix("crates/viewer/src").ok())
         .filter_map(|path| path.with_extension("").iter().next().map(|n| n.to_owned()))
+        .filter(|name| name != "lib")
         .collect();
     let tiers: BTreeSet<_> = WINDOW_TIERS.iter().map(|tier| (*tier).into()).collect();
     assert_eq!(folders, tiers, "a folder that is no tier");
     // The test sees an import that leads up.
     let model = files
         .iter_mut()
-        .find(|(path, _)| path.ends_with("viewer/model/document.rs"));
+        .find(|(path, _)| path.ends_with("viewer/src/model/document.rs"));
     let (_, text) = model.expect("a file of the model");
-    text.push_str("use crate::viewer::ui::panels;");
+    text.push_str("use crate::ui::panels;");
     assert_eq!(upward_imports(&files), [("model".into(), "ui".into())]);
 }
 
 #[test]
 fn paths_are_followed_to_their_modules() {
-    let modules: BTreeSet<Name> = ["a", "a/b", "a/b/c", "d"]
+    let modules: BTreeSet<Name> = ["x", "x/a", "x/a/b", "x/a/b/c", "x/d"]
         .map(|name| name.split('/').map(str::to_owned).collect())
         .into();
-    let here: Name = ["a", "b"].map(str::to_owned).into();
+    let here: Name = ["x", "a", "b"].map(str::to_owned).into();
     let found = |code: &str| {
         let targets = paths_in(code).into_iter();
         let targets = targets.filter_map(|path| target(&path, &here, &modules));
@@ -200,9 +200,9 @@ fn paths_are_followed_to_their_modules() {
             .collect::<Vec<_>>()
             .join(" ")
     };
-    assert_eq!(found("use crate::d::Thing;"), "d d");
-    assert_eq!(found("use super::super::d::{self, Thing};"), "d d d");
-    assert_eq!(found("use c::{One, Two};"), "a/b/c a/b/c");
-    assert_eq!(found("fn f() { super::b::g() }"), "a/b");
+    assert_eq!(found("use crate::d::Thing;"), "x/d x/d");
+    assert_eq!(found("use super::super::d::{self, Thing};"), "x/d x/d x/d");
+    assert_eq!(found("use c::{One, Two};"), "x/a/b/c x/a/b/c");
+    assert_eq!(found("fn f() { super::b::g() }"), "x/a/b");
     assert_eq!(found("use std::fmt;"), "");
 }

@@ -1,4 +1,4 @@
-//! Recipes and the map of the code name items with their files, as in `src/scene/shape.rs: CanonicalShape`, and the
+//! Recipes and the map of the code name items with their files, as in `crates/scene/src/shape.rs: CanonicalShape`, and the
 //! files have them.
 
 use super::pages::manual;

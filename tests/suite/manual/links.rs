@@ -92,9 +92,10 @@ fn links_of_the_book_work_in_the_built_book_too() {
 
 #[test]
 fn files_and_tests_that_the_manual_names_are_there() {
-    const FOLDERS: [&str; 7] = [
+    const FOLDERS: [&str; 8] = [
         "assets/",
         "benches/",
+        "crates/",
         "examples/",
         "fuzz/",
         "shaders/",
@@ -137,7 +138,7 @@ fn is_identifier(name: &str) -> bool {
 #[test]
 fn names_in_internals_and_recipes_are_in_the_code() {
     let mut code = String::new();
-    let mut open = ["src", "shaders", "tests/suite"]
+    let mut open = ["crates", "src", "shaders", "tests/suite"]
         .map(PathBuf::from)
         .to_vec();
     while let Some(path) = open.pop() {
