@@ -65,8 +65,7 @@
 //! * **Limits are reported**: samples that had to be cut off are counted ([`render::Stats`]), and parts
 //!   of a scene that had to be skipped are listed ([`scene::Scene::skipped`]).
 //! * **Errors**: one enum for each module that can fail, with the information that a user needs. Only
-//!   [`app`] and [`cli`] print, exit or mention flags. A bad file, a missing GPU or a full disk never causes a
-//!   panic.
+//!   the program prints, exits or mentions flags. A bad file, a missing GPU or a full disk never causes a panic.
 //!
 //! # Features
 //!
@@ -76,7 +75,7 @@
 //!
 //! | feature | adds |
 //! |---|---|
-//! | `cli` | [`cli`], the program |
+//! | `cli` | the program |
 //! | `viewer` | the window of `glimray view`; brings `cli` |
 //! | `video` | MP4 and GIF |
 //! | `basis` | KTX2 pictures |
@@ -86,32 +85,28 @@
 //!
 //! # Map
 //!
-//! | module | does | uses |
+//! | module | does | package |
 //! |---|---|---|
-//! | [`scene`] | the host model, with every question settled | `threads` |
+//! | [`scene`] | the host model, with every question settled | `glimray-scene` |
 //! | [`bytes`] | sizes in messages | |
 //! | [`threads`] | work on slices by all cores | |
-//! | [`import`] | file → `Scene`, one file for each format; files come from an [`import::Resolver`] | `scene`, `threads` |
-//! | [`bvh`] | boxes → tree of four-way nodes | `threads` |
-//! | [`layout`] | the structs and tags that shaders also see | |
-//! | [`pack`] | `Scene` → arrays for the GPU; no device needed | `scene`, `bvh`, `layout` |
-//! | [`gpu`] | the device, its memory, its loss, its errors | |
-//! | [`render`] | steps, films that are written and merged, adaptive rounds, developing, ray trees | `pack`, `layout`, `gpu`, `image`, `scene`, `threads` |
-//! | [`export`] | `Scene` → native scene file | `scene` |
 //! | [`image`](mod@image) | a finished picture in memory | |
-//! | [`output`] | `Image` → file, frames → video, complete or absent | `image` |
-//! | [`app`] | what the command line and the window share | everything above |
-//! | [`cli`] | the commands | `app` and everything above |
-//! | [`viewer`] | the window of `glimray view` | `app` and everything above |
+//! | [`import`] | file → `Scene`, one file for each format; files come from an [`import::Resolver`] | `glimray-io` |
+//! | [`export`] | `Scene` → native scene file | |
+//! | [`output`] | `Image` → file, frames → video, complete or absent | |
+//! | [`bvh`] | boxes → tree of four-way nodes | `glimray-render` |
+//! | [`layout`] | the structs and tags that shaders also see | |
+//! | [`pack`] | `Scene` → arrays for the GPU; no device needed | |
+//! | [`gpu`] | the device, its memory, its loss, its errors | |
+//! | [`render`] | steps, films that are written and merged, adaptive rounds, developing, ray trees | |
 //!
-//! The shaders are in `shaders/`: `types.wesl` (shared structs), `types/` (those of shaders alone),
-//! `bindings.wesl` (all bindings and overrides), `lib/` (pure functions), `scene/` (functions that read
-//! bindings), `kernels/` (entry points). The binary embeds them linked to plain WGSL (`shaders/linked`),
-//! which `make shaders` updates.
+//! `glimray-shaders` has the kernels. `ARCHITECTURE.md` in the repository says which package uses which, and where to
+//! find things.
 
-#[cfg(not(target_arch = "wasm32"))]
 #[doc(inline)]
 pub use glimray_io::output;
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 #[doc(inline)]
 pub use glimray_io::{export, import};
 #[doc(inline)]

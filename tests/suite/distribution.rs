@@ -411,7 +411,14 @@ const MOST_PACKED: u64 = 12 << 20;
 
 /// Names of the files in a package.
 fn packed(package: &str) -> Vec<String> {
-    let list = ["package", "--list", "--allow-dirty", "--offline", "--package", package];
+    let list = [
+        "package",
+        "--list",
+        "--allow-dirty",
+        "--offline",
+        "--package",
+        package,
+    ];
     let list = String::from_utf8(cargo(&list).stdout).expect("UTF-8");
     list.replace('\\', "/").lines().map(str::to_owned).collect()
 }
@@ -471,7 +478,11 @@ fn packages_have_all_that_the_compiler_reads() {
             let text = fs::read_to_string(format!("{root}{name}")).expect("a source");
             for embedded in text.split("include_").skip(1) {
                 let climbs = (embedded.split(';').next()).is_some_and(|call| call.contains("../"));
-                verdict.that(format!("{package}: {name}"), !climbs, || "reads a file outside");
+                verdict.that(
+                    format!("{package}: {name}"),
+                    !climbs,
+                    || "reads a file outside",
+                );
             }
         }
     }

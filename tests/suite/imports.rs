@@ -37,11 +37,16 @@ const MODULES: &[(&str, &str, &[&str])] = &[
     ("render", "gpu", &["bytes", "shaders"]),
     ("scene", "threads", &[]),
     ("render", "bvh", &["threads"]),
-    ("io", "import", &["bytes", "random", "scene", "text", "threads"]),
+    (
+        "io",
+        "import",
+        &["bytes", "random", "scene", "text", "threads"],
+    ),
     ("io", "export", &["scene", "text"]),
     ("render", "pack", &["clock", "scene", "bvh", "layout"]),
     (
-        "render", "render",
+        "render",
+        "render",
         &[
             "bytes", "clock", "random", "scene", "threads", "pack", "layout", "gpu", "image",
         ],
@@ -49,7 +54,8 @@ const MODULES: &[(&str, &str, &[&str])] = &[
     ("io", "output", &["bytes", "image", "text"]),
     ("io", "io", &[]),
     (
-        "app", "app",
+        "app",
+        "app",
         &[
             "bytes", "clock", "scene", "image", "gpu", "import", "export", "pack", "render",
             "output", "text",
@@ -107,7 +113,10 @@ fn package_of(path: &Path) -> (String, PathBuf) {
     let names: Vec<_> = path.iter().map(|name| name.to_string_lossy()).collect();
     let at = (names.iter().position(|name| name == "src")).expect("a source is below src");
     let package = at.checked_sub(1).map_or("", |before| &*names[before]);
-    (package.to_owned(), names[at + 1..].iter().map(|name| &**name).collect())
+    (
+        package.to_owned(),
+        names[at + 1..].iter().map(|name| &**name).collect(),
+    )
 }
 
 /// The module of a name in a package: the one of this name, else the one that the package is named for.
@@ -227,7 +236,10 @@ fn packages_use_only_what_they_may() {
         let manifest = fs::read_to_string(folder + "Cargo.toml").expect("a manifest");
         let manifest: toml::Table = manifest.parse().expect("TOML");
         let used = manifest["dependencies"].as_table().expect("a table");
-        let used: Vec<_> = used.keys().filter_map(|name| name.strip_prefix("glimray-")).collect();
+        let used: Vec<_> = used
+            .keys()
+            .filter_map(|name| name.strip_prefix("glimray-"))
+            .collect();
         verdict.that(package, used == *allowed, || format!("{used:?}"));
     }
     let folders = fs::read_dir("crates").expect("a folder");
@@ -256,7 +268,10 @@ fn modules_use_only_what_they_may() {
         let part = module_of(&path);
         (path, part, uses)
     });
-    let table: Vec<_> = MODULES.iter().map(|(_, name, allowed)| (*name, *allowed)).collect();
+    let table: Vec<_> = MODULES
+        .iter()
+        .map(|(_, name, allowed)| (*name, *allowed))
+        .collect();
     check_directions("sources", rows, &table);
 }
 

@@ -52,7 +52,8 @@ fn trigger(text: &str) -> Trigger {
 
 /// The table of a preset as it stands in the source.
 fn written(name: &str) -> BTreeMap<String, String> {
-    let source = fs::read_to_string("crates/viewer/src/model/bindings/preset.rs").expect("the source");
+    let source =
+        fs::read_to_string("crates/viewer/src/model/bindings/preset.rs").expect("the source");
     let start = source
         .find(&format!("const {name}: &str = \""))
         .expect("the table");

@@ -54,6 +54,7 @@ pub struct FilmHeader {
 /// are cut, the parts merge to the bytes of one run:
 ///
 /// ```
+/// # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
 /// use glimray::gpu::{AdapterChoice, Gpu};
 /// use glimray::render::{ExecutionPolicy, Film, RenderSettings, Renderer, SAMPLE_BLOCK};
 /// use glimray::{import, pack};

@@ -88,6 +88,7 @@ use work::Work;
 /// positions:
 ///
 /// ```
+/// # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
 /// use glimray::gpu::{AdapterChoice, Gpu};
 /// use glimray::render::{ExecutionPolicy, RenderSettings, Renderer, Tone};
 /// use glimray::{import, pack};

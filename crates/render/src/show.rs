@@ -20,6 +20,7 @@ use wgpu::BindingResource;
 /// the tone, premultiplied alpha. A program draws it on its own device while the picture develops; nothing waits for the GPU:
 ///
 /// ```
+/// # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
 /// use glimray::gpu::Gpu;
 /// use glimray::render::{ExecutionPolicy, RenderSettings, Renderer, Status, Tone};
 /// use glimray::{import, pack};
