@@ -103,10 +103,9 @@
 //! `glimray-shaders` has the kernels. `ARCHITECTURE.md` in the repository says which package uses which, and where to
 //! find things.
 
+#[cfg(not(target_arch = "wasm32"))]
 #[doc(inline)]
 pub use glimray_io::output;
-#![cfg_attr(docsrs, feature(doc_cfg))]
-
 #[doc(inline)]
 pub use glimray_io::{export, import};
 #[doc(inline)]

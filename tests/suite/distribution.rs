@@ -192,7 +192,9 @@ fn the_container_has_every_usual_feature_but_the_window_and_opengl() {
 #[test]
 fn containers_and_workflows_use_the_rust_of_the_manifest() {
     let manifest = manifest();
-    let version = manifest["package"]["rust-version"].as_str().expect("text");
+    let version = manifest["workspace"]["package"]["rust-version"]
+        .as_str()
+        .expect("text");
     for (path, begin) in [
         ("Dockerfile", "FROM rust:"),
         (".github/workflows/ci.yml", "rustup toolchain install "),
@@ -241,7 +243,9 @@ fn the_profile_of_tests_has_the_checks_of_the_program() {
 #[test]
 fn the_changelog_has_the_version_of_the_manifest() {
     let manifest = manifest();
-    let version = manifest["package"]["version"].as_str().expect("text");
+    let version = manifest["workspace"]["package"]["version"]
+        .as_str()
+        .expect("text");
     let changelog = read("CHANGELOG.md");
     let newest = changelog.lines().find_map(|line| line.strip_prefix("## "));
     let newest = newest.and_then(|line| line.split(' ').next());

@@ -3,7 +3,7 @@
 use super::{
     Features, PixelFeatures, RenderError,
     bindings::Buffers,
-    develop::{add_film_pass, check_memory},
+    film_pass::{add_film_pass, check_memory},
     layouts::{COLOR_FORMAT, GUIDE_FORMAT, Layouts, target},
     luminance::luminance,
     opacity::straight,

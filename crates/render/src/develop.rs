@@ -4,6 +4,7 @@ use super::{
     Fetch, Integrator, Quantity, RenderError, RenderSettings, Renderer, Slicing, Tone,
     bindings::Buffers,
     denoise,
+    film_pass::{PIXEL_BYTES, add_film_pass, check_memory},
     film_tile::{FilmTile, GroupOrder, rectangles},
     layouts::{Layouts, group},
     levels, overrides, pipelines,
@@ -11,7 +12,7 @@ use super::{
     sums::PixelRows,
 };
 use crate::{
-    gpu::{Gpu, GpuError, Kernel, Ledger, MEMORY_LIMIT_BYTES, Source},
+    gpu::{Gpu, GpuError, Kernel, Source},
     layout::{
         PackedDispatch, PackedFrame, PackedLight, PackedTone, TONE_ACES, TONE_AGX, TONE_NEUTRAL,
         TONE_NONE, TONE_REINHARD, TRANSFER_LINEAR, TRANSFER_SRGB,
@@ -26,7 +27,7 @@ impl Tone {
     /// Develops linear radiance to a picture, as [`Renderer::develop`] does with that of a renderer. Opacity is kept.
     ///
     /// # Errors
-    /// The device failed, or the picture exceeds [`MEMORY_LIMIT_BYTES`].
+    /// The device failed, or the picture exceeds [`crate::gpu::MEMORY_LIMIT_BYTES`].
     pub fn develop(&self, gpu: &Gpu, image: &Image) -> Result<Image, RenderError> {
         let (width, height) = (image.width, image.height);
         check_memory(width, height, PIXEL_BYTES)?;
@@ -240,32 +241,6 @@ impl Developer {
             image.put(cast_slice(bytes), tile.width, [tile.x - x, tile.y - y]);
         })
     }
-}
-
-/// Adds a pass of a kernel that reads the film, with its bind groups 1 to 3, for a grid of workgroups.
-pub fn add_film_pass(
-    encoder: &mut wgpu::CommandEncoder,
-    pipeline: &wgpu::ComputePipeline,
-    [frame, film, target]: [&wgpu::BindGroup; 3],
-    (columns, rows): (u32, u32),
-) {
-    let mut pass = encoder.begin_compute_pass(&Default::default());
-    pass.set_pipeline(pipeline);
-    pass.set_bind_group(1, frame, &[]);
-    pass.set_bind_group(2, film, &[]);
-    pass.set_bind_group(3, target, &[]);
-    pass.dispatch_workgroups(columns, rows, 1);
-}
-
-/// Bytes per pixel of a picture, its sums, and their copies for upload and readback.
-pub const PIXEL_BYTES: u64 = 64;
-
-/// Checks that a picture can be developed or denoised without a renderer, in so many bytes per pixel.
-pub fn check_memory(width: u32, height: u32, pixel_bytes: u64) -> Result<(), GpuError> {
-    let pixels = u64::from(width).saturating_mul(height.into());
-    let mut ledger = Ledger::default();
-    ledger.plan("picture and film", pixels.saturating_mul(pixel_bytes));
-    ledger.check(MEMORY_LIMIT_BYTES)
 }
 
 /// Develops weighted sums without a renderer: one row for each pixel of a region (x, y, width, height), row by row.

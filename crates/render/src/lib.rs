@@ -16,6 +16,7 @@ mod explain;
 mod exposure;
 mod features;
 mod film;
+mod film_pass;
 mod film_tile;
 mod film_tiles;
 mod fingerprint;

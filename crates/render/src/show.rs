@@ -3,7 +3,7 @@
 use super::{
     Levels, Quantity, RenderError, Renderer, Tone,
     denoise::Denoiser,
-    develop::add_film_pass,
+    film_pass::add_film_pass,
     layouts::{SCREEN_FORMAT, target},
     overrides, pipelines,
     slice::Slice,

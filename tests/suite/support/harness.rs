@@ -241,6 +241,7 @@ impl Harness {
         self.read(&staging)
     }
 
+    #[expect(unsafe_code, reason = "kernels are made in this way")]
     fn pipeline(
         &self,
         name: &str,

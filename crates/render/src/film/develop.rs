@@ -3,7 +3,8 @@
 use super::Film;
 use crate::{
     Levels, Quantity, RenderError, Tone,
-    develop::{PIXEL_BYTES, check_memory, develop_sums, sample_count_image},
+    develop::{develop_sums, sample_count_image},
+    film_pass::{PIXEL_BYTES, check_memory},
     gpu::Gpu,
     layers::{self, LayerKind},
     levels, opacity,
