@@ -1,7 +1,9 @@
 //! Fingerprints: things with the same fingerprint are treated as equal.
 
+use super::{Integrator, TriangleTest};
 use crate::pack::{Features, PackedScene, PackedView};
-use std::fmt;
+use glimray_scene::{Antialias, Filter};
+use std::{fmt, ops::Range};
 use xxhash_rust::xxh3::Xxh3;
 
 /// A 128-bit XXH3 hash, stable across runs, machines and builds. It detects accidental differences, not
@@ -143,4 +145,52 @@ impl Encoder {
     pub fn finish(self) -> Fingerprint {
         Fingerprint(self.0.digest128())
     }
+}
+
+/// A value in a fingerprint, the same in every build.
+pub(super) trait Encode {
+    fn encode(&self, encoder: &mut Encoder);
+}
+
+macro_rules! encode {
+    ($($type:ty: |$value:ident, $encoder:ident| $encoding:expr;)+) => {$(
+        impl Encode for $type {
+            fn encode(&self, $encoder: &mut Encoder) {
+                let $value = self;
+                $encoding;
+            }
+        }
+    )+};
+}
+
+encode! {
+    u32: |value, encoder| encoder.number(*value);
+    f32: |value, encoder| encoder.float(*value);
+    bool: |value, encoder| encoder.number((*value).into());
+    (u32, u32): |value, encoder| {
+        encoder.number(value.0);
+        encoder.number(value.1);
+    };
+    Option<[u32; 4]>: |value, encoder| encoder.option(*value);
+    Option<Range<u32>>: |value, encoder| {
+        encoder.option(value.as_ref().map(|range| [range.start, range.end]));
+    };
+    Integrator: |value, encoder| encoder.bytes(value.entry().name.as_bytes());
+    Antialias: |value, encoder| encoder.number(match value {
+        Antialias::None => 0,
+        Antialias::Stratified => 1,
+        Antialias::Adaptive => 2,
+    });
+    Filter: |value, encoder| encoder.number(match value {
+        Filter::Box => 0,
+        Filter::Tent => 1,
+        Filter::Gaussian => 2,
+        Filter::BlackmanHarris => 3,
+        Filter::Mitchell => 4,
+    });
+    TriangleTest: |value, encoder| encoder.number(match value {
+        TriangleTest::Plane => 0,
+        TriangleTest::MollerTrumbore => 1,
+        TriangleTest::Watertight => 2,
+    });
 }

@@ -1,6 +1,9 @@
 //! Render settings.
 
-use super::{Fingerprint, Integrator, fingerprint::Encoder};
+use super::{
+    Fingerprint, Integrator,
+    fingerprint::{Encode, Encoder},
+};
 use glimray_scene::{Antialias, Backdrop, Filter, LightTransport, OutputDefaults};
 use std::{fmt, ops::Range, str::FromStr};
 
@@ -14,85 +17,110 @@ pub const MIN_THROUGHPUT: f32 = 1.0 / 512.0;
 /// with 64 a sequence lasts for 8192 × 8192 pixels.
 const MAX_SHARED_SAMPLES: u32 = 64;
 
-/// Settings of one picture. Together with scene and frame they determine every pixel.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RenderSettings {
+/// Declares [`RenderSettings`], its defaults and its fingerprint from one row per setting:
+/// `name: type = default`.
+///
+/// The fingerprint has the values in the order of the rows. A row that ends in `, { pattern => "tag" [numbers], … }` adds only
+/// the tag and the numbers of the pattern that the value matches: without a match nothing, so that films from before that
+/// setting keep their fingerprint. The patterns know the settings by the name between bars.
+macro_rules! settings {
+    (|$settings:ident| $(
+        $(#[$doc:meta])*
+        $name:ident: $type:ty = $default:expr
+        $(, { $($pattern:pat $(if $condition:expr)? => $tag:literal $([$($number:expr),+])?),+ })?;
+    )+) => {
+        /// Settings of one picture. Together with scene and frame they determine every pixel.
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct RenderSettings {
+            $($(#[$doc])* pub $name: $type,)+
+        }
+
+        impl Default for RenderSettings {
+            fn default() -> Self {
+                Self { $($name: $default,)+ }
+            }
+        }
+
+        impl RenderSettings {
+            /// The names of all settings.
+            pub const NAMES: &[&str] = &[$(stringify!($name)),+];
+
+            /// A fingerprint of all settings. It is stable across builds and versions unless the encoding changes.
+            pub fn fingerprint(&self) -> Fingerprint {
+                let $settings = self;
+                let mut encoder = Encoder::new("render settings", 1);
+                $(settings!(@encode encoder, $settings.$name
+                    $(, { $($pattern $(if $condition)? => $tag $([$($number),+])?),+ })?);)+
+                encoder.finish()
+            }
+        }
+    };
+    (@encode $encoder:ident, $value:expr) => {
+        $value.encode(&mut $encoder)
+    };
+    (@encode $encoder:ident, $value:expr, { $($pattern:pat $(if $condition:expr)? => $tag:literal $([$($number:expr),+])?),+ }) => {
+        match $value {
+            $($pattern $(if $condition)? => {
+                $encoder.bytes($tag.as_bytes());
+                $($($encoder.float($number);)+)?
+            })+
+            _ => {}
+        }
+    };
+}
+
+settings! { |settings|
     /// Width and height of the whole picture in pixels, 1 to [`MAX_SIDE`].
-    pub size: (u32, u32),
+    size: (u32, u32) = (640, 480);
     /// Part of the picture to render: x0, y0, x1, y1 in pixels, the last two exclusive.
-    pub crop: Option<[u32; 4]>,
+    crop: Option<[u32; 4]> = None;
     /// Samples per pixel, at least 1.
-    pub samples: u32,
+    samples: u32 = 1;
     /// The range of samples to render, or all of them: within 0 to `samples`, not empty, and not with adaptive
     /// sampling. For a film both ends must be multiples of [`super::SAMPLE_BLOCK`], or the end must be
     /// `samples`.
-    pub sample_range: Option<Range<u32>>,
+    sample_range: Option<Range<u32>> = None;
     /// How samples are distributed over a pixel.
-    pub antialias: Antialias,
+    antialias: Antialias = Antialias::None;
     /// The noise at which adaptive sampling stops; see [`Antialias::Adaptive`]. Above 0.
-    pub noise: f32,
+    noise: f32 = 0.01;
     /// Reconstruction filter; without effect if all samples are at the centre.
-    pub filter: Filter,
+    filter: Filter = Filter::Box;
     /// Filter radius in pixels, above 0.
-    pub filter_radius: f32,
+    filter_radius: f32 = Filter::Box.default_radius();
     /// Factor on the sample count of every area light, above 0; each keeps at least one sample.
-    pub light_samples: f32,
+    light_samples: f32 = 1.0;
     /// The integrator.
-    pub integrator: Integrator,
+    integrator: Integrator = Integrator::Whitted;
     /// Ray–triangle intersection algorithm.
-    pub triangle_test: TriangleTest,
-    /// How origins of secondary rays are moved off surfaces.
-    pub offset: RayOffset,
+    triangle_test: TriangleTest = TriangleTest::Watertight;
     /// Tests every primitive for every ray instead of traversing the BVH, to verify it.
-    pub brute_force: bool,
+    brute_force: bool = false;
     /// Seed of the random numbers.
-    pub seed: u32,
+    seed: u32 = 0;
     /// Maximum number of bounces after the first hit; 0 means local shading only.
-    pub max_depth: u32,
+    max_depth: u32 = LightTransport::Whitted.max_depth();
     /// Minimum throughput of reflected and refracted rays, averaged over the channels, 0 to 1. Rays below it
     /// are not traced.
-    pub min_throughput: f32,
+    min_throughput: f32 = MIN_THROUGHPUT;
+    /// How origins of secondary rays are moved off surfaces.
+    offset: RayOffset = RayOffset::Bound, { RayOffset::Fixed(distance) => "fixed offset" [distance] };
     /// Path tracing: whether all transparent surfaces filter shadow rays, in straight lines. Without it only smooth
     /// thin walls do, and the light behind other glass is found by paths; with it caustics are lost.
-    pub transparent_shadows: bool,
+    transparent_shadows: bool = false, { true => "transparent shadows" };
     /// Path tracing: how metallic-roughness materials scatter.
-    pub bsdf: BsdfModel,
+    bsdf: BsdfModel = BsdfModel::Full, { BsdfModel::Spec => "BSDF of the glTF specification" };
     /// Path tracing: the most radiance per channel, above 0, that a sample may gain at once from light that was
     /// scattered twice or more; `None` for no limit. It removes fireflies, and light: [`super::Stats::energy_cut`]
     /// says how much.
-    pub clamp_indirect: Option<f32>,
+    clamp_indirect: Option<f32> = None, { Some(limit) => "clamp indirect" [limit] };
     /// Whether the film keeps features besides the radiance: for [`super::Film::features`], and to denoise.
-    pub features: bool,
+    features: bool = false, { true if settings.has_features() => "features" };
     /// Path tracing: what paths from the camera see where there is nothing.
-    pub backdrop: Backdrop,
-}
-
-impl Default for RenderSettings {
-    fn default() -> Self {
-        Self {
-            size: (640, 480),
-            crop: None,
-            samples: 1,
-            sample_range: None,
-            antialias: Antialias::None,
-            noise: 0.01,
-            filter: Filter::Box,
-            filter_radius: Filter::Box.default_radius(),
-            light_samples: 1.0,
-            integrator: Integrator::Whitted,
-            triangle_test: TriangleTest::Watertight,
-            offset: RayOffset::Bound,
-            brute_force: false,
-            seed: 0,
-            max_depth: LightTransport::Whitted.max_depth(),
-            min_throughput: MIN_THROUGHPUT,
-            transparent_shadows: false,
-            bsdf: BsdfModel::Full,
-            clamp_indirect: None,
-            features: false,
-            backdrop: Backdrop::Background,
-        }
-    }
+    backdrop: Backdrop = Backdrop::Background, {
+        Backdrop::Color(color) => "backdrop" [color.x, color.y, color.z],
+        Backdrop::Transparent => "transparent"
+    };
 }
 
 impl From<&OutputDefaults> for RenderSettings {
@@ -180,94 +208,6 @@ impl RenderSettings {
             sample_range: None,
             ..self.clone()
         }
-    }
-
-    /// A fingerprint of all settings. It is stable across builds and versions unless the encoding changes.
-    pub fn fingerprint(&self) -> Fingerprint {
-        let Self {
-            size,
-            crop,
-            samples,
-            sample_range,
-            antialias,
-            noise,
-            filter,
-            filter_radius,
-            light_samples,
-            integrator,
-            triangle_test,
-            offset,
-            brute_force,
-            seed,
-            max_depth,
-            min_throughput,
-            transparent_shadows,
-            bsdf,
-            clamp_indirect,
-            features: _,
-            backdrop,
-        } = self;
-        let range = sample_range.as_ref();
-        let mut encoder = Encoder::new("render settings", 1);
-        encoder.number(size.0);
-        encoder.number(size.1);
-        encoder.option(*crop);
-        encoder.number(*samples);
-        encoder.option(range.map(|range| [range.start, range.end]));
-        encoder.number(match antialias {
-            Antialias::None => 0,
-            Antialias::Stratified => 1,
-            Antialias::Adaptive => 2,
-        });
-        encoder.float(*noise);
-        encoder.number(match filter {
-            Filter::Box => 0,
-            Filter::Tent => 1,
-            Filter::Gaussian => 2,
-            Filter::BlackmanHarris => 3,
-            Filter::Mitchell => 4,
-        });
-        encoder.float(*filter_radius);
-        encoder.float(*light_samples);
-        encoder.bytes(integrator.entry().name.as_bytes());
-        encoder.number(match triangle_test {
-            TriangleTest::Plane => 0,
-            TriangleTest::MollerTrumbore => 1,
-            TriangleTest::Watertight => 2,
-        });
-        encoder.number((*brute_force).into());
-        encoder.number(*seed);
-        encoder.number(*max_depth);
-        encoder.float(*min_throughput);
-        // The error bound adds nothing, so films from before this setting keep their fingerprint.
-        if let RayOffset::Fixed(distance) = offset {
-            encoder.bytes(b"fixed offset");
-            encoder.float(*distance);
-        }
-        if *transparent_shadows {
-            encoder.bytes(b"transparent shadows");
-        }
-        if *bsdf == BsdfModel::Spec {
-            encoder.bytes(b"BSDF of the glTF specification");
-        }
-        if let Some(limit) = clamp_indirect {
-            encoder.bytes(b"clamp indirect");
-            encoder.float(*limit);
-        }
-        if self.has_features() {
-            encoder.bytes(b"features");
-        }
-        match backdrop {
-            Backdrop::Background => {}
-            Backdrop::Color(color) => {
-                encoder.bytes(b"backdrop");
-                for channel in color.to_array() {
-                    encoder.float(channel);
-                }
-            }
-            Backdrop::Transparent => encoder.bytes(b"transparent"),
-        }
-        encoder.finish()
     }
 }
 
