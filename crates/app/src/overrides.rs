@@ -1,13 +1,11 @@
 //! Overrides of a scene's values. The command line and the window fill them in.
 
 use super::error::AppError;
+pub use super::settings::PictureOverrides;
 use glam::{DVec3, Vec3};
-use glimray_render::{
-    Antialias, BsdfModel, Integrator, Levels, Quantity, RayOffset, RenderSettings, Shows, Tone,
-    TriangleTest,
-};
+use glimray_render::{Integrator, Levels, Quantity, RenderSettings, Shows, Tone};
 use glimray_scene::{
-    Backdrop, Background, Camera, CameraProperty, Filter, OutputDefaults, Scene, Shutter, Target,
+    Backdrop, Background, Camera, CameraProperty, OutputDefaults, Scene, Shutter, Target,
     ToneCurve, Transfer,
 };
 
@@ -24,49 +22,6 @@ pub struct RenderOverrides {
     pub moment: Moment,
     /// Frame rate and shutter.
     pub timing: TimingOverrides,
-}
-
-/// How a picture is traced.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PictureOverrides {
-    /// Width and height in pixels.
-    pub size: Option<(u32, u32)>,
-    /// Samples per pixel.
-    pub samples: Option<u32>,
-    /// Where samples lie in a pixel.
-    pub antialias: Option<Antialias>,
-    /// Threshold of adaptive sampling.
-    pub noise: Option<f32>,
-    /// Bounces after the first hit.
-    pub max_depth: Option<u32>,
-    /// Rays with less throughput are not traced.
-    pub min_throughput: Option<f32>,
-    /// Let all transparent surfaces filter the shadow rays of paths.
-    pub transparent_shadows: bool,
-    /// How metallic-roughness materials scatter.
-    pub bsdf: Option<BsdfModel>,
-    /// Clamp the indirect light of paths.
-    pub clamp_indirect: Option<f32>,
-    /// Reconstruction filter.
-    pub filter: Option<Filter>,
-    /// The filter's radius in pixels.
-    pub filter_radius: Option<f32>,
-    /// Multiplies the samples of every area light.
-    pub light_samples: Option<f32>,
-    /// Integrator.
-    pub integrator: Option<Integrator>,
-    /// Ray–triangle intersection algorithm.
-    pub triangle_test: Option<TriangleTest>,
-    /// How origins of secondary rays are moved off surfaces.
-    pub offset: Option<RayOffset>,
-    /// Test every primitive instead of traversing a BVH.
-    pub brute_force: bool,
-    /// Random seed.
-    pub seed: u32,
-    /// Columns x0 to x1 − 1 and rows y0 to y1 − 1.
-    pub crop: Option<[u32; 4]>,
-    /// Keep features in the film, to denoise it; without a choice where the scene is denoised.
-    pub denoise: Option<bool>,
 }
 
 /// How a picture is developed.
@@ -149,35 +104,21 @@ impl PictureOverrides {
                 .integrator
                 .converted(integrator.into(), said, scene.denoise);
         let usual = Tone::of_scene(scene, integrator);
-        let output = OutputDefaults {
-            samples: self.samples.unwrap_or(samples),
-            antialias: self.antialias.or(scene.antialias),
-            ..scene.clone()
-        };
         let filter = self.filter.unwrap_or(scene.filter);
-        // The scene's radius applies only to the scene's filter.
-        let scene_radius = scene.filter_radius.filter(|_| filter == scene.filter);
-        let defaults = RenderSettings::from(&output);
-        RenderSettings {
-            size: self.size.unwrap_or(scene.size),
-            crop: self.crop,
-            noise: self.noise.unwrap_or(defaults.noise),
-            filter,
-            filter_radius: (self.filter_radius.or(scene_radius)).unwrap_or(filter.default_radius()),
-            light_samples: self.light_samples.unwrap_or(scene.light_samples),
+        let mut settings = RenderSettings {
             integrator,
-            triangle_test: self.triangle_test.unwrap_or(defaults.triangle_test),
-            offset: self.offset.unwrap_or(defaults.offset),
-            brute_force: self.brute_force,
-            seed: self.seed,
-            max_depth: self.max_depth.unwrap_or(max_depth),
-            min_throughput: self.min_throughput.unwrap_or(defaults.min_throughput),
             features: self.denoise.unwrap_or(usual.denoise),
-            transparent_shadows: self.transparent_shadows,
-            bsdf: self.bsdf.unwrap_or(defaults.bsdf),
-            clamp_indirect: self.clamp_indirect,
-            ..defaults
-        }
+            ..RenderSettings::from(&OutputDefaults {
+                samples: self.samples.unwrap_or(samples),
+                max_depth,
+                filter,
+                // The scene's radius applies only to the scene's filter.
+                filter_radius: scene.filter_radius.filter(|_| filter == scene.filter),
+                ..scene.clone()
+            })
+        };
+        self.apply(&mut settings);
+        settings
     }
 }
 

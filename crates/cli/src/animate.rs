@@ -75,9 +75,7 @@ pub fn with_report(
 
 fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {
     idle_flags::check(&arguments.reading, &arguments.scene)?;
-    let size = arguments.picture.size.size;
-    let options =
-        (arguments.camera).import_options(&arguments.reading, size, arguments.picture.integrator);
+    let options = (arguments.camera).import_options(&arguments.reading, &arguments.picture);
     let mut scene = draft.load(&arguments.scene, &options, arguments.reading.strict)?;
     arguments
         .camera

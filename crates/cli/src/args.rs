@@ -19,7 +19,7 @@ pub use farm::{
 pub use flags::RecordingFlags;
 pub use flags::{
     AxisFlags, CameraFlags, DevelopFlags, DeviceFlags, LayerFlags, LogFlags, OutputFlags,
-    PartFlags, PictureFlags, ProgressMode, SceneFlags, SizeFlags,
+    PartFlags, PictureFlags, ProgressMode, SceneFlags, SettingFlags, SizeFlags,
 };
 pub use motion::{
     MomentFlags, MotionFlags, Range, RangeFlags, SequenceFlags, SequenceFormat, TurnFlags,

@@ -1,6 +1,6 @@
 //! `glimray convert SCENE`: converts a scene in any format to the native one.
 
-use crate::args::ConvertArgs;
+use crate::args::{ConvertArgs, PictureFlags};
 use crate::idle_flags;
 use crate::interrupt::Interrupt;
 use crate::scene_file;
@@ -15,7 +15,7 @@ pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
     idle_flags::check(&arguments.reading, &arguments.scene)?;
     let options = Options {
         baking: Baking::Never,
-        ..(arguments.reading).import_options(arguments.axis.up, false, None, None)
+        ..(arguments.reading).import_options(arguments.axis.up, false, &PictureFlags::default())
     };
     let (scene, inputs) = scene_file::load(&arguments.scene, &options, arguments.reading.strict);
     let scene = scene?;

@@ -1,6 +1,6 @@
 //! `glimray demo`: renders the built-in showcase scene by path tracing.
 
-use crate::args::{DemoArgs, DevelopFlags, LayerFlags, PartFlags, PictureFlags, SizeFlags};
+use crate::args::{DemoArgs, DevelopFlags, LayerFlags, PartFlags, PictureFlags, SettingFlags};
 use crate::destination::Destination;
 use crate::device::Opening;
 use crate::job;
@@ -31,16 +31,16 @@ fn render(
     let scene = showcase::path_traced()?;
     draft.seconds.load = loading.elapsed().as_secs_f64();
     draft.set_scene(&scene);
-    let SizeFlags { size, samples } = arguments.size;
     let job = Job {
         scene,
         picture: &PictureFlags {
-            size: SizeFlags { size, samples },
+            settings: SettingFlags {
+                given: arguments.size.given.clone(),
+            },
             develop: DevelopFlags {
                 denoise: true,
                 ..DevelopFlags::default()
             },
-            ..PictureFlags::default()
         },
         device: &arguments.device,
         log: &arguments.log,

@@ -20,9 +20,7 @@ use std::ops::Range;
 pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     Interrupt::install()?;
     idle_flags::check(&arguments.reading, &arguments.scene)?;
-    let size = arguments.picture.size.size;
-    let options =
-        (arguments.camera).import_options(&arguments.reading, size, arguments.picture.integrator);
+    let options = (arguments.camera).import_options(&arguments.reading, &arguments.picture);
     let (scene, inputs) = scene_file::load(&arguments.scene, &options, arguments.reading.strict);
     let mut scene = scene?;
     arguments

@@ -5,32 +5,24 @@ use crate::args::{PictureFlags, SceneFlags};
 use glimray_app::console;
 use glimray_app::error::AppError;
 use glimray_app::inputs::may_be_model;
-use glimray_app::value_names::{ANTIALIAS, INTEGRATORS};
-use glimray_render::{Antialias, Integrator, RenderSettings};
+use glimray_app::settings::{SETTINGS, Scope};
+use glimray_render::RenderSettings;
 use std::path::Path;
 
 /// Warns about flags that do not change a picture with these settings.
 pub fn warn(given: &PictureFlags, settings: &RenderSettings) {
-    let is_path = settings.integrator == Integrator::Path;
-    for (flag, is_given) in [
-        ("--transparent-shadows", given.transparent_shadows),
-        ("--bsdf", given.bsdf.is_some()),
-        ("--clamp-indirect", given.clamp_indirect.is_some()),
-    ] {
-        if is_given && !is_path {
-            let integrator = INTEGRATORS.name(&settings.integrator);
+    for setting in SETTINGS {
+        if let Some(scope) = &setting.scope
+            && (setting.is_given)(&given.settings.given)
+            && !setting.applies(settings)
+        {
+            let Scope { flag, value, noun } = scope;
+            let found = scope.found(settings).unwrap_or_default();
             console::warning(format_args!(
-                "{flag} has no effect (--integrator {integrator}): it is for paths. Choose --integrator path, or leave it \
-                 out."
+                "{} has no effect ({flag} {found}): it is for {noun}. Choose {flag} {value}, or leave it out.",
+                setting.flag
             ));
         }
-    }
-    if given.noise.is_some() && settings.antialias != Antialias::Adaptive {
-        let antialias = ANTIALIAS.name(&settings.antialias);
-        console::warning(format_args!(
-            "--noise has no effect (--antialias {antialias}): it is for adaptive sampling. Choose --antialias adaptive, \
-             or leave it out."
-        ));
     }
 }
 

@@ -8,7 +8,7 @@ mod textures;
 
 pub use entries::Inspection;
 
-use crate::args::InspectArgs;
+use crate::args::{InspectArgs, PictureFlags};
 use crate::idle_flags;
 use crate::job::UNLIT;
 use crate::report::SceneReport;
@@ -29,7 +29,7 @@ pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
     idle_flags::check(&arguments.reading, &arguments.scene)?;
     let options = Options {
         baking: Baking::Never,
-        ..(arguments.reading).import_options(arguments.axis.up, false, None, None)
+        ..(arguments.reading).import_options(arguments.axis.up, false, &PictureFlags::default())
     };
     let scene = scene_file::load(&arguments.scene, &options, arguments.reading.strict).0?;
     let path = arguments.scene.display().to_string();

@@ -10,13 +10,14 @@ use crate::memory;
 use crate::report;
 use crate::report::{
     AnimationReport, AnyReport, Draft, ImageReport, Memory, Report, SceneReport, Seconds,
+    SettingsReport,
 };
 use glimray_app::console;
 use glimray_app::console::Console;
 use glimray_app::error::AppError;
 use glimray_app::inputs;
 use glimray_app::overrides;
-use glimray_app::value_names::{BSDF_MODELS, INTEGRATORS};
+use glimray_app::value_names::BSDF_MODELS;
 use glimray_io::output;
 use glimray_render::gpu::{AdapterChoice, AdapterReport, Gpu};
 use glimray_render::{ExecutionPolicy, Integrator, RenderSettings, Renderer, Stats, Tone};
@@ -104,7 +105,8 @@ impl Job<'_> {
     /// Warns of mirrors and glass at a depth of 0 that nobody asked for: that of course scenes.
     fn warn_of_depth(&self) {
         let settings = self.settings();
-        let asked = self.picture.max_depth.is_some() || settings.integrator != Integrator::Whitted;
+        let asked = self.picture.settings.given.max_depth.is_some()
+            || settings.integrator != Integrator::Whitted;
         let count = self.scene.mirrors_and_glass().count();
         if asked || settings.max_depth > 0 || count == 0 {
             return;
@@ -186,19 +188,12 @@ impl Job<'_> {
 
     /// The `image` part of the report.
     pub fn image(&self, path: &Path, settings: &RenderSettings, size: (u32, u32)) -> ImageReport {
-        let of_paths = settings.integrator == Integrator::Path;
         ImageReport {
             path: path.display().to_string(),
             width: size.0,
             height: size.1,
-            samples: settings.samples,
+            settings: SettingsReport(Some(settings.clone())),
             mean_samples: None,
-            integrator: INTEGRATORS.name(&settings.integrator),
-            max_depth: settings.max_depth,
-            seed: settings.seed,
-            transparent_shadows: of_paths.then_some(settings.transparent_shadows),
-            clamp_indirect: settings.clamp_indirect.filter(|_| of_paths),
-            bsdf: of_paths.then(|| BSDF_MODELS.name(&settings.bsdf)),
             denoise: self.tone(settings, false).denoise,
         }
     }
@@ -311,7 +306,7 @@ impl Job<'_> {
             animation: outcome.animation,
             error: (),
         };
-        details(self.console(), &report);
+        details(self.console(), settings, &report);
         match &self.log.report {
             Some(path) => report::write(path, AnyReport::Done(&report)),
             None => Ok(()),
@@ -364,7 +359,22 @@ pub fn policy(device: &DeviceFlags, count_rays: bool) -> ExecutionPolicy {
     }
 }
 
-fn details(console: Console, report: &Report) {
+/// How paths are traced, for people; `None` if none are.
+fn sentence(settings: &RenderSettings) -> Option<String> {
+    let shadows = match settings.transparent_shadows {
+        true => "all glass lets shadow rays pass, without caustics",
+        false => "smooth thin walls let shadow rays pass",
+    };
+    let clamp = match settings.clamp_indirect {
+        Some(limit) => format!("indirect light is clamped to {limit}"),
+        None => "no light is clamped".to_owned(),
+    };
+    let bsdf = BSDF_MODELS.name(&settings.bsdf);
+    (settings.integrator == Integrator::Path)
+        .then(|| format!("paths: BSDF {bsdf}; {shadows}; {clamp}"))
+}
+
+fn details(console: Console, settings: &RenderSettings, report: &Report) {
     let denoise = report.seconds.denoise.unwrap_or_default();
     let Seconds {
         load,
@@ -382,7 +392,7 @@ fn details(console: Console, report: &Report) {
          upload {upload:.3}, trace {trace:.3}, develop {develop:.3}, denoise {denoise:.3}, \
          write {write:.3}"
     ));
-    if let Some(sentence) = report.image.sentence() {
+    if let Some(sentence) = sentence(settings) {
         console.detail(sentence);
     }
     if let Some(cut) = report.energy_cut {

@@ -30,9 +30,7 @@ fn render(
 ) -> Result<(), AppError> {
     idle_flags::check(&arguments.reading, &arguments.scene)?;
     let opening = Opening::start(&arguments.device);
-    let size = arguments.picture.size.size;
-    let options =
-        (arguments.camera).import_options(&arguments.reading, size, arguments.picture.integrator);
+    let options = (arguments.camera).import_options(&arguments.reading, &arguments.picture);
     let mut scene = draft.load(&arguments.scene, &options, arguments.reading.strict)?;
     arguments
         .camera

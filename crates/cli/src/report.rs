@@ -2,9 +2,11 @@
 
 mod draft;
 mod failed;
+mod settings;
 
 pub use draft::Draft;
 pub use failed::FailedReport;
+pub use settings::SettingsReport;
 
 use glimray_app::console;
 use glimray_app::error::AppError;
@@ -138,39 +140,12 @@ pub struct ImageReport {
     pub path: String,
     pub width: u32,
     pub height: u32,
-    /// Maximum number of samples per pixel.
-    pub samples: u32,
+    #[serde(flatten)]
+    pub settings: SettingsReport,
     /// Mean number of samples per pixel that were taken; null if the run failed.
     pub mean_samples: Option<f64>,
-    pub integrator: &'static str,
-    /// Bounces after the first hit.
-    pub max_depth: u32,
-    pub seed: u32,
-    /// Whether all glass filters shadow rays in straight lines, which loses caustics; null unless paths are traced, as the
-    /// next two.
-    pub transparent_shadows: Option<bool>,
-    /// The radiance to which indirect light is clamped; null without a limit too.
-    pub clamp_indirect: Option<f32>,
-    /// How metallic-roughness materials scatter.
-    pub bsdf: Option<&'static str>,
     /// Whether the picture is denoised.
     pub denoise: bool,
-}
-
-impl ImageReport {
-    /// How paths were traced, for people; `None` if none were.
-    pub fn sentence(&self) -> Option<String> {
-        let bsdf = self.bsdf?;
-        let shadows = match self.transparent_shadows {
-            Some(true) => "all glass lets shadow rays pass, without caustics",
-            _ => "smooth thin walls let shadow rays pass",
-        };
-        let clamp = match self.clamp_indirect {
-            Some(limit) => format!("indirect light is clamped to {limit}"),
-            None => "no light is clamped".to_owned(),
-        };
-        Some(format!("paths: BSDF {bsdf}; {shadows}; {clamp}"))
-    }
 }
 
 #[derive(Debug, Serialize, JsonSchema)]

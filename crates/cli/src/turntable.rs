@@ -29,13 +29,9 @@ pub fn run(arguments: &TurntableArgs, started: Instant) -> Result<(), AppError> 
 
 fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {
     idle_flags::check(&arguments.reading, &arguments.scene)?;
-    let size = arguments.picture.size.size;
-    let options = arguments.reading.import_options(
-        arguments.axis.up,
-        false,
-        size,
-        arguments.picture.integrator,
-    );
+    let options = arguments
+        .reading
+        .import_options(arguments.axis.up, false, &arguments.picture);
     let mut scene = draft.load(&arguments.scene, &options, arguments.reading.strict)?;
     let turn = &arguments.turn;
     if scene.output.samples == 1 {
@@ -48,7 +44,12 @@ fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Resul
              shorter turn or a lower rate."
         )));
     }
-    let size = arguments.picture.size.size.unwrap_or(scene.output.size);
+    let size = arguments
+        .picture
+        .settings
+        .given
+        .size
+        .unwrap_or(scene.output.size);
     // A whole number of frames, so that the step from the last to the first equals all other steps.
     let mut scene = turned(scene, turn, frames / turn.fps, size)?;
     if let Some(background) = turn.background {

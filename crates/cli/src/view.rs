@@ -44,11 +44,7 @@ fn request_of(arguments: &ViewArgs) -> ViewRequest {
         import: Options {
             // The window does it when such an integrator is chosen.
             baking: Baking::Never,
-            ..(arguments.camera).import_options(
-                &arguments.reading,
-                arguments.picture.size.size,
-                arguments.picture.integrator,
-            )
+            ..(arguments.camera).import_options(&arguments.reading, &arguments.picture)
         },
         recording: RecordingRequest {
             record: recording.record.clone(),

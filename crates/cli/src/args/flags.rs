@@ -1,25 +1,23 @@
 //! Flags that several commands share, grouped as in their help.
 
 mod log;
+mod picture;
 
 pub use log::{LogFlags, ProgressMode};
+pub use picture::{PictureFlags, SettingFlags, SizeFlags};
 
 use super::checkpoint::CheckpointFlags;
 use super::values::{self, BACKENDS, FORMATS, GROUNDS, Up};
 use clap::Args;
 use glam::DVec3;
 use glimray_app::layers::{LAYERS, PictureLayer};
-use glimray_app::overrides::{
-    BackgroundChoice, CameraOverrides, Exposure, PictureOverrides, ToneOverrides,
-};
-use glimray_app::value_names::{
-    ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
-};
+use glimray_app::overrides::{BackgroundChoice, CameraOverrides, Exposure, ToneOverrides};
+use glimray_app::settings::PictureOverrides;
+use glimray_app::value_names::{TONES, TRANSFERS};
 use glimray_io::import;
 use glimray_io::output::Format;
 use glimray_render::gpu::{AdapterChoice, Backend};
-use glimray_render::{Antialias, BsdfModel, Integrator, RayOffset, TriangleTest};
-use glimray_scene::{Filter, ToneCurve, Transfer};
+use glimray_scene::{ToneCurve, Transfer};
 use std::num::NonZero;
 use std::path::PathBuf;
 
@@ -68,95 +66,6 @@ pub struct LayerFlags {
     /// Write each layer as a part of its own; fewer programs read such files
     #[arg(long, requires = "layers")]
     pub layers_parts: bool,
-}
-
-/// Resolution and sample count.
-#[derive(Debug, Default, Args)]
-#[command(next_help_heading = "Picture")]
-pub struct SizeFlags {
-    /// Width and height in pixels [default: the scene's, else 640x480; 800x600 for models]
-    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = values::size)]
-    pub size: Option<(u32, u32)>,
-    /// Samples per pixel, 1 to 65536 [default: the scene's; 8 of models, which are denoised, also with more; else 64 for
-    /// --integrator path, 16 with a lens, an area light or motion blur; else 1]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=65_536))]
-    pub samples: Option<u32>,
-}
-
-/// How the picture is rendered and developed.
-#[derive(Debug, Default, Args)]
-#[command(next_help_heading = "Picture")]
-pub struct PictureFlags {
-    #[command(flatten)]
-    pub size: SizeFlags,
-    /// Distribution of the samples within a pixel [default: stratified for more than one sample, else none]
-    #[arg(long, value_parser = values::one_of(&ANTIALIAS))]
-    pub antialias: Option<Antialias>,
-    /// Noise threshold of adaptive sampling, 0.000001 to 1 [default: the scene's, else 0.01]
-    ///
-    /// Keep sampling pixels whose estimated error exceeds this (or, early on, whose neighbour differs by
-    /// more). Errors are measured on the square root of luminance, where 1 is white.
-    #[arg(long, value_name = "NOISE", allow_hyphen_values = true, value_parser = values::noise)]
-    pub noise: Option<f32>,
-    /// Bounces after the first hit, 0 to 1000; 0 is local shading only [default: the scene's, else 5; 0
-    /// for .scene; 16 for --integrator path; 8 for models by --integrator whitted]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(0..=1000))]
-    pub max_depth: Option<u32>,
-    /// Terminate reflection and refraction rays below this throughput, 0 to 1 [default: 1/512]
-    #[arg(long, value_name = "FRACTION", allow_hyphen_values = true, value_parser = values::fraction)]
-    pub min_throughput: Option<f32>,
-    /// Path tracing: let all glass filter shadow rays in straight lines, which loses caustics
-    ///
-    /// Without it smooth thin walls do so, and paths find the light behind other glass.
-    #[arg(long)]
-    pub transparent_shadows: bool,
-    /// How metallic-roughness materials scatter in path-traced pictures [default: full]
-    #[arg(long, value_parser = values::one_of(&BSDF_MODELS))]
-    pub bsdf: Option<BsdfModel>,
-    /// Path tracing: clamp what a sample gains at once from indirect light to this radiance, above 0 to 1e6
-    /// [default: no limit]
-    ///
-    /// It removes fireflies, and light: the report's energy_cut says how much.
-    #[arg(long, value_name = "RADIANCE", allow_hyphen_values = true, value_parser = values::clamp_indirect)]
-    pub clamp_indirect: Option<f32>,
-    /// Reconstruction filter [default: the scene's, else box]
-    #[arg(long, value_parser = values::one_of(&FILTERS))]
-    pub filter: Option<Filter>,
-    /// Radius of the reconstruction filter, 0.01 to 16 [default: box 0.5, tent 1, mitchell 2, others 1.5]
-    #[arg(long, value_name = "PIXELS", allow_hyphen_values = true, value_parser = values::filter_radius)]
-    pub filter_radius: Option<f32>,
-    /// Multiply the sample count of every area light by this, 0.001 to 1000 [default: the scene's, else 1]
-    #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = values::light_samples)]
-    pub light_samples: Option<f32>,
-    /// Integrator or debug view [default: the scene's, else path for models and whitted for scenes]
-    #[arg(long, value_parser = values::one_of(&INTEGRATORS))]
-    pub integrator: Option<Integrator>,
-    /// Ray–triangle intersection algorithm [default: watertight]
-    #[arg(long, value_parser = values::one_of(&TRIANGLE_TESTS))]
-    pub triangle_test: Option<TriangleTest>,
-    /// Origin of reflected, refracted and shadow rays: bound or fixed:EPS
-    ///
-    /// bound moves it by the rounding error of the hit point. fixed:EPS moves it by EPS along the normal, which
-    /// shows shadow acne where EPS is too small, and light leaks and missing contact shadows where it is too
-    /// large [default: bound]
-    #[arg(long, value_name = "bound|fixed:EPS", allow_hyphen_values = true)]
-    pub offset: Option<RayOffset>,
-    /// Test every primitive for every ray instead of traversing the BVH: the same picture, but slow
-    #[arg(long)]
-    pub no_bvh: bool,
-    #[command(flatten)]
-    pub develop: DevelopFlags,
-    /// Random seed; the same scene, settings and seed give the same picture
-    #[arg(
-        long,
-        value_name = "N",
-        allow_hyphen_values = true,
-        default_value = "0"
-    )]
-    pub seed: u32,
-    /// Render only columns X0 to X1-1 and rows Y0 to Y1-1, in pixels from the top left
-    #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = values::crop)]
-    pub crop: Option<[u32; 4]>,
 }
 
 /// How linear radiance becomes display values.
@@ -287,14 +196,16 @@ pub struct AxisFlags {
 
 impl SceneFlags {
     /// `up` is the axis of a model that points up; `has_background` tells whether a background was asked for, which
-    /// leaves out the ground that was not; `size` and `integrator` are those of the picture, if they are known.
+    /// leaves out the ground that was not; `picture` has the size and the integrator of the picture, if they are known.
     pub fn import_options(
         &self,
         up: Option<import::Axis>,
         has_background: bool,
-        size: Option<(u32, u32)>,
-        integrator: Option<Integrator>,
+        picture: &PictureFlags,
     ) -> import::Options {
+        let PictureOverrides {
+            size, integrator, ..
+        } = picture.settings.given;
         let staging = import::Staging {
             camera: !self.bare,
             fit: self.fit,
@@ -359,32 +270,6 @@ pub struct DeviceFlags {
     pub memory_limit: u64,
 }
 
-impl PictureFlags {
-    pub fn overrides(&self) -> PictureOverrides {
-        PictureOverrides {
-            size: self.size.size,
-            samples: self.size.samples,
-            antialias: self.antialias,
-            noise: self.noise,
-            max_depth: self.max_depth,
-            min_throughput: self.min_throughput,
-            transparent_shadows: self.transparent_shadows,
-            bsdf: self.bsdf,
-            clamp_indirect: self.clamp_indirect,
-            filter: self.filter,
-            filter_radius: self.filter_radius,
-            light_samples: self.light_samples,
-            integrator: self.integrator,
-            triangle_test: self.triangle_test,
-            offset: self.offset,
-            brute_force: self.no_bvh,
-            seed: self.seed,
-            crop: self.crop,
-            denoise: self.develop.denoise(),
-        }
-    }
-}
-
 impl DevelopFlags {
     pub fn overrides(&self) -> ToneOverrides {
         ToneOverrides {
@@ -402,16 +287,10 @@ impl DevelopFlags {
 }
 
 impl CameraFlags {
-    /// The options of a command that reads its scene with these flags; `size` and `integrator` are those of the picture, if
-    /// they are known.
-    pub fn import_options(
-        &self,
-        reading: &SceneFlags,
-        size: Option<(u32, u32)>,
-        integrator: Option<Integrator>,
-    ) -> import::Options {
+    /// The options of a command that reads its scene with these flags for a picture.
+    pub fn import_options(&self, reading: &SceneFlags, picture: &PictureFlags) -> import::Options {
         let up = self.up.and_then(Up::axis);
-        reading.import_options(up, self.background.is_some(), size, integrator)
+        reading.import_options(up, self.background.is_some(), picture)
     }
 
     /// Those of a command that reads its scene with these flags.

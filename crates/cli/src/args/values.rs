@@ -2,18 +2,20 @@
 
 use crate::args::{ProgressMode, Range, SequenceFormat};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use glam::{DVec3, Vec3};
-use glimray_app::overrides::{BackgroundChoice, Exposure};
+use glam::DVec3;
+pub use glimray_app::flag_values::{
+    background, color, exposure, fov_y, fps, orthographic, shutter, time, vector,
+};
+pub use glimray_app::value_forms::crop;
+use glimray_app::value_forms::{list, within};
 use glimray_app::value_names::ValueNames;
 use glimray_io::import::{Axis, Baking, EnvironmentSource, Ground};
 use glimray_io::output::Format;
 use glimray_io::output::video::VideoFormat;
 use glimray_render::gpu::Backend;
 use glimray_render::{Integrator, MAX_SIDE};
-use glimray_scene::{Shutter, sky};
-use std::fmt::Display;
+use glimray_scene::sky;
 use std::num::NonZero;
-use std::str::FromStr;
 use std::time::Duration;
 
 /// When to bake for this integrator; `None` is the scene's own.
@@ -29,12 +31,13 @@ pub fn baking(integrator: Option<Integrator>) -> Baking {
 pub fn one_of<T: Clone + Send + Sync>(
     names: &'static ValueNames<T>,
 ) -> impl TypedValueParser<Value = T> {
-    let known = names.0.iter();
-    PossibleValuesParser::new(known.map(|(name, help, _)| PossibleValue::new(name).help(help)))
-        .try_map(|given| {
-            let found = names.0.iter().find(|(name, ..)| *name == given);
-            found.map(|(.., value)| value.clone()).ok_or("unknown")
-        })
+    let known = names.0.iter().map(|(name, help, _)| (*name, *help));
+    possible(known).try_map(|given| names.value(&given).ok_or("unknown"))
+}
+
+/// Accepts these names, each with a description.
+pub fn possible(names: impl Iterator<Item = (&'static str, &'static str)>) -> PossibleValuesParser {
+    PossibleValuesParser::new(names.map(|(name, help)| PossibleValue::new(name).help(help)))
 }
 
 pub static FORMATS: ValueNames<Format> = ValueNames(&[
@@ -111,92 +114,10 @@ pub static GROUNDS: ValueNames<Ground> = ValueNames(&[
     ),
 ]);
 
-/// Largest absolute value of a coordinate.
-const MAX_COORDINATE: f64 = 1e9;
-
-pub fn size(text: &str) -> Result<(u32, u32), String> {
-    let (width, height) = text
-        .split_once(['x', 'X', '×'])
-        .ok_or("it must be WIDTHxHEIGHT in pixels, such as 640x480")?;
-    let side = |text: &str| within(text, 1, MAX_SIDE, "width and height");
-    Ok((side(width)?, side(height)?))
-}
-
-pub fn crop(text: &str) -> Result<[u32; 4], String> {
-    let edges @ [x0, y0, x1, y1] = list(text, "X0,Y0,X1,Y1", |part| {
-        within(part, 0, MAX_SIDE, "every edge")
-    })?;
-    if x0 < x1 && y0 < y1 {
-        Ok(edges)
-    } else {
-        Err("it is empty: X1 must be more than X0, and Y1 more than Y0".into())
-    }
-}
-
 pub fn pixel(text: &str) -> Result<[u32; 2], String> {
     list(text, "X,Y", |part| {
         within(part, 0, MAX_SIDE, "column and row")
     })
-}
-
-pub fn vector(text: &str) -> Result<DVec3, String> {
-    let part = |part: &str| within(part, -MAX_COORDINATE, MAX_COORDINATE, "every coordinate");
-    list(text, "X,Y,Z", part).map(DVec3::from_array)
-}
-
-pub fn color(text: &str) -> Result<Vec3, String> {
-    let part = |part: &str| within(part, 0.0, 1e6_f32, "every channel");
-    list(text, "R,G,B", part).map(Vec3::from_array)
-}
-
-/// `R,G,B` or `transparent`.
-pub fn background(text: &str) -> Result<BackgroundChoice, String> {
-    match text {
-        "transparent" => Ok(BackgroundChoice::Transparent),
-        _ => color(text).map(BackgroundChoice::Color),
-    }
-}
-
-pub fn noise(text: &str) -> Result<f32, String> {
-    within(text, 1e-6, 1.0, "it")
-}
-
-pub fn clamp_indirect(text: &str) -> Result<f32, String> {
-    within(text, 1e-6, 1e6, "it")
-}
-
-pub fn fraction(text: &str) -> Result<f32, String> {
-    within(text, 0.0, 1.0, "it")
-}
-
-/// `EV`, `auto`, or `auto+EV` and `auto-EV`.
-pub fn exposure(text: &str) -> Result<Exposure, String> {
-    let stops = |text: &str| {
-        let number = within(text, -64.0, 64.0, "it");
-        number.map_err(|why| format!("{why}; `auto`, `auto+1` and the like are allowed too"))
-    };
-    match text.trim().strip_prefix("auto") {
-        Some("") => Ok(Exposure {
-            is_auto: true,
-            stops: 0.0,
-        }),
-        Some(change) if change.starts_with(['+', '-']) => Ok(Exposure {
-            is_auto: true,
-            stops: stops(change)?,
-        }),
-        Some(_) | None => Ok(Exposure {
-            is_auto: false,
-            stops: stops(text)?,
-        }),
-    }
-}
-
-pub fn fov_y(text: &str) -> Result<f64, String> {
-    within(text, 0.001, 179.9, "it")
-}
-
-pub fn orthographic(text: &str) -> Result<f64, String> {
-    within(text, 1e-9, MAX_COORDINATE, "it")
 }
 
 pub fn texture_limit(text: &str) -> Result<NonZero<u32>, String> {
@@ -246,14 +167,6 @@ pub fn environment(text: &str) -> Result<EnvironmentSource, String> {
     })
 }
 
-pub fn filter_radius(text: &str) -> Result<f32, String> {
-    within(text, 0.01, 16.0, "it")
-}
-
-pub fn light_samples(text: &str) -> Result<f32, String> {
-    within(text, 0.001, 1000.0, "it")
-}
-
 pub fn tolerance(text: &str) -> Result<f64, String> {
     within(text, 0.0, f64::MAX, "it")
 }
@@ -270,16 +183,8 @@ pub fn flip(text: &str) -> Result<f64, String> {
 /// The highest frame number.
 pub const MAX_FRAME: u32 = 9_999_999;
 
-pub fn fps(text: &str) -> Result<f64, String> {
-    within(text, 0.01, 1000.0, "it")
-}
-
 pub fn seconds(text: &str) -> Result<f64, String> {
     within(text, 0.01, 1e4, "it")
-}
-
-pub fn time(text: &str) -> Result<f64, String> {
-    within(text, -1e6, 1e6, "it")
 }
 
 pub fn elevation(text: &str) -> Result<f64, String> {
@@ -345,27 +250,6 @@ pub fn model_axis(text: &str) -> Result<Axis, String> {
     }
 }
 
-/// Longest exposure, and largest offset from a frame's time, in frames.
-const MAX_SHUTTER: f64 = 16.0;
-
-/// `0.5`, `180deg` or `-0.25..0.25`.
-pub fn shutter(text: &str) -> Result<Shutter, String> {
-    if let Some((open, close)) = text.split_once("..") {
-        let end = |text: &str| within(text, -MAX_SHUTTER, MAX_SHUTTER, "opening and closing");
-        let (open, close) = (end(open)?, end(close)?);
-        return if open <= close {
-            Ok(Shutter { open, close })
-        } else {
-            Err("it closes before it opens: put the earlier time first, as in -0.25..0.25".into())
-        };
-    }
-    let close = match text.trim().strip_suffix("deg") {
-        Some(degrees) => within(degrees, 0.0, MAX_SHUTTER * 360.0, "the angle")? / 360.0,
-        None => within(text, 0.0, MAX_SHUTTER, "it")?,
-    };
-    Ok(Shutter { open: 0.0, close })
-}
-
 /// `A..B`, `A..`, `..B` or `A`.
 pub fn frames(text: &str) -> Result<Range, String> {
     let number = |text: &str| within(text, 0, MAX_FRAME, "a frame number");
@@ -393,33 +277,6 @@ pub fn override_of(text: &str) -> Result<String, String> {
     match text.split_once('=') {
         Some((key, _)) if !key.trim().is_empty() => Ok(text.into()),
         _ => Err("it must be KEY=VALUE, such as camera.fov_y_deg=30".into()),
-    }
-}
-
-/// `N` comma-separated values.
-fn list<T, const N: usize>(
-    text: &str,
-    shape: &str,
-    part: impl Fn(&str) -> Result<T, String>,
-) -> Result<[T; N], String> {
-    let parts = text.split(',').map(part).collect::<Result<Vec<_>, _>>()?;
-    let count = parts.len();
-    parts
-        .try_into()
-        .map_err(|_| format!("it must be {shape}: {N} numbers, not {count}"))
-}
-
-/// A number from `min` to `max`. NaN is out of every range.
-fn within<T>(text: &str, min: T, max: T, what: &str) -> Result<T, String>
-where
-    T: FromStr + PartialOrd + Display,
-{
-    match text.trim().parse::<T>() {
-        Ok(number) if number >= min && number <= max => Ok(number),
-        _ => Err(format!(
-            "{what} must be a number from {min} to {max}, not `{}`",
-            text.trim()
-        )),
     }
 }
 

@@ -48,9 +48,7 @@ pub fn run(
         check_free(&folder)?;
     }
     idle_flags::check(&arguments.reading, &arguments.scene)?;
-    let size = arguments.picture.size.size;
-    let options =
-        (arguments.camera).import_options(&arguments.reading, size, arguments.picture.integrator);
+    let options = (arguments.camera).import_options(&arguments.reading, &arguments.picture);
     memory::check_file(&arguments.scene)?;
     let (scene, mut files) = import::load_watched(&arguments.scene, &options, &|_| ());
     let mut scene = scene?;

@@ -1,7 +1,8 @@
 //! The report of a run that failed.
 
 use crate::report::{
-    Adapter, Draft, FetchReport, ImageReport, Report, SceneReport, Seconds, host_peak_bytes,
+    Adapter, Draft, FetchReport, ImageReport, Report, SceneReport, Seconds, SettingsReport,
+    host_peak_bytes,
 };
 use glimray_app::error::AppError;
 use schemars::JsonSchema;
@@ -67,14 +68,9 @@ enum ImageOf<'a> {
         path: String,
         width: (),
         height: (),
-        samples: (),
+        #[serde(flatten)]
+        settings: SettingsReport,
         mean_samples: (),
-        integrator: (),
-        max_depth: (),
-        seed: (),
-        transparent_shadows: (),
-        clamp_indirect: (),
-        bsdf: (),
         denoise: (),
     },
 }
@@ -113,14 +109,8 @@ impl<'a> FailedReport<'a> {
                 path: draft.image_path.display().to_string(),
                 width: (),
                 height: (),
-                samples: (),
+                settings: SettingsReport::default(),
                 mean_samples: (),
-                integrator: (),
-                max_depth: (),
-                seed: (),
-                transparent_shadows: (),
-                clamp_indirect: (),
-                bsdf: (),
                 denoise: (),
             },
         };

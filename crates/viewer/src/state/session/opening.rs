@@ -132,7 +132,7 @@ impl Session {
     /// Turns a crop of the command line into a region, which can be edited and cleared.
     fn crop(&mut self) {
         let size = self.view.settings.size;
-        let crop = self.request.overrides.picture.crop;
+        let crop = self.request.overrides.picture.crop.flatten();
         let settings = RenderSettings {
             crop,
             size,

@@ -1,0 +1,92 @@
+//! Reads the values of flags that place the camera, choose the moment and develop the picture.
+
+use super::overrides::{BackgroundChoice, Exposure};
+use super::value_forms::{list, within};
+use glam::{DVec3, Vec3};
+use glimray_scene::Shutter;
+
+/// Largest absolute value of a coordinate.
+pub const MAX_COORDINATE: f64 = 1e9;
+
+/// `X,Y,Z`, a point or a direction in scene units.
+pub fn vector(text: &str) -> Result<DVec3, String> {
+    let part = |part: &str| within(part, -MAX_COORDINATE, MAX_COORDINATE, "every coordinate");
+    list(text, "X,Y,Z", part).map(DVec3::from_array)
+}
+
+/// `R,G,B`, a linear radiance.
+pub fn color(text: &str) -> Result<Vec3, String> {
+    let part = |part: &str| within(part, 0.0, 1e6_f32, "every channel");
+    list(text, "R,G,B", part).map(Vec3::from_array)
+}
+
+/// `R,G,B` or `transparent`.
+pub fn background(text: &str) -> Result<BackgroundChoice, String> {
+    match text {
+        "transparent" => Ok(BackgroundChoice::Transparent),
+        _ => color(text).map(BackgroundChoice::Color),
+    }
+}
+
+/// `EV`, `auto`, or `auto+EV` and `auto-EV`.
+pub fn exposure(text: &str) -> Result<Exposure, String> {
+    let stops = |text: &str| {
+        let number = within(text, -64.0, 64.0, "it");
+        number.map_err(|why| format!("{why}; `auto`, `auto+1` and the like are allowed too"))
+    };
+    match text.trim().strip_prefix("auto") {
+        Some("") => Ok(Exposure {
+            is_auto: true,
+            stops: 0.0,
+        }),
+        Some(change) if change.starts_with(['+', '-']) => Ok(Exposure {
+            is_auto: true,
+            stops: stops(change)?,
+        }),
+        Some(_) | None => Ok(Exposure {
+            is_auto: false,
+            stops: stops(text)?,
+        }),
+    }
+}
+
+/// A vertical field of view in degrees.
+pub fn fov_y(text: &str) -> Result<f64, String> {
+    within(text, 0.001, 179.9, "it")
+}
+
+/// The height of an orthographic view in scene units.
+pub fn orthographic(text: &str) -> Result<f64, String> {
+    within(text, 1e-9, MAX_COORDINATE, "it")
+}
+
+/// Frames per second.
+pub fn fps(text: &str) -> Result<f64, String> {
+    within(text, 0.01, 1000.0, "it")
+}
+
+/// A time in seconds.
+pub fn time(text: &str) -> Result<f64, String> {
+    within(text, -1e6, 1e6, "it")
+}
+
+/// Longest exposure, and largest offset from a frame's time, in frames.
+const MAX_SHUTTER: f64 = 16.0;
+
+/// `0.5`, `180deg` or `-0.25..0.25`.
+pub fn shutter(text: &str) -> Result<Shutter, String> {
+    if let Some((open, close)) = text.split_once("..") {
+        let end = |text: &str| within(text, -MAX_SHUTTER, MAX_SHUTTER, "opening and closing");
+        let (open, close) = (end(open)?, end(close)?);
+        return if open <= close {
+            Ok(Shutter { open, close })
+        } else {
+            Err("it closes before it opens: put the earlier time first, as in -0.25..0.25".into())
+        };
+    }
+    let close = match text.trim().strip_suffix("deg") {
+        Some(degrees) => within(degrees, 0.0, MAX_SHUTTER * 360.0, "the angle")? / 360.0,
+        None => within(text, 0.0, MAX_SHUTTER, "it")?,
+    };
+    Ok(Shutter { open: 0.0, close })
+}
