@@ -8,16 +8,14 @@ mod statistics;
 
 pub use statistics::{remaining, seconds};
 
-use crate::model::view_settings::{MAX_SAMPLES, ViewSettings};
+use crate::model::view_settings::ViewSettings;
 use crate::ui::context::PanelContext;
-use crate::ui::panels::setting_rows::{choice, line, number};
+use crate::ui::panels::setting_rows::{self, choice, line};
 use eframe::egui::{self, Ui};
 use glimray_app::layers::{LAYERS, PictureLayer};
-use glimray_app::value_names::{
-    ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
-};
-use glimray_render::Integrator;
-use glimray_scene::Antialias;
+use glimray_app::settings::{SETTINGS, Section};
+use glimray_app::value_names::{INTEGRATORS, TONES, TRANSFERS};
+use glimray_render::{Integrator, RenderSettings};
 
 /// Width of the label column, in points, so that all sections line up.
 const NAMES: f32 = 96.0;
@@ -101,178 +99,42 @@ fn layer(ui: &mut Ui, look: &mut ViewSettings) {
 }
 
 fn samples(ui: &mut Ui, look: &mut ViewSettings) {
-    let usual = look.scene_settings.clone();
-    let before = look.settings.samples;
-    let mut samples = before;
-    line(
-        ui,
-        ("Samples", "Target samples per pixel, 1 to 65536"),
-        &mut samples,
-        &usual.samples,
-        |ui, value| {
-            let response = number(ui, value, 1..=MAX_SAMPLES, 0.25, "");
-            if ui
-                .button("½")
-                .on_hover_text("Halve the target samples")
-                .clicked()
-            {
-                *value = (*value / 2).max(1);
-            }
-            if ui
-                .button("×2")
-                .on_hover_text("Double the target samples")
-                .clicked()
-            {
-                *value = (*value * 2).min(MAX_SAMPLES);
-            }
-            response
-        },
-    );
-    if samples != before {
-        look.set_samples(samples);
+    let (samples, filter) = (look.settings.samples, look.settings.filter);
+    rows(ui, Section::Sampling, look);
+    let chosen = look.settings.samples;
+    if chosen != samples {
+        look.settings.samples = samples;
+        look.set_samples(chosen);
     }
-    let settings = &mut look.settings;
-    line(
-        ui,
-        ("Antialias", "Placement of samples in a pixel"),
-        &mut settings.antialias,
-        &usual.antialias,
-        |ui, value| choice(ui, "antialias", &ANTIALIAS, value),
-    );
-    let is_adaptive = settings.antialias == Antialias::Adaptive;
-    line(
-        ui,
-        (
-            "Noise",
-            "Adaptive sampling continues where the estimated error exceeds this fraction of white",
-        ),
-        &mut settings.noise,
-        &usual.noise,
-        |ui, value| {
-            ui.add_enabled_ui(is_adaptive, |ui| number(ui, value, 1e-6..=1.0, 0.0005, ""))
-                .inner
-                .on_disabled_hover_text("Only used by adaptive sampling")
-        },
-    );
-    let before = settings.filter;
-    line(
-        ui,
-        ("Filter", "Reconstruction filter"),
-        &mut settings.filter,
-        &usual.filter,
-        |ui, value| choice(ui, "filter", &FILTERS, value),
-    );
-    if settings.filter != before {
-        settings.filter_radius = match settings.filter == usual.filter {
-            true => usual.filter_radius,
-            false => settings.filter.default_radius(),
-        };
+    if look.settings.filter != filter {
+        look.settings.filter_radius = usual(look).filter_radius;
     }
-    let usual_radius = match settings.filter == usual.filter {
-        true => usual.filter_radius,
-        false => settings.filter.default_radius(),
-    };
-    line(
-        ui,
-        ("Filter radius", "Radius of the filter, 0.01 to 16 pixels"),
-        &mut settings.filter_radius,
-        &usual_radius,
-        |ui, value| number(ui, value, 0.01..=16.0, 0.01, " px"),
-    );
-    line(
-        ui,
-        (
-            "Light samples",
-            "Factor on the samples of every area light, 0.001 to 1000",
-        ),
-        &mut settings.light_samples,
-        &usual.light_samples,
-        |ui, value| number(ui, value, 0.001..=1000.0, 0.02, " ×"),
-    );
-    line(
-        ui,
-        ("Seed", "Seed of the random numbers"),
-        &mut settings.seed,
-        &usual.seed,
-        |ui, value| number(ui, value, 0..=u32::MAX, 0.1, ""),
-    );
 }
 
 fn rays(ui: &mut Ui, look: &mut ViewSettings) {
-    let usual = look.scene_settings.clone();
-    let settings = &mut look.settings;
-    line(
-        ui,
-        (
-            "Max depth",
-            "Bounces after the first hit, 0 to 1000. 0 is local shading only",
-        ),
-        &mut settings.max_depth,
-        &usual.max_depth,
-        |ui, value| number(ui, value, 0..=1000, 0.05, ""),
-    );
-    line(
-        ui,
-        (
-            "Min throughput",
-            "Terminate reflection and refraction rays below this throughput, 0 to 1",
-        ),
-        &mut settings.min_throughput,
-        &usual.min_throughput,
-        |ui, value| number(ui, value, 0.0..=1.0, 0.0005, ""),
-    );
-    if settings.integrator == Integrator::Path {
-        line(
-            ui,
-            (
-                "Clear shadows",
-                "Let all glass filter shadow rays in straight lines, which loses caustics",
-            ),
-            &mut settings.transparent_shadows,
-            &usual.transparent_shadows,
-            |ui, value| ui.checkbox(value, ""),
-        );
-        line(
-            ui,
-            ("Scattering", "How metallic-roughness materials scatter"),
-            &mut settings.bsdf,
-            &usual.bsdf,
-            |ui, value| choice(ui, "scattering", &BSDF_MODELS, value),
-        );
-        line(
-            ui,
-            (
-                "Clamp indirect",
-                "The most radiance that a sample gains at once from indirect light; 0 is no limit. \
-                 It removes fireflies, and light",
-            ),
-            &mut settings.clamp_indirect,
-            &usual.clamp_indirect,
-            |ui, value| {
-                let mut limit = value.unwrap_or_default();
-                let response = number(ui, &mut limit, 0.0..=1e6, 0.1, "");
-                *value = Some(limit).filter(|limit| *limit > 0.0);
-                response
-            },
-        );
+    rows(ui, Section::Rays, look);
+}
+
+/// The rows of a section from the table of settings. Settings of paths are there for paths only.
+fn rows(ui: &mut Ui, section: Section, look: &mut ViewSettings) {
+    for setting in SETTINGS {
+        if let Some(row) = &setting.row
+            && row.section == section
+            && (section == Section::Sampling || setting.applies(&look.settings))
+        {
+            let usual = usual(look);
+            setting_rows::setting(ui, (setting, row), &mut look.settings, &usual);
+        }
     }
-    line(
-        ui,
-        ("Triangle test", "Ray–triangle intersection algorithm"),
-        &mut settings.triangle_test,
-        &usual.triangle_test,
-        |ui, value| choice(ui, "triangle test", &TRIANGLE_TESTS, value),
-    );
-    line(
-        ui,
-        (
-            "Brute force",
-            "Test every primitive for every ray, without the BVH. Same picture, much slower",
-        ),
-        &mut settings.brute_force,
-        &usual.brute_force,
-        |ui, value| ui.checkbox(value, ""),
-    );
+}
+
+/// The settings of the scene and the command line; a filter other than theirs has its own radius.
+fn usual(look: &ViewSettings) -> RenderSettings {
+    let mut usual = look.scene_settings.clone();
+    if look.settings.filter != usual.filter {
+        usual.filter_radius = look.settings.filter.default_radius();
+    }
+    usual
 }
 
 /// These settings do not retrace the picture.

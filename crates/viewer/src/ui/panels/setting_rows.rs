@@ -1,8 +1,11 @@
 //! Rows of settings with a reset button, and titles of command-line values.
 
+use crate::model::view_settings::MAX_SAMPLES;
 use eframe::egui::{self, Response, RichText, Ui, WidgetInfo};
+use glimray_app::settings::{Row, Setting};
+use glimray_app::value_forms::Control;
 use glimray_app::value_names::ValueNames;
-use glimray_render::Integrator;
+use glimray_render::{Integrator, RenderSettings};
 use std::ops::RangeInclusive;
 
 /// The title of a command-line value: `side-by-side` becomes `Side by side`.
@@ -24,6 +27,72 @@ pub fn title(name: &str) -> String {
     match letters.next() {
         Some(first) => first.to_uppercase().chain(letters).collect(),
         None => spaced,
+    }
+}
+
+/// The row of a setting.
+pub fn setting(
+    ui: &mut Ui,
+    (setting, row): (&Setting, &Row),
+    settings: &mut RenderSettings,
+    usual: &RenderSettings,
+) {
+    let mut reset = settings.clone();
+    (setting.copy)(usual, &mut reset);
+    let is_enabled = setting.applies(settings);
+    let of = setting.scope.as_ref().map_or("", |scope| scope.noun);
+    line(
+        ui,
+        (row.label, setting.tip()),
+        settings,
+        &reset,
+        |ui, settings| {
+            ui.add_enabled_ui(is_enabled, |ui| control(ui, setting, row, settings))
+                .inner
+                .on_disabled_hover_text(format!("Only used by {of}"))
+        },
+    );
+}
+
+fn control(ui: &mut Ui, setting: &Setting, row: &Row, settings: &mut RenderSettings) -> Response {
+    match (setting.control)() {
+        Control::Switch(place) => ui.checkbox(place(settings), ""),
+        Control::Count(place, range) => {
+            let response = number(ui, place(settings), range, row.speed, row.unit);
+            if setting.name == "samples" {
+                halve_or_double(ui, &mut settings.samples);
+            }
+            response
+        }
+        Control::Real(place, range) => number(ui, place(settings), range, row.speed, row.unit),
+        Control::Limit(place, range) => {
+            let value = place(settings);
+            let mut limit = value.unwrap_or_default();
+            let response = number(ui, &mut limit, 0.0..=*range.end(), row.speed, row.unit);
+            *value = Some(limit).filter(|limit| *limit > 0.0);
+            response.on_hover_text("0 is no limit")
+        }
+        Control::Names(names) => {
+            let chosen = (setting.text)(settings).unwrap_or_default();
+            let mut name = &*chosen;
+            let response = choice_of(ui, setting.name, names.into_iter(), &mut name);
+            if name != chosen {
+                // All names are those of values.
+                let _ = setting.set(settings, name);
+            }
+            response
+        }
+        Control::Text => ui.label((setting.text)(settings).unwrap_or_default()),
+    }
+}
+
+fn halve_or_double(ui: &mut Ui, samples: &mut u32) {
+    let mut button = |text: &str, tip: &str| ui.button(text).on_hover_text(tip).clicked();
+    if button("½", "Halve the target samples") {
+        *samples = (*samples / 2).max(1);
+    }
+    if button("×2", "Double the target samples") {
+        *samples = (*samples * 2).min(MAX_SAMPLES);
     }
 }
 
@@ -57,20 +126,33 @@ pub fn reset_button(ui: &mut Ui, name: &str) -> Response {
 /// A choice among the values of a flag.
 pub fn choice<T: PartialEq + Clone>(
     ui: &mut Ui,
-    name: &str,
+    id: &str,
     names: &'static ValueNames<T>,
     value: &mut T,
 ) -> Response {
-    let chosen = title(names.name(value));
-    egui::ComboBox::from_id_salt(name)
-        .selected_text(chosen)
+    // Aliases of the same value are left out.
+    let own = (names.all().iter()).filter(|(name, _, known)| names.name(known) == *name);
+    let mut name = names.name(value);
+    let response = choice_of(ui, id, own.map(|(name, help, _)| (*name, *help)), &mut name);
+    if let Some(chosen) = names.value(name).filter(|chosen| chosen != value) {
+        *value = chosen;
+    }
+    response
+}
+
+/// A choice among names, each with a description.
+fn choice_of<'a>(
+    ui: &mut Ui,
+    id: &str,
+    names: impl Iterator<Item = (&'a str, &'a str)>,
+    chosen: &mut &'a str,
+) -> Response {
+    egui::ComboBox::from_id_salt(id)
+        .selected_text(title(chosen))
         .show_ui(ui, |ui| {
-            for (own_name, help, known) in names.all() {
-                // Aliases of the same value are left out.
-                if names.name(known) == *own_name {
-                    ui.selectable_value(value, known.clone(), title(own_name))
-                        .on_hover_text(*help);
-                }
+            for (name, help) in names {
+                ui.selectable_value(chosen, name, title(name))
+                    .on_hover_text(help);
             }
         })
         .response
