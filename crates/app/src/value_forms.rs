@@ -162,10 +162,8 @@ pub const SIZE: Written<(u32, u32)> = Written(
 );
 
 /// `X0,Y0,X1,Y1`.
-pub const CROP: Written<Option<[u32; 4]>> = Written(
-    |text| crop(text).map(Some),
-    |edges| edges.map(|edges| edges.map(|edge| edge.to_string()).join(",")),
-);
+pub const CROP: Written<Option<[u32; 4]>> =
+    Written(|text| crop(text).map(Some), |edges| edges.map(joined));
 
 /// `bound` or `fixed:DISTANCE`.
 pub const OFFSET: Written<RayOffset> = Written(str::parse, |offset| Some(offset.to_string()));
@@ -193,6 +191,11 @@ pub fn list<T, const N: usize>(
     parts
         .try_into()
         .map_err(|_| format!("it must be {shape}: {N} numbers, not {count}"))
+}
+
+/// The text of values for [`list`].
+pub fn joined<T: ToString, const N: usize>(parts: [T; N]) -> String {
+    parts.map(|part| part.to_string()).join(",")
 }
 
 /// A number from `min` to `max`. NaN is out of every range.
