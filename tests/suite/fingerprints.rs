@@ -1,13 +1,12 @@
 //! Stable fingerprints of settings, scenes and views.
 
 use crate::reference::scenes;
-use glam::dvec3;
+use crate::support::settings::texts;
+use glam::{dvec3, vec3};
+use glimray_app::settings::SETTINGS;
 use glimray::pack;
-use glimray::render::{
-    BsdfModel, Fingerprint, INTEGRATORS, Integrator, Levels, RayOffset, RenderSettings, Tone,
-    TriangleTest,
-};
-use glimray::scene::{Antialias, Filter, Scene, ToneCurve, Transfer};
+use glimray::render::{Fingerprint, INTEGRATORS, Integrator, Levels, RenderSettings, Tone};
+use glimray::scene::{Backdrop, Scene, ToneCurve, Transfer};
 use std::collections::{HashMap, HashSet};
 
 /// Films and journals of other builds contain it: when the encoding changes, increase the version and update
@@ -19,53 +18,42 @@ fn the_fingerprint_of_settings_is_the_same_in_every_build() {
 }
 
 #[test]
+fn every_setting_has_a_flag_or_follows_from_others() {
+    let of_others = ["sample_range", "features", "backdrop"];
+    let with_flag = SETTINGS.iter().map(|setting| setting.name);
+    let known: HashSet<_> = with_flag.chain(of_others).collect();
+    assert_eq!(known, HashSet::from_iter(RenderSettings::NAMES.to_vec()));
+}
+
+#[test]
 fn every_setting_changes_the_fingerprint() {
-    type Change = fn(&mut RenderSettings);
-    let changes: Vec<(&str, Change)> = vec![
-        ("nothing", |_| {}),
-        ("width", |s| s.size.0 += 1),
-        ("height", |s| s.size.1 += 1),
-        ("crop", |s| s.crop = Some([0, 0, 0, 0])),
-        ("another crop", |s| s.crop = Some([0, 0, 0, 1])),
-        ("samples", |s| s.samples += 1),
-        ("range", |s| s.sample_range = Some(0..0)),
-        ("another range", |s| s.sample_range = Some(0..1)),
-        ("stratified", |s| s.antialias = Antialias::Stratified),
-        ("adaptive", |s| s.antialias = Antialias::Adaptive),
-        ("noise", |s| s.noise = 0.02),
-        ("tent", |s| s.filter = Filter::Tent),
-        ("gaussian", |s| s.filter = Filter::Gaussian),
-        ("blackman", |s| s.filter = Filter::BlackmanHarris),
-        ("mitchell", |s| s.filter = Filter::Mitchell),
-        ("radius", |s| s.filter_radius = 0.75),
-        ("light samples", |s| s.light_samples = 2.0),
-        ("normals", |s| s.integrator = Integrator::Normals),
-        ("depth", |s| s.integrator = Integrator::Depth),
-        ("ids", |s| s.integrator = Integrator::Ids),
-        ("uv", |s| s.integrator = Integrator::Uv),
-        ("heat", |s| s.integrator = Integrator::Heat),
-        ("counts", |s| s.integrator = Integrator::Samples),
-        ("plane", |s| s.triangle_test = TriangleTest::Plane),
-        ("moller", |s| s.triangle_test = TriangleTest::MollerTrumbore),
-        ("offset", |s| s.offset = RayOffset::Fixed(1e-4)),
-        ("another offset", |s| s.offset = RayOffset::Fixed(2e-4)),
-        ("brute force", |s| s.brute_force = true),
-        ("seed", |s| s.seed = 1),
-        ("depth of rays", |s| s.max_depth += 1),
-        ("throughput", |s| s.min_throughput = 0.25),
-        ("paths", |s| s.integrator = Integrator::Path),
-        ("transparent shadows", |s| s.transparent_shadows = true),
-        ("the specification", |s| s.bsdf = BsdfModel::Spec),
-        ("clamp", |s| s.clamp_indirect = Some(1.0)),
-        ("another clamp", |s| s.clamp_indirect = Some(2.0)),
-        ("features", |s| s.features = true),
+    let without_flag: [fn(&mut RenderSettings); 5] = [
+        |settings| settings.sample_range = Some(0..0),
+        |settings| settings.sample_range = Some(0..1),
+        |settings| settings.features = true,
+        |settings| settings.backdrop = Backdrop::Color(vec3(0.0, 0.0, 0.0)),
+        |settings| settings.backdrop = Backdrop::Transparent,
     ];
-    let mut known: HashMap<Fingerprint, &str> = HashMap::new();
-    for (name, change) in changes {
-        let mut settings = RenderSettings::default();
+    let usual = RenderSettings::default();
+    let mut changed = vec![usual.clone()];
+    for change in without_flag {
+        let mut settings = usual.clone();
         change(&mut settings);
-        let same = known.insert(settings.fingerprint(), name);
-        assert_eq!(same, None, "{name}");
+        changed.push(settings);
+    }
+    for setting in SETTINGS {
+        for text in texts(setting) {
+            let mut settings = usual.clone();
+            (setting.set(&mut settings, &text)).expect("a value");
+            if settings != usual {
+                changed.push(settings);
+            }
+        }
+    }
+    let mut known: HashMap<Fingerprint, RenderSettings> = HashMap::new();
+    for settings in changed {
+        let same = known.insert(settings.fingerprint(), settings.clone());
+        assert_eq!(same, None, "{settings:?}");
     }
 }
 

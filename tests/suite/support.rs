@@ -7,6 +7,7 @@ pub mod harness;
 pub mod program;
 pub mod random;
 pub mod schema;
+pub mod settings;
 pub mod skip;
 pub mod statistics;
 pub mod types;

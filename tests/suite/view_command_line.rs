@@ -2,7 +2,10 @@
 
 use crate::reference::compare::render;
 use crate::support::random::Random;
+use crate::support::settings::texts;
 use glam::{DAffine3, dvec2, dvec3, vec3};
+use glimray_app::overrides::ToneOverrides;
+use glimray_app::settings::SETTINGS;
 use glimray::import;
 use glimray::output;
 use glimray::pack;
@@ -56,7 +59,6 @@ impl Screen {
 
     fn copy(&self) -> CommandLine {
         copy(&Shown {
-            parse: picture,
             path: &self.path,
             options: &self.options,
             scene: &self.scene,
@@ -235,6 +237,24 @@ fn every_setting_that_a_pixel_depends_on_is_in_the_line() {
         let line = screen.check();
         let flags = flags.replace('=', " ");
         assert_eq!(line, format!("glimray render scene.toml {flags}"));
+    }
+}
+
+#[test]
+fn any_settings_come_back() {
+    let mut random = Random::new(7);
+    for _ in 0..200 {
+        let mut screen = Screen::of(scene());
+        for setting in SETTINGS.iter() {
+            let texts = texts(setting);
+            if random.below(3) == 0 {
+                let text = &texts[random.below(texts.len())];
+                (setting.set(&mut screen.settings, text)).expect("a value");
+            }
+        }
+        let integrator = screen.settings.integrator;
+        screen.tone = ToneOverrides::default().tone(&screen.scene.output, integrator, false);
+        screen.check();
     }
 }
 

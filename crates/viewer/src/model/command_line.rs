@@ -1,13 +1,14 @@
 //! Converts the current view to a command line that renders the same picture, and back.
 //!
-//! This module does not know the meaning of flags: a line is parsed by the program's own command line and
-//! applied to the scene as `render` does. Flags are added until the result matches the view.
+//! Both ways resolve overrides as `render` does. A line that is pasted is parsed by the program's own command line.
 
 mod flags;
 
+use flags::Flags;
 use glimray_app::clock::Clock;
 use glimray_app::inputs::may_be_model;
-use glimray_app::window::{ParsePicture, PictureRequest};
+use glimray_app::overrides::RenderOverrides;
+use glimray_app::window::ParsePicture;
 use glimray_io::import::{EnvironmentSource, Ground, Staging};
 use glimray_render::{RenderSettings, Tone};
 use glimray_scene::{Background, Camera, Scene, Shutter, Target};
@@ -17,8 +18,6 @@ use std::path::{Path, PathBuf};
 /// The current view.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown<'a> {
-    /// The parser of the program's command line.
-    pub parse: ParsePicture,
     /// The scene's file.
     pub path: &'a Path,
     /// The importer options from `--set` and `--allow-dir`.
@@ -146,31 +145,15 @@ pub fn copy(shown: &Shown) -> CommandLine {
         // full.
         scene.cameras.fill(Camera::default());
     }
-    let mut tried: Vec<&str> = Vec::new();
-    // A flag may change the defaults of others, so each is added to the line so far.
-    while let Some(difference) = outcome(shown.parse, &arguments, &scene)
-        .ok()
-        .and_then(|parsed| flags::all(shown, &scene, &parsed).find(|d| !tried.contains(&d.what)))
-    {
-        tried.push(difference.what);
-        let length = arguments.len();
-        for (flag, value) in difference.flags {
-            arguments.push(flag.to_owned());
-            arguments.extend(Some(value).filter(|value| !value.is_empty()));
-        }
-        // Outside the range of the flag.
-        if outcome(shown.parse, &arguments, &scene).is_err() {
-            arguments.truncate(length);
-        }
+    if let Ok(flags) = Flags::new(shown, &scene) {
+        arguments.extend(flags.arguments);
+        left_out.extend(flags.left_out.into_iter().map(str::to_owned));
     }
     // A background leaves out the ground that a model got without asking.
     let has_background = arguments.iter().any(|argument| argument == "--background");
     let stands = staging.ground == Ground::Default && shown.scene.staged;
     if has_background && stands && may_be_model(shown.path) {
         arguments.push("--ground=surface".to_owned());
-    }
-    if let Ok(parsed) = outcome(shown.parse, &arguments, &scene) {
-        left_out.extend(flags::all(shown, &scene, &parsed).map(|d| d.what.to_owned()));
     }
     if shown.edited {
         left_out.push("unsaved changes of the scene".to_owned());
@@ -213,24 +196,26 @@ pub fn paste(parse: ParsePicture, line: &str, scene: &Scene) -> Result<Pasted, S
         }
     };
     arguments[0] = "glimray".to_owned();
-    outcome(parse, &arguments, &without_geometry(scene))
+    let request = parse(&arguments)?;
+    let pasted = resolve(&request.overrides, &without_geometry(scene))?;
+    Ok(Pasted {
+        path: (request.scene != Path::new(NO_FILE)).then_some(request.scene),
+        ..pasted
+    })
 }
 
 /// Stands for the scene in a line without one; no file has this name.
 const NO_FILE: &str = "\n";
 
-fn outcome(parse: ParsePicture, arguments: &[String], scene: &Scene) -> Result<Pasted, String> {
-    let PictureRequest {
-        scene: path,
-        overrides,
-    } = parse(arguments)?;
+/// The picture of `scene` with overrides, without a path.
+fn resolve(overrides: &RenderOverrides, scene: &Scene) -> Result<Pasted, String> {
     let mut scene = scene.clone();
     (overrides.camera.apply(&mut scene)).map_err(|error| error.to_string())?;
     let settings = overrides.picture.settings(&scene.output);
     let clock = Clock::new(&scene.output, &overrides.timing);
     let time = clock.time(&overrides.moment);
     Ok(Pasted {
-        path: (path != Path::new(NO_FILE)).then_some(path),
+        path: None,
         camera: scene.frame(time).camera,
         background: scene.background.clone(),
         tone: (overrides.tone).tone(&scene.output, settings.integrator, false),
@@ -241,7 +226,7 @@ fn outcome(parse: ParsePicture, arguments: &[String], scene: &Scene) -> Result<P
     })
 }
 
-/// Cameras and settings depend on these; flags are tried on it repeatedly.
+/// Cameras and settings depend on these; lines are resolved on it repeatedly.
 pub fn without_geometry(scene: &Scene) -> Scene {
     let mut tracks = scene.tracks.clone();
     for track in &mut tracks {

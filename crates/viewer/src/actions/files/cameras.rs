@@ -170,7 +170,6 @@ pub fn copy(session: &mut Session, ctx: &egui::Context) {
     };
     let path = session.path.clone();
     let shown = Shown {
-        parse: session.request.parse,
         path: path.as_deref().unwrap_or(Path::new(DEMO_FILE)),
         options: &session.request.import,
         scene: original,

@@ -113,7 +113,6 @@ pub fn command(session: &Session, sample: Option<u32>) -> Result<CommandLine, St
     let background = session.view.background.as_ref();
     let playback = &session.playback;
     let mut command = command_line::copy(&Shown {
-        parse: session.request.parse,
         path,
         options: &session.request.import,
         scene,

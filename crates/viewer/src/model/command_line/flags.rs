@@ -1,293 +1,272 @@
-//! The flag for each difference.
+//! The flags for everything that differs from the scene.
 
-use crate::model::command_line::{Pasted, Shown};
+use super::{Pasted, Shown, resolve};
 use glam::DVec3;
-use glimray_app::value_names::{
-    ANTIALIAS, BSDF_MODELS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS,
+use glimray_app::flag_values::{
+    background, exposure, fov_y, fps, orthographic, shutter, time, vector,
 };
+use glimray_app::overrides::RenderOverrides;
+use glimray_app::settings::SETTINGS;
+use glimray_app::value_forms::{Form, joined};
+use glimray_app::value_names::{TONES, TRANSFERS};
 use glimray_scene::{Backdrop, Background, Camera, Scene, Shutter};
 
-/// A difference between a line and the view.
-pub(super) struct Difference {
-    /// The differing property, in a few words.
-    pub what: &'static str,
-    /// The flags to add; empty if no flag can express it.
-    pub flags: Vec<(&'static str, String)>,
+/// Flags, and the picture that a line with them shows.
+pub(super) struct Flags<'a> {
+    scene: &'a Scene,
+    overrides: RenderOverrides,
+    picture: Pasted,
+    /// The flags and their values.
+    pub arguments: Vec<String>,
+    /// The differences for which there is no flag, a few words each.
+    pub left_out: Vec<&'static str>,
 }
 
-/// All differences; those that others depend on come first.
-pub(super) fn all(
-    shown: &Shown,
-    scene: &Scene,
-    parsed: &Pasted,
-) -> impl Iterator<Item = Difference> {
-    let checks = camera(shown, scene, parsed)
-        .into_iter()
-        .chain(settings(shown, parsed))
-        .chain(look(shown, parsed));
-    checks
-        .filter(|(differs, ..)| *differs)
-        .map(|(_, what, flags)| Difference { what, flags })
-}
+impl<'a> Flags<'a> {
+    /// All flags that `shown` needs if a line without them shows `scene`.
+    ///
+    /// # Errors
+    /// The scene has no camera.
+    pub fn new(shown: &Shown, scene: &'a Scene) -> Result<Self, String> {
+        let mut overrides = RenderOverrides::default();
+        overrides.camera.has_environment = shown.options.environment.source.is_some();
+        let mut flags = Self {
+            scene,
+            picture: resolve(&overrides, scene)?,
+            overrides,
+            arguments: Vec::new(),
+            left_out: Vec::new(),
+        };
+        flags.camera(shown);
+        // Other settings have defaults that depend on those that lead.
+        let (first, others) = SETTINGS
+            .iter()
+            .partition::<Vec<_>, _>(|setting| setting.leads);
+        for setting in first.into_iter().chain(others) {
+            let wanted = (setting.text)(shown.settings);
+            flags.add(
+                setting.noun,
+                |picture| (setting.text)(&picture.settings) != wanted,
+                [(setting.flag, wanted.as_deref())],
+                |overrides| (setting.give)(&mut overrides.picture, wanted.as_deref()?).ok(),
+            );
+        }
+        flags.background(shown);
+        flags.tone(shown);
+        flags.timing(shown);
+        Ok(flags)
+    }
 
-/// Whether the values differ, the name, and the flags that set it.
-type Check = (bool, &'static str, Vec<(&'static str, String)>);
+    /// Adds `flags` if what is shown differs from the picture so far. `change` makes the same change to the overrides; `None`
+    /// tells that the flags cannot be given.
+    fn add<const N: usize>(
+        &mut self,
+        what: &'static str,
+        differs: impl Fn(&Pasted) -> bool,
+        flags: [(&'static str, Option<&str>); N],
+        change: impl FnOnce(&mut RenderOverrides) -> Option<()>,
+    ) {
+        if !differs(&self.picture) {
+            return;
+        }
+        let mut overrides = self.overrides.clone();
+        let picture = change(&mut overrides).and_then(|()| resolve(&overrides, self.scene).ok());
+        if let Some(picture) = picture {
+            self.overrides = overrides;
+            self.picture = picture;
+            let words = flags
+                .into_iter()
+                .flat_map(|(flag, value)| [Some(flag), value]);
+            let words = words.flatten().filter(|word| !word.is_empty());
+            self.arguments.extend(words.map(str::to_owned));
+        }
+        if differs(&self.picture) {
+            self.left_out.push(what);
+        }
+    }
 
-fn one(differs: bool, what: &'static str, flag: &'static str, value: String) -> Check {
-    (differs, what, vec![(flag, value)])
-}
+    /// Adds one flag. `read` takes its value, unless that is out of range, and `place` is where it goes.
+    fn add_one<T>(
+        &mut self,
+        what: &'static str,
+        differs: impl Fn(&Pasted) -> bool,
+        (flag, text): (&'static str, Option<String>),
+        read: impl Fn(&str) -> Result<T, String>,
+        place: impl Fn(&mut RenderOverrides) -> &mut Option<T>,
+    ) {
+        let text = text.as_deref();
+        self.add(what, differs, [(flag, text)], |overrides| {
+            *place(overrides) = Some(read(text?).ok()?);
+            Some(())
+        });
+    }
 
-fn camera(shown: &Shown, scene: &Scene, parsed: &Pasted) -> Vec<Check> {
-    let (wanted, camera) = (shown.camera, &parsed.camera);
-    let time = one(
-        shown.time != parsed.time,
-        "the time",
-        "--time",
-        shown.time.to_string(),
-    );
-    // A lens is only available through the camera that has it.
-    let has_lens = |index: &usize| {
-        let mut scene = scene.clone();
-        scene.camera_index = *index;
-        scene.frame(shown.time).camera.lens == wanted.lens
-    };
-    let lens = (wanted.lens != camera.lens)
-        .then(|| (0..scene.cameras.len()).find(has_lens))
-        .flatten();
-    let chosen = lens.map(|index| ("--camera", index.to_string()));
-    let projection = match wanted.orthographic_height {
-        Some(height) => ("--orthographic", height.to_string()),
-        None => ("--fov-y", degrees(wanted.fov_y).to_string()),
-    };
-    vec![
-        time,
-        (
-            wanted.lens != camera.lens,
+    fn camera(&mut self, shown: &Shown) {
+        let (wanted, now, scene) = (shown.camera, shown.time, self.scene);
+        self.add_one(
+            "the time",
+            |picture| picture.time != now,
+            ("--time", Some(now.to_string())),
+            time,
+            |overrides| &mut overrides.moment.time,
+        );
+        // A lens is only available through the camera that has it.
+        let has_lens = |index: &usize| {
+            let mut scene = scene.clone();
+            scene.camera_index = *index;
+            scene.frame(now).camera.lens == wanted.lens
+        };
+        let index = (0..scene.cameras.len()).find(has_lens);
+        self.add_one(
             "the camera's lens",
-            chosen.into_iter().collect(),
-        ),
-        place(wanted, camera),
-        (
-            !same_projection(wanted, camera),
-            "the camera's angle of view",
-            vec![projection],
-        ),
-    ]
+            |picture| picture.camera.lens != wanted.lens,
+            ("--camera", index.map(|index| index.to_string())),
+            |name| Ok(name.to_owned()),
+            |overrides| &mut overrides.camera.name,
+        );
+        // All three at once, because animated values must not remain.
+        let [from, at, up] = place(wanted).map(|at| joined(at.to_array()));
+        let flags = [("--look-from", &from), ("--look-at", &at), ("--up", &up)];
+        // With a letter, `--up` is the axis of the model.
+        let is_free = shown.options.up.is_none();
+        self.add(
+            "the camera position",
+            |picture| place(&picture.camera) != place(wanted),
+            flags.map(|(flag, text)| (flag, Some(&**text))),
+            |overrides| {
+                let camera = &mut overrides.camera;
+                camera.look_from = Some(vector(&from).ok().filter(|_| is_free)?);
+                camera.look_at = Some(vector(&at).ok()?);
+                camera.up = Some(vector(&up).ok()?);
+                Some(())
+            },
+        );
+        let what = "the camera's angle of view";
+        let differs = |picture: &Pasted| !same_projection(wanted, &picture.camera);
+        match wanted.orthographic_height {
+            Some(height) => self.add_one(
+                what,
+                differs,
+                ("--orthographic", Some(height.to_string())),
+                orthographic,
+                |overrides| &mut overrides.camera.orthographic_height,
+            ),
+            None => self.add_one(
+                what,
+                differs,
+                ("--fov-y", Some(degrees(wanted.fov_y).to_string())),
+                fov_y,
+                |overrides| &mut overrides.camera.fov_y_deg,
+            ),
+        }
+    }
+
+    /// One flag is for both: beside `--environment` a colour is a backdrop, else the background.
+    fn background(&mut self, shown: &Shown) {
+        let has_environment = self.overrides.camera.has_environment;
+        let (wanted, backdrop) = (shown.background, shown.settings.backdrop);
+        let text = match backdrop {
+            Backdrop::Transparent => Some("transparent".to_owned()),
+            Backdrop::Color(color) if has_environment => Some(joined(color.to_array())),
+            Backdrop::Color(_) | Backdrop::Background => None,
+        };
+        self.add_one(
+            "the backdrop",
+            |picture| picture.settings.backdrop != backdrop,
+            ("--background", text),
+            background,
+            |overrides| &mut overrides.camera.background,
+        );
+        let is_free = self.overrides.camera.background.is_none() && !has_environment;
+        let text = match wanted {
+            Background::Color(color) if is_free => Some(joined(color.to_array())),
+            _ => None,
+        };
+        self.add_one(
+            "the background",
+            |picture| picture.background != *wanted,
+            ("--background", text),
+            background,
+            |overrides| &mut overrides.camera.background,
+        );
+    }
+
+    fn tone(&mut self, shown: &Shown) {
+        let wanted = shown.tone;
+        let text = match wanted.auto_exposure {
+            true => format!("auto{:+}", wanted.exposure_ev),
+            false => wanted.exposure_ev.to_string(),
+        };
+        self.add_one(
+            "the exposure",
+            |Pasted { tone, .. }| {
+                (tone.exposure_ev, tone.auto_exposure) != (wanted.exposure_ev, wanted.auto_exposure)
+            },
+            ("--exposure", Some(text)),
+            exposure,
+            |overrides| &mut overrides.tone.exposure,
+        );
+        self.add_one(
+            "the tone curve",
+            |picture| picture.tone.curve != wanted.curve,
+            ("--tone", TONES.write(&wanted.curve)),
+            |text| TONES.read(text),
+            |overrides| &mut overrides.tone.curve,
+        );
+        self.add_one(
+            "the transfer function",
+            |picture| picture.tone.transfer != wanted.transfer,
+            ("--transfer", TRANSFERS.write(&wanted.transfer)),
+            |text| TRANSFERS.read(text),
+            |overrides| &mut overrides.tone.transfer,
+        );
+        let flag = match wanted.denoise {
+            true => "--denoise",
+            false => "--no-denoise",
+        };
+        self.add(
+            "denoising",
+            |picture| picture.tone.denoise != wanted.denoise,
+            [(flag, None)],
+            |overrides| {
+                overrides.tone.denoise = Some(wanted.denoise);
+                overrides.picture.denoise = Some(wanted.denoise);
+                Some(())
+            },
+        );
+    }
+
+    fn timing(&mut self, shown: &Shown) {
+        let (rate, wanted) = (shown.fps, shown.shutter);
+        self.add_one(
+            "the frame rate",
+            |picture| picture.fps != rate,
+            ("--fps", Some(rate.to_string())),
+            fps,
+            |overrides| &mut overrides.timing.fps,
+        );
+        let Shutter { open, close } = wanted;
+        let text = match open == 0.0 && close >= 0.0 {
+            true => close.to_string(),
+            false => format!("{open}..{close}"),
+        };
+        self.add_one(
+            "the shutter",
+            |picture| picture.shutter != wanted,
+            ("--shutter", Some(text)),
+            shutter,
+            |overrides| &mut overrides.timing.shutter,
+        );
+    }
 }
 
-/// All three at once, because animated values must not remain.
-fn place(wanted: &Camera, camera: &Camera) -> Check {
-    let pairs = [
-        (wanted.look_from, camera.look_from, "--look-from"),
-        (wanted.look_at, camera.look_at, "--look-at"),
-        (wanted.up, camera.up, "--up"),
-    ];
-    let differs = pairs.iter().any(|(wanted, parsed, _)| wanted != parsed);
-    let flags = pairs.map(|(wanted, _, flag)| (flag, vector(wanted)));
-    (differs, "the camera position", flags.to_vec())
+fn place(camera: &Camera) -> [DVec3; 3] {
+    [camera.look_from, camera.look_at, camera.up]
 }
 
 fn same_projection(a: &Camera, b: &Camera) -> bool {
     a.orthographic_height == b.orthographic_height
         && (a.orthographic_height.is_some() || a.fov_y == b.fov_y)
-}
-
-fn settings(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
-    let (wanted, parsed) = (shown.settings, &parsed.settings);
-    let (width, height) = wanted.size;
-    let crop = wanted.crop.map(|edges| edges.map(|edge| edge.to_string()));
-    let crop = crop.map(|edges| ("--crop", edges.join(",")));
-    let switch = |is_on: bool, name| is_on.then(|| (name, String::new())).into_iter();
-    vec![
-        one(
-            wanted.size != parsed.size,
-            "the size",
-            "--size",
-            format!("{width}x{height}"),
-        ),
-        (
-            wanted.crop != parsed.crop,
-            "the region",
-            crop.into_iter().collect(),
-        ),
-        one(
-            wanted.samples != parsed.samples,
-            "the samples",
-            "--samples",
-            wanted.samples.to_string(),
-        ),
-        one(
-            wanted.antialias != parsed.antialias,
-            "the sample placement",
-            "--antialias",
-            ANTIALIAS.name(&wanted.antialias).to_owned(),
-        ),
-        one(
-            wanted.noise != parsed.noise,
-            "the noise limit",
-            "--noise",
-            wanted.noise.to_string(),
-        ),
-        one(
-            wanted.filter != parsed.filter,
-            "the filter",
-            "--filter",
-            FILTERS.name(&wanted.filter).to_owned(),
-        ),
-        one(
-            wanted.filter_radius != parsed.filter_radius,
-            "the filter's radius",
-            "--filter-radius",
-            wanted.filter_radius.to_string(),
-        ),
-        one(
-            wanted.light_samples != parsed.light_samples,
-            "the light samples",
-            "--light-samples",
-            wanted.light_samples.to_string(),
-        ),
-        one(
-            wanted.integrator != parsed.integrator,
-            "the integrator",
-            "--integrator",
-            INTEGRATORS.name(&wanted.integrator).to_owned(),
-        ),
-        one(
-            wanted.triangle_test != parsed.triangle_test,
-            "the triangle test",
-            "--triangle-test",
-            TRIANGLE_TESTS.name(&wanted.triangle_test).to_owned(),
-        ),
-        one(
-            wanted.offset != parsed.offset,
-            "the ray offset",
-            "--offset",
-            wanted.offset.to_string(),
-        ),
-        (
-            wanted.brute_force != parsed.brute_force,
-            "brute force",
-            switch(wanted.brute_force, "--no-bvh").collect(),
-        ),
-        one(
-            wanted.seed != parsed.seed,
-            "the seed",
-            "--seed",
-            wanted.seed.to_string(),
-        ),
-        one(
-            wanted.max_depth != parsed.max_depth,
-            "the depth",
-            "--max-depth",
-            wanted.max_depth.to_string(),
-        ),
-        one(
-            wanted.min_throughput != parsed.min_throughput,
-            "the minimum throughput",
-            "--min-throughput",
-            wanted.min_throughput.to_string(),
-        ),
-        (
-            wanted.transparent_shadows != parsed.transparent_shadows,
-            "transparent shadows",
-            switch(wanted.transparent_shadows, "--transparent-shadows").collect(),
-        ),
-        one(
-            wanted.bsdf != parsed.bsdf,
-            "the way materials scatter",
-            "--bsdf",
-            BSDF_MODELS.name(&wanted.bsdf).to_owned(),
-        ),
-        one(
-            wanted.backdrop != parsed.backdrop,
-            "the backdrop",
-            "--background",
-            match wanted.backdrop {
-                Backdrop::Color(color) => color.to_array().map(|c| c.to_string()).join(","),
-                Backdrop::Background | Backdrop::Transparent => "transparent".to_owned(),
-            },
-        ),
-        (
-            wanted.clamp_indirect != parsed.clamp_indirect,
-            "the clamp of indirect light",
-            (wanted
-                .clamp_indirect
-                .map(|limit| ("--clamp-indirect", limit.to_string())))
-            .into_iter()
-            .collect(),
-        ),
-    ]
-}
-
-fn look(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
-    let (wanted, tone) = (shown.tone, parsed.tone);
-    let background = match shown.background {
-        Background::Color(color) => {
-            vec![(
-                "--background",
-                color.to_array().map(|c| c.to_string()).join(","),
-            )]
-        }
-        _ => Vec::new(),
-    };
-    let Shutter { open, close } = shown.shutter;
-    let shutter = if open == 0.0 && close >= 0.0 {
-        close.to_string()
-    } else {
-        format!("{open}..{close}")
-    };
-    vec![
-        (
-            *shown.background != parsed.background,
-            "the background",
-            background,
-        ),
-        one(
-            (wanted.exposure_ev, wanted.auto_exposure) != (tone.exposure_ev, tone.auto_exposure),
-            "the exposure",
-            "--exposure",
-            match wanted.auto_exposure {
-                true => format!("auto{:+}", wanted.exposure_ev),
-                false => wanted.exposure_ev.to_string(),
-            },
-        ),
-        one(
-            wanted.curve != tone.curve,
-            "the tone curve",
-            "--tone",
-            TONES.name(&wanted.curve).to_owned(),
-        ),
-        one(
-            wanted.transfer != tone.transfer,
-            "the transfer function",
-            "--transfer",
-            TRANSFERS.name(&wanted.transfer).to_owned(),
-        ),
-        (
-            wanted.denoise != tone.denoise,
-            "denoising",
-            match wanted.denoise {
-                true => vec![("--denoise", String::new())],
-                false => vec![("--no-denoise", String::new())],
-            },
-        ),
-        one(
-            shown.fps != parsed.fps,
-            "the frame rate",
-            "--fps",
-            shown.fps.to_string(),
-        ),
-        one(
-            shown.shutter != parsed.shutter,
-            "the shutter",
-            "--shutter",
-            shutter,
-        ),
-    ]
-}
-
-fn vector(v: DVec3) -> String {
-    v.to_array().map(|c| c.to_string()).join(",")
 }
 
 /// The number of degrees that converts back to exactly these radians, if there is one; else the nearest.
