@@ -16,7 +16,7 @@ pub struct Setting {
     pub value: &'static str,
     /// The help of the flag in one sentence: range and default too.
     pub help: &'static str,
-    /// What the long help adds.
+    /// The paragraph that the long help adds.
     pub details: &'static str,
     /// The setting in the middle of a sentence.
     pub noun: &'static str,
