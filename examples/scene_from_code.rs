@@ -7,28 +7,32 @@ use glimray::gpu::{AdapterChoice, Gpu};
 use glimray::render::{ExecutionPolicy, RenderSettings, Renderer, Tone};
 use glimray::scene::{
     Antialias, Background, Camera, Fresnel, Geometry, Instance, Light, LightKind, Material, Mesh,
-    Scene, Shape, Transfer,
+    Phong, Scene, Shape, Transfer,
 };
 use glimray::{output, pack};
 use std::{error::Error, sync::Arc};
 
 fn scene() -> Scene {
     let paint = |color: Vec3| Material {
-        diffuse: color,
-        ambient: color,
-        specular: Vec3::splat(0.2),
-        shininess: 40.0,
         two_sided: true,
+        bsdf: Phong {
+            diffuse: color,
+            ambient: color,
+            specular: Vec3::splat(0.2),
+            shininess: 40.0,
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     };
-    let glass = Material {
+    let glass = Material::from(Phong {
         reflect: Vec3::ONE,
         transmit: Vec3::ONE,
         opacity: 0.0,
         ior: 1.5,
         fresnel: Fresnel::Exact,
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     let mut triangle = Mesh {
         positions: vec![
             vec3(-1.0, 0.0, 0.0),

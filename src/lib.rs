@@ -53,7 +53,7 @@
 //! * **Normals**: `n` is the shading normal, `ng` the geometric one; the winding of a triangle determines
 //!   `ng` only. Directions have unit length and point away from the surface.
 //! * **Dielectric volumes**: the inside of a transparent surface is the side that its normals point away
-//!   from. [`scene::Material::ior`], `absorption` and `priority` describe the inside.
+//!   from. [`scene::Phong::ior`] and `absorption`, and [`scene::Material::priority`] describe the inside.
 //! * **Absence** is `Option` on the host and [`layout::NONE`] on the GPU, never a NaN or an infinity.
 //! * **Ownership**: the caller owns the [`scene::Scene`]. The packed scene is shared, because a
 //!   [`render::Renderer`] uploads it again after a device is lost. The renderer owns the film, and the

@@ -8,12 +8,12 @@ pub fn broken(scene: &Scene) -> Option<String> {
     let is_color = |c: &Vec3| c.is_finite() && c.min_element() >= 0.0;
     for material in &scene.materials {
         let colors = [
-            material.diffuse,
-            material.specular,
-            material.ambient,
+            material.classical().diffuse,
+            material.classical().specular,
+            material.classical().ambient,
             material.emission,
-            material.reflect,
-            material.transmit,
+            material.classical().reflect,
+            material.classical().transmit,
         ];
         if !colors.iter().all(is_color) {
             return Some(format!("a colour of {material:?}"));

@@ -12,7 +12,9 @@ use glimray::layout::{
 };
 use glimray::pack::{self, Apart, PackedScene};
 use glimray::render::{Integrator, RenderSettings, TriangleTest};
-use glimray::scene::{Background, CanonicalShape, Fresnel, Geometry, Material, Mesh, Scene, Shape};
+use glimray::scene::{
+    Background, CanonicalShape, Fresnel, Geometry, Material, Mesh, Phong, Scene, Shape,
+};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -794,14 +796,14 @@ fn few_of_a_kind() -> [Scene; 2] {
         bottom: Vec3::X,
         top: Vec3::Y,
     };
-    let glass = triangles.add_material(Material {
+    let glass = triangles.add_material(Material::from(Phong {
         reflect: Vec3::ONE,
         transmit: Vec3::ONE,
         opacity: 0.0,
         ior: 1.5,
         fresnel: Fresnel::Exact,
-        ..Material::default()
-    });
+        ..Phong::default()
+    }));
     triangles.add_plane(dvec3(0.0, -1.0, 0.0), DVec3::Y, 0);
     triangles.add_sphere(dvec3(-0.5, 0.21, 1.0), 0.5, glass);
     triangles.add_sphere(dvec3(0.5, 0.21, 1.0), 0.5, glass);

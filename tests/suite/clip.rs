@@ -14,7 +14,7 @@ use glimray::import;
 use glimray::layout::PackedCamera;
 use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{
-    Background, Camera, Coverage, Light, LightKind, Material, Minify, Node, Origin, Pattern,
+    Background, Camera, Coverage, Light, LightKind, Material, Minify, Node, Origin, Pattern, Phong,
     Picture, Scene, Space, Texels, Texture, Wrap,
 };
 use std::f64::consts::FRAC_PI_2;
@@ -38,8 +38,12 @@ fn camera(clip: (f64, f64)) -> Camera {
 
 fn glowing(color: Vec3) -> Material {
     Material {
-        diffuse: Vec3::ZERO,
         emission: color,
+        bsdf: Phong {
+            diffuse: Vec3::ZERO,
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     }
 }
@@ -298,10 +302,10 @@ fn planes_that_clip_nothing_change_no_picture() {
 #[test]
 fn clipped_surfaces_cast_shadows() {
     let build = |clip| {
-        let matte = Material {
+        let matte = Material::from(Phong {
             diffuse: Vec3::splat(0.8),
-            ..Material::default()
-        };
+            ..Phong::default()
+        });
         let mut scene = scene(clip, vec![matte]);
         scene.lights = vec![Light {
             kind: LightKind::Directional {
@@ -353,13 +357,13 @@ fn the_far_plane_holds_behind_holes() {
 
 #[test]
 fn rays_start_in_the_medium_at_the_near_plane() {
-    let glass = Material {
+    let glass = Material::from(Phong {
         diffuse: Vec3::ZERO,
         transmit: Vec3::ONE,
         ior: 1.5,
         absorption: vec3(0.0, 2.0, 2.0),
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     let build = |clip, has_glass| {
         let mut scene = scene(clip, vec![glass.clone(), glowing(Vec3::ONE)]);
         if has_glass {

@@ -5,7 +5,7 @@ use crate::reference::scenes::{self, Build};
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::render::RenderSettings;
-use glimray::scene::{CanonicalShape, Geometry, Material, Mesh, Scene, Shape};
+use glimray::scene::{CanonicalShape, Geometry, Material, Mesh, Phong, Scene, Shape};
 
 /// Sharp edges in all directions.
 fn tetrahedron() -> Mesh {
@@ -48,12 +48,12 @@ fn mirrors(look_from: DVec3) -> Scene {
     camera.look_from = look_from;
     camera.look_at = look_from + dvec3(1.0, 0.01, 0.02);
     camera.fov_y = 2.4;
-    scene.materials[0] = Material {
+    scene.materials[0] = Material::from(Phong {
         diffuse: Vec3::ZERO,
         ambient: Vec3::ZERO,
         reflect: Vec3::ONE,
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     scene
 }
 

@@ -14,13 +14,13 @@ use glimray::{
     render::RenderSettings,
     scene::{
         Background, Camera, CanonicalShape, Fresnel, Geometry, Instance, Material, Node,
-        NodeProperty, Scene, Shape, Target, Values,
+        NodeProperty, Phong, Scene, Shape, Target, Values,
     },
 };
 use std::sync::Arc;
 
 fn glass() -> Material {
-    Material {
+    Material::from(Phong {
         diffuse: Vec3::ZERO,
         ambient: Vec3::ZERO,
         reflect: Vec3::ONE,
@@ -29,8 +29,8 @@ fn glass() -> Material {
         ior: 1.5,
         absorption: vec3(0.3, 0.1, 0.2),
         fresnel: Fresnel::Exact,
-        ..Material::default()
-    }
+        ..Phong::default()
+    })
 }
 
 /// Under a bright sky, with two materials of the same glass.

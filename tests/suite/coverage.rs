@@ -6,8 +6,8 @@ use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, Vec2, Vec3, dvec3, vec3};
 use glimray::render::{Fetch, RenderSettings};
 use glimray::scene::{
-    Background, Coverage, Light, LightKind, Material, Minify, Pattern, Picture, Scene, Space,
-    Texels, Texture, Textures, Wrap,
+    Background, Coverage, Light, LightKind, Material, Minify, Pattern, Phong, Picture, Scene,
+    Space, Texels, Texture, Textures, Wrap,
 };
 use std::sync::Arc;
 
@@ -45,9 +45,13 @@ fn wall(material: usize) -> glimray::scene::Mesh {
 
 fn sheer(alpha: f32, coverage: Coverage) -> Material {
     Material {
-        ambient: vec3(0.9, 0.5, 0.1),
         alpha,
         coverage,
+        bsdf: Phong {
+            ambient: vec3(0.9, 0.5, 0.1),
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     }
 }
@@ -76,7 +80,7 @@ fn layers_are_composed_in_order_however_many_and_without_bounces() {
                     min_throughput: 0.0,
                     ..sized(1, 1)
                 };
-                let color = sheer(1.0, Coverage::Opaque).ambient;
+                let color = sheer(1.0, Coverage::Opaque).classical().ambient;
                 let expected = (0..count).fold(BEHIND, |behind: Vec3, _| behind.lerp(color, part));
                 let got = middle(&scene, &settings);
                 let holds = (got - expected).abs().max_element() < 1e-5;
@@ -120,13 +124,17 @@ fn the_alpha_of_a_picture_cuts_the_surface_and_its_shadow() {
         let mut scene = ahead(
             1,
             Material {
-                ambient: Vec3::ZERO,
-                diffuse: Vec3::ZERO,
                 coverage,
                 textures: Textures {
                     alpha: Some(0),
                     ..Textures::default()
                 },
+                bsdf: Phong {
+                    ambient: Vec3::ZERO,
+                    diffuse: Vec3::ZERO,
+                    ..Phong::default()
+                }
+                .into(),
                 ..Material::default()
             },
         );
@@ -140,10 +148,10 @@ fn the_alpha_of_a_picture_cuts_the_surface_and_its_shadow() {
             },
             ..Light::default()
         });
-        let floor = scene.add_material(Material {
+        let floor = scene.add_material(Material::from(Phong {
             diffuse: Vec3::ONE,
-            ..Material::default()
-        });
+            ..Phong::default()
+        }));
         scene.add_mesh(
             wall(floor),
             DAffine3::from_translation(dvec3(0.0, 0.0, -2.0)),

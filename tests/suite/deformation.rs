@@ -16,7 +16,7 @@ use glimray::render::{
 };
 use glimray::scene::{
     Attenuation, Deformation, Influences, Instance, Joint, Light, LightKind, Material, Mesh,
-    MorphTarget, Node, NodeProperty, ObjectRef, Scene, Skin, Target, Values,
+    MorphTarget, Node, NodeProperty, ObjectRef, Phong, Scene, Skin, Target, Values,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -413,11 +413,11 @@ fn mean_of_instants(scene: &Scene, settings: &RenderSettings) -> Image {
 #[test]
 fn a_bending_figure_blurs_like_the_mean_of_many_instants() {
     let mut scene = stage();
-    scene.materials[0] = Material {
+    scene.materials[0] = Material::from(Phong {
         diffuse: Vec3::splat(0.8),
         specular: Vec3::splat(0.2),
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     scene.lights = vec![Light {
         kind: LightKind::Directional {
             direction: dvec3(-0.3, -0.5, -1.0).normalize(),

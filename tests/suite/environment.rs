@@ -10,7 +10,7 @@ use glimray::pack;
 use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{
     Antialias, Attenuation, Background, Camera, Light, LightKind, LightTransport, Material, Minify,
-    Pattern, Picture, Scene, Space, Texture, Wrap, sky,
+    Pattern, Phong, Picture, Scene, Space, Texture, Wrap, sky,
 };
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path;
@@ -39,10 +39,10 @@ fn plane_under(picture: Picture, normal: DVec3, rotation: f64) -> Scene {
             fov_y: 0.4,
             ..Camera::default()
         }],
-        materials: vec![Material {
+        materials: vec![Material::from(Phong {
             diffuse: Vec3::splat(ALBEDO as f32),
-            ..Material::default()
-        }],
+            ..Phong::default()
+        })],
         pictures: vec![Arc::new(picture)],
         background: Background::Picture {
             picture: 0,
@@ -235,7 +235,7 @@ fn a_white_ball_in_a_white_picture_is_invisible() {
         fov_y: 0.6,
         ..Camera::default()
     };
-    scene.materials[0].diffuse = Vec3::ONE;
+    scene.materials[0].classical_mut().diffuse = Vec3::ONE;
     scene.add_sphere(DVec3::ZERO, 1.0, 0);
     let found = greys(&scene, &paths(256, 24));
     assert!(

@@ -526,15 +526,19 @@ fn glass_ball() -> Scene {
     };
     let glass = scene.add_material(glimray::scene::Material {
         name: "glass".into(),
-        diffuse: Vec3::ZERO,
-        ambient: Vec3::ZERO,
-        reflect: Vec3::ONE,
-        transmit: Vec3::ONE,
-        opacity: 0.0,
-        ior: 1.5,
-        absorption: vec3(0.1, 0.2, 0.0),
-        fresnel: glimray::scene::Fresnel::Exact,
-        ..Default::default()
+        bsdf: glimray::scene::Phong {
+            diffuse: Vec3::ZERO,
+            ambient: Vec3::ZERO,
+            reflect: Vec3::ONE,
+            transmit: Vec3::ONE,
+            opacity: 0.0,
+            ior: 1.5,
+            absorption: vec3(0.1, 0.2, 0.0),
+            fresnel: glimray::scene::Fresnel::Exact,
+            ..glimray::scene::Phong::default()
+        }
+        .into(),
+        ..glimray::scene::Material::default()
     });
     scene.add_sphere(DVec3::ZERO, 1.0, glass);
     scene.output.max_depth = 2;
@@ -698,12 +702,12 @@ fn the_terms_of_each_light_are_those_of_a_calculation_by_hand() {
             look_from: dvec3(0.0, 0.0, 4.0),
             ..Default::default()
         }],
-        materials: vec![glimray::scene::Material {
+        materials: vec![glimray::scene::Material::from(glimray::scene::Phong {
             diffuse: vec3(0.6, 0.5, 0.1),
             specular: vec3(0.2, 0.4, 0.8),
             shininess: 3.0,
-            ..Default::default()
-        }],
+            ..glimray::scene::Phong::default()
+        })],
         ..Scene::default()
     };
     scene.add_plane(DVec3::ZERO, DVec3::Z, 0);

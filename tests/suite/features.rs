@@ -16,8 +16,8 @@ use glimray::{
     render::{Antialias, Filter, Integrator, RenderSettings, Tone},
     scene::{
         Attenuation, Background, Camera, CanonicalShape, Fresnel, Geometry, Instance, Lens, Light,
-        LightKind, Material, Mesh, Mixing, Node, NodeProperty, Pattern, Picture, Scene, Shadows,
-        Shape, Space, Target, Texture, Values,
+        LightKind, Material, Mesh, Mixing, Node, NodeProperty, Pattern, Phong, Picture, Scene,
+        Shadows, Shape, Space, Target, Texture, Values,
     },
 };
 use std::sync::Arc;
@@ -38,19 +38,23 @@ fn before(background: f32, material: Material) -> Scene {
 }
 
 fn black() -> Material {
-    Material {
+    Material::from(Phong {
         diffuse: Vec3::ZERO,
         ambient: Vec3::ZERO,
-        ..Material::default()
-    }
+        ..Phong::default()
+    })
 }
 
 /// Without Fresnel: all light passes.
 fn clear(ior: f32) -> Material {
     Material {
-        transmit: Vec3::ONE,
-        opacity: 0.0,
-        ior,
+        bsdf: Phong {
+            transmit: Vec3::ONE,
+            opacity: 0.0,
+            ior,
+            ..black().classical().into_owned()
+        }
+        .into(),
         ..black()
     }
 }
@@ -105,8 +109,12 @@ fn opacity_counts_without_mirrors_or_glass_in_the_scene() {
     let mut scene = before(
         0.25,
         Material {
-            opacity: 0.25,
-            ambient: Vec3::ONE,
+            bsdf: Phong {
+                opacity: 0.25,
+                ambient: Vec3::ONE,
+                ..black().classical().into_owned()
+            }
+            .into(),
             ..black()
         },
     );
@@ -179,7 +187,11 @@ fn overlapping_parts_of_a_mesh_are_one_volume() {
     let mut scene = before(
         1.0,
         Material {
-            transmit: Vec3::splat(0.5),
+            bsdf: Phong {
+                transmit: Vec3::splat(0.5),
+                ..clear(1.0).classical().into_owned()
+            }
+            .into(),
             ..clear(1.0)
         },
     );
@@ -208,35 +220,59 @@ const MATERIALS: usize = 10;
 fn material(kind: usize) -> Material {
     let shiny = scenes::shiny(vec3(0.8, 0.5, 0.3));
     let glass = Material {
-        reflect: Vec3::ONE,
-        transmit: Vec3::ONE,
-        opacity: 0.0,
-        ior: 1.5,
-        absorption: vec3(0.3, 0.1, 0.2),
+        bsdf: Phong {
+            reflect: Vec3::ONE,
+            transmit: Vec3::ONE,
+            opacity: 0.0,
+            ior: 1.5,
+            absorption: vec3(0.3, 0.1, 0.2),
+            ..shiny.classical().into_owned()
+        }
+        .into(),
         ..shiny.clone()
     };
     match kind {
         0 => Material::default(),
         1 => shiny,
         2 => Material {
-            reflect: vec3(0.7, 0.6, 0.5),
+            bsdf: Phong {
+                reflect: vec3(0.7, 0.6, 0.5),
+                ..shiny.classical().into_owned()
+            }
+            .into(),
             ..shiny
         },
         3 => Material {
-            fresnel: Fresnel::Exact,
+            bsdf: Phong {
+                fresnel: Fresnel::Exact,
+                ..glass.classical().into_owned()
+            }
+            .into(),
             ..glass
         },
         4 => Material {
-            fresnel: Fresnel::Schlick,
+            bsdf: Phong {
+                fresnel: Fresnel::Schlick,
+                ..glass.classical().into_owned()
+            }
+            .into(),
             ..glass
         },
         5 => Material {
-            reflect: Vec3::ZERO,
-            transmit: Vec3::splat(0.9),
+            bsdf: Phong {
+                reflect: Vec3::ZERO,
+                transmit: Vec3::splat(0.9),
+                ..glass.classical().into_owned()
+            }
+            .into(),
             ..glass
         },
         6 => Material {
-            opacity: 0.4,
+            bsdf: Phong {
+                opacity: 0.4,
+                ..shiny.classical().into_owned()
+            }
+            .into(),
             ..shiny
         },
         7 => Material {
@@ -245,14 +281,22 @@ fn material(kind: usize) -> Material {
             ..shiny
         },
         8 => Material {
-            mixing: Mixing::Sum,
-            reflect: Vec3::splat(0.2),
-            transmit: Vec3::splat(0.6),
+            bsdf: Phong {
+                mixing: Mixing::Sum,
+                reflect: Vec3::splat(0.2),
+                transmit: Vec3::splat(0.6),
+                ..glass.classical().into_owned()
+            }
+            .into(),
             ..glass
         },
         _ => Material {
-            mixing: Mixing::Blend,
-            reflect: Vec3::splat(0.3),
+            bsdf: Phong {
+                mixing: Mixing::Blend,
+                reflect: Vec3::splat(0.3),
+                ..shiny.classical().into_owned()
+            }
+            .into(),
             ..shiny
         },
     }
@@ -369,7 +413,7 @@ fn random_scene(random: &mut Random, only: Option<usize>) -> Scene {
             space: Space::World,
             pattern_from_space: DAffine3::from_scale(DVec3::splat(1.37)),
         });
-        let textures = &mut scene.materials[0].textures;
+        let textures = &mut scene.materials[0].classical_mut().textures;
         match random.below(2) {
             0 => textures.diffuse = Some(0),
             _ => (textures.reflect, textures.transmit) = (Some(0), Some(0)),
@@ -552,10 +596,10 @@ fn paths_do_not_depend_on_code_that_the_scene_does_not_need() {
         change(&mut packed.features);
         rendered(&Arc::new(packed), &[scene.frame(0.0)], &settings).0
     };
-    let matte = lit_floor(Material {
+    let matte = lit_floor(Material::from(Phong {
         specular: Vec3::ZERO,
-        ..Material::default()
-    });
+        ..Phong::default()
+    }));
     let own = picture(&matte, |features| {
         assert!(!features.gloss && !features.metallic_roughness);
     });
@@ -572,10 +616,10 @@ fn paths_do_not_depend_on_code_that_the_scene_does_not_need() {
         ..Light::default()
     });
     let mixed = picture(&mixed, |_| {});
-    let glossy = lit_floor(Material {
+    let glossy = lit_floor(Material::from(Phong {
         specular: Vec3::ONE,
-        ..Material::default()
-    });
+        ..Phong::default()
+    }));
     let whole = picture(&glossy, |features| assert!(features.gloss));
     let lacking = picture(&glossy, |features| features.gloss = false);
     assert_none([

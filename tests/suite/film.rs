@@ -155,7 +155,7 @@ fn films_of_other_pictures_are_refused_with_what_differs() {
     let mut moved = scene.clone();
     moved.cameras[0].fov_y *= 0.9;
     let mut painted = scene.clone();
-    painted.materials[0].diffuse *= 0.5;
+    painted.materials[0].classical_mut().diffuse *= 0.5;
     let rows = [
         ("size", scene.clone(), stratified(2, (8, 7))),
         ("number of samples", scene.clone(), stratified(3, (8, 6))),

@@ -97,7 +97,7 @@ fn scenes_and_views_differ_in_their_own_fingerprints() {
     assert_eq!(of(&turned).0, own);
     assert_ne!(of(&turned).1, view);
     let mut other = scene.clone();
-    other.materials[0].diffuse *= 0.5;
+    other.materials[0].classical_mut().diffuse *= 0.5;
     assert_ne!(of(&other).0, own);
 }
 

@@ -17,7 +17,8 @@ use glimray::{
     render::{ExecutionPolicy, Fetch, RenderError, RenderSettings, Renderer, Stats, Tone},
     scene::{
         Beyond, Curve, Easing, Frame, Instance, Interpolation, Light, LightKind, Material, Mesh,
-        Node, NodeProperty, Pattern, Scene, Space, Target, Texture, Textures, Track, Values,
+        Node, NodeProperty, Pattern, Phong, PhongTextures, Scene, Space, Target, Texture, Track,
+        Values,
     },
 };
 use glimray_app::error::AppError;
@@ -76,20 +77,24 @@ pub fn crowd(materials: [Material; 2]) -> Scene {
 
 pub fn mirror(color: Vec3) -> Material {
     Material {
-        reflect: Vec3::splat(0.5),
+        bsdf: Phong {
+            reflect: Vec3::splat(0.5),
+            ..scenes::shiny(color).classical().into_owned()
+        }
+        .into(),
         ..scenes::shiny(color)
     }
 }
 
 pub fn glass() -> Material {
-    Material {
+    Material::from(Phong {
         diffuse: Vec3::splat(0.05),
         reflect: Vec3::ONE,
         transmit: Vec3::ONE,
         ior: 1.3,
         absorption: vec3(0.3, 0.1, 0.2),
-        ..Material::default()
-    }
+        ..Phong::default()
+    })
 }
 
 #[test]
@@ -104,9 +109,9 @@ fn instances_give_the_picture_of_baked_copies() {
             pattern_from_space: DAffine3::from_scale(DVec3::splat(5.0)),
         });
         for material in &mut scene.materials {
-            material.textures = Textures {
+            material.classical_mut().textures = PhongTextures {
                 diffuse: Some(0),
-                ..Textures::default()
+                ..PhongTextures::default()
             };
         }
         scene
@@ -316,7 +321,7 @@ fn patterns_on_static_objects_stay_in_world_space_while_others_move() {
         pattern_from_space: DAffine3::from_scale(DVec3::splat(5.0)),
     });
     for material in &mut scene.materials {
-        material.textures.diffuse = Some(0);
+        material.classical_mut().textures.diffuse = Some(0);
     }
     let frame = [scene.frame(0.0)];
     let settings = sized(160, 120);

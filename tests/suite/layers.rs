@@ -9,7 +9,7 @@ use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
 use glam::{DAffine3, DVec3, Vec3, dvec3, vec3};
 use glimray::render::{Features, Film, Integrator, PixelFeatures, RenderSettings, Slicing};
 use glimray::scene::{
-    Antialias, Background, Camera, Filter, Geometry, Light, LightKind, Material, Scene,
+    Antialias, Background, Camera, Filter, Geometry, Light, LightKind, Material, Phong, Scene,
 };
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
@@ -46,10 +46,10 @@ fn balls(front: Material) -> Scene {
             ..Camera::default()
         }],
         materials: vec![
-            Material {
+            Material::from(Phong {
                 diffuse: vec3(0.1, 0.7, 0.2),
-                ..Material::default()
-            },
+                ..Phong::default()
+            }),
             front,
         ],
         background: Background::Color(vec3(0.2, 0.3, 0.4)),
@@ -61,10 +61,10 @@ fn balls(front: Material) -> Scene {
 }
 
 fn matte() -> Material {
-    Material {
+    Material::from(Phong {
         diffuse: vec3(0.6, 0.4, 0.5),
-        ..Material::default()
-    }
+        ..Phong::default()
+    })
 }
 
 fn far(a: [f32; 3], b: impl Into<Vec3>) -> f32 {
@@ -150,12 +150,12 @@ fn positions_are_those_that_are_explained() {
 /// A mirror that reflects half of the light shows half of the albedo of the ball behind the camera.
 #[test]
 fn mirrors_show_the_albedo_and_the_normal_behind_them() {
-    let mirror = Material {
+    let mirror = Material::from(Phong {
         diffuse: Vec3::ZERO,
         specular: Vec3::ZERO,
         reflect: Vec3::splat(0.5),
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     let found = features(&balls(mirror), &paths(sized(9, 9)));
     let centre = &found.pixels[40];
     assert!(
@@ -208,12 +208,12 @@ fn albedos_have_the_variance_of_their_samples() {
 /// the ball behind the camera, and so does the normal. Elsewhere is a white background.
 #[test]
 fn samples_that_a_dull_mirror_scatters_do_not_change_what_it_shows() {
-    let mirror = Material {
+    let mirror = Material::from(Phong {
         diffuse: Vec3::splat(0.1),
         specular: Vec3::ZERO,
         reflect: Vec3::splat(0.5),
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     let mut scene = balls(mirror);
     scene.background = Background::Color(Vec3::ONE);
     // As good as flat.
@@ -245,16 +245,16 @@ fn samples_that_a_dull_mirror_scatters_do_not_change_what_it_shows() {
 #[test]
 fn black_surfaces_are_seen() {
     for integrator in [Integrator::Path, Integrator::Whitted] {
-        let black = Material {
+        let black = Material::from(Phong {
             diffuse: Vec3::ZERO,
             specular: Vec3::ZERO,
-            ..Material::default()
-        };
+            ..Phong::default()
+        });
         let mut scene = balls(black);
-        let white = Material {
+        let white = Material::from(Phong {
             diffuse: Vec3::ONE,
-            ..Material::default()
-        };
+            ..Phong::default()
+        });
         scene.materials.push(white);
         // Two squares side by side fill the picture, and their edge is in the middle of its middle column.
         for (x, material) in [(-5.0, 1), (5.0, 2)] {

@@ -63,7 +63,7 @@ fn scenes_with_more_than_the_exercise_are_refused_by_the_names_of_the_parts() {
     };
     let mirror = {
         let mut scene = course("sphere.scene");
-        scene.materials[0].reflect = Vec3::splat(0.5);
+        scene.materials[0].classical_mut().reflect = Vec3::splat(0.5);
         scene
     };
     for (scene, depth, parts) in [

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3, dvec3};
 use glimray::image::Image;
 use glimray::pack;
 use glimray::render::{Antialias, Integrator, RenderSettings, Tone};
-use glimray::scene::{Background, Camera, Lens, Light, LightKind, Material, Scene};
+use glimray::scene::{Background, Camera, Lens, Light, LightKind, Material, Phong, Scene};
 use std::sync::Arc;
 
 const SIDE: u32 = 48;
@@ -33,8 +33,12 @@ fn ball(depth: f64, fraction: f64, lens: Option<Lens>) -> Scene {
             ..Camera::default()
         }],
         materials: vec![Material {
-            diffuse: Vec3::ZERO,
             emission: Vec3::ONE,
+            bsdf: Phong {
+                diffuse: Vec3::ZERO,
+                ..Phong::default()
+            }
+            .into(),
             ..Material::default()
         }],
         background: Background::Color(Vec3::ZERO),

@@ -10,8 +10,9 @@ use glimray::layout::{PICTURE_FIRST_MASK, PICTURE_HALF, PICTURE_SRGB};
 use glimray::pack;
 use glimray::render::{Antialias, Fetch, RenderSettings};
 use glimray::scene::{
-    Camera, Geometry, Instance, MAX_PICTURE_BYTES, Material, Minify, Origin, Pattern, Picture,
-    Scene, Shape, Space, SrgbCurve, Texels, Texture, Textures, Wrap, linear_from_srgb,
+    Camera, Geometry, Instance, MAX_PICTURE_BYTES, Material, Minify, Origin, Pattern, Phong,
+    PhongTextures, Picture, Scene, Shape, Space, SrgbCurve, Texels, Texture, Wrap,
+    linear_from_srgb,
 };
 use half::f16;
 use std::sync::Arc;
@@ -254,15 +255,15 @@ fn facing(scene: &mut Scene, at: DVec3) {
 
 fn ambient(scene: &mut Scene, texture: usize) -> usize {
     scene.ambient = Vec3::ONE;
-    scene.add_material(Material {
+    scene.add_material(Material::from(Phong {
         ambient: Vec3::ONE,
         diffuse: Vec3::ZERO,
-        textures: Textures {
+        textures: PhongTextures {
             ambient: Some(texture),
-            ..Textures::default()
+            ..PhongTextures::default()
         },
-        ..Material::default()
-    })
+        ..Phong::default()
+    }))
 }
 
 /// Surfaces at z = -1 that show the picture over x and y from -1 to 1.
@@ -441,12 +442,12 @@ fn floor(minify: Minify, has_ball: bool) -> Scene {
         ..Camera::default()
     };
     if has_ball {
-        let mirror = scene.add_material(Material {
+        let mirror = scene.add_material(Material::from(Phong {
             diffuse: Vec3::ZERO,
             ambient: Vec3::ZERO,
             reflect: Vec3::ONE,
-            ..Material::default()
-        });
+            ..Phong::default()
+        }));
         scene.cameras[0].look_from = dvec3(0.3, 2.0, 4.0);
         scene.cameras[0].look_at = dvec3(0.0, 1.2, 0.0);
         scene.add_sphere(dvec3(0.0, 1.5, 0.0), 1.4, mirror);

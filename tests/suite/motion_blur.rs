@@ -14,8 +14,8 @@ use glimray::{
     render::{Antialias, Integrator, RenderSettings},
     scene::{
         Background, Beyond, Camera, CameraProperty, CanonicalShape, Curve, Easing, Geometry,
-        Interpolation, Light, LightKind, LightProperty, Material, Node, NodeProperty, Scene, Shape,
-        Target, Track, Values,
+        Interpolation, Light, LightKind, LightProperty, Material, Node, NodeProperty, Phong, Scene,
+        Shape, Target, Track, Values,
     },
 };
 use std::{f64::consts::PI, sync::Arc};
@@ -36,9 +36,13 @@ pub fn stage() -> Scene {
             ..Camera::default()
         }],
         materials: vec![Material {
-            diffuse: Vec3::ZERO,
-            ambient: Vec3::ZERO,
             emission: Vec3::ONE,
+            bsdf: Phong {
+                diffuse: Vec3::ZERO,
+                ambient: Vec3::ZERO,
+                ..Phong::default()
+            }
+            .into(),
             ..Material::default()
         }],
         background: Background::Color(Vec3::ZERO),
@@ -261,7 +265,7 @@ fn a_light_that_moves_leaves_the_mean_of_its_places() {
     let target = Target::Light(0, LightProperty::Position);
     scene.tracks.push(track(target, Values::Vector(way)));
     let image = exposed(&scene, &blurred(64));
-    let diffuse = f64::from(scene.materials[0].diffuse.x);
+    let diffuse = f64::from(scene.materials[0].classical().diffuse.x);
     // ∫ 1/√(1 + y² + (x − s)²) ds over the path: the cosine at a lamp of height 1.
     let expected = |x: f64, y: f64| {
         let height = (1.0 + y * y).sqrt();

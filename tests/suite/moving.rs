@@ -16,7 +16,8 @@ use glimray::{
     scene::{
         Attenuation, Background, Beyond, CanonicalShape, Curve, Easing, Fresnel, Geometry,
         Instance, Interpolation, Light, LightKind, LightProperty, Material, MaterialProperty, Node,
-        NodeProperty, Pattern, Scene, Shape, Space, Target, Texture, Textures, Track, Values,
+        NodeProperty, Pattern, Phong, Scene, Shape, Space, Target, Texture, Textures, Track,
+        Values,
     },
 };
 use std::{f64::consts::PI, sync::Arc};
@@ -157,8 +158,8 @@ fn a_pattern_on_a_static_object_is_static_whatever_else_moves() {
         space: Space::World,
         pattern_from_space: DAffine3::from_scale(DVec3::splat(3.1)),
     });
-    scene.materials[0].textures.diffuse = Some(0);
-    scene.materials[0].textures.ambient = Some(0);
+    scene.materials[0].classical_mut().textures.diffuse = Some(0);
+    scene.materials[0].classical_mut().textures.ambient = Some(0);
     scene
         .meshes
         .push(scenes::ball(UVec2::new(24, 12), 0).into());
@@ -221,7 +222,7 @@ fn a_lamp_that_moves_is_seen_where_it_shines_from() {
     let image = exposed(&scene, &blurred(512));
     // The lamp's radiance is 0.5 / 0.25²; elsewhere the floor shows its light, which is that of a point light at
     // its centre: k_d · 0.5 · cos / d², with cos = h / d.
-    let diffuse = f64::from(scene.materials[0].diffuse.x);
+    let diffuse = f64::from(scene.materials[0].classical().diffuse.x);
     for (x, y) in [(32, 32), (32, 20), (28, 44), (2, 32), (60, 10), (12, 60)] {
         let (px, py) = (place(x), place(y));
         let steps = 4000;
@@ -339,12 +340,16 @@ fn materials_become_what_their_tracks_say() {
     use MaterialProperty as P;
     let plain = scenes::shiny(vec3(0.2, 0.7, 0.2));
     let glass = Material {
-        reflect: Vec3::ONE,
-        transmit: Vec3::ONE,
-        opacity: 0.0,
-        ior: 1.5,
-        fresnel: Fresnel::Exact,
-        absorption: vec3(0.4, 0.1, 0.2),
+        bsdf: Phong {
+            reflect: Vec3::ONE,
+            transmit: Vec3::ONE,
+            opacity: 0.0,
+            ior: 1.5,
+            fresnel: Fresnel::Exact,
+            absorption: vec3(0.4, 0.1, 0.2),
+            ..plain.classical().into_owned()
+        }
+        .into(),
         ..plain.clone()
     };
     let vectors = |from: Vec3, to: Vec3| Values::Vector(vec![from.as_dvec3(), to.as_dvec3()]);
@@ -354,20 +359,20 @@ fn materials_become_what_their_tracks_say() {
     type Change = fn(&mut Material);
     let rows: [(&str, &Material, P, Values, Change); 11] = [
         ("diffuse", &plain, P::Diffuse, vectors(dark, bright), |m| {
-            m.diffuse = vec3(0.9, 0.5, 0.2)
+            m.classical_mut().diffuse = vec3(0.9, 0.5, 0.2)
         }),
         (
             "specular",
             &plain,
             P::Specular,
             vectors(dark, bright),
-            |m| m.specular = vec3(0.9, 0.5, 0.2),
+            |m| m.classical_mut().specular = vec3(0.9, 0.5, 0.2),
         ),
         ("shininess", &plain, P::Shininess, scalars(2.0, 90.0), |m| {
-            m.shininess = 90.0
+            m.classical_mut().shininess = 90.0
         }),
         ("ambient", &plain, P::Ambient, vectors(dark, bright), |m| {
-            m.ambient = vec3(0.9, 0.5, 0.2)
+            m.classical_mut().ambient = vec3(0.9, 0.5, 0.2)
         }),
         (
             "emission from none",
@@ -381,38 +386,38 @@ fn materials_become_what_their_tracks_say() {
             &plain,
             P::Reflect,
             vectors(Vec3::ZERO, bright),
-            |m| m.reflect = vec3(0.9, 0.5, 0.2),
+            |m| m.classical_mut().reflect = vec3(0.9, 0.5, 0.2),
         ),
         (
             "transparency from none",
             &plain,
             P::Transmit,
             vectors(Vec3::ZERO, bright),
-            |m| m.transmit = vec3(0.9, 0.5, 0.2),
+            |m| m.classical_mut().transmit = vec3(0.9, 0.5, 0.2),
         ),
         ("opacity", &glass, P::Opacity, scalars(0.0, 0.7), |m| {
-            m.opacity = 0.7
+            m.classical_mut().opacity = 0.7
         }),
         (
             "index of refraction",
             &glass,
             P::Ior,
             scalars(1.5, 1.1),
-            |m| m.ior = 1.1,
+            |m| m.classical_mut().ior = 1.1,
         ),
         (
             "absorption",
             &glass,
             P::Absorption,
             vectors(dark, bright),
-            |m| m.absorption = vec3(0.9, 0.5, 0.2),
+            |m| m.classical_mut().absorption = vec3(0.9, 0.5, 0.2),
         ),
         (
             "transparency to none",
             &glass,
             P::Transmit,
             vectors(Vec3::ONE, Vec3::ZERO),
-            |m| m.transmit = Vec3::ZERO,
+            |m| m.classical_mut().transmit = Vec3::ZERO,
         ),
     ];
     let settings = sized(96, 72);
@@ -452,15 +457,15 @@ fn twice_the_emission_is_twice_the_radiance() {
 #[test]
 fn a_moving_camera_is_in_the_medium_around_it() {
     // Absorbing balls with an index of 1, in front of a white sky: the result is exp(-absorption · distance).
-    let medium = Material {
+    let medium = Material::from(Phong {
         diffuse: Vec3::ZERO,
         ambient: Vec3::ZERO,
         transmit: Vec3::ONE,
         opacity: 0.0,
         ior: 1.0,
         absorption: vec3(0.5, 0.25, 0.1),
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     let mut scene = stage();
     scene.background = Background::Color(Vec3::ONE);
     scene.materials[0] = medium.clone();
@@ -479,6 +484,7 @@ fn a_moving_camera_is_in_the_medium_around_it() {
     let settings = sized(8, 8);
     let left = |way: f64| {
         medium
+            .classical()
             .absorption
             .as_dvec3()
             .to_array()
@@ -510,7 +516,7 @@ fn a_moving_camera_is_in_the_medium_around_it() {
 
     // A ball around it that becomes transparent, with a bright object in it, straight ahead.
     scene.tracks.clear();
-    scene.materials[0].transmit = Vec3::ZERO;
+    scene.materials[0].classical_mut().transmit = Vec3::ZERO;
     let target = Target::Material(0, MaterialProperty::Transmit);
     let values = vec![DVec3::ZERO, DVec3::ONE];
     scene.tracks.push(track(target, Values::Vector(values)));
@@ -532,10 +538,10 @@ fn a_ball_that_flies_under_a_still_light_keeps_its_light() {
         radius,
     };
     let mut scene = carried(ball);
-    scene.materials[0] = Material {
+    scene.materials[0] = Material::from(Phong {
         ambient: Vec3::ZERO,
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     scene.lights.push(Light {
         kind: LightKind::Directional {
             direction: DVec3::NEG_Z,
@@ -554,7 +560,7 @@ fn a_ball_that_flies_under_a_still_light_keeps_its_light() {
     scene.tracks.push(moves(NodeProperty::Angles, turn));
     let energy = whole(&exposed(&scene, &blurred(64)));
     // The mean cosine over the disc of a ball is 2/3.
-    let diffuse = f64::from(scene.materials[0].diffuse.x);
+    let diffuse = f64::from(scene.materials[0].classical().diffuse.x);
     let expected = diffuse * 2.0 / 3.0 * PI * radius * radius / (4.0 * HALF * HALF);
     assert!(
         (energy / expected - 1.0).abs() < 0.005,
@@ -620,12 +626,12 @@ fn reflections_are_blurred_like_direct_views() {
     };
     let seen = exposed(&glow(-DISTANCE - 10.0), &blurred(128));
     let mut scene = glow(DISTANCE + 10.0);
-    let mirror = scene.add_material(Material {
+    let mirror = scene.add_material(Material::from(Phong {
         diffuse: Vec3::ZERO,
         ambient: Vec3::ZERO,
         reflect: Vec3::ONE,
-        ..Material::default()
-    });
+        ..Phong::default()
+    }));
     scene.add_plane(DVec3::ZERO, DVec3::Z, mirror);
     let mirrored = exposed(&scene, &blurred(128));
     assert!(
@@ -662,7 +668,7 @@ fn the_shadow_of_a_moving_object_is_blurred_as_its_profile_says() {
     let way = vec![dvec3(0.0, from, 0.0), dvec3(0.0, to, 0.0)];
     scene.tracks.push(moves(NodeProperty::Translation, way));
     let image = exposed(&scene, &blurred(512));
-    let lit = f64::from(scene.materials[1].diffuse.x) / 2.0_f64.sqrt();
+    let lit = f64::from(scene.materials[1].classical().diffuse.x) / 2.0_f64.sqrt();
     // The centre of the shadow is at x = -0.4, and it is √2 as long along x.
     let covered = |x: f64, y: f64| {
         let across = (x + 0.4) / (radius * 2.0_f64.sqrt());

@@ -22,7 +22,7 @@ use glimray::{
     scene::{
         Attenuation, Background, Camera, CameraProperty, CanonicalShape, Fresnel, Geometry,
         Instance, Lens, Light, LightKind, LightProperty, Material, Node, NodeProperty, Pattern,
-        Scene, Shape, Space, Target, Texture, Values,
+        Phong, Scene, Shape, Space, Target, Texture, Values,
     },
 };
 use std::{f64::consts::TAU, sync::Arc};
@@ -63,8 +63,8 @@ fn fair() -> Scene {
     ];
     let mut patterned = |texture: usize| {
         let mut material = scenes::shiny(Vec3::splat(0.9));
-        material.textures.diffuse = Some(texture);
-        material.textures.ambient = Some(texture);
+        material.classical_mut().textures.diffuse = Some(texture);
+        material.classical_mut().textures.ambient = Some(texture);
         scene.add_material(material)
     };
     let [checkered, striped, cloudy] = [0, 1, 2].map(&mut patterned);
@@ -446,7 +446,7 @@ fn busy() -> (Arc<PackedScene>, Vec<glimray::scene::Frame>) {
         blade_count: 0,
         blade_rotation: 0.0,
     });
-    scene.materials[1].reflect = Vec3::splat(0.3);
+    scene.materials[1].classical_mut().reflect = Vec3::splat(0.3);
     scene
         .lights
         .extend(lamps().lights.into_iter().skip(1).map(|light| Light {
@@ -630,7 +630,7 @@ fn normals_and_depths_are_the_same_through_instances() {
 fn a_wheel_of_glass_does_not_show_in_a_furnace() {
     let mut scene = scenes::empty();
     scene.background = Background::Color(Vec3::ONE);
-    scene.materials[0] = Material {
+    scene.materials[0] = Material::from(Phong {
         diffuse: Vec3::ZERO,
         ambient: Vec3::ZERO,
         reflect: Vec3::ONE,
@@ -638,8 +638,8 @@ fn a_wheel_of_glass_does_not_show_in_a_furnace() {
         opacity: 0.0,
         ior: 1.4,
         fresnel: Fresnel::Exact,
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     let wheel = node(&mut scene, Node::default());
     moves(
         &mut scene,

@@ -7,8 +7,8 @@ use crate::support::random::Random;
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DMat2, DQuat, DVec2, DVec3, Vec2, Vec3, dvec3, vec3};
 use glimray::scene::{
-    Light, LightKind, Material, Minify, Pattern, Picture, Scene, Space, Texels, Texture, Textures,
-    Wrap,
+    Light, LightKind, Material, Minify, Pattern, Phong, Picture, Scene, Space, Texels, Texture,
+    Textures, Wrap,
 };
 use glimray::{export, import};
 use std::sync::Arc;
@@ -59,14 +59,18 @@ fn quad(uv_from_xy: DMat2, placement: DAffine3, material: Material) -> Scene {
 
 fn shiny(normal: Option<usize>) -> Material {
     Material {
-        specular: Vec3::splat(0.4),
-        shininess: 9.0,
         two_sided: true,
+        normal_scale: SCALE,
         textures: Textures {
             normal,
             ..Textures::default()
         },
-        normal_scale: SCALE,
+        bsdf: Phong {
+            specular: Vec3::splat(0.4),
+            shininess: 9.0,
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     }
 }
@@ -205,7 +209,7 @@ fn a_native_scene_names_a_map_and_gets_it_back_when_it_is_exported() {
     let occlusion = &scene.textures[material.textures.occlusion.expect("a map")];
     assert_eq!(occlusion.space, Space::SecondUv);
     let map = &scene.textures[material.textures.normal.expect("a map")];
-    let color = &scene.textures[material.textures.diffuse.expect("a texture")];
+    let color = &scene.textures[material.classical().textures.diffuse.expect("a texture")];
     let texels = |texture: &Texture| match texture.pattern {
         Pattern::Picture { picture, .. } => scene.pictures[picture].texels.clone(),
         _ => panic!("no picture"),

@@ -10,8 +10,8 @@ use glimray::pack::PackError;
 use glimray::render::{ExecutionPolicy, Fetch, Rays, RenderSettings, Slicing};
 use glimray::scene::{
     Background, Beyond, Camera, CanonicalShape, Curve, Easing, Fresnel, Geometry, Instance,
-    Interpolation, Light, LightKind, Material, MaterialProperty, Mixing, Node, NodeProperty, Scene,
-    Shadows, Shape, Target, Track, Values,
+    Interpolation, Light, LightKind, Material, MaterialProperty, Mixing, Node, NodeProperty, Phong,
+    Scene, Shadows, Shape, Target, Track, Values,
 };
 use glimray::{import, pack};
 
@@ -62,28 +62,36 @@ fn sphere(center: DVec3, radius: f64) -> Geometry {
 
 fn glass(ior: f32) -> Material {
     Material {
-        reflect: Vec3::ONE,
-        transmit: Vec3::ONE,
-        opacity: 0.0,
-        ior,
-        fresnel: Fresnel::Exact,
+        bsdf: Phong {
+            reflect: Vec3::ONE,
+            transmit: Vec3::ONE,
+            opacity: 0.0,
+            ior,
+            fresnel: Fresnel::Exact,
+            ..black().classical().into_owned()
+        }
+        .into(),
         ..black()
     }
 }
 
 fn mirror() -> Material {
     Material {
-        reflect: Vec3::ONE,
+        bsdf: Phong {
+            reflect: Vec3::ONE,
+            ..black().classical().into_owned()
+        }
+        .into(),
         ..black()
     }
 }
 
 fn black() -> Material {
-    Material {
+    Material::from(Phong {
         diffuse: Vec3::ZERO,
         ambient: Vec3::ZERO,
-        ..Material::default()
-    }
+        ..Phong::default()
+    })
 }
 
 fn shining(emission: f32) -> Material {
@@ -158,7 +166,11 @@ fn a_glass_slab_reflects_and_transmits_what_its_infinitely_many_bounces_add_up_t
 fn an_absorbing_slab_leaves_what_beer_and_lambert_say() {
     let mut scene = dark();
     let tinted = Material {
-        absorption: Vec3::new(1.0, 2.0, 0.0),
+        bsdf: Phong {
+            absorption: Vec3::new(1.0, 2.0, 0.0),
+            ..glass(1.0).classical().into_owned()
+        }
+        .into(),
         ..glass(1.0)
     };
     add(
@@ -184,7 +196,11 @@ fn a_camera_inside_a_medium_sees_through_it() {
     // 2 units of water to its surface, where all indices are 1.
     let mut scene = dark();
     let water = Material {
-        absorption: Vec3::splat(0.5),
+        bsdf: Phong {
+            absorption: Vec3::splat(0.5),
+            ..glass(1.0).classical().into_owned()
+        }
+        .into(),
         ..glass(1.0)
     };
     add(
@@ -273,7 +289,11 @@ fn rays_below_the_minimum_throughput_are_not_traced() {
     let mut scene = dark();
     scene.cameras[0] = camera(DVec3::ZERO, DVec3::NEG_Z, 0.1);
     let half = Material {
-        reflect: Vec3::splat(0.5),
+        bsdf: Phong {
+            reflect: Vec3::splat(0.5),
+            ..black().classical().into_owned()
+        }
+        .into(),
         ..black()
     };
     add(
@@ -300,8 +320,12 @@ fn a_tree_with_too_many_rays_is_cut_off_and_counted() {
     // Surfaces that fully reflect and fully transmit: the throughput never ends the tree.
     let mut scene = dark();
     let endless = Material {
-        mixing: Mixing::Sum,
-        fresnel: Fresnel::None,
+        bsdf: Phong {
+            mixing: Mixing::Sum,
+            fresnel: Fresnel::None,
+            ..glass(1.0).classical().into_owned()
+        }
+        .into(),
         ..glass(1.0)
     };
     for i in 0..40 {
@@ -386,7 +410,11 @@ fn two_touching_blocks_of_one_glass_look_like_one() {
     let right = cuboid(dvec3(0.0, -1.0, -1.0), dvec3(2.0, 1.0, 1.0));
     let whole = cuboid(dvec3(-2.0, -1.0, -1.0), dvec3(2.0, 1.0, 1.0));
     let tinted = Material {
-        absorption: Vec3::splat(0.3),
+        bsdf: Phong {
+            absorption: Vec3::splat(0.3),
+            ..glass(1.5).classical().into_owned()
+        }
+        .into(),
         ..glass(1.5)
     };
     let scene = |bodies: &[Geometry]| {
@@ -456,12 +484,20 @@ fn of_overlapping_bodies_the_one_with_the_higher_priority_counts() {
         let mut scene = dark();
         scene.background = Background::Color(Vec3::ONE);
         let wall = Material {
-            absorption: Vec3::splat(1.0),
+            bsdf: Phong {
+                absorption: Vec3::splat(1.0),
+                ..glass(1.0).classical().into_owned()
+            }
+            .into(),
             ..glass(1.0)
         };
         let water = Material {
-            absorption: Vec3::splat(0.1),
             priority: water_priority,
+            bsdf: Phong {
+                absorption: Vec3::splat(0.1),
+                ..glass(1.0).classical().into_owned()
+            }
+            .into(),
             ..glass(1.0)
         };
         add(
@@ -652,8 +688,12 @@ fn filtered_shadows_let_through_what_transmission_and_absorption_leave() {
     };
     let open = lit(Shadows::Filtered, None);
     let tinted = Material {
-        absorption: Vec3::splat(2.0),
-        transmit: Vec3::splat(0.9),
+        bsdf: Phong {
+            absorption: Vec3::splat(2.0),
+            transmit: Vec3::splat(0.9),
+            ..glass(1.5).classical().into_owned()
+        }
+        .into(),
         ..glass(1.5)
     };
     assert_eq!(lit(Shadows::Opaque, Some(tinted.clone())), 0.0);
@@ -690,7 +730,11 @@ fn light_passes_through_touching_volumes_and_balls_up_to_their_rim() {
     let open = lit(&[], 0.0);
     // Half a unit of a tinted medium below a clear one.
     let tinted = Material {
-        absorption: Vec3::splat(2.0),
+        bsdf: Phong {
+            absorption: Vec3::splat(2.0),
+            ..glass(1.0).classical().into_owned()
+        }
+        .into(),
         ..glass(1.0)
     };
     let stack = [
@@ -768,7 +812,7 @@ fn media_at(scene: &Scene, time: f64) -> [u32; 4] {
 fn media_round_the_camera_are_those_that_are_transparent_at_the_time() {
     let mut scene = dark();
     add(&mut scene, sphere(DVec3::ZERO, 9.0), glass(1.5));
-    scene.materials[0].transmit = Vec3::ZERO;
+    scene.materials[0].classical_mut().transmit = Vec3::ZERO;
     assert_eq!(media_at(&scene, 1.0), [NONE; 4]);
     scene.tracks = vec![track(
         Target::Material(0, MaterialProperty::Transmit),
@@ -776,7 +820,7 @@ fn media_round_the_camera_are_those_that_are_transparent_at_the_time() {
     )];
     assert_eq!(media_at(&scene, 0.0), [NONE; 4]);
     assert_eq!(media_at(&scene, 0.5), [0, NONE, NONE, NONE]);
-    scene.materials[0].transmit = Vec3::ONE;
+    scene.materials[0].classical_mut().transmit = Vec3::ONE;
     assert_eq!(media_at(&scene, 0.0), [NONE; 4]);
 }
 

@@ -13,7 +13,7 @@ use glimray::pack;
 use glimray::render::{Antialias, Integrator, RenderSettings};
 use glimray::scene::{
     Background, Beyond, Camera, CameraProperty, Curve, Easing, Interpolation, Lens, Material, Node,
-    Scene, Target, Track, Values,
+    Phong, Scene, Target, Track, Values,
 };
 use std::f64::consts::PI;
 use std::fs;
@@ -35,10 +35,10 @@ fn parallel(distance: f64, height: f64) -> Camera {
 fn ball(camera: Camera) -> Scene {
     let mut scene = Scene {
         cameras: vec![camera],
-        materials: vec![Material {
+        materials: vec![Material::from(Phong {
             ambient: Vec3::ONE,
-            ..Material::default()
-        }],
+            ..Phong::default()
+        })],
         background: Background::Color(Vec3::ZERO),
         ambient: Vec3::ONE,
         ..Scene::default()

@@ -9,7 +9,7 @@ use glimray::layout::{
 use glimray::pack::{self, PackError, PackedScene};
 use glimray::scene::{
     Attenuation, CanonicalShape, Deformation, Geometry, Influences, Joint, Light, LightKind,
-    Material, Mesh, MorphTarget, Scene, Shape, Skin,
+    Material, Mesh, MorphTarget, Phong, Scene, Shape, Skin,
 };
 use std::sync::Arc;
 
@@ -179,11 +179,15 @@ fn backs_emit_where_two_keys_say_so() {
 fn materials_keep_their_order_and_their_sides() {
     let mut scene = scenes::empty();
     scene.add_material(Material {
-        diffuse: vec3(0.1, 0.2, 0.3),
-        specular: vec3(0.4, 0.5, 0.6),
-        shininess: 7.0,
-        ambient: vec3(0.8, 0.9, 1.0),
         two_sided: false,
+        bsdf: Phong {
+            diffuse: vec3(0.1, 0.2, 0.3),
+            specular: vec3(0.4, 0.5, 0.6),
+            shininess: 7.0,
+            ambient: vec3(0.8, 0.9, 1.0),
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     });
     let [default, given] = packed(&scene).materials[..] else {

@@ -54,11 +54,15 @@ fn is_same(scene: &Scene, a: &PackedScene, b: &PackedScene) -> bool {
 #[test]
 fn changes_of_appearance_build_no_tree_and_give_the_bytes_of_a_full_pack() {
     let edits: [(&str, Edit); 10] = [
-        ("a colour", |s| s.materials[0].diffuse = vec3(0.1, 0.5, 0.9)),
-        ("a mirror", |s| s.materials[1].reflect = Vec3::splat(0.5)),
+        ("a colour", |s| {
+            s.materials[0].classical_mut().diffuse = vec3(0.1, 0.5, 0.9)
+        }),
+        ("a mirror", |s| {
+            s.materials[1].classical_mut().reflect = Vec3::splat(0.5)
+        }),
         ("glass", |s| {
-            s.materials[1].transmit = Vec3::ONE;
-            s.materials[1].ior = 1.5;
+            s.materials[1].classical_mut().transmit = Vec3::ONE;
+            s.materials[1].classical_mut().ior = 1.5;
         }),
         ("a lamp's colour", |s| s.lights[0].color *= 2.0),
         ("a light's place", |s| {
@@ -80,7 +84,7 @@ fn changes_of_appearance_build_no_tree_and_give_the_bytes_of_a_full_pack() {
                 space: Space::World,
                 pattern_from_space: glam::DAffine3::IDENTITY,
             });
-            s.materials[0].textures.diffuse = Some(0);
+            s.materials[0].classical_mut().textures.diffuse = Some(0);
         }),
         ("the camera", |s| s.cameras[0].fov_y *= 0.5),
         ("a name", |s| s.materials[0].name = "other".into()),
@@ -154,7 +158,7 @@ const EDITS: [(&str, TreeWork, Edit); 13] = [
         s.cameras[0].look_from += dvec3(1.0, 2.0, 3.0);
     }),
     ("a material", NOTHING, |s| {
-        s.materials[1].diffuse = Vec3::ONE
+        s.materials[1].classical_mut().diffuse = Vec3::ONE
     }),
     ("a light", NOTHING, |s| s.lights[0].color *= 2.0),
     ("moved", ONE_REFIT, |s| {

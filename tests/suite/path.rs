@@ -23,7 +23,7 @@ use glam::{DAffine3, DQuat, DVec3, Vec3, dvec3, vec3};
 use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{
     Antialias, Attenuation, Background, Camera, Fresnel, Instance, Light, LightKind, Material,
-    Mesh, Scene,
+    Mesh, Phong, Scene,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -40,20 +40,24 @@ fn paths(samples: u32, size: (u32, u32), max_depth: u32) -> RenderSettings {
 
 /// A matte material of this albedo.
 fn matte(albedo: f32) -> Material {
-    Material {
+    Material::from(Phong {
         diffuse: Vec3::splat(albedo),
-        ..Material::default()
-    }
+        ..Phong::default()
+    })
 }
 
 /// Glass that bends and reflects nothing: light samples are stopped by it, so that paths find by themselves what is behind it.
 fn clear() -> Material {
     Material {
-        reflect: Vec3::ONE,
-        transmit: Vec3::ONE,
-        fresnel: Fresnel::Exact,
-        opacity: 0.0,
-        ior: 1.0,
+        bsdf: Phong {
+            reflect: Vec3::ONE,
+            transmit: Vec3::ONE,
+            fresnel: Fresnel::Exact,
+            opacity: 0.0,
+            ior: 1.0,
+            ..matte(0.0).classical().into_owned()
+        }
+        .into(),
         ..matte(0.0)
     }
 }
@@ -282,11 +286,13 @@ fn matte_surfaces_look_alike_in_direct_light() {
 #[test]
 fn lamps_that_paths_can_hit_give_no_more_light_than_hidden_ones() {
     let mut verdict = Verdict::on("glossy floors under lamps");
-    let glossy = |shininess: f32| Material {
-        diffuse: Vec3::splat(0.1),
-        specular: Vec3::splat(0.2 * shininess),
-        shininess,
-        ..Material::default()
+    let glossy = |shininess: f32| {
+        Material::from(Phong {
+            diffuse: Vec3::splat(0.1),
+            specular: Vec3::splat(0.2 * shininess),
+            shininess,
+            ..Phong::default()
+        })
     };
     for (name, kind) in lights()
         .into_iter()
@@ -347,15 +353,15 @@ fn a_lamp_in_a_ball_lights_it_evenly() {
 fn clear_glass_is_invisible_in_even_light() {
     let mut verdict = Verdict::on("glass balls under a background of 1");
     for ior in [1.0, 1.33, 1.5, 2.4] {
-        let glass = Material {
+        let glass = Material::from(Phong {
             diffuse: Vec3::ZERO,
             reflect: Vec3::ONE,
             transmit: Vec3::ONE,
             fresnel: Fresnel::Exact,
             opacity: 0.0,
             ior,
-            ..Material::default()
-        };
+            ..Phong::default()
+        });
         let found = mean(&ball_in(1.0, glass), &paths(64, (16, 16), 64));
         near(&mut verdict, format!("index {ior}"), found, 1.0, 0.002);
     }
@@ -438,8 +444,12 @@ fn emissive_meshes_shine_like_lamps_of_the_same_radiance() {
         node: None,
     };
     let glossy = Material {
-        specular: Vec3::splat(2.0),
-        shininess: 20.0,
+        bsdf: Phong {
+            specular: Vec3::splat(2.0),
+            shininess: 20.0,
+            ..matte(0.5).classical().into_owned()
+        }
+        .into(),
         ..matte(0.5)
     };
     let expected = mean(

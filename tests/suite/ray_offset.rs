@@ -6,18 +6,18 @@ use glam::{DAffine3, DQuat, DVec3, Vec3, dvec3};
 use glimray::image::Image;
 use glimray::render::{RayOffset, RenderSettings};
 use glimray::scene::{
-    Attenuation, Background, Camera, CanonicalShape, Geometry, Light, LightKind, Material, Scene,
-    Shape,
+    Attenuation, Background, Camera, CanonicalShape, Geometry, Light, LightKind, Material, Phong,
+    Scene, Shape,
 };
 
 /// White surfaces in the light of a sun that shines in `direction`.
 fn sunlit(camera: Camera, direction: DVec3) -> Scene {
     Scene {
         cameras: vec![camera],
-        materials: vec![Material {
+        materials: vec![Material::from(Phong {
             diffuse: Vec3::splat(0.5),
-            ..Material::default()
-        }],
+            ..Phong::default()
+        })],
         background: Background::Color(Vec3::ONE),
         lights: vec![Light {
             kind: LightKind::Directional {

@@ -16,7 +16,7 @@ use glam::{DAffine3, DVec2, DVec3};
 use glimray::image::Image;
 use glimray::render::{RayKind, Rays};
 use glimray::scene::{
-    Attenuation, Camera, CanonicalShape, Geometry, Light, LightKind, Material, Scene, Shape,
+    Attenuation, Camera, CanonicalShape, Geometry, Light, LightKind, Material, Phong, Scene, Shape,
 };
 use moment::Carriers;
 use optics::Place;
@@ -257,7 +257,7 @@ impl<'a> Tracer<'a> {
     /// amb + Σ L (k_d max(l·n, 0) + k_s max(r·v, 0)^α) over the lights visible from `shadow`'s origin, with r =
     /// 2(l·n)n - l.
     fn shade(&self, shadow: Ray, n: DVec3, v: DVec3, material: &Material, rays: &mut Log) -> DVec3 {
-        let mut sum = self.scene.ambient.as_dvec3() * material.ambient.as_dvec3();
+        let mut sum = self.scene.ambient.as_dvec3() * material.classical().ambient.as_dvec3();
         for (index, light) in self.scene.lights.iter().enumerate() {
             for (l, distance, arriving) in light_points(light, shadow.origin) {
                 let cos = l.dot(n);
@@ -276,10 +276,13 @@ impl<'a> Tracer<'a> {
                     continue;
                 }
                 let r = 2.0 * cos * n - l;
-                let highlight = r.dot(v).max(0.0).powf(material.shininess.into());
+                let highlight = r
+                    .dot(v)
+                    .max(0.0)
+                    .powf(material.classical().shininess.into());
                 sum += arriving
-                    * (material.diffuse.as_dvec3() * cos
-                        + material.specular.as_dvec3() * highlight);
+                    * (material.classical().diffuse.as_dvec3() * cos
+                        + material.classical().specular.as_dvec3() * highlight);
             }
         }
         sum
@@ -347,20 +350,25 @@ impl<'a> Tracer<'a> {
         direction: DVec3,
     ) -> (DVec3, Material) {
         let weights = weights(triangle, p);
-        let [a, b, c] = triangle
+        let corners = triangle
             .materials
             .map(|i| &self.scene.materials[i as usize]);
-        let mix = |of: fn(&Material) -> glam::Vec3| {
+        let [a, b, c] = &corners.map(Material::classical);
+        let mix = |of: fn(&Phong) -> glam::Vec3| {
             weights.x as f32 * of(a) + weights.y as f32 * of(b) + weights.z as f32 * of(c)
         };
         let shininess = DVec3::new(a.shininess.into(), b.shininess.into(), c.shininess.into());
         let material = Material {
-            diffuse: mix(|m| m.diffuse),
-            specular: mix(|m| m.specular),
-            shininess: weights.dot(shininess) as f32,
-            ambient: mix(|m| m.ambient),
-            reflect: mix(|m| m.reflect),
-            ..a.clone()
+            bsdf: Phong {
+                diffuse: mix(|m| m.diffuse),
+                specular: mix(|m| m.specular),
+                shininess: weights.dot(shininess) as f32,
+                ambient: mix(|m| m.ambient),
+                reflect: mix(|m| m.reflect),
+                ..Phong::clone(a)
+            }
+            .into(),
+            ..corners[0].clone()
         };
         let [na, nb, nc] = triangle.normals;
         let normal = (weights.x * na + weights.y * nb + weights.z * nc).normalize();

@@ -17,7 +17,7 @@ use glimray::render::{
     Slicing, Stats, Tone,
 };
 use glimray::scene::{
-    Attenuation, Camera, Light, LightKind, Material, Mesh, Scene, ToneCurve, Transfer,
+    Attenuation, Camera, Light, LightKind, Material, Mesh, Phong, Scene, ToneCurve, Transfer,
 };
 use glimray_app::error::AppError;
 use std::ops::Range;
@@ -542,7 +542,7 @@ fn the_first_submission_is_one_workgroup_if_points_take_thousands_of_shadow_rays
 #[test]
 fn the_message_of_the_loop_limit_names_what_is_too_much() {
     let mut mirrors = scenes::spheres();
-    mirrors.materials[0].reflect = Vec3::splat(0.99);
+    mirrors.materials[0].classical_mut().reflect = Vec3::splat(0.99);
     let deep = RenderSettings {
         max_depth: 1000,
         ..sized(8, 8)
@@ -745,10 +745,10 @@ fn wall_under(color: f32) -> Scene {
         look_from: DVec3::Z * 5.0,
         ..Camera::default()
     };
-    scene.materials[0] = Material {
+    scene.materials[0] = Material::from(Phong {
         diffuse: Vec3::ONE,
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     let upright = DAffine3::from_rotation_x(std::f64::consts::FRAC_PI_2);
     scene.add_mesh(
         scenes::quad(40.0, 0),

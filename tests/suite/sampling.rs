@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3, Vec3, dvec3, vec3};
 use glimray::image::Image;
 use glimray::render::{Antialias, Filter, RenderSettings};
 use glimray::scene::{
-    Attenuation, Background, Camera, Lens, Light, LightKind, Material, Mesh, Scene,
+    Attenuation, Background, Camera, Lens, Light, LightKind, Material, Mesh, Phong, Scene,
 };
 
 const FILTERS: [Filter; 5] = [
@@ -71,10 +71,10 @@ fn edges() -> Scene {
         mesh.triangles.push([first, first + 1, first + 2]);
     }
     for shade in [0.1, 0.9] {
-        scene.add_material(Material {
+        scene.add_material(Material::from(Phong {
             ambient: Vec3::splat(shade),
-            ..Material::default()
-        });
+            ..Phong::default()
+        }));
     }
     mesh.repair();
     scene.add_mesh(mesh, DAffine3::IDENTITY);
@@ -160,10 +160,10 @@ fn gradient() -> Scene {
         vec3(0.9, 0.1, 0.3),
         vec3(0.5, 0.2, 0.9),
     ] {
-        scene.add_material(Material {
+        scene.add_material(Material::from(Phong {
             ambient,
-            ..Material::default()
-        });
+            ..Phong::default()
+        }));
     }
     scene.add_mesh(mesh, DAffine3::IDENTITY);
     scene
@@ -206,10 +206,10 @@ fn filters_spread_a_thin_line_by_their_own_width() {
     let mut scene = gradient();
     scene.materials.clear();
     for shade in [0.0, 1.0] {
-        scene.add_material(Material {
+        scene.add_material(Material::from(Phong {
             ambient: Vec3::splat(shade),
-            ..Material::default()
-        });
+            ..Phong::default()
+        }));
     }
     std::sync::Arc::make_mut(&mut scene.meshes[0]).materials = vec![0; 3];
     let mut right = (*scene.meshes[0]).clone();

@@ -658,10 +658,10 @@ fn overshooting_cubics_stay_in_range() {
         assert!(frame.camera.fov_y > 0.0 && frame.camera.fov_y < PI);
         assert!(lens.radius > 0.0 && lens.focus_distance > 0.0);
         assert!(frame.lights[0].color.min_element() >= 0.0);
-        assert!(material.ior > 0.0 && material.shininess >= 0.0);
-        assert!((0.0..=1.0).contains(&material.opacity));
-        assert!(material.diffuse.min_element() >= 0.0);
-        assert!(material.absorption.min_element() >= 0.0);
+        assert!(material.classical().ior > 0.0 && material.classical().shininess >= 0.0);
+        assert!((0.0..=1.0).contains(&material.classical().opacity));
+        assert!(material.classical().diffuse.min_element() >= 0.0);
+        assert!(material.classical().absorption.min_element() >= 0.0);
     }
     assert!(overshot, "the test shows nothing");
 }

@@ -5,7 +5,7 @@ use crate::reference::scenes::{self, Build};
 use crate::reference::trace;
 use glam::{DAffine3, DVec3, Vec3, dvec3};
 use glimray::render::RenderSettings;
-use glimray::scene::{Attenuation, Background, Camera, Light, LightKind, Material, Scene};
+use glimray::scene::{Attenuation, Background, Camera, Light, LightKind, Material, Phong, Scene};
 use std::f64::consts::PI;
 
 /// A floor of k_d = 1/2 around the origin, seen by the camera from nearby.
@@ -17,10 +17,10 @@ fn floor() -> Scene {
             fov_y: 0.01,
             ..Camera::default()
         }],
-        materials: vec![Material {
+        materials: vec![Material::from(Phong {
             diffuse: Vec3::splat(0.5),
-            ..Material::default()
-        }],
+            ..Phong::default()
+        })],
         background: Background::Color(Vec3::ZERO),
         ..Scene::default()
     };

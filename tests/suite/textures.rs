@@ -11,8 +11,8 @@ use glam::{DAffine3, DQuat, DVec2, DVec3, Vec2, Vec3, Vec4, dvec3, vec3};
 use glimray::image::Image;
 use glimray::render::{Fetch, Tone};
 use glimray::scene::{
-    Background, Camera, Material, Minify, Pattern, Picture, Scene, Space, Texels, Texture,
-    Textures, Wrap,
+    Background, Camera, Material, Minify, Pattern, Phong, PhongTextures, Picture, Scene, Space,
+    Texels, Texture, Wrap,
 };
 use glimray::{import, pack};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -83,21 +83,21 @@ fn textured_scene() -> Scene {
             .push(pattern_texture(pattern, Space::Uv, shrunk));
     }
     // Each slot alone, and several at once.
-    let slots = |diffuse, specular, ambient| Textures {
+    let slots = |diffuse, specular, ambient| PhongTextures {
         diffuse,
         specular,
         ambient,
-        ..Textures::default()
+        ..PhongTextures::default()
     };
-    scene.materials[0].textures = slots(Some(0), None, Some(0));
-    scene.materials[1].textures = slots(Some(3), Some(1), Some(2));
-    scene.materials[2].textures = slots(None, Some(4), None);
-    scene.materials[3].textures = slots(Some(4), None, None);
+    scene.materials[0].classical_mut().textures = slots(Some(0), None, Some(0));
+    scene.materials[1].classical_mut().textures = slots(Some(3), Some(1), Some(2));
+    scene.materials[2].classical_mut().textures = slots(None, Some(4), None);
+    scene.materials[3].classical_mut().textures = slots(Some(4), None, None);
     for slot in 6..12 {
-        let material = scene.add_material(Material {
+        let material = scene.add_material(Material::from(Phong {
             textures: slots(Some(slot), None, Some(slot)),
-            ..Material::default()
-        });
+            ..Phong::default()
+        }));
         let mut quad = scenes::quad(0.85, material as u32);
         quad.uvs = [[-0.3, -0.2], [1.1, 0.0], [1.4, 1.2], [0.1, 1.0]]
             .map(Vec2::from)
@@ -168,14 +168,14 @@ fn flat(texture: Texture, pictures: Vec<Picture>, at: DVec3) -> Scene {
             fov_y: FRAC_PI_2,
             ..Camera::default()
         }],
-        materials: vec![Material {
+        materials: vec![Material::from(Phong {
             ambient: Vec3::ONE,
-            textures: Textures {
+            textures: PhongTextures {
                 ambient: Some(0),
-                ..Textures::default()
+                ..PhongTextures::default()
             },
-            ..Material::default()
-        }],
+            ..Phong::default()
+        })],
         ..Scene::default()
     };
     scene.add_plane(at, DVec3::Z, 0);

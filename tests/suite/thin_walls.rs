@@ -5,8 +5,8 @@ use crate::reference::scenes::{self, Build};
 use glam::{DAffine3, DVec3, Vec2, Vec3, dvec3, vec3};
 use glimray::render::RenderSettings;
 use glimray::scene::{
-    Background, Fresnel, Light, LightKind, Material, Mesh, Minify, Pattern, Picture, Scene,
-    Shadows, Space, Texels, Texture, Textures, Wrap,
+    Background, Fresnel, Light, LightKind, Material, Mesh, Minify, Pattern, Phong, PhongTextures,
+    Picture, Scene, Shadows, Space, Texels, Texture, Textures, Wrap,
 };
 use std::sync::Arc;
 
@@ -30,11 +30,15 @@ fn wall(side: f32, material: usize) -> Mesh {
 
 fn pane(tint: Vec3) -> Material {
     Material {
-        diffuse: Vec3::ZERO,
-        ambient: Vec3::ZERO,
-        transmit: tint,
-        ior: 1.7,
         thin: true,
+        bsdf: Phong {
+            diffuse: Vec3::ZERO,
+            ambient: Vec3::ZERO,
+            transmit: tint,
+            ior: 1.7,
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     }
 }
@@ -79,7 +83,7 @@ fn a_thin_wall_in_a_medium_leaves_the_medium_as_it_is() {
             bottom: Vec3::X,
             top: Vec3::ONE,
         };
-        let glass = scene.add_material(Material {
+        let glass = scene.add_material(Material::from(Phong {
             diffuse: Vec3::ZERO,
             ambient: Vec3::ZERO,
             transmit: Vec3::ONE,
@@ -87,8 +91,8 @@ fn a_thin_wall_in_a_medium_leaves_the_medium_as_it_is() {
             absorption: vec3(0.1, 0.3, 0.0),
             fresnel: Fresnel::Exact,
             reflect: Vec3::ONE,
-            ..Material::default()
-        });
+            ..Phong::default()
+        }));
         scene.add_sphere(dvec3(0.0, 0.0, -4.0), 1.5, glass);
         if has_pane {
             let material = scene.add_material(pane(Vec3::ONE));
@@ -119,10 +123,10 @@ fn shadow_rays_pass_thin_walls_with_their_tint() {
             },
             ..Light::default()
         });
-        let white = scene.add_material(Material {
+        let white = scene.add_material(Material::from(Phong {
             ambient: Vec3::ZERO,
-            ..Material::default()
-        });
+            ..Phong::default()
+        }));
         scene.add_mesh(
             wall(400.0, white),
             DAffine3::from_translation(dvec3(0.0, 0.0, -5.0)),
@@ -184,13 +188,17 @@ fn occlusion_maps_dim_ambient_light_and_nothing_else() {
         scene.pictures.push(picture([51, 255, 0, 255]));
         scene.textures.push(texture(0, Space::Uv));
         let material = scene.add_material(Material {
-            ambient: vec3(0.6, 0.4, 0.8),
             emission: vec3(0.01, 0.02, 0.03),
+            occlusion_strength: occlusion.unwrap_or(1.0),
             textures: Textures {
                 occlusion: occlusion.map(|_| 0),
                 ..Textures::default()
             },
-            occlusion_strength: occlusion.unwrap_or(1.0),
+            bsdf: Phong {
+                ambient: vec3(0.6, 0.4, 0.8),
+                ..Phong::default()
+            }
+            .into(),
             ..Material::default()
         });
         scene.add_mesh(
@@ -247,13 +255,20 @@ fn a_texture_uses_the_set_of_texture_coordinates_that_it_names() {
         }
         let material = scene.add_material(Material {
             textures: Textures {
-                diffuse: Some(0),
-                ambient: Some(0),
                 normal: Some(1),
                 occlusion: Some(0),
                 alpha: Some(0),
                 ..Textures::default()
             },
+            bsdf: Phong {
+                textures: PhongTextures {
+                    diffuse: Some(0),
+                    ambient: Some(0),
+                    ..PhongTextures::default()
+                },
+                ..Phong::default()
+            }
+            .into(),
             ..Material::default()
         });
         let mut mesh = wall(3.0, material);

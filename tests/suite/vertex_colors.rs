@@ -9,8 +9,8 @@ use glimray::image::Image;
 use glimray::pack;
 use glimray::render::{Fetch, Integrator, RenderSettings};
 use glimray::scene::{
-    Antialias, Background, Coverage, Deformation, Fresnel, LayerTextures, Light, LightKind,
-    Material, Mesh, MetallicRoughness, MorphTarget, Scene, Target, Values,
+    Antialias, Background, Bsdf, Coverage, Deformation, Fresnel, Light, LightKind, Material, Mesh,
+    MetallicRoughness, MorphTarget, Phong, Scene, Target, Values,
 };
 use std::sync::Arc;
 
@@ -73,7 +73,7 @@ fn worst(image: &Image, expected: impl Fn(f32, f32) -> Vec3) -> f32 {
 }
 
 fn physical(model: MetallicRoughness) -> Material {
-    Material::physical(Arc::new(model), LayerTextures::default())
+    model.into()
 }
 
 fn unlit() -> MetallicRoughness {
@@ -90,8 +90,12 @@ fn unlit_colours_are_linear_over_a_triangle_and_may_exceed_1() {
     // A Phong material that shows nothing but its emission is unlit too.
     let glowing = Material {
         emission: Vec3::ONE,
-        diffuse: Vec3::ZERO,
-        ambient: Vec3::ZERO,
+        bsdf: Phong {
+            diffuse: Vec3::ZERO,
+            ambient: Vec3::ZERO,
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     };
     for (name, material) in [("unlit", physical(unlit())), ("glowing", glowing)] {
@@ -117,13 +121,13 @@ fn alpha_of_vertices_counts_as_the_mode_says() {
         ("mask", Coverage::Mask(0.3), [0.0, 1.0]),
         ("blend", Coverage::Blend, [0.25 * 0.5, 0.75 * 0.5]),
     ] {
-        let model = MetallicRoughness {
+        let material = Material {
             coverage,
             alpha: 0.5,
-            ..unlit()
+            ..physical(unlit())
         };
         // Even in each half, which meet within a pixel.
-        let mut scene = square(physical(model), |_, _| Vec4::ONE);
+        let mut scene = square(material, |_, _| Vec4::ONE);
         let mesh = Arc::make_mut(&mut scene.meshes[0]);
         let [left, right] = [0.25, 0.75].map(|alpha| vec4(1.0, 1.0, 1.0, alpha));
         mesh.positions = [-0.5, 0.0, 0.0, 0.5]
@@ -157,9 +161,13 @@ fn alpha_of_vertices_counts_as_the_mode_says() {
 #[test]
 fn shadows_have_the_alpha_of_vertices() {
     let sheet = Material {
-        ambient: Vec3::ZERO,
-        diffuse: Vec3::ZERO,
         coverage: Coverage::Blend,
+        bsdf: Phong {
+            ambient: Vec3::ZERO,
+            diffuse: Vec3::ZERO,
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     };
     let mut scene = square(sheet, |u, _| vec4(1.0, 1.0, 1.0, u));
@@ -171,14 +179,29 @@ fn shadows_have_the_alpha_of_vertices() {
         },
         ..Light::default()
     });
-    let wall = scene.add_material(Material {
+    let wall = scene.add_material(Material::from(Phong {
         diffuse: Vec3::ONE,
-        ..Material::default()
-    });
+        ..Phong::default()
+    }));
     scene.add_plane(dvec3(0.0, 0.0, -1.0 - 1e-4), DVec3::Z, wall);
     let (image, _) = render(&scene, &still(Integrator::Whitted, 1));
     let off = worst(&image, |u, _| Vec3::splat((1.0 - u) * (1.0 - u)));
     assert!(off < 1e-3, "{off}");
+}
+
+/// Gives a material the colour of vertices.
+fn paint(material: &mut Material, color: Vec3) {
+    let parts = material.colored_parts();
+    match &mut material.bsdf {
+        Bsdf::MetallicRoughness(_) => material.tint = color,
+        Bsdf::Phong(phong) => {
+            phong.diffuse *= color;
+            phong.ambient *= color;
+            if parts.emission {
+                material.emission *= color;
+            }
+        }
+    }
 }
 
 /// A ball and a floor of these materials under a lamp, before a wall.
@@ -193,7 +216,7 @@ fn corner(materials: [&Material; 2], color: Option<Vec3>) -> Scene {
     ] {
         let mut material = material.clone();
         match color {
-            Some(color) => material.paint(color),
+            Some(color) => paint(&mut material, color),
             None => mesh.colors = vec![COLOR.extend(1.0); mesh.positions.len()],
         }
         let index = scene.add_material(material);
@@ -220,8 +243,12 @@ fn an_even_colour_of_vertices_is_that_of_the_material() {
         })
     };
     let mirror = Material {
-        reflect: Vec3::splat(0.5),
-        fresnel: Fresnel::Schlick,
+        bsdf: Phong {
+            reflect: Vec3::splat(0.5),
+            fresnel: Fresnel::Schlick,
+            ..scenes::shiny(vec3(0.6, 0.7, 0.8)).classical().into_owned()
+        }
+        .into(),
         ..scenes::shiny(vec3(0.6, 0.7, 0.8))
     };
     let matte = scenes::shiny(vec3(0.8, 0.8, 0.6));

@@ -625,7 +625,7 @@ fn a_sphere_moved_into_a_rotated_node_stays_a_sphere() {
         space: Space::Uv,
         pattern_from_space: DAffine3::IDENTITY,
     });
-    mapped.materials[0].textures.diffuse = Some(0);
+    mapped.materials[0].classical_mut().textures.diffuse = Some(0);
     objects::set_parent(&mut mapped, SHAPE, Some(0), 0.0).expect("free");
     assert!(nearly(place(&mapped, SHAPE, 0.0).expect("a place"), at));
 }
@@ -634,30 +634,30 @@ fn a_sphere_moved_into_a_rotated_node_stays_a_sphere() {
 fn swatches_show_what_a_material_reflects_and_transmits() {
     use glimray_viewer::model::swatch::Swatch;
     // Nearly black but for its reflection, as metals are.
-    let gold = Swatch::of(&Material {
+    let gold = Swatch::of(&Material::from(Phong {
         diffuse: Vec3::new(0.05, 0.03, 0.01),
         specular: Vec3::ZERO,
         reflect: Vec3::new(0.95, 0.7, 0.3),
-        ..Material::default()
-    });
+        ..Phong::default()
+    }));
     assert!(gold.is_glossy && !gold.is_clear);
     let [r, g, b] = gold.color.to_array();
     assert!(
         r > 0.9 && (0.6..0.85).contains(&g) && b < 0.45,
         "{r} {g} {b}"
     );
-    let glass = Swatch::of(&Material {
+    let glass = Swatch::of(&Material::from(Phong {
         diffuse: Vec3::ZERO,
         transmit: Vec3::new(0.8, 0.9, 0.85),
-        ..Material::default()
-    });
+        ..Phong::default()
+    }));
     assert!(glass.is_clear);
     assert!(glass.color.min_element() > 0.7);
-    let matte = Swatch::of(&Material {
+    let matte = Swatch::of(&Material::from(Phong {
         diffuse: Vec3::new(0.2, 0.4, 0.1),
         specular: Vec3::ZERO,
-        ..Material::default()
-    });
+        ..Phong::default()
+    }));
     assert_eq!(matte.color, Vec3::new(0.2, 0.4, 0.1));
     assert!(!matte.is_glossy && !matte.is_clear);
 }

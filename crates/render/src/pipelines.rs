@@ -216,7 +216,7 @@ mod tests {
     use crate::{ExecutionPolicy, RenderSettings, pack, task::Task};
     use glam::{DAffine3, DVec3, Vec3};
     use glimray_scene::{
-        Camera, Geometry, Instance, Light, LightKind, Material, Mesh, Scene, Shape,
+        Camera, Geometry, Instance, Light, LightKind, Material, Mesh, Phong, Scene, Shape,
     };
     use std::sync::Arc;
 
@@ -263,10 +263,10 @@ mod tests {
     fn mirror(reflect: f32, is_sphere: bool, lamp_rays: u32) -> Scene {
         let mut scene = Scene {
             cameras: vec![Camera::default()],
-            materials: vec![Material {
+            materials: vec![Material::from(Phong {
                 reflect: Vec3::splat(reflect),
-                ..Material::default()
-            }],
+                ..Phong::default()
+            })],
             lights: vec![Light {
                 kind: LightKind::Sphere {
                     center: DVec3::Y,

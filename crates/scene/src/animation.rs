@@ -29,10 +29,11 @@ pub enum Target {
     Camera(usize, CameraProperty),
     /// Of a [`super::Light`].
     Light(usize, LightProperty),
-    /// Of a [`super::Material`].
+    /// Of a [`super::Material`]: its emission, or a coefficient of its [`super::Phong`] BSDF. Coefficients of other BSDFs
+    /// are those of [`super::Material::classical`].
     Material(usize, MaterialProperty),
-    /// Of the [`super::MetallicRoughness`] of a material. Its classical colours follow, except those of textures that
-    /// were computed for the values at rest.
+    /// Of the [`super::MetallicRoughness`] of a material. Classical colours that are derived from it follow, but not those
+    /// that a file gives or that were computed from several maps.
     Layer(usize, LayerProperty),
     /// Of the [`super::UvTransform`] of a texture; what has no track has its default.
     Texture(usize, TextureProperty),
@@ -95,7 +96,10 @@ pub enum LightProperty {
 /// An animatable property of a material. `Shininess`, `Opacity` and `Ior` are scalars, all others
 /// vectors. Materials are constant while the shutter is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "they are named after the members of Material")]
+#[expect(
+    missing_docs,
+    reason = "they are named after the members of Material and Phong"
+)]
 pub enum MaterialProperty {
     Diffuse,
     Specular,

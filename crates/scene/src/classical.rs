@@ -2,9 +2,10 @@
 //!
 //! Only the classical integrator shows them: scenes that are path-traced do without.
 
+use super::metallic_roughness::shininess;
 use super::{
-    MAX_PICTURE_BYTES, Material, MetallicRoughness, Origin, Pattern, Picture, Scene, SrgbCurve,
-    SurfacePoint, Target, Texels, TextureProperty,
+    Bsdf, MAX_PICTURE_BYTES, Material, MetallicRoughness, Origin, Pattern, Phong, PhongTextures,
+    Picture, Scene, SrgbCurve, SurfacePoint, Target, Texels, TextureProperty,
 };
 use crate::threads;
 use glam::{DVec4, Vec3, Vec4Swizzles};
@@ -50,36 +51,15 @@ impl Material {
     /// Whether its classical colours differ from texel to texel in a way that its textures alone cannot show. They do
     /// not follow the values of its layers then.
     pub fn has_classical_maps(&self) -> bool {
-        let (Some(model), Some(layers)) = (&self.metallic_roughness, &self.layer_textures) else {
+        let Some(model) = self.metallic_roughness() else {
             return false;
         };
+        let layers = &model.textures;
         let has_values = [layers.metallic, layers.roughness, layers.transmission]
             .iter()
             .any(Option::is_some);
         let is_even = model.metallic.fract() == 0.0 && model.transmission == 0.0;
         !model.unlit && (has_values || layers.base_color.is_some() && !is_even)
-    }
-
-    /// Whether its classical colours are those of [`Material::physical`]: none was chosen by hand or computed.
-    fn is_undressed(&self) -> bool {
-        let Some(model) = &self.metallic_roughness else {
-            return false;
-        };
-        let layers = self.layer_textures.as_deref().copied();
-        let mut plain = Self::physical(model.clone(), layers.unwrap_or_default());
-        if self.tint != Vec3::ONE {
-            plain.paint(self.tint);
-        }
-        let look = |it: &Self| {
-            let textures = &it.textures;
-            (
-                [it.diffuse, it.ambient, it.specular, it.reflect, it.transmit],
-                it.shininess,
-                [textures.diffuse, textures.ambient, textures.specular],
-                [textures.reflect, textures.transmit],
-            )
-        };
-        look(self) == look(&plain)
     }
 }
 
@@ -113,11 +93,12 @@ impl Scene {
     /// Model and maps that a material's pictures are computed from, and the index of the texture that places them;
     /// `None` if it needs none or has them.
     fn sources(&self, material: &Material) -> Option<(MetallicRoughness, Sheets, usize)> {
-        if !material.has_classical_maps() || !material.is_undressed() {
+        let model = material.metallic_roughness()?;
+        if !material.has_classical_maps() || model.phong.is_some() {
             return None;
         }
-        let layers = material.layer_textures.as_deref()?;
-        let mut model = MetallicRoughness::clone(material.metallic_roughness.as_deref()?);
+        let mut model = model.clone();
+        let layers = model.textures;
         let textures = [
             layers.base_color,
             layers.metallic,
@@ -132,10 +113,11 @@ impl Scene {
                 return None;
             };
             let picture = &self.pictures[picture];
-            match self.are_aligned(texture, lead) {
-                true => sheets[slot] = Some(picture.clone()),
+            if self.are_aligned(texture, lead) {
+                sheets[slot] = Some(picture.clone());
+            } else {
                 // Without a picture for it, a map counts with its mean.
-                false => with_mean(&mut model, slot, picture),
+                with_mean(&mut model, slot, picture);
             }
         }
         Some((model, sheets, lead))
@@ -197,25 +179,27 @@ impl Scene {
         let (specular, reflect) = (texture(&baked.specular), texture(&baked.reflect));
         let transmit = texture(&baked.transmit);
         let material = &mut self.materials[index];
-        let textures = &mut material.textures;
-        (textures.diffuse, textures.ambient) = (diffuse, diffuse);
-        (textures.specular, textures.reflect) = (specular, reflect);
-        textures.transmit = transmit;
-        material.diffuse = baked.diffuse.0;
-        material.ambient = baked.diffuse.0;
-        material.specular = baked.specular.0;
-        material.reflect = baked.reflect.0;
-        material.transmit = baked.transmit.0;
-        if let Some(model) = &material.metallic_roughness {
-            let smoother = MetallicRoughness {
-                roughness: baked.roughness,
-                ..MetallicRoughness::clone(model)
-            };
-            material.shininess = smoother.classical(String::new()).shininess;
-        }
-        if material.tint != Vec3::ONE {
-            material.paint(material.tint);
-        }
+        let Bsdf::MetallicRoughness(model) = &mut material.bsdf else {
+            return;
+        };
+        let mut phong = Phong {
+            diffuse: baked.diffuse.0,
+            ambient: baked.diffuse.0,
+            specular: baked.specular.0,
+            reflect: baked.reflect.0,
+            transmit: baked.transmit.0,
+            shininess: shininess(baked.roughness),
+            textures: PhongTextures {
+                diffuse,
+                ambient: diffuse,
+                specular,
+                reflect,
+                transmit,
+            },
+            ..model.phong_without_maps()
+        };
+        model.paint(&mut phong, material.tint);
+        Arc::make_mut(model).phong = Some(Box::new(phong));
     }
 }
 

@@ -21,7 +21,7 @@ pub struct Frame {
     pub lights: Vec<Light>,
     /// Radiance of rays that hit nothing.
     pub background: Background,
-    /// Linear radiance of the ambient term, multiplied by [`Material::ambient`].
+    /// Linear radiance of the ambient term, multiplied by [`super::Phong::ambient`].
     pub ambient: Vec3,
     /// One for each of the scene's nodes.
     pub nodes: Vec<NodeState>,

@@ -11,6 +11,7 @@
 
 mod animation;
 mod bounds;
+mod bsdf;
 pub mod bytes;
 mod classical;
 pub mod clock;
@@ -49,6 +50,7 @@ pub use animation::{
     MaterialProperty, NodeProperty, Target, TextureProperty, Track, Values,
 };
 pub use bounds::corners;
+pub use bsdf::{Bsdf, Phong, PhongTextures};
 pub use classical::ClassicalMaps;
 pub use curve::Value;
 pub use deformation::{Deformation, Influences, Joint, MorphTarget, Pose, PosedMesh, Skin};

@@ -1,7 +1,7 @@
 //! Default samples per pixel, whether a scene has any light, and whether its materials make some.
 
 use super::{
-    Attenuation, Background, Light, LightKind, LightProperty, LightTransport, Material,
+    Attenuation, Background, Bsdf, Light, LightKind, LightProperty, LightTransport, Material,
     MaterialProperty, OutputDefaults, Pattern, Scene, Target, corners,
 };
 use glam::{DVec3, Vec3};
@@ -68,19 +68,21 @@ impl Scene {
                 matches!(target, Target::Light(_, Color | Intensity | On))
             });
         let has_ambient = is_lit(self.ambient)
-            && (any_material(|material| material.ambient)
+            && (any_material(|material| material.classical().ambient)
                 || changes(|t| matches!(t, Target::Material(_, MaterialProperty::Ambient))));
         let emits = (self.materials.iter()).any(|material| self.emits(material))
             || changes(|target| matches!(target, Target::Material(_, MaterialProperty::Emission)));
         let shows_background = self.background_shines()
-            && (any_material(|material| material.reflect + material.transmit)
-                || changes(|target| {
-                    use MaterialProperty::{Reflect, Transmit};
-                    matches!(
-                        target,
-                        Target::Material(_, Reflect | Transmit) | Target::Layer(..)
-                    )
-                }));
+            && (any_material(|material| {
+                let phong = material.classical();
+                phong.reflect + phong.transmit
+            }) || changes(|target| {
+                use MaterialProperty::{Reflect, Transmit};
+                matches!(
+                    target,
+                    Target::Material(_, Reflect | Transmit) | Target::Layer(..)
+                )
+            }));
         let has_surfaces = !(self.shapes.is_empty() && self.instances.is_empty());
         has_surfaces && !(has_lights || has_ambient || emits || shows_background)
     }
@@ -118,10 +120,13 @@ impl Scene {
     /// above 1, or the highlight of an exponent s has k_s above (s + 1)/2.
     pub fn materials_that_gain_light(&self) -> impl Iterator<Item = &Material> {
         let gains = |material: &&Material| {
-            let highlight = 2.0 * material.specular / (material.shininess + 1.0);
-            let colors = [material.diffuse, material.reflect, material.transmit];
+            let Bsdf::Phong(phong) = &material.bsdf else {
+                return false;
+            };
+            let highlight = 2.0 * phong.specular / (phong.shininess + 1.0);
+            let colors = [phong.diffuse, phong.reflect, phong.transmit];
             let most = colors.into_iter().fold(highlight, Vec3::max);
-            material.metallic_roughness.is_none() && most.max_element() > 1.0
+            most.max_element() > 1.0
         };
         self.materials.iter().filter(gains)
     }
@@ -130,7 +135,8 @@ impl Scene {
     /// some.
     pub fn mirrors_and_glass(&self) -> impl Iterator<Item = &Material> {
         let follows = |material: &&Material| {
-            material.reflect.max_element() >= 0.7 || material.transmit.max_element() > 0.0
+            let phong = material.classical();
+            phong.reflect.max_element() >= 0.7 || phong.transmit.max_element() > 0.0
         };
         self.materials.iter().filter(follows)
     }
@@ -144,7 +150,7 @@ impl Scene {
             | Pattern::Noise { a, b, .. } => a.max(b).max_element() <= 0.0,
             Pattern::Picture { picture, .. } => self.pictures[picture].texels.is_black(),
         };
-        let is_lit = material.emission.max_element() > 0.0;
-        is_lit && !material.textures.emission.is_some_and(is_black)
+        let (color, texture) = material.radiance();
+        color.max_element() > 0.0 && !texture.is_some_and(is_black)
     }
 }

@@ -1,56 +1,36 @@
 //! Materials.
 
-use super::MetallicRoughness;
+use super::{Bsdf, MetallicRoughness, Phong};
 use glam::Vec3;
 use std::sync::Arc;
 
-/// How a surface scatters light: Phong coefficients per colour channel (Phong 1975), mirror reflection
-/// and transmission (Whitted 1980).
+/// A surface: how it scatters light, its emission, and how much of it is there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Empty if the file gives none.
     pub name: String,
-    /// k_d, 0 or more.
-    pub diffuse: Vec3,
-    /// k_s, 0 or more.
-    pub specular: Vec3,
-    /// The exponent α, 0 or more.
-    pub shininess: f32,
-    /// Factor on [`super::Scene::ambient`]. 1 in the course's format, by default the diffuse colour in
+    /// How the surface scatters light.
+    pub bsdf: Bsdf,
+    /// Factor on the base colour of [`Bsdf::MetallicRoughness`], 0 or more: the colour of one of many points. No effect on
     /// others.
-    pub ambient: Vec3,
+    pub tint: Vec3,
     /// Whether the shading normal is flipped to face the ray. Off in the course's format: a surface lit
     /// from behind gets the ambient term only.
     pub two_sided: bool,
     /// Radiance that the surface emits, 0 or more; from its back only if `two_sided` and
-    /// `two_sided_emission`.
+    /// `two_sided_emission`. See [`Self::radiance`].
     pub emission: Vec3,
     /// Whether the back emits too if the surface is `two_sided`. Off where back faces are not rendered, as those of
     /// single-sided materials in glTF: they stay visible here, and send no light.
     pub two_sided_emission: bool,
-    /// Fraction of the light that is reflected, 0 or more; with `fresnel` its value at grazing angles.
-    pub reflect: Vec3,
-    /// Fraction of the light that is transmitted, 0 or more; with `fresnel` before reflection is
-    /// subtracted.
-    pub transmit: Vec3,
-    /// Weight of the local shading if `mixing` is [`Mixing::Layer`], in 0..=1.
-    pub opacity: f32,
-    /// Index of refraction on the inside, which is the side that the normal points away from; above 0.
-    pub ior: f32,
-    /// Absorption coefficient of the inside per unit length: exp(−absorption · length) is transmitted
-    /// (Beer and Lambert). 0 or more.
-    pub absorption: Vec3,
     /// Whether transmitted light goes straight on, as through a window pane: the surface encloses no medium, and
-    /// `ior`, `absorption` and `priority` have no effect on it. Passing it is not a bounce.
+    /// its index of refraction, absorption and `priority` have no effect on it. Passing it is not a bounce. See
+    /// [`Self::is_thin`].
     pub thin: bool,
     /// Among overlapping dielectric volumes the one of the highest priority counts; among equals the one
     /// entered last (Schmidt and Budge 2002).
     pub priority: i32,
-    /// How reflection depends on the angle.
-    pub fresnel: Fresnel,
-    /// How local, reflected and transmitted light are combined.
-    pub mixing: Mixing,
-    /// Textures that multiply the colours, and the normal map.
+    /// Textures of its emission and alpha, the normal map and the occlusion map.
     pub textures: Textures,
     /// Factor on the tilt of normals in the normal map: on their x and y, 0 or more.
     pub normal_scale: f32,
@@ -63,107 +43,83 @@ pub struct Material {
     /// Whether paths from the camera see only the shadows on it, where the picture is transparent:
     /// [`super::Backdrop::Transparent`]. All other light sees the material.
     pub shadow_catcher: bool,
-    /// The physically based material that the members above show, if the file has one; the path tracer uses
-    /// it. Shared by materials that differ in `tint`.
-    pub metallic_roughness: Option<Arc<MetallicRoughness>>,
-    /// A factor on the base colour of `metallic_roughness`.
-    pub tint: Vec3,
-    /// Textures that multiply parameters of `metallic_roughness`, if there are any. Its emission has that of
-    /// `textures`. Boxed, as few of many materials have them.
-    pub layer_textures: Option<Box<LayerTextures>>,
 }
 
 impl Material {
     /// The coefficients besides the diffuse and the ambient colour that a colour of vertices multiplies: all that are
     /// multiples of the base colour, and the emission of a Phong material that shows nothing else.
     pub fn colored_parts(&self) -> ColoredParts {
-        match &self.metallic_roughness {
-            Some(model) => ColoredParts {
-                mirror: model.metallic > 0.5,
-                glass: true,
-                emission: model.unlit,
-            },
-            None => ColoredParts {
-                emission: self.diffuse == Vec3::ZERO,
+        match &self.bsdf {
+            Bsdf::MetallicRoughness(model) => model.colored_parts(),
+            Bsdf::Phong(phong) => ColoredParts {
+                emission: phong.diffuse == Vec3::ZERO,
                 ..ColoredParts::default()
             },
         }
     }
 
-    /// Multiplies its colours with `color`, as [`super::Mesh::colors`] do.
-    pub fn paint(&mut self, color: Vec3) {
-        let parts = self.colored_parts();
-        self.diffuse *= color;
-        self.ambient *= color;
-        self.tint = color;
-        if parts.mirror {
-            self.specular *= color;
-            self.reflect *= color;
-        }
-        if parts.glass {
-            self.transmit *= color;
-        }
-        if parts.emission {
-            self.emission *= color;
-        }
-    }
-
-    /// Whether its textures multiply classical colours as they are: none was computed from several maps.
-    pub fn follows_layers(&self) -> bool {
-        let Textures {
-            diffuse,
-            specular,
-            reflect,
-            transmit,
-            ..
-        } = self.textures;
-        let layers = self.layer_textures.as_deref().copied().unwrap_or_default();
-        let is_plain = |it: Option<usize>| it.is_none() || it == layers.base_color;
-        [diffuse, specular, reflect, transmit]
-            .into_iter()
-            .all(is_plain)
-            && layers.metallic.is_none()
-            && layers.roughness.is_none()
-            && layers.transmission.is_none()
-    }
-
-    /// Gives classical colours the values of `metallic_roughness` where they are independent of textures that were
-    /// computed for its values at rest.
-    pub(super) fn follow_layers(&mut self) {
-        let Some(model) = &self.metallic_roughness else {
-            return;
-        };
-        if !self.follows_layers() || model.unlit {
-            return;
-        }
-        let own = model.classical(String::new());
-        self.diffuse = own.diffuse;
-        self.ambient = own.ambient;
-        self.specular = own.specular;
-        self.shininess = own.shininess;
-        self.reflect = own.reflect;
-        self.transmit = own.transmit;
-        self.ior = own.ior;
-        self.fresnel = own.fresnel;
-        self.paint(self.tint);
-    }
-
     /// Whether its surfaces depend on tangents: they or their coat have a normal map, or they have anisotropy.
     pub fn has_tangents(&self) -> bool {
-        let model = self.metallic_roughness.as_ref();
-        let layers = self.layer_textures.as_ref();
-        self.textures.normal.is_some()
-            || layers.is_some_and(|layers| layers.clearcoat_normal.is_some())
-            || model.is_some_and(|model| model.anisotropy > 0.0)
+        let is_stretched = |model: &MetallicRoughness| {
+            model.textures.clearcoat_normal.is_some() || model.anisotropy > 0.0
+        };
+        self.textures.normal.is_some() || self.metallic_roughness().is_some_and(is_stretched)
+    }
+
+    /// The parameters of [`Bsdf::MetallicRoughness`]; `None` for other materials.
+    pub fn metallic_roughness(&self) -> Option<&MetallicRoughness> {
+        match &self.bsdf {
+            Bsdf::MetallicRoughness(model) => Some(model),
+            Bsdf::Phong(_) => None,
+        }
+    }
+
+    /// The parameters of [`Bsdf::MetallicRoughness`], copied if other materials share them; `None` for other materials.
+    pub fn metallic_roughness_mut(&mut self) -> Option<&mut MetallicRoughness> {
+        match &mut self.bsdf {
+            Bsdf::MetallicRoughness(model) => Some(Arc::make_mut(model)),
+            Bsdf::Phong(_) => None,
+        }
+    }
+
+    /// The radiance that the surface emits, and the index of the texture that multiplies it: of an unlit BSDF its base
+    /// colour unless the material has an `emission`.
+    pub fn radiance(&self) -> (Vec3, Option<usize>) {
+        let own = (self.emission, self.textures.emission);
+        match self.metallic_roughness() {
+            Some(model) if model.unlit && own == (Vec3::ZERO, None) => {
+                (model.base_color * self.tint, model.textures.base_color)
+            }
+            _ => own,
+        }
+    }
+
+    /// Whether transmitted light goes straight on: if it is `thin`, or its BSDF transmits light and has no thickness.
+    pub fn is_thin(&self) -> bool {
+        let is_wall =
+            |model: &MetallicRoughness| model.transmission > 0.0 && !model.is_refractive();
+        self.thin || self.metallic_roughness().is_some_and(is_wall)
+    }
+
+    /// The indices of all its textures in [`super::Scene::textures`], some of them repeatedly.
+    pub fn texture_indices(&self) -> impl Iterator<Item = usize> {
+        let own = self.textures.all().into_iter().flatten();
+        own.chain(self.bsdf.texture_indices())
+    }
+
+    /// Adds `first` to every index of a texture, for textures that are appended to others.
+    pub fn shift_textures(&mut self, first: usize) {
+        self.textures.shift(first);
+        self.bsdf.shift_textures(first);
     }
 }
 
 /// See [`Material::colored_parts`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ColoredParts {
-    /// [`Material::specular`] and [`Material::reflect`].
+    /// [`Phong::specular`] and [`Phong::reflect`].
     pub mirror: bool,
-    /// [`Material::transmit`].
+    /// [`Phong::transmit`].
     pub glass: bool,
     /// [`Material::emission`].
     pub emission: bool,
@@ -268,22 +224,11 @@ pub enum Mixing {
     Blend,
 }
 
-/// For each colour of a [`Material`] the index in [`super::Scene::textures`] of the texture that
-/// multiplies it.
+/// The indices in [`super::Scene::textures`] of the textures of a [`Material`] besides those of its BSDF.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Textures {
-    /// Of [`Material::diffuse`].
-    pub diffuse: Option<usize>,
-    /// Of [`Material::specular`].
-    pub specular: Option<usize>,
-    /// Of [`Material::ambient`].
-    pub ambient: Option<usize>,
-    /// Of [`Material::emission`].
+    /// The texture that multiplies [`Material::emission`].
     pub emission: Option<usize>,
-    /// Of [`Material::reflect`].
-    pub reflect: Option<usize>,
-    /// Of [`Material::transmit`].
-    pub transmit: Option<usize>,
     /// The normal map: a picture of shading normals on triangles with u and v. Values from 0 to 1 stand for −1
     /// to 1; x points along u of the picture, y along v, z along the interpolated normal. Other surfaces
     /// have none.
@@ -295,64 +240,26 @@ pub struct Textures {
 }
 
 impl Textures {
-    /// The textures of all colours and of alpha, the normal map and the occlusion map.
-    pub fn all(&self) -> [Option<usize>; 9] {
-        let [
-            diffuse,
-            specular,
-            ambient,
-            emission,
-            reflect,
-            transmit,
-            alpha,
-        ] = self.looked_up();
-        [
-            diffuse,
-            specular,
-            ambient,
-            emission,
-            reflect,
-            transmit,
-            alpha,
-            self.normal,
-            self.occlusion,
-        ]
-    }
-
-    /// The textures of all colours and of alpha.
-    pub fn looked_up(&self) -> [Option<usize>; 7] {
+    /// All of them.
+    pub fn all(&self) -> [Option<usize>; 4] {
         let Self {
-            diffuse,
-            specular,
-            ambient,
             emission,
-            reflect,
-            transmit,
+            normal,
+            occlusion,
             alpha,
-            normal: _,
-            occlusion: _,
         } = *self;
-        [
-            diffuse, specular, ambient, emission, reflect, transmit, alpha,
-        ]
+        [emission, normal, occlusion, alpha]
     }
 
     /// Adds `first` to every index, for textures that are appended to others.
     pub fn shift(&mut self, first: usize) {
         let Self {
-            diffuse,
-            specular,
-            ambient,
             emission,
-            reflect,
-            transmit,
             normal,
             occlusion,
             alpha,
         } = self;
-        for index in [
-            diffuse, specular, ambient, emission, reflect, transmit, normal, occlusion, alpha,
-        ] {
+        for index in [emission, normal, occlusion, alpha] {
             *index = index.map(|index| index + first);
         }
     }
@@ -363,31 +270,37 @@ impl Default for Material {
     fn default() -> Self {
         Self {
             name: String::new(),
-            diffuse: Vec3::splat(0.8),
-            specular: Vec3::ZERO,
-            shininess: 1.0,
-            ambient: Vec3::splat(0.8),
+            bsdf: Bsdf::default(),
+            tint: Vec3::ONE,
             two_sided: true,
             emission: Vec3::ZERO,
             two_sided_emission: true,
-            reflect: Vec3::ZERO,
-            transmit: Vec3::ZERO,
-            opacity: 1.0,
-            ior: 1.0,
-            absorption: Vec3::ZERO,
             thin: false,
             priority: 0,
-            fresnel: Fresnel::None,
-            mixing: Mixing::Layer,
             textures: Textures::default(),
             normal_scale: 1.0,
             occlusion_strength: 1.0,
             coverage: Coverage::Opaque,
             alpha: 1.0,
             shadow_catcher: false,
-            metallic_roughness: None,
-            tint: Vec3::ONE,
-            layer_textures: None,
+        }
+    }
+}
+
+impl From<Phong> for Material {
+    fn from(phong: Phong) -> Self {
+        Self {
+            bsdf: phong.into(),
+            ..Self::default()
+        }
+    }
+}
+
+impl From<MetallicRoughness> for Material {
+    fn from(model: MetallicRoughness) -> Self {
+        Self {
+            bsdf: model.into(),
+            ..Self::default()
         }
     }
 }

@@ -12,11 +12,15 @@
 //! * What a dielectric **transmits** is seen straight through, or refracted if the material has a volume.
 //!   Alpha stays what it is.
 
-use super::{Coverage, Fresnel, Material};
+use super::material::ColoredParts;
+use super::{Fresnel, LayerTextures, Phong};
 use glam::Vec3;
 
 /// How much of the blurred reflection of a metal is shown as diffuse colour.
 const METAL_DIFFUSE: f32 = 0.6;
+
+/// Limit of the absorption, per unit of length: products with lengths stay finite.
+const MOST_ABSORPTION: f32 = 1e12;
 
 /// Mirrors weaker than this are left out: each costs a ray.
 const WEAKEST_MIRROR: f32 = 0.01;
@@ -27,16 +31,10 @@ const WEAKEST_MIRROR: f32 = 0.01;
 pub struct MetallicRoughness {
     /// The colour of a dielectric's body or of a metal's reflection.
     pub base_color: Vec3,
-    /// Coverage, of which `coverage` says what it means.
-    pub alpha: f32,
-    /// Meaning of alpha.
-    pub coverage: Coverage,
     /// 0 for a dielectric, 1 for a metal.
     pub metallic: f32,
     /// The square root of the width α of the microfacet distribution.
     pub roughness: f32,
-    /// Radiance, 0 or more, with `KHR_materials_emissive_strength`.
-    pub emission: Vec3,
     /// Whether the base colour is shown as it is, without light.
     pub unlit: bool,
     /// Index of refraction, 1 or more.
@@ -79,6 +77,10 @@ pub struct MetallicRoughness {
     pub diffuse_transmission: f32,
     /// Colour of the diffuse transmission.
     pub diffuse_transmission_color: Vec3,
+    /// Textures that multiply the parameters.
+    pub textures: LayerTextures,
+    /// Shown by the classical integrators in place of [`Self::derived_phong`] if a file says so.
+    pub phong: Option<Box<Phong>>,
 }
 
 impl Default for MetallicRoughness {
@@ -86,11 +88,8 @@ impl Default for MetallicRoughness {
     fn default() -> Self {
         Self {
             base_color: Vec3::ONE,
-            alpha: 1.0,
-            coverage: Coverage::Opaque,
             metallic: 1.0,
             roughness: 1.0,
-            emission: Vec3::ZERO,
             unlit: false,
             ior: 1.5,
             specular: 1.0,
@@ -112,6 +111,8 @@ impl Default for MetallicRoughness {
             dispersion: 0.0,
             diffuse_transmission: 0.0,
             diffuse_transmission_color: Vec3::ONE,
+            textures: LayerTextures::default(),
+            phong: None,
         }
     }
 }
@@ -132,13 +133,13 @@ pub struct SurfacePoint {
 /// The colours of the classical model at one point, all in 0..=1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lobes {
-    /// For [`Material::diffuse`] and [`Material::ambient`].
+    /// For [`Phong::diffuse`] and [`Phong::ambient`].
     pub diffuse: Vec3,
-    /// For [`Material::specular`].
+    /// For [`Phong::specular`].
     pub specular: Vec3,
-    /// For [`Material::reflect`].
+    /// For [`Phong::reflect`].
     pub reflect: Vec3,
-    /// For [`Material::transmit`].
+    /// For [`Phong::transmit`].
     pub transmit: Vec3,
 }
 
@@ -167,7 +168,7 @@ impl MetallicRoughness {
     }
 
     /// Whether light that passes through the surface is refracted.
-    fn is_refractive(&self) -> bool {
+    pub(super) fn is_refractive(&self) -> bool {
         self.transmission > 0.0 && self.thickness > 0.0
     }
 
@@ -177,41 +178,43 @@ impl MetallicRoughness {
         self.is_refractive() || self.transmission == 0.0 && self.metallic == 0.0
     }
 
-    /// The classical material of this one without maps.
-    pub fn classical(&self, name: String) -> Material {
+    /// The coefficients of [`Self::derived_phong`] that are multiples of the base colour.
+    pub(super) fn colored_parts(&self) -> ColoredParts {
+        ColoredParts {
+            mirror: self.metallic > 0.5,
+            glass: true,
+            emission: self.unlit,
+        }
+    }
+
+    /// The classical coefficients without maps.
+    pub(super) fn phong_without_maps(&self) -> Phong {
         let point = self.point();
         let lobes = self.lobes(&point, point.roughness);
         let absorption = -self.attenuation_color.max(Vec3::splat(1e-6)).map(f32::ln);
-        Material {
-            name,
+        Phong {
             diffuse: lobes.diffuse,
             ambient: lobes.diffuse,
             specular: lobes.specular,
             shininess: shininess(self.roughness),
-            two_sided: true,
-            emission: match self.unlit {
-                true => self.emission + self.base_color,
-                false => self.emission,
-            },
             reflect: lobes.reflect,
             transmit: lobes.transmit,
-            ior: match self.is_refractive() || self.transmission == 0.0 {
-                true => self.ior,
-                false => 1.0,
+            ior: if self.is_refractive() || self.transmission == 0.0 {
+                self.ior
+            } else {
+                1.0
             },
-            absorption: match self.is_refractive() {
-                true => absorption / self.attenuation_distance,
-                false => Vec3::ZERO,
+            absorption: if self.is_refractive() {
+                (absorption / self.attenuation_distance).min(Vec3::splat(MOST_ABSORPTION))
+            } else {
+                Vec3::ZERO
             },
-            thin: self.transmission > 0.0 && !self.is_refractive(),
             fresnel: match (self.has_fresnel(), self.is_refractive()) {
                 (true, true) => Fresnel::Exact,
                 (true, false) => Fresnel::Schlick,
                 (false, _) => Fresnel::None,
             },
-            coverage: self.coverage,
-            alpha: self.alpha,
-            ..Material::default()
+            ..Phong::default()
         }
     }
 
@@ -257,7 +260,7 @@ impl MetallicRoughness {
 }
 
 /// Phong's exponent of a highlight.
-fn shininess(roughness: f32) -> f32 {
+pub(super) fn shininess(roughness: f32) -> f32 {
     (blinn_exponent(roughness) / 4.0).max(1.0)
 }
 

@@ -56,7 +56,7 @@ impl Sight {
                 let [a, b, c] = corners.map(|corner| points[corner as usize]);
                 triangles.push(Triangle {
                     sides: [a, b - a, c - a],
-                    shines: material.emission != Vec3::ZERO,
+                    shines: material.radiance().0 != Vec3::ZERO,
                     stops_light: stops_light(material),
                 });
             }
@@ -193,7 +193,6 @@ impl Sight {
 
 /// Whether light does not pass through a surface of this material.
 fn stops_light(material: &Material) -> bool {
-    material.transmit == Vec3::ZERO
-        && material.opacity == 1.0
-        && material.coverage == Coverage::Opaque
+    let phong = material.classical();
+    phong.transmit == Vec3::ZERO && phong.opacity == 1.0 && material.coverage == Coverage::Opaque
 }

@@ -132,15 +132,14 @@ fn mapping(material: &Material, textures: &[Texture]) -> Option<Mapping> {
             picture_from_uv: texture.pattern_from_space,
         })
     };
-    let model = material.metallic_roughness.as_ref();
+    let model = material.metallic_roughness();
     let plain = Mapping {
         is_second: false,
         picture_from_uv: DAffine3::IDENTITY,
     };
     let anisotropy = model.and_then(|model| (model.anisotropy > 0.0).then_some(plain));
     let normal = material.textures.normal.and_then(of_texture);
-    let layers = material.layer_textures.as_ref();
-    let coat = layers.and_then(|layers| layers.clearcoat_normal);
+    let coat = model.and_then(|model| model.textures.clearcoat_normal);
     normal.or(coat.and_then(of_texture)).or(anisotropy)
 }
 

@@ -2,9 +2,12 @@
 //! theirs.
 
 use super::{loss, round};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
-use glimray::scene::{Fresnel, Material, MetallicRoughness, Scene};
+use glimray::scene::{
+    Beyond, Curve, Easing, Fresnel, Interpolation, LayerProperty, Material, MetallicRoughness,
+    Scene, Target, Track, Values,
+};
 use std::path::Path;
 
 fn parsed(text: &str) -> Result<Scene, String> {
@@ -55,23 +58,27 @@ fn every_key_of_pbr_reaches_the_model() {
         diffuse_transmission_color: Vec3::X,
         ..MetallicRoughness::default()
     };
-    assert_eq!(found.metallic_roughness.as_deref(), Some(&expected));
+    assert_eq!(found.metallic_roughness(), Some(&expected));
     assert_eq!(found.priority, 4);
     // The classical integrators see glTF's mapping: absorption is -ln(colour)/distance.
     assert_eq!(
-        (found.ior, found.fresnel, found.thin),
+        (
+            found.classical().ior,
+            found.classical().fresnel,
+            found.is_thin()
+        ),
         (1.4, Fresnel::Exact, false)
     );
     assert!(
-        (found.absorption.x - 2_f32.ln() / 3.0).abs() < 1e-6,
+        (found.classical().absorption.x - 2_f32.ln() / 3.0).abs() < 1e-6,
         "{}",
-        found.absorption
+        found.classical().absorption
     );
     let plain = material("pbr = {}");
-    let model = plain.metallic_roughness.as_deref().expect("a model");
+    let model = plain.metallic_roughness().expect("a model");
     assert_eq!((model.metallic, model.roughness), (0.0, 0.5));
     assert_eq!(
-        (model.base_color, plain.diffuse),
+        (model.base_color, plain.classical().diffuse),
         (Vec3::splat(0.8), Vec3::splat(0.8))
     );
 }
@@ -89,8 +96,8 @@ fn textures_of_pbr_are_those_of_its_parameters() {
     ));
     let scene = scene.expect("a scene");
     let material = &scene.materials[0];
-    let model = material.metallic_roughness.as_deref().expect("a model");
-    let layers = material.layer_textures.as_deref().expect("textures");
+    let model = material.metallic_roughness().expect("a model");
+    let layers = &model.textures;
     assert_eq!((layers.base_color, layers.metallic), (Some(0), Some(0)));
     assert_eq!((layers.roughness, layers.clearcoat), (Some(1), Some(2)));
     assert_eq!(
@@ -100,7 +107,10 @@ fn textures_of_pbr_are_those_of_its_parameters() {
     assert_eq!(model.base_color, Vec3::new(0.5, 1.0, 1.0));
     // Metals are shown by mirrors, and by diffuse colours in part.
     assert_eq!(
-        (material.textures.diffuse, material.textures.reflect),
+        (
+            material.classical().textures.diffuse,
+            material.classical().textures.reflect
+        ),
         (Some(0), Some(0))
     );
 }
@@ -108,12 +118,12 @@ fn textures_of_pbr_are_those_of_its_parameters() {
 #[test]
 fn phong_and_optics_are_what_the_classical_integrators_show_instead() {
     let found = material("pbr = { base_color = [1, 0, 0] }\nphong = { diffuse = [0, 1, 0] }");
-    assert_eq!(found.diffuse, Vec3::Y);
-    let model = found.metallic_roughness.expect("a model");
+    assert_eq!(found.classical().diffuse, Vec3::Y);
+    let model = found.metallic_roughness().expect("a model");
     assert_eq!(model.base_color, Vec3::X);
     let found = material("pbr = {}\noptics = { reflect = [0.5, 0.5, 0.5] }");
     assert_eq!(
-        (found.reflect, found.fresnel),
+        (found.classical().reflect, found.classical().fresnel),
         (Vec3::splat(0.5), Fresnel::None)
     );
 }
@@ -185,6 +195,45 @@ fn a_gltf_model_keeps_its_materials() {
     let physical = scene
         .materials
         .iter()
-        .filter(|it| it.metallic_roughness.is_some());
+        .filter(|it| it.metallic_roughness().is_some());
     assert_eq!(text.matches("pbr = {").count(), physical.count(), "{text}");
+}
+
+/// Native animations have no base colour: the classical integrators keep the diffuse colours that follow from it.
+#[test]
+fn an_animated_base_colour_is_written_as_the_diffuse_colour_that_follows_from_it() {
+    let mut scene = parsed("[materials.a]\npbr = { transmission = 0.5, tint = [1, 0.5, 0.5] }")
+        .expect("a scene");
+    scene.tracks.push(Track {
+        targets: vec![Target::Layer(0, LayerProperty::BaseColor)],
+        curve: Curve {
+            times: vec![0.0, 1.0],
+            values: Values::Vector(vec![DVec3::X, DVec3::ONE]),
+            interpolation: Interpolation::Linear,
+            easing: Easing::None,
+            beyond: Beyond::Hold,
+        },
+    });
+    let (read, _) = round(&scene).expect("a scene");
+    for time in [0.0, 0.5, 1.0] {
+        let [wanted, found] = [&scene, &read].map(|it| it.frame(time).materials[0].clone());
+        let (wanted, found) = (wanted.classical(), found.classical());
+        for (wanted, found) in [
+            (wanted.diffuse, found.diffuse),
+            (wanted.ambient, found.ambient),
+        ] {
+            assert!(found.abs_diff_eq(wanted, 1e-6), "{found}, not {wanted}");
+        }
+    }
+}
+
+/// The look that a file gives is not kept where it is the derived one, so that it follows later edits.
+#[test]
+fn a_look_that_is_given_as_it_would_be_derived_stays_derived() {
+    let same = material("pbr = { roughness = 1 }\noptics = { ior = 1.5, fresnel = 'schlick' }");
+    let model = same.metallic_roughness().expect("a model");
+    assert_eq!(model.phong, None);
+    let other = material("pbr = { roughness = 1 }\noptics = { ior = 1.5 }");
+    let model = other.metallic_roughness().expect("a model");
+    assert_eq!(model.phong.as_deref(), Some(&*other.classical()));
 }

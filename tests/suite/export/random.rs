@@ -93,52 +93,59 @@ fn pick<T: Copy>(random: &mut Random, all: &[T]) -> T {
 
 fn material(random: &mut Random, textures: usize) -> Material {
     let mut material = Material {
-        diffuse: color(random),
-        specular: color(random),
-        shininess: random.between(0.0, 200.0) as f32,
-        ambient: color(random),
         two_sided: random.below(2) == 0,
         two_sided_emission: random.below(2) == 0,
+        bsdf: Phong {
+            diffuse: color(random),
+            specular: color(random),
+            shininess: random.between(0.0, 200.0) as f32,
+            ambient: color(random),
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     };
     if random.below(3) == 0 {
-        material.ambient = material.diffuse;
+        material.classical_mut().ambient = material.classical().diffuse;
     }
     if random.below(3) == 0 {
         material.emission = color(random);
     }
     if random.below(2) == 0 {
-        material.reflect = color(random);
+        material.classical_mut().reflect = color(random);
     }
     if random.below(2) == 0 {
-        material.transmit = color(random);
-        material.opacity = random.between(0.0, 1.0) as f32;
-        material.ior = random.between(0.5, 3.0) as f32;
-        material.absorption = color(random);
+        material.classical_mut().transmit = color(random);
+        material.classical_mut().opacity = random.between(0.0, 1.0) as f32;
+        material.classical_mut().ior = random.between(0.5, 3.0) as f32;
+        material.classical_mut().absorption = color(random);
         material.priority = random.below(9) as i32 - 4;
     }
     if random.below(3) == 0 {
         // As glass is.
         let amount = random.between(0.0, 1.0) as f32;
-        material.reflect = Vec3::splat(amount);
-        material.transmit = amount * color(random);
-        material.opacity = 1.0 - amount;
+        material.classical_mut().reflect = Vec3::splat(amount);
+        material.classical_mut().transmit = amount * color(random);
+        material.classical_mut().opacity = 1.0 - amount;
     }
     material.thin = random.below(4) == 0;
-    material.fresnel = pick(random, &[Fresnel::None, Fresnel::Exact, Fresnel::Schlick]);
-    material.mixing = pick(
+    material.classical_mut().fresnel =
+        pick(random, &[Fresnel::None, Fresnel::Exact, Fresnel::Schlick]);
+    material.classical_mut().mixing = pick(
         random,
         &[Mixing::Layer, Mixing::Layer, Mixing::Sum, Mixing::Blend],
     );
     if textures > 0 {
         let mut slot = || maybe(random, textures);
-        material.textures = Textures {
+        material.classical_mut().textures = PhongTextures {
             diffuse: slot(),
             specular: slot(),
             ambient: slot(),
-            emission: slot(),
             reflect: slot(),
             transmit: slot(),
+        };
+        material.textures = Textures {
+            emission: slot(),
             normal: None,
             occlusion: None,
             alpha: slot(),
@@ -174,11 +181,8 @@ fn physical(random: &mut Random, material: &mut Material, textures: usize) {
     let unlit = random.below(4) == 0;
     let mut model = MetallicRoughness {
         base_color: tint(random),
-        alpha: material.alpha,
-        coverage: material.coverage,
         metallic: fraction(random),
         roughness: fraction(random),
-        emission: if unlit { Vec3::ZERO } else { material.emission },
         unlit,
         ior: pick(random, &[1.0, 1.5, 1.33, 1e6]),
         specular: fraction(random),
@@ -200,13 +204,14 @@ fn physical(random: &mut Random, material: &mut Material, textures: usize) {
         dispersion: random.between(0.0, 1.0) as f32,
         diffuse_transmission: fraction(random),
         diffuse_transmission_color: tint(random),
+        textures: LayerTextures::default(),
+        phong: None,
     };
-    let mut layers = LayerTextures::default();
     if textures > 0 {
         // The last texture is a picture.
         let picture = textures - 1;
         let mut slot = || (random.below(3) == 0).then_some(picture);
-        layers = LayerTextures {
+        model.textures = LayerTextures {
             base_color: slot(),
             metallic: slot(),
             roughness: slot(),
@@ -224,7 +229,7 @@ fn physical(random: &mut Random, material: &mut Material, textures: usize) {
             diffuse_transmission: slot(),
             diffuse_transmission_color: slot(),
         };
-        if layers.clearcoat_normal.is_some() {
+        if model.textures.clearcoat_normal.is_some() {
             model.clearcoat_normal_scale = 0.75;
         }
     }
@@ -233,32 +238,19 @@ fn physical(random: &mut Random, material: &mut Material, textures: usize) {
     } else {
         tint(random)
     };
-    let mut shown = Material::physical(Arc::new(model), layers);
-    if tint != Vec3::ONE {
-        shown.paint(tint);
-    }
-    *material = match random.below(2) {
+    let phong = material.classical().into_owned();
+    material.bsdf = model.into();
+    material.tint = tint;
+    if random.below(2) == 0 {
         // As importers without further colours make it.
-        0 => Material {
-            two_sided: material.two_sided,
-            two_sided_emission: material.two_sided_emission,
-            coverage: material.coverage,
-            alpha: material.alpha,
-            priority: material.priority,
-            textures: Textures {
-                alpha: material.textures.alpha,
-                ..shown.textures
-            },
-            ..shown
-        },
-        _ => Material {
-            thin: shown.thin || material.thin,
-            metallic_roughness: shown.metallic_roughness,
-            layer_textures: shown.layer_textures,
-            tint,
-            ..material.clone()
-        },
-    };
+        material.thin = false;
+        if unlit {
+            material.emission = Vec3::ZERO;
+        }
+        material.textures.emission = None;
+    } else {
+        material.set_classical(phong);
+    }
 }
 
 fn texture(random: &mut Random, pictures: usize) -> Texture {

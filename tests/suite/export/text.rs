@@ -5,7 +5,8 @@ use glam::{DAffine3, DVec3, Vec3, Vec4};
 use glimray::export::{self, ExportError};
 use glimray::import;
 use glimray::scene::{
-    Camera, CanonicalShape, Geometry, Instance, Material, Mesh, Picture, Scene, Shape, Texels,
+    Camera, CanonicalShape, Geometry, Instance, Material, Mesh, Phong, Picture, Scene, Shape,
+    Texels,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -70,7 +71,11 @@ fn default_values_are_not_written() {
 fn missing_and_duplicate_names_become_unique() {
     let named = |name: &str, red: f32| Material {
         name: name.to_owned(),
-        diffuse: Vec3::new(red, 0.0, 0.0),
+        bsdf: Phong {
+            diffuse: Vec3::new(red, 0.0, 0.0),
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     };
     let mut scene = scene();
@@ -85,7 +90,7 @@ fn missing_and_duplicate_names_become_unique() {
     let read: Vec<_> = read
         .materials
         .iter()
-        .map(|m| (m.diffuse.x, m.name.as_str()))
+        .map(|m| (m.classical().diffuse.x, m.name.as_str()))
         .collect();
     let strange = names[4];
     assert_eq!(

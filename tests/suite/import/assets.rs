@@ -30,9 +30,13 @@ fn assert_promises(scene: &Scene) {
     }
     for material in &scene.materials {
         assert!(
-            is_color(material.diffuse) && is_color(material.specular) && is_color(material.ambient)
+            is_color(material.classical().diffuse)
+                && is_color(material.classical().specular)
+                && is_color(material.classical().ambient)
         );
-        assert!(material.shininess >= 0.0 && material.shininess.is_finite());
+        assert!(
+            material.classical().shininess >= 0.0 && material.classical().shininess.is_finite()
+        );
     }
     for mesh in &scene.meshes {
         assert!(mesh.positions.iter().all(|p| p.is_finite()));

@@ -3,7 +3,8 @@
 use super::{messages, scene};
 use glam::{DVec3, Vec3};
 use glimray::scene::{
-    Attenuation, Background, Camera, Geometry, Light, LightKind, Material, Mixing, Shape, Transfer,
+    Attenuation, Background, Camera, Geometry, Light, LightKind, Material, Mixing, Phong, Shape,
+    Transfer,
 };
 use insta::assert_snapshot;
 
@@ -46,14 +47,17 @@ fn a_plain_file_reads_as_written() {
         scene.materials,
         [Material {
             name: String::new(),
-            diffuse: Vec3::new(0.3, 0.5, 0.8),
-            specular: Vec3::splat(0.6),
-            shininess: 50.0,
-            ambient: Vec3::ONE,
             two_sided: false,
-            // If mirrors are requested, reflection has the weight of the highlight.
-            reflect: Vec3::splat(0.6),
-            mixing: Mixing::Blend,
+            bsdf: Phong {
+                diffuse: Vec3::new(0.3, 0.5, 0.8),
+                specular: Vec3::splat(0.6),
+                shininess: 50.0,
+                ambient: Vec3::ONE, // If mirrors are requested, reflection has the weight of the highlight.
+                reflect: Vec3::splat(0.6),
+                mixing: Mixing::Blend,
+                ..Phong::default()
+            }
+            .into(),
             ..Material::default()
         }]
     );
@@ -268,8 +272,8 @@ fn values_that_cannot_be_used_are_repaired_and_reported() {
     assert_eq!((scene.shapes.len(), scene.meshes.len()), (1, 0));
     assert_eq!(scene.ambient, Vec3::new(0.5, 0.0, 0.0));
     let material = &scene.materials[scene.shapes[0].material];
-    assert_eq!(material.diffuse, Vec3::new(1.0, 0.0, 0.25));
-    assert_eq!(material.shininess, 0.0);
+    assert_eq!(material.classical().diffuse, Vec3::new(1.0, 0.0, 0.25));
+    assert_eq!(material.classical().shininess, 0.0);
     let point = LightKind::Point {
         position: DVec3::ZERO,
     };

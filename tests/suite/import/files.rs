@@ -90,7 +90,7 @@ fn material_files_are_confined_too_but_do_not_refuse_the_model() {
         ];
         let folder = folder(&files);
         let scene = import::load(&folder.path().join("s/a.obj")).expect("a model");
-        assert_ne!(scene.materials[0].diffuse, Vec3::X, "{name}");
+        assert_ne!(scene.materials[0].classical().diffuse, Vec3::X, "{name}");
         let (first, second) = (&scene.skipped[0], &scene.skipped[1]);
         let quoted = format!("the material file `{name}` ");
         assert!(first.starts_with(&quoted), "{name}: {first}");

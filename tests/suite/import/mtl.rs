@@ -29,18 +29,22 @@ fn dissolved_materials_are_seen_through() {
         let scene = with(library);
         let material = &scene.materials[0];
         assert_eq!(
-            (material.opacity, material.transmit, material.ior),
+            (
+                material.classical().opacity,
+                material.classical().transmit,
+                material.classical().ior
+            ),
             (0.25, Vec3::splat(0.75), 1.0)
         );
         assert_eq!(scene.shadows, Shadows::Filtered);
     }
     let material = material("d 0.5\nTf 1 0.5 0");
-    assert_eq!(material.transmit, Vec3::new(0.5, 0.25, 0.0));
+    assert_eq!(material.classical().transmit, Vec3::new(0.5, 0.25, 0.0));
     // Maya and 3ds Max write these for opaque materials.
     for library in ["illum 4\nTf 1 1 1\nNi 1", "Tr 0\nd 1\nTf 1 1 1"] {
         let scene = with(library);
         assert_eq!(
-            (scene.materials[0].transmit, scene.shadows),
+            (scene.materials[0].classical().transmit, scene.shadows),
             (Vec3::ZERO, Shadows::Opaque)
         );
     }
@@ -57,17 +61,28 @@ fn every_model_of_illumination_has_its_meaning() {
     // 0: a constant colour. 1: no highlight. 2: a highlight.
     let constant = of(0);
     assert_eq!(
-        (constant.emission, constant.diffuse, constant.specular),
+        (
+            constant.emission,
+            constant.classical().diffuse,
+            constant.classical().specular
+        ),
         (kd, Vec3::ZERO, Vec3::ZERO)
     );
-    assert_eq!((of(1).diffuse, of(1).specular), (kd, Vec3::ZERO));
     assert_eq!(
-        (of(2).diffuse, of(2).specular, of(2).shininess),
+        (of(1).classical().diffuse, of(1).classical().specular),
+        (kd, Vec3::ZERO)
+    );
+    assert_eq!(
+        (
+            of(2).classical().diffuse,
+            of(2).classical().specular,
+            of(2).classical().shininess
+        ),
         (kd, Vec3::splat(0.5), 30.0)
     );
     for model in [0, 1, 2] {
         assert_eq!(
-            (of(model).reflect, of(model).fresnel),
+            (of(model).classical().reflect, of(model).classical().fresnel),
             (Vec3::ZERO, Fresnel::None)
         );
     }
@@ -75,11 +90,19 @@ fn every_model_of_illumination_has_its_meaning() {
     for model in 3..=9 {
         let material = of(model);
         let mirror = if model < 8 { 0.5 } else { 0.0 };
-        assert_eq!(material.reflect, Vec3::splat(mirror), "{model}");
+        assert_eq!(material.classical().reflect, Vec3::splat(mirror), "{model}");
         let is_fresnel = matches!(model, 5 | 7);
-        assert_eq!(material.fresnel == Fresnel::Exact, is_fresnel, "{model}");
+        assert_eq!(
+            material.classical().fresnel == Fresnel::Exact,
+            is_fresnel,
+            "{model}"
+        );
         let is_bent = matches!(model, 5..=7);
-        assert_eq!(material.ior, if is_bent { 1.4 } else { 1.0 }, "{model}");
+        assert_eq!(
+            material.classical().ior,
+            if is_bent { 1.4 } else { 1.0 },
+            "{model}"
+        );
     }
     // 10: an invisible surface that receives shadows.
     assert!(of(10).shadow_catcher && !of(2).shadow_catcher);
@@ -111,32 +134,38 @@ fn physically_based_keys_become_a_highlight_and_a_mirror() {
     // α = 0.25, so the Blinn–Phong exponent is 2/0.0625 − 2 = 30: 7.5 in Phong's model, with the height
     // 0.04 · 38/8 = 0.19. The mirror has (1 − 0.5)⁴ = 0.0625 of what Schlick's formula gives.
     let plastic = material("Kd 0.5 0.25 1\nPr 0.5\nPm 0");
-    assert_eq!(plastic.diffuse, Vec3::new(0.5, 0.25, 1.0));
-    assert!((plastic.shininess - 7.5).abs() < 1e-4);
+    assert_eq!(plastic.classical().diffuse, Vec3::new(0.5, 0.25, 1.0));
+    assert!((plastic.classical().shininess - 7.5).abs() < 1e-4);
     assert!(
-        (plastic.specular - 0.19).abs().max_element() < 1e-5,
+        (plastic.classical().specular - 0.19).abs().max_element() < 1e-5,
         "{}",
-        plastic.specular
+        plastic.classical().specular
     );
-    assert_eq!(plastic.reflect, Vec3::splat(0.0625));
-    assert_eq!((plastic.fresnel, plastic.ior), (Fresnel::Schlick, 1.5));
+    assert_eq!(plastic.classical().reflect, Vec3::splat(0.0625));
+    assert_eq!(
+        (plastic.classical().fresnel, plastic.classical().ior),
+        (Fresnel::Schlick, 1.5)
+    );
     // A metal reflects in its own colour: (1 − 0.2)⁴ = 0.4096 of it.
     let metal = material("Kd 1 0.5 0.25\nPr 0.2\nPm 1");
     let expected = 0.4096 * Vec3::new(1.0, 0.5, 0.25);
     assert!(
-        (metal.reflect - expected).abs().max_element() < 1e-5,
+        (metal.classical().reflect - expected).abs().max_element() < 1e-5,
         "{}",
-        metal.reflect
+        metal.classical().reflect
     );
     let diffuse = 0.6 * (1.0 - 0.4096);
     assert!(
-        (metal.diffuse.x - diffuse).abs() < 1e-5,
+        (metal.classical().diffuse.x - diffuse).abs() < 1e-5,
         "{}",
-        metal.diffuse
+        metal.classical().diffuse
     );
     let sheer = material("Kd 1 1 1\nPr 0.4\nd 0.3");
     assert_eq!((sheer.coverage, sheer.alpha), (Coverage::Blend, 0.3));
-    assert_eq!((sheer.opacity, sheer.transmit), (1.0, Vec3::ZERO));
+    assert_eq!(
+        (sheer.classical().opacity, sheer.classical().transmit),
+        (1.0, Vec3::ZERO)
+    );
 }
 
 #[test]
@@ -153,7 +182,10 @@ unknown in materials: `map_what` 1
 fn norm_is_a_normal_map() {
     let material = material("norm red.png");
     assert_eq!(
-        (material.textures.normal, material.textures.diffuse),
+        (
+            material.textures.normal,
+            material.classical().textures.diffuse
+        ),
         (Some(0), None)
     );
 }
@@ -181,7 +213,7 @@ fn normal_maps_of_models_follow_the_tangents_of_their_vertices() {
 #[test]
 fn coats_sheen_and_anisotropy_are_kept_for_path_tracing() {
     let coated = material("Kd 0.5 0.5 0.5\nPr 0.5\nPs 0.25\nPc 1\nPcr 0.1\naniso 0.5\nanisor 0.25");
-    let model = coated.metallic_roughness.as_deref().expect("the model");
+    let model = coated.metallic_roughness().expect("the model");
     assert_eq!((model.clearcoat, model.clearcoat_roughness), (1.0, 0.1));
     assert_eq!(model.sheen_color, Vec3::splat(0.25));
     assert_eq!(model.anisotropy, 0.5);
@@ -189,7 +221,7 @@ fn coats_sheen_and_anisotropy_are_kept_for_path_tracing() {
     assert!((model.anisotropy_rotation - quarter).abs() < 1e-6);
     // Blender writes zeros for what a material lacks.
     let plain = material("Kd 0.5 0.5 0.5\nPs 0\nPc 0\nPcr 0\naniso 0\nanisor 0");
-    assert_eq!(plain.metallic_roughness, None);
+    assert_eq!(plain.metallic_roughness(), None);
 }
 
 #[test]
@@ -211,7 +243,10 @@ fn map_d_cuts_holes_by_alpha_or_by_brightness() {
         let scene = import::load(&folder.path().join("a.obj")).expect("a model");
         let material = &scene.materials[0];
         assert_eq!((material.coverage, material.alpha), (Coverage::Blend, 0.5));
-        assert_eq!((material.opacity, material.transmit), (1.0, Vec3::ZERO));
+        assert_eq!(
+            (material.classical().opacity, material.classical().transmit),
+            (1.0, Vec3::ZERO)
+        );
         assert_eq!(material.textures.alpha, Some(0));
         let texels = Texels::Linear8(vec![[255, 255, 255, alpha]]);
         assert_eq!(scene.pictures[0].texels, texels);
@@ -259,7 +294,10 @@ fn colours_of_vertices_multiply_the_material() {
         ("a.mtl", b"newmtl a\nKd 0.5 0.25 1\n"),
     ]);
     let scene = import::load(&folder.path().join("a.obj")).expect("a scene");
-    assert_eq!(scene.materials[0].diffuse, Vec3::new(0.5, 0.25, 1.0));
+    assert_eq!(
+        scene.materials[0].classical().diffuse,
+        Vec3::new(0.5, 0.25, 1.0)
+    );
     let mesh = &scene.meshes[0];
     let first = mesh.positions.iter().position(|p| *p == Vec3::ZERO);
     for (index, color) in mesh.colors.iter().enumerate() {
@@ -324,22 +362,25 @@ fn height_maps_become_normal_maps_by_their_slopes() {
 fn d_decides_where_tr_is_given_too() {
     for library in ["d 1\nTr 1", "Tr 1\nd 1", "Tr 0.25\nd 1"] {
         let material = material(library);
-        assert_eq!((material.opacity, material.transmit), (1.0, Vec3::ZERO));
+        assert_eq!(
+            (material.classical().opacity, material.classical().transmit),
+            (1.0, Vec3::ZERO)
+        );
     }
-    assert_eq!(material("Tr 0.5\nd 0.25").opacity, 0.25);
+    assert_eq!(material("Tr 0.5\nd 0.25").classical().opacity, 0.25);
 }
 
 #[test]
 fn tr_of_one_in_every_material_means_opaque_and_is_reported() {
     let library = "Tr 1\nKd 1 0 0\nnewmtl b\nTr 1.000000\n";
     let scene = with(library);
-    assert_eq!(scene.materials[0].opacity, 1.0);
+    assert_eq!(scene.materials[0].classical().opacity, 1.0);
     assert_snapshot!(scene.skipped.join("\n"), @"`Tr 1` without `d` read as opaque, as MeshLab writes it: 2");
     // With a material that is opaque by 0, `Tr` is 1 - d.
     let scene = with("Tr 1\nnewmtl b\nTr 0");
-    assert_eq!(scene.materials[0].opacity, 0.0);
+    assert_eq!(scene.materials[0].classical().opacity, 0.0);
     assert_snapshot!(scene.skipped.join("\n"), @"the model is wholly transparent: none of its materials shows anything");
-    assert_eq!(with("Tr 0.25").materials[0].opacity, 0.75);
+    assert_eq!(with("Tr 0.25").materials[0].classical().opacity, 0.75);
 }
 
 #[test]
@@ -362,27 +403,39 @@ fn glass_passes_what_its_filter_does() {
     let glass = "Kd 0 0 0\nKs 0.2 0.2 0.2\nNi 1.2\nTf 1 0.5 0";
     for dissolved in ["", "\nd 1"] {
         let six = material(&format!("{glass}{dissolved}\nillum 6"));
-        assert_eq!(six.transmit, Vec3::new(0.8, 0.4, 0.0));
+        assert_eq!(six.classical().transmit, Vec3::new(0.8, 0.4, 0.0));
         assert_eq!(
-            (six.fresnel, six.ior, six.thin),
+            (six.classical().fresnel, six.classical().ior, six.thin),
             (Fresnel::None, 1.2, false)
         );
         let seven = material(&format!("illum 7\n{glass}{dissolved}"));
-        assert_eq!(seven.transmit, Vec3::new(1.0, 0.5, 0.0));
-        assert_eq!((seven.fresnel, seven.ior), (Fresnel::Exact, 1.2));
-        assert_eq!(seven.reflect, Vec3::splat(0.2));
+        assert_eq!(seven.classical().transmit, Vec3::new(1.0, 0.5, 0.0));
+        assert_eq!(
+            (seven.classical().fresnel, seven.classical().ior),
+            (Fresnel::Exact, 1.2)
+        );
+        assert_eq!(seven.classical().reflect, Vec3::splat(0.2));
     }
     // McGuire's Cornell box.
     let ball =
         "Ns 1000\nNi 2.5\nillum 7\nKa 0.01 0.01 0.01\nKd 0.01 0.01 0.01\nKs 0.9 0.9 0.9\nTf 0.1";
-    assert_eq!(material(ball).transmit, Vec3::splat(0.1));
+    assert_eq!(material(ball).classical().transmit, Vec3::splat(0.1));
     // No light is gained where the surface has a colour of its own.
     let colored = material("Kd 0.75 0 1\nTf 1 1 1\nillum 7");
-    assert_eq!(colored.transmit, Vec3::new(0.25, 1.0, 0.0));
+    assert_eq!(colored.classical().transmit, Vec3::new(0.25, 1.0, 0.0));
     // Without filter and dissolve, what the colour leaves is refracted.
-    assert_eq!(material("Kd 0 0 0\nillum 7").transmit, Vec3::ONE);
-    assert_eq!(material("Kd 0 0 0\nillum 7\nd 1").transmit, Vec3::ZERO);
-    assert_eq!(material("Kd 0 0 0\nillum 6\nTf 0 0 0").transmit, Vec3::ZERO);
+    assert_eq!(
+        material("Kd 0 0 0\nillum 7").classical().transmit,
+        Vec3::ONE
+    );
+    assert_eq!(
+        material("Kd 0 0 0\nillum 7\nd 1").classical().transmit,
+        Vec3::ZERO
+    );
+    assert_eq!(
+        material("Kd 0 0 0\nillum 6\nTf 0 0 0").classical().transmit,
+        Vec3::ZERO
+    );
 }
 
 #[test]
@@ -390,11 +443,11 @@ fn black_panes_with_a_filter_are_clear_and_reported() {
     for model in [4, 9] {
         let scene = with(&format!("Kd 0 0 0\nKs 0 0 0\nTf 1 1 1\nillum {model}"));
         let pane = &scene.materials[0];
-        assert_eq!((pane.transmit, pane.thin), (Vec3::ONE, true));
+        assert_eq!((pane.classical().transmit, pane.thin), (Vec3::ONE, true));
         let note = "black glass without `d` but with `Tf` (`illum` 4 or 9) read as clear: 1";
         assert_eq!(scene.skipped[0], note);
         let opaque = material(&format!("Kd 0 0 0\nTf 1 1 1\nd 1\nillum {model}"));
-        assert_eq!(opaque.transmit, Vec3::ZERO);
+        assert_eq!(opaque.classical().transmit, Vec3::ZERO);
     }
 }
 
@@ -416,9 +469,9 @@ fn keys_may_have_any_case() {
 #[test]
 fn colours_may_be_in_xyz() {
     // The white of Rec. 709, and one number for all three.
-    let white = material("Kd xyz 0.9505 1 1.089").diffuse;
+    let white = material("Kd xyz 0.9505 1 1.089").classical().diffuse;
     assert!((white - 1.0).abs().max_element() < 1e-3, "{white}");
-    let equal = material("Kd xyz 0.5").diffuse;
+    let equal = material("Kd xyz 0.5").classical().diffuse;
     assert!(
         (equal - Vec3::new(0.6025, 0.4742, 0.4544))
             .abs()
@@ -435,12 +488,12 @@ fn pictures_of_roughness_and_metalness_are_kept() {
     );
     assert_eq!(scene.skipped, [""; 0]);
     let material = &scene.materials[0];
-    let model = material.metallic_roughness.as_deref().expect("the model");
+    let model = material.metallic_roughness().expect("the model");
     assert_eq!(
         (model.roughness, model.metallic, model.clearcoat),
         (1.0, 1.0, 1.0)
     );
-    let layers = material.layer_textures.as_deref().expect("textures");
+    let layers = &model.textures;
     let slots = [
         layers.base_color,
         layers.roughness,
@@ -458,8 +511,11 @@ fn values_of_materials_that_cannot_be_used_are_repaired_and_reported() {
         map_Ks\nillum\nnewmtl\nKd 1 1 1\n";
     let scene = with(library);
     let material = &scene.materials[0];
-    assert_eq!(material.specular, Vec3::X);
-    assert_eq!((material.emission, material.opacity), (Vec3::ZERO, 1.0));
+    assert_eq!(material.classical().specular, Vec3::X);
+    assert_eq!(
+        (material.emission, material.classical().opacity),
+        (Vec3::ZERO, 1.0)
+    );
     assert_snapshot!(scene.skipped.join("\n"), @r"
 `Kd`: without a number skipped: 1 (line 2 of a.mtl)
 `Ks`: negative numbers set to 0: 1 (line 3 of a.mtl)
@@ -511,7 +567,7 @@ fn a_library_that_cannot_be_found_is_looked_for_beside_the_model() {
         ]);
         let scene = import::load(&folder.path().join("a.obj")).expect("a model");
         let material = &scene.materials[0];
-        assert_eq!(material.diffuse, Vec3::X, "{name}");
+        assert_eq!(material.classical().diffuse, Vec3::X, "{name}");
         assert_eq!(material.textures.emission, Some(0), "{name}");
         let is_said = scene.skipped[0].contains("replaced by the file of that name");
         assert!(is_said, "{name}: {:?}", scene.skipped);

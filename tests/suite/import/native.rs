@@ -4,7 +4,7 @@ use super::{folder, message_in, messages, scene};
 use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
 use glimray::scene::{
-    Attenuation, Background, Camera, Geometry, LightKind, Material, OutputDefaults, Scene,
+    Attenuation, Background, Camera, Geometry, LightKind, Material, OutputDefaults, Phong, Scene,
     ToneCurve, Transfer,
 };
 use insta::assert_snapshot;
@@ -47,7 +47,11 @@ fn missing_keys_have_their_defaults() {
         material,
         Material {
             name: "a".to_owned(),
-            shininess,
+            bsdf: Phong {
+                shininess,
+                ..Phong::default()
+            }
+            .into(),
             ..Material::default()
         }
     );
@@ -110,17 +114,23 @@ fn every_key_is_heard() {
     assert_eq!(scene.cameras[1].fov_y, 60_f64.to_radians());
     let named = Material {
         name: "m".to_owned(),
-        diffuse: Vec3::X,
-        specular: Vec3::Y,
-        shininess: 7.5,
-        ambient: Vec3::Z,
         two_sided: false,
         two_sided_emission: false,
+        bsdf: Phong {
+            diffuse: Vec3::X,
+            specular: Vec3::Y,
+            shininess: 7.5,
+            ambient: Vec3::Z,
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     };
     assert_eq!(scene.materials[0], named);
     assert_eq!(
-        scene.materials[scene.shapes[1].material].diffuse,
+        scene.materials[scene.shapes[1].material]
+            .classical()
+            .diffuse,
         Vec3::ZERO
     );
     let plane = Geometry::Plane {
@@ -163,7 +173,10 @@ fn hex_colors_are_srgb_and_lists_linear() {
 #[test]
 fn ambient_defaults_to_diffuse() {
     let scene = scene("a.toml", "materials.a.phong.diffuse = [0.1, 0.2, 0.3]");
-    assert_eq!(scene.materials[0].ambient, Vec3::new(0.1, 0.2, 0.3));
+    assert_eq!(
+        scene.materials[0].classical().ambient,
+        Vec3::new(0.1, 0.2, 0.3)
+    );
 }
 
 #[test]
@@ -270,7 +283,11 @@ fn meshes_come_from_files_beside_the_scene() {
     assert_eq!(scene.instances.len(), 3);
     assert_eq!(scene.meshes.len(), 2, "the same mesh is read once");
     assert_eq!(scene.instances[1].placement.translation.x, 5.0);
-    let diffuse = |mesh: usize| scene.materials[scene.meshes[mesh].materials[0] as usize].diffuse;
+    let diffuse = |mesh: usize| {
+        scene.materials[scene.meshes[mesh].materials[0] as usize]
+            .classical()
+            .diffuse
+    };
     assert_eq!(diffuse(1), Vec3::Z);
     assert_eq!(
         diffuse(0),

@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
 use glimray::scene::{
     Background, Camera, CanonicalShape, Fresnel, Geometry, Light, LightKind, Material, Mixing,
-    Scene, Shape, Transfer,
+    Phong, Scene, Shape, Transfer,
 };
 use insta::assert_snapshot;
 
@@ -77,20 +77,28 @@ fn highlight_and_reflection_are_white_and_the_diffuse_part_is_coloured() {
         scene.materials[1],
         Material {
             name: String::new(),
-            diffuse: Vec3::new(0.5, 0.25, 0.0),
-            specular: Vec3::splat(0.25),
-            shininess: 12.0,
-            ambient: Vec3::ZERO,
             two_sided: true,
-            reflect: Vec3::splat(0.25),
-            transmit: Vec3::splat(0.75),
-            ior: 1.5,
-            fresnel: Fresnel::None,
-            mixing: Mixing::Sum,
+            bsdf: Phong {
+                diffuse: Vec3::new(0.5, 0.25, 0.0),
+                specular: Vec3::splat(0.25),
+                shininess: 12.0,
+                ambient: Vec3::ZERO,
+                reflect: Vec3::splat(0.25),
+                transmit: Vec3::splat(0.75),
+                ior: 1.5,
+                fresnel: Fresnel::None,
+                mixing: Mixing::Sum,
+                ..Phong::default()
+            }
+            .into(),
             ..Material::default()
         }
     );
-    assert_eq!(scene.materials[0].ior, 1.0, "an index of 0 is none");
+    assert_eq!(
+        scene.materials[0].classical().ior,
+        1.0,
+        "an index of 0 is none"
+    );
 }
 
 #[test]
@@ -240,8 +248,11 @@ fn values_that_cannot_be_used_are_repaired_and_reported() {
     assert_eq!(scene.lights, [light(DVec3::new(1.0, 2.0, 3.0), Vec3::ONE)]);
     assert_eq!(scene.background, Background::Color(Vec3::ZERO));
     let material = &scene.materials[0];
-    assert_eq!(material.diffuse, Vec3::new(1.0, 0.0, 0.5));
-    assert_eq!((material.specular, material.ior), (Vec3::ZERO, 1.0));
+    assert_eq!(material.classical().diffuse, Vec3::new(1.0, 0.0, 0.5));
+    assert_eq!(
+        (material.classical().specular, material.classical().ior),
+        (Vec3::ZERO, 1.0)
+    );
     assert_eq!(scene.output.size, (512, 200));
     let camera = &scene.cameras[0];
     assert_eq!(camera.fov_y, std::f64::consts::FRAC_PI_4);

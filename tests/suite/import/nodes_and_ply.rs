@@ -190,10 +190,14 @@ fn values_can_be_given_exactly() {
     assert_eq!(moved, DVec3::new(0.1, 1.2, 0.3));
     let material = &scene.materials[0];
     assert_eq!(
-        (material.mixing, material.ior, material.opacity),
+        (
+            material.classical().mixing,
+            material.classical().ior,
+            material.classical().opacity
+        ),
         (Mixing::Sum, 0.001, 0.25)
     );
-    assert_eq!(material.reflect, Vec3::new(0.9, 0.8, 0.7));
+    assert_eq!(material.classical().reflect, Vec3::new(0.9, 0.8, 0.7));
     let spot = glimray::scene::LightKind::Spot {
         position: DVec3::ZERO,
         direction: DVec3::NEG_Z,

@@ -276,12 +276,15 @@ fn materials_come_from_the_library() {
         panic!("only materials in use are kept: {:?}", scene.materials);
     };
     assert_eq!(red.name, "dark red");
-    assert_eq!(red.diffuse, Vec3::new(0.5, 0.0, 0.0));
-    assert_eq!(red.specular, Vec3::splat(0.25));
-    assert_eq!(red.shininess, 64.0);
-    assert_eq!(red.ambient, Vec3::new(0.0, 0.0, 0.1));
-    assert_eq!(red.opacity, 0.5);
-    assert_eq!((green.diffuse, green.ambient), (Vec3::Y, Vec3::Y));
+    assert_eq!(red.classical().diffuse, Vec3::new(0.5, 0.0, 0.0));
+    assert_eq!(red.classical().specular, Vec3::splat(0.25));
+    assert_eq!(red.classical().shininess, 64.0);
+    assert_eq!(red.classical().ambient, Vec3::new(0.0, 0.0, 0.1));
+    assert_eq!(red.classical().opacity, 0.5);
+    assert_eq!(
+        (green.classical().diffuse, green.classical().ambient),
+        (Vec3::Y, Vec3::Y)
+    );
     assert_snapshot!(scene.skipped.join("\n"), @r"
 skipped in materials: `Kd spectral` 1
 texture skipped: `red.png` does not exist

@@ -12,15 +12,21 @@ fn material(text: &str) -> Material {
 #[test]
 fn a_mirror_shades_with_the_rest() {
     let plain = material("{ reflect = { amount = 0.5, color = [1, 0.5, 0] } }");
-    assert_eq!(plain.reflect, Vec3::new(0.5, 0.25, 0.0));
+    assert_eq!(plain.classical().reflect, Vec3::new(0.5, 0.25, 0.0));
     assert_eq!(
-        (plain.fresnel, plain.mixing),
+        (plain.classical().fresnel, plain.classical().mixing),
         (Fresnel::None, Mixing::Layer)
     );
-    assert_eq!((plain.transmit, plain.opacity), (Vec3::ZERO, 1.0));
+    assert_eq!(
+        (plain.classical().transmit, plain.classical().opacity),
+        (Vec3::ZERO, 1.0)
+    );
     let varnished = material("{ reflect = { fresnel = 'schlick' } }");
-    assert_eq!((varnished.reflect, varnished.ior), (Vec3::ONE, 1.5));
-    assert_eq!(varnished.fresnel, Fresnel::Schlick);
+    assert_eq!(
+        (varnished.classical().reflect, varnished.classical().ior),
+        (Vec3::ONE, 1.5)
+    );
+    assert_eq!(varnished.classical().fresnel, Fresnel::Schlick);
 }
 
 #[test]
@@ -29,22 +35,32 @@ fn glass_reflects_and_transmits_by_fresnel_by_default() {
         "{ refract = { amount = 0.75, color = [1, 0, 0], absorption = [1, 2, 3], priority = 4 } }",
     );
     assert_eq!(
-        (glass.reflect, glass.transmit),
+        (glass.classical().reflect, glass.classical().transmit),
         (Vec3::splat(0.75), 0.75 * Vec3::X)
     );
-    assert_eq!((glass.opacity, glass.ior, glass.priority), (0.25, 1.5, 4));
     assert_eq!(
-        (glass.fresnel, glass.absorption),
+        (
+            glass.classical().opacity,
+            glass.classical().ior,
+            glass.priority
+        ),
+        (0.25, 1.5, 4)
+    );
+    assert_eq!(
+        (glass.classical().fresnel, glass.classical().absorption),
         (Fresnel::Exact, Vec3::new(1.0, 2.0, 3.0))
     );
     let plain = material(
         "{ reflect = { amount = 0.25 }, refract = { amount = 0.75, ior = 1.33, fresnel = 'none' } }",
     );
     assert_eq!(
-        (plain.reflect, plain.transmit),
+        (plain.classical().reflect, plain.classical().transmit),
         (Vec3::splat(0.25), Vec3::splat(0.75))
     );
-    assert_eq!((plain.fresnel, plain.ior), (Fresnel::None, 1.33));
+    assert_eq!(
+        (plain.classical().fresnel, plain.classical().ior),
+        (Fresnel::None, 1.33)
+    );
 }
 
 #[test]

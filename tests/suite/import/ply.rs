@@ -115,7 +115,7 @@ fn normals_in_the_file_are_kept_and_unused_vertices_dropped() {
 
 fn colors(scene: &Scene) -> Vec<Vec3> {
     let mesh = &scene.meshes[0];
-    assert_eq!(scene.materials[0].diffuse, Vec3::ONE);
+    assert_eq!(scene.materials[0].classical().diffuse, Vec3::ONE);
     mesh.colors.iter().map(|color| color.truncate()).collect()
 }
 
@@ -198,7 +198,9 @@ fn points_without_faces_are_spheres() {
         Geometry::Sphere { center, radius } => (
             center,
             radius,
-            scene.materials[scene.shapes[index].material].diffuse,
+            scene.materials[scene.shapes[index].material]
+                .classical()
+                .diffuse,
         ),
         _ => panic!("a point is a sphere"),
     };

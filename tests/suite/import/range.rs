@@ -148,5 +148,8 @@ fn clamped_values_are_counted() {
                 material = { phong = { diffuse = [1e4, 0, 0], specular = [0, 2e3, 0] } }\n";
     let scene = read("a.toml", text, &[]);
     assert_eq!(scene.skipped, ["coefficients clamped to 1000: 3"]);
-    assert_eq!(scene.materials[0].diffuse.to_array(), [1e3, 0.0, 0.0]);
+    assert_eq!(
+        scene.materials[0].classical().diffuse.to_array(),
+        [1e3, 0.0, 0.0]
+    );
 }

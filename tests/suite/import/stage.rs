@@ -153,7 +153,11 @@ fn models_of_all_formats_stand_in_the_same_studio() {
         assert_eq!(scene.background, first.background);
         assert_eq!((scene.ambient, &scene.shapes.len()), (first.ambient, &1));
         assert_eq!(scene.output, first.output);
-        let ground = |scene: &Scene| scene.materials[scene.shapes[0].material].diffuse;
+        let ground = |scene: &Scene| {
+            scene.materials[scene.shapes[0].material]
+                .classical()
+                .diffuse
+        };
         assert_eq!(ground(scene), ground(first));
     }
 }
@@ -177,7 +181,11 @@ fn the_horizon_is_in_the_picture() {
         })
         .sum();
     let sky = bottom.y + (top.y - bottom.y) * 5.0 / 6.0;
-    let ground = scene.materials[scene.shapes[0].material].diffuse.y * (lamps + sky);
+    let ground = scene.materials[scene.shapes[0].material]
+        .classical()
+        .diffuse
+        .y
+        * (lamps + sky);
     let horizon = bottom.midpoint(top).y;
     assert!(
         ground > 0.1 && 1.2 * ground < horizon && horizon < 0.8,

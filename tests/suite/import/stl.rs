@@ -180,7 +180,7 @@ fn both_dialects_have_colours() {
         let mesh = &scene.meshes[0];
         let [a, b, c] = mesh.triangles[triangle].map(|i| mesh.materials[i as usize] as usize);
         assert!(a == b && b == c, "a facet has one colour");
-        scene.materials[a].diffuse
+        scene.materials[a].classical().diffuse
     };
     // VisCAM and SolidView: the mark, then red, green and blue; without the mark there is no colour.
     let viscam = scene(

@@ -119,7 +119,10 @@ fn names_may_be_in_latin_1() {
         ]);
         let scene = import::load(&folder.path().join("a.obj")).expect("a model");
         let material = &scene.materials[0];
-        assert_eq!((&*material.name, material.diffuse), ("Gr\u{fc}n", Vec3::X));
+        assert_eq!(
+            (&*material.name, material.classical().diffuse),
+            ("Gr\u{fc}n", Vec3::X)
+        );
         assert_eq!(material.textures.emission, Some(0));
     }
     for (name, text) in &FILES[..5] {

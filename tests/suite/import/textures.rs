@@ -3,7 +3,7 @@
 use super::{folder, messages, scene};
 use glam::{DVec3, Vec2, Vec3};
 use glimray::import;
-use glimray::scene::{Background, Pattern, Scene, Space, Textures};
+use glimray::scene::{Background, Pattern, PhongTextures, Scene, Space};
 use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
 use insta::assert_snapshot;
 use std::io::Cursor;
@@ -72,20 +72,33 @@ fn textures_are_named_or_inline() {
         panic!("three materials");
     };
     // The ambient colour defaults to the diffuse one with its texture.
-    let both = Textures {
+    let both = PhongTextures {
         diffuse: Some(0),
         specular: Some(2),
         ambient: Some(0),
-        ..Textures::default()
+        ..PhongTextures::default()
     };
-    assert_eq!(a.textures, both);
+    assert_eq!(a.classical().textures, both);
     assert_eq!(
-        (a.diffuse, a.specular, a.ambient),
+        (
+            a.classical().diffuse,
+            a.classical().specular,
+            a.classical().ambient
+        ),
         (Vec3::splat(0.5), white, Vec3::splat(0.5))
     );
-    assert_eq!((b.diffuse, b.ambient), (white, Vec3::splat(2.0)));
-    assert_eq!((b.textures.diffuse, b.textures.ambient), (Some(0), Some(3)));
-    assert_eq!(c.textures, Textures::default());
+    assert_eq!(
+        (b.classical().diffuse, b.classical().ambient),
+        (white, Vec3::splat(2.0))
+    );
+    assert_eq!(
+        (
+            b.classical().textures.diffuse,
+            b.classical().textures.ambient
+        ),
+        (Some(0), Some(3))
+    );
+    assert_eq!(c.texture_indices().next(), None);
 }
 
 #[test]
@@ -288,13 +301,25 @@ fn models_have_their_textures() {
     let [a, b, _ground] = &scene.materials[..] else {
         panic!("two materials");
     };
-    assert_eq!(a.diffuse, Vec3::new(0.5, 1.0, 1.0));
-    assert_eq!((a.textures.diffuse, a.textures.specular), (Some(0), None));
-    assert_eq!(a.textures.ambient, Some(0));
-    // A colour that is not given is white if there is a texture.
-    assert_eq!((b.diffuse, b.specular), (Vec3::ONE, Vec3::ONE));
+    assert_eq!(a.classical().diffuse, Vec3::new(0.5, 1.0, 1.0));
     assert_eq!(
-        (b.textures.diffuse, b.textures.specular),
+        (
+            a.classical().textures.diffuse,
+            a.classical().textures.specular
+        ),
+        (Some(0), None)
+    );
+    assert_eq!(a.classical().textures.ambient, Some(0));
+    // A colour that is not given is white if there is a texture.
+    assert_eq!(
+        (b.classical().diffuse, b.classical().specular),
+        (Vec3::ONE, Vec3::ONE)
+    );
+    assert_eq!(
+        (
+            b.classical().textures.diffuse,
+            b.classical().textures.specular
+        ),
         (Some(1), Some(1))
     );
     let mesh = &scene.meshes[0];
@@ -336,7 +361,7 @@ fn vertices_are_split_by_u_and_v_only_if_a_texture_uses_them() {
                    [[objects]]\nmesh = { file = 'a.obj' }\n";
     let scene = model(&[("s.toml", native), files[0], files[1], files[2]]);
     assert_eq!((scene.pictures.len(), scene.textures.len()), (1, 2));
-    assert_eq!(scene.materials[1].textures.diffuse, Some(1));
+    assert_eq!(scene.materials[1].classical().textures.diffuse, Some(1));
 }
 
 #[test]

@@ -10,7 +10,7 @@ use glimray::image::Image;
 use glimray::render::{Filter, RenderSettings, denoise};
 use glimray::scene::{
     Antialias, Attenuation, Backdrop, Background, CanonicalShape, Coverage, Fresnel, Geometry,
-    Light, LightKind, Material, Scene, Shape,
+    Light, LightKind, Material, Phong, Scene, Shape,
 };
 
 const GREEN: Vec3 = Vec3::new(0.0, 0.5, 0.0);
@@ -54,11 +54,15 @@ fn pane(material: Material) -> Scene {
 /// A wall without reflection that lets this fraction through.
 fn thin(fraction: f32) -> Material {
     Material {
-        diffuse: Vec3::ZERO,
-        ambient: Vec3::ZERO,
-        transmit: Vec3::splat(fraction),
-        opacity: 0.0,
         thin: true,
+        bsdf: Phong {
+            diffuse: Vec3::ZERO,
+            ambient: Vec3::ZERO,
+            transmit: Vec3::splat(fraction),
+            opacity: 0.0,
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     }
 }
@@ -73,11 +77,11 @@ fn the_camera_sees_the_backdrop_and_surfaces_see_the_background() {
     assert_eq!(colored.pixel(0, 0), Some([0.0, 0.5, 0.0, 1.0]));
     assert_eq!(middle(&plain), middle(&colored), "the light is the same");
 
-    let mirror = Material {
+    let mirror = Material::from(Phong {
         diffuse: Vec3::ZERO,
         reflect: Vec3::ONE,
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     let mirrored = render(&pane(mirror), &behind(Backdrop::Color(GREEN), 4)).0;
     assert_eq!(middle(&mirrored), [1.0; 4], "a mirror shows the background");
     let seen = render(&pane(thin(1.0)), &behind(Backdrop::Color(GREEN), 4)).0;
@@ -266,7 +270,11 @@ fn a_lamp_that_paths_seldom_meet_in_a_mirror_makes_no_hole_in_a_shadow() {
             ..Light::default()
         }];
         let wall = scene.add_material(Material {
-            reflect: Vec3::ONE,
+            bsdf: Phong {
+                reflect: Vec3::ONE,
+                ..matte(0.0).classical().into_owned()
+            }
+            .into(),
             ..matte(0.0)
         });
         scene.add_plane(DVec3::NEG_X, DVec3::X, wall);
@@ -291,11 +299,15 @@ fn light_that_glass_refracts_onto_a_catcher_is_no_shadow() {
     let mut scene = floor(Some(pane), &[]);
     scene.background = Background::Color(Vec3::splat(0.7));
     scene.materials[1] = Material {
-        reflect: Vec3::ONE,
-        transmit: Vec3::ONE,
-        opacity: 0.0,
-        ior: INDEX as f32,
-        fresnel: Fresnel::Exact,
+        bsdf: Phong {
+            reflect: Vec3::ONE,
+            transmit: Vec3::ONE,
+            opacity: 0.0,
+            ior: INDEX as f32,
+            fresnel: Fresnel::Exact,
+            ..matte(0.0).classical().into_owned()
+        }
+        .into(),
         ..matte(0.0)
     };
     let passing = |cosine: f64| {

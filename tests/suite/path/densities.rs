@@ -10,8 +10,8 @@ use crate::reference::scenes::Build;
 use crate::support::{random::Random, verdict::Verdict};
 use glam::{DAffine3, DQuat, Vec3, dvec3, vec3, vec4};
 use glimray::scene::{
-    Attenuation, Background, CanonicalShape, Geometry, Light, LightKind, Material, Picture, Scene,
-    Shape,
+    Attenuation, Background, CanonicalShape, Geometry, Light, LightKind, Material, Phong, Picture,
+    Scene, Shape,
 };
 use std::sync::Arc;
 
@@ -20,8 +20,12 @@ const RADIANCE: f32 = 3.0;
 /// Rough balls over a glossy floor, without lights.
 fn dark(random: &mut Random) -> Scene {
     let glossy = |shininess| Material {
-        specular: Vec3::splat(2.0),
-        shininess,
+        bsdf: Phong {
+            specular: Vec3::splat(2.0),
+            shininess,
+            ..matte(0.4).classical().into_owned()
+        }
+        .into(),
         ..matte(0.4)
     };
     let mut scene = lit_floor(glossy(30.0), Light::default());

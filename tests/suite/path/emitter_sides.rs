@@ -13,7 +13,7 @@ use glimray::pack;
 use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{
     Attenuation, Background, Camera, CanonicalShape, Deformation, Geometry, Light, LightKind,
-    Material, MorphTarget, Node, NodeProperty, Scene, Shape, Target, Values,
+    Material, MorphTarget, Node, NodeProperty, Phong, Scene, Shape, Target, Values,
 };
 use serde_json::{Value, json};
 use std::f64::consts::PI;
@@ -148,10 +148,14 @@ fn emitters_shine_through_any_number_of_panes() {
         let mut scene = dark_floor();
         glowing_square(&mut scene, lamp, 3.0);
         let clear = scene.add_material(Material {
-            diffuse: Vec3::ZERO,
-            transmit: Vec3::ONE,
             thin: true,
-            opacity: 0.0,
+            bsdf: Phong {
+                diffuse: Vec3::ZERO,
+                transmit: Vec3::ONE,
+                opacity: 0.0,
+                ..Phong::default()
+            }
+            .into(),
             ..Material::default()
         });
         for k in 0..panes {

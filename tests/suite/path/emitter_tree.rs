@@ -22,7 +22,7 @@ use glimray::pack::{self, PackedScene, PackedView};
 use glimray::render::{LightSource, Slicing};
 use glimray::scene::{
     Attenuation, CanonicalShape, Deformation, Geometry, Instance, Light, LightKind, LightProperty,
-    Material, MorphTarget, Node, NodeProperty, ObjectRef, Scene, Shape, Target, Values,
+    Material, MorphTarget, Node, NodeProperty, ObjectRef, Phong, Scene, Shape, Target, Values,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -39,8 +39,12 @@ fn glowing(radiance: f32, two_sided: bool) -> Material {
 /// shines to both sides, and shapes.
 pub fn mixed(lamps: usize) -> Scene {
     let glossy = Material {
-        specular: Vec3::splat(2.0),
-        shininess: 20.0,
+        bsdf: Phong {
+            specular: Vec3::splat(2.0),
+            shininess: 20.0,
+            ..matte(0.4).classical().into_owned()
+        }
+        .into(),
         ..matte(0.4)
     };
     let mut scene = floor_under(glossy, lamps, any_kind);

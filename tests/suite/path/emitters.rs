@@ -10,7 +10,7 @@ use glam::{DAffine3, DMat3, DVec3, Vec3, dvec3, vec3};
 use glimray::pack;
 use glimray::scene::{
     Antialias, Attenuation, Background, CanonicalShape, Deformation, Geometry, Light, LightKind,
-    LightProperty, Material, Mesh, MorphTarget, Node, Scene, Shape, Target, Values,
+    LightProperty, Material, Mesh, MorphTarget, Node, Phong, Scene, Shape, Target, Values,
 };
 use std::f32::consts::PI;
 use std::sync::Arc;
@@ -68,8 +68,12 @@ fn under(kind: &LightKind, floor: &Material, radiance: f64, node: Option<Node>) 
 fn emissive_shapes_shine_like_lamps_of_the_same_radiance() {
     let mut verdict = Verdict::on("floors under emissive shapes");
     let glossy = Material {
-        specular: Vec3::splat(2.0),
-        shininess: 20.0,
+        bsdf: Phong {
+            specular: Vec3::splat(2.0),
+            shininess: 20.0,
+            ..matte(0.5).classical().into_owned()
+        }
+        .into(),
         ..matte(0.5)
     };
     for (name, kind) in lights()

@@ -14,7 +14,8 @@ use glimray::render::{
     StepOutcome, Tone, TracedRay,
 };
 use glimray::scene::{
-    Attenuation, Backdrop, Background, Coverage, Filter, Light, LightKind, Material, Scene, sky,
+    Attenuation, Backdrop, Background, Coverage, Filter, Light, LightKind, Material, Phong, Scene,
+    sky,
 };
 use std::f64::consts::PI;
 use std::path::PathBuf;
@@ -76,10 +77,14 @@ fn on_a_catcher() -> Scene {
     scene.cameras = vec![looking(dvec3(0.1, 2.0, 2.0), DVec3::ZERO, 0.8)];
     for (x, reflect, transmit) in [(-0.4, 0.9, 0.0), (0.4, 0.0, 1.0)] {
         let material = scene.add_material(Material {
-            reflect: Vec3::splat(reflect),
-            transmit: Vec3::splat(transmit),
-            opacity: 1.0 - transmit,
-            ior: 1.5,
+            bsdf: Phong {
+                reflect: Vec3::splat(reflect),
+                transmit: Vec3::splat(transmit),
+                opacity: 1.0 - transmit,
+                ior: 1.5,
+                ..matte(0.3).classical().into_owned()
+            }
+            .into(),
             ..matte(0.3)
         });
         scene.add_sphere(dvec3(x, 0.3, 0.0), 0.3, material);
@@ -486,8 +491,12 @@ fn values_on_a_glossy_floor_are_those_of_formulas() {
     let mut verdict = Verdict::on("a glossy floor");
     let (body, specular, shininess) = (0.5, 3.0, 20.0);
     let material = Material {
-        specular: Vec3::splat(specular as f32),
-        shininess: shininess as f32,
+        bsdf: Phong {
+            specular: Vec3::splat(specular as f32),
+            shininess: shininess as f32,
+            ..matte(body as f32).classical().into_owned()
+        }
+        .into(),
         ..matte(body as f32)
     };
     let (trees, _) = explained(&lit_floor(material, lamp(true)), &paths(4, (12, 8), 2), 20);

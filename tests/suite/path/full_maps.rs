@@ -5,8 +5,8 @@ use crate::reference::compare::render;
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, Vec4};
 use glimray::scene::{
-    LayerTextures, Material, MetallicRoughness, Minify, Origin, Pattern, Picture, Scene, Space,
-    Texels, Texture, Wrap,
+    LayerTextures, MetallicRoughness, Minify, Origin, Pattern, Picture, Scene, Space, Texels,
+    Texture, Wrap,
 };
 use std::sync::Arc;
 
@@ -106,9 +106,8 @@ fn ball((_, set, put): Slot, map: Option<&Texels>) -> Scene {
         ..MetallicRoughness::default()
     };
     set(&mut model);
-    let mut maps = LayerTextures::default();
-    put(&mut maps, map.map(|_| 0));
-    let mut scene = ball_in(1.0, Material::physical(Arc::new(model), maps));
+    put(&mut model.textures, map.map(|_| 0));
+    let mut scene = ball_in(1.0, model.into());
     if let Some(texels) = map {
         scene.pictures.push(Arc::new(Picture {
             width: 3,

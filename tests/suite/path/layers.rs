@@ -262,7 +262,7 @@ fn emission_below_a_coat_is_tinted_by_it() {
             clearcoat_roughness: 0.0,
             ..MetallicRoughness::default()
         };
-        scene.materials[last].metallic_roughness = Some(model.into());
+        scene.materials[last].bsdf = model.into();
         let mut look = |from: DVec3, at: DVec3| {
             scene.cameras = vec![looking(from, at, 0.001)];
             mean(&scene, &paths(256, (2, 2), 0))
@@ -399,7 +399,7 @@ fn mapped_floor(own: Material, maps: [Option<Vec3>; 2], light: Light, is_back: b
             pattern_from_space: DAffine3::IDENTITY,
         });
     }
-    material.layer_textures = Some(Box::new(layers));
+    material.metallic_roughness_mut().expect("a model").textures = layers;
     let mut floor = quad(2.0, 0);
     floor.uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
         .map(Vec2::from)

@@ -5,7 +5,7 @@ use super::{looking, paths};
 use crate::reference::scenes::{Build, ball};
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::render::RenderSettings;
-use glimray::scene::{Background, Fresnel, Material, MetallicRoughness, Picture, Scene};
+use glimray::scene::{Background, Fresnel, Material, MetallicRoughness, Phong, Picture, Scene};
 use std::f64::consts::TAU;
 
 /// Pixels of a cell.
@@ -47,28 +47,36 @@ fn glass(roughness: f32, thickness: f32) -> MetallicRoughness {
 
 /// Two widths of Phong's lobe, a matte body, a mirror and clear glass.
 fn phong() -> Row {
-    let glossy = |shininess| Material {
-        diffuse: vec3(0.3, 0.1, 0.05),
-        specular: Vec3::splat(0.1 * shininess),
-        shininess,
-        ..Material::default()
+    let glossy = |shininess| {
+        Material::from(Phong {
+            diffuse: vec3(0.3, 0.1, 0.05),
+            specular: Vec3::splat(0.1 * shininess),
+            shininess,
+            ..Phong::default()
+        })
     };
-    let black = |reflect, transmit| Material {
-        diffuse: Vec3::ZERO,
-        reflect: Vec3::splat(reflect),
-        transmit: Vec3::splat(transmit),
-        ..Material::default()
+    let black = |reflect, transmit| {
+        Material::from(Phong {
+            diffuse: Vec3::ZERO,
+            reflect: Vec3::splat(reflect),
+            transmit: Vec3::splat(transmit),
+            ..Phong::default()
+        })
     };
     let clear = Material {
-        fresnel: Fresnel::Exact,
-        opacity: 0.0,
-        ior: 1.5,
+        bsdf: Phong {
+            fresnel: Fresnel::Exact,
+            opacity: 0.0,
+            ior: 1.5,
+            ..black(1.0, 1.0).classical().into_owned()
+        }
+        .into(),
         ..black(1.0, 1.0)
     };
-    let matte = Material {
+    let matte = Material::from(Phong {
         diffuse: vec3(0.7, 0.3, 0.2),
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     [black(0.9, 0.0), glossy(100.0), glossy(8.0), matte, clear]
 }
 
@@ -161,8 +169,7 @@ pub fn scene() -> Scene {
         for (i, own) in row.into_iter().enumerate() {
             let x = i as f64 + 0.5 - columns / 2.0;
             let center = dvec3(x, height / 2.0 - j as f64 - 0.5, 0.0);
-            let is_stretched =
-                (own.metallic_roughness.as_ref()).is_some_and(|it| it.anisotropy > 0.0);
+            let is_stretched = (own.metallic_roughness()).is_some_and(|it| it.anisotropy > 0.0);
             let index = scene.add_material(own);
             if !is_stretched {
                 scene.add_sphere(center, 0.42, index);

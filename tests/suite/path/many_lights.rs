@@ -10,7 +10,7 @@ use glam::{DVec3, Vec3, dvec3};
 use glimray::layout::{LIGHT_DISC, LIGHT_RECTANGLE, LIGHT_SPOT, PackedLight};
 use glimray::pack;
 use glimray::render::{Integrator, RenderSettings};
-use glimray::scene::{Attenuation, Geometry, Light, LightKind, Material, Scene, Shape};
+use glimray::scene::{Attenuation, Geometry, Light, LightKind, Material, Phong, Scene, Shape};
 
 /// A floor under this many lamps of a kind for each number.
 pub fn floor_under(
@@ -167,8 +167,12 @@ fn many_lamps_light_a_floor_as_all_of_them_do_one_by_one() {
 #[test]
 fn many_lamps_that_paths_can_hit_shine_like_balls_of_the_same_radiance() {
     let glossy = Material {
-        specular: Vec3::splat(6.0),
-        shininess: 40.0,
+        bsdf: Phong {
+            specular: Vec3::splat(6.0),
+            shininess: 40.0,
+            ..matte(0.2).classical().into_owned()
+        }
+        .into(),
         ..matte(0.2)
     };
     let radius = 0.08;

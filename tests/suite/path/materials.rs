@@ -10,10 +10,7 @@ use std::sync::Arc;
 
 /// A material as the importers make it.
 pub fn material(model: MetallicRoughness) -> Material {
-    Material {
-        metallic_roughness: Some(model.clone().into()),
-        ..model.classical(String::new())
-    }
+    model.into()
 }
 
 /// The mean of a ball of the material in a background of 1.

@@ -5,7 +5,7 @@
 use glam::{DAffine3, DVec2, DVec3};
 use glimray::image::Image;
 use glimray::scene::{
-    Attenuation, Background, CanonicalShape, Geometry, Light, LightKind, Material,
+    Attenuation, Background, CanonicalShape, Geometry, Light, LightKind, Material, Phong,
 };
 use glimray::scene::{Fresnel, Mixing, Scene};
 use std::ops::AddAssign;
@@ -174,7 +174,9 @@ impl<'a> Tree<'a> {
             panic!("only backgrounds of one colour are known here");
         };
         assert_eq!(scene.ambient, glam::Vec3::ZERO, "ambient light");
-        let is_known = |m: &Material| m.mixing == Mixing::Sum && m.fresnel == Fresnel::None;
+        let is_known = |m: &Material| {
+            m.classical().mixing == Mixing::Sum && m.classical().fresnel == Fresnel::None
+        };
         assert!(scene.materials.iter().all(is_known), "materials of NFF");
         let mut primitives = primitives(scene);
         let mut nodes = Vec::new();
@@ -238,9 +240,9 @@ impl<'a> Tree<'a> {
             let highlight = r
                 .dot(-ray.direction)
                 .max(0.0)
-                .powf(material.shininess.into());
-            let answer =
-                material.diffuse.as_dvec3() * cos + material.specular.as_dvec3() * highlight;
+                .powf(material.classical().shininess.into());
+            let answer = material.classical().diffuse.as_dvec3() * cos
+                + material.classical().specular.as_dvec3() * highlight;
             color += light.color.as_dvec3() * answer;
         }
         if bounces == 0 {
@@ -252,7 +254,7 @@ impl<'a> Tree<'a> {
         let mirrored = |n: DVec3| ray.direction - 2.0 * ray.direction.dot(n) * n;
         let is_turned = self.inwards == Inwards::Turned && mirrored(n).dot(side) <= 0.0;
         let n = if is_turned { side } else { n };
-        let mirror = material.reflect.as_dvec3();
+        let mirror = material.classical().reflect.as_dvec3();
         if goes_on(mirror) {
             let direction = mirrored(n);
             rays.reflection += 1;
@@ -261,8 +263,8 @@ impl<'a> Tree<'a> {
             rays.reflection_hits += u64::from(is_hit);
             color += mirror * seen;
         }
-        let glass = material.transmit.as_dvec3();
-        let ior = f64::from(material.ior);
+        let glass = material.classical().transmit.as_dvec3();
+        let ior = f64::from(material.classical().ior);
         let eta = if enters { 1.0 / ior } else { ior };
         if goes_on(glass)
             && let Some(direction) = refracted(ray.direction, n, eta)
@@ -504,13 +506,13 @@ impl Node {
 /// A camera at `eye` that looks along -z, and a sphere around the origin of a material with these reflection
 /// and transmission factors.
 fn ball(eye: DVec3, reflect: f32, transmit: f32, ior: f32) -> Scene {
-    let material = Material {
+    let material = Material::from(Phong {
         reflect: glam::Vec3::splat(reflect),
         transmit: glam::Vec3::splat(transmit),
         ior,
         mixing: Mixing::Sum,
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     Scene {
         shapes: vec![glimray::scene::Shape {
             geometry: Geometry::Sphere {
@@ -540,7 +542,7 @@ fn the_counter_loses_no_ray_in_a_mirror_ball() {
     assert_eq!((rays.shadow, rays.shadow_blocked), (6 * 256, 0));
     assert_eq!((rays.refraction, rays.refraction_hits), (0, 0));
     // 1/10 and 1/100 are traced, 1/1000 is below 1/512.
-    scene.materials[0].reflect = glam::Vec3::splat(0.1);
+    scene.materials[0].classical_mut().reflect = glam::Vec3::splat(0.1);
     assert_eq!(count(&scene, (16, 16), 5).reflection, 2 * 256);
 }
 

@@ -1,7 +1,9 @@
 //! A moving scene frozen at one time: the same scene without tracks and nodes.
 
 use glam::{DAffine3, DVec3};
-use glimray::scene::{CanonicalShape, Geometry, LightKind, Material, NodeState, Scene, Shape};
+use glimray::scene::{
+    CanonicalShape, Geometry, LightKind, Material, NodeState, Phong, Scene, Shape,
+};
 
 /// The lookup transform of solid textures for a point in the world: patterns move with the node of their
 /// object. `None` is the world itself.
@@ -74,10 +76,14 @@ pub fn resolve(scene: &Scene, time: f64) -> (Scene, Carriers) {
     for light in frame.lights.iter().filter(|light| light.visible) {
         let (geometry, radiance) = lamp(light.kind);
         still.materials.push(Material {
-            diffuse: glam::Vec3::ZERO,
-            ambient: glam::Vec3::ZERO,
             emission: light.color * radiance as f32,
             two_sided: false,
+            bsdf: Phong {
+                diffuse: glam::Vec3::ZERO,
+                ambient: glam::Vec3::ZERO,
+                ..Phong::default()
+            }
+            .into(),
             ..Material::default()
         });
         still.shapes.push(Shape {

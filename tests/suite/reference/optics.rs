@@ -44,7 +44,7 @@ impl Tracer<'_> {
         };
         let hit = self.hit(ray, t, primitive);
         let is_deep = self.scene.output.max_depth > 0;
-        let is_clear = is_deep && hit.material.transmit != glam::Vec3::ZERO;
+        let is_clear = is_deep && hit.material.classical().transmit != glam::Vec3::ZERO;
         let mut behind = place.media.clone();
         let mut here = self.dominant(&place.media);
         if is_clear {
@@ -127,17 +127,20 @@ impl Tracer<'_> {
         }
 
         let kept = (DVec3::ONE - reflect).max(DVec3::ZERO);
-        let (diffuse, highlight) = match hit.material.mixing {
+        let (diffuse, highlight) = match hit.material.classical().mixing {
             _ if !is_deep => (DVec3::ONE, DVec3::ONE),
             Mixing::Sum => (DVec3::ONE, DVec3::ONE),
             Mixing::Blend if sends => (kept, kept),
             Mixing::Blend => (DVec3::ONE, DVec3::ONE),
-            Mixing::Layer => (f64::from(hit.material.opacity) * kept, DVec3::ONE),
+            Mixing::Layer => (
+                f64::from(hit.material.classical().opacity) * kept,
+                DVec3::ONE,
+            ),
         };
         let mut material = hit.material.clone();
-        material.diffuse *= diffuse.as_vec3();
-        material.ambient *= diffuse.as_vec3();
-        material.specular *= highlight.as_vec3();
+        material.classical_mut().diffuse *= diffuse.as_vec3();
+        material.classical_mut().ambient *= diffuse.as_vec3();
+        material.classical_mut().specular *= highlight.as_vec3();
         let shadow = Ray {
             origin: hit.p,
             t_min: 1e-9 * t,
@@ -166,17 +169,17 @@ impl Tracer<'_> {
         let n2 = if is_clear {
             index(self.dominant(behind))
         } else {
-            f64::from(hit.material.ior)
+            f64::from(hit.material.classical().ior)
         };
         let n = hit.n * -hit.n.dot(direction).signum();
         let incidence = (-direction.dot(n)).clamp(0.0, 1.0).acos();
         let sine = n1 / n2 * incidence.sin();
-        let mut reflect = hit.material.reflect.as_dvec3();
-        let mut transmit = hit.material.transmit.as_dvec3();
+        let mut reflect = hit.material.classical().reflect.as_dvec3();
+        let mut transmit = hit.material.classical().transmit.as_dvec3();
         if sine >= 1.0 {
-            if hit.material.fresnel == Fresnel::None
+            if hit.material.classical().fresnel == Fresnel::None
                 && is_clear
-                && hit.material.mixing != Mixing::Sum
+                && hit.material.classical().mixing != Mixing::Sum
             {
                 reflect += transmit;
             }
@@ -184,7 +187,7 @@ impl Tracer<'_> {
         }
         let refraction = sine.asin();
         let normal_reflectance = ((n1 - n2) / (n1 + n2)).powi(2);
-        let reflectance = match hit.material.fresnel {
+        let reflectance = match hit.material.classical().fresnel {
             Fresnel::None => None,
             Fresnel::Exact if incidence < 1e-7 => Some(normal_reflectance),
             Fresnel::Exact => {
@@ -218,12 +221,12 @@ impl Tracer<'_> {
     }
 
     fn ior(&self, material: usize) -> f64 {
-        f64::from(self.scene.materials[material].ior)
+        f64::from(self.scene.materials[material].classical().ior)
     }
 
     fn absorbed(&self, medium: Option<usize>, length: f64) -> DVec3 {
         let absorption = medium.map_or(DVec3::ZERO, |m| {
-            self.scene.materials[m].absorption.as_dvec3()
+            self.scene.materials[m].classical().absorption.as_dvec3()
         });
         (-absorption * length).exp()
     }

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::scene::{
     Attenuation, Background, Camera, CanonicalShape, Fresnel, Geometry, Instance, Light, LightKind,
-    Material, Mesh, Scene, Shape,
+    Material, Mesh, Phong, Scene, Shape,
 };
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -77,13 +77,21 @@ pub fn meshes() -> Scene {
 pub fn everything() -> Scene {
     let mut scene = spheres();
     let first = scene.add_material(Material {
-        diffuse: vec3(0.9, 0.1, 0.1),
-        specular: Vec3::splat(0.1),
-        shininess: 2.0,
+        bsdf: Phong {
+            diffuse: vec3(0.9, 0.1, 0.1),
+            specular: Vec3::splat(0.1),
+            shininess: 2.0,
+            ..shiny(Vec3::ONE).classical().into_owned()
+        }
+        .into(),
         ..shiny(Vec3::ONE)
     });
     scene.add_material(Material {
-        shininess: 80.0,
+        bsdf: Phong {
+            shininess: 80.0,
+            ..shiny(vec3(0.1, 0.9, 0.1)).classical().into_owned()
+        }
+        .into(),
         ..shiny(vec3(0.1, 0.9, 0.1))
     });
     scene.add_material(shiny(vec3(0.1, 0.1, 0.9)));
@@ -135,12 +143,16 @@ pub fn mirrors_and_glass() -> Scene {
         scene.add_sphere(center, radius, material);
     };
     let glass = Material {
-        reflect: Vec3::ONE,
-        transmit: Vec3::ONE,
-        opacity: 0.0,
-        ior: 1.5,
-        absorption: vec3(0.4, 0.1, 0.2),
-        fresnel: Fresnel::Exact,
+        bsdf: Phong {
+            reflect: Vec3::ONE,
+            transmit: Vec3::ONE,
+            opacity: 0.0,
+            ior: 1.5,
+            absorption: vec3(0.4, 0.1, 0.2),
+            fresnel: Fresnel::Exact,
+            ..shiny(Vec3::ZERO).classical().into_owned()
+        }
+        .into(),
         ..shiny(Vec3::ZERO)
     };
     ball(dvec3(-1.6, 0.8, 0.3), 0.8, glass.clone());
@@ -148,7 +160,11 @@ pub fn mirrors_and_glass() -> Scene {
         dvec3(0.2, 0.9, -0.6),
         0.9,
         Material {
-            reflect: vec3(0.9, 0.7, 0.4),
+            bsdf: Phong {
+                reflect: vec3(0.9, 0.7, 0.4),
+                ..shiny(Vec3::splat(0.2)).classical().into_owned()
+            }
+            .into(),
             ..shiny(Vec3::splat(0.2))
         },
     );
@@ -156,9 +172,13 @@ pub fn mirrors_and_glass() -> Scene {
         dvec3(1.9, 0.7, 0.1),
         0.7,
         Material {
-            reflect: Vec3::ONE,
-            ior: 1.6,
-            fresnel: Fresnel::Schlick,
+            bsdf: Phong {
+                reflect: Vec3::ONE,
+                ior: 1.6,
+                fresnel: Fresnel::Schlick,
+                ..shiny(vec3(0.7, 0.1, 0.1)).classical().into_owned()
+            }
+            .into(),
             ..shiny(vec3(0.7, 0.1, 0.1))
         },
     );
@@ -167,7 +187,11 @@ pub fn mirrors_and_glass() -> Scene {
         dvec3(-1.7, 0.9, 0.5),
         0.3,
         Material {
-            ior: 1.0,
+            bsdf: Phong {
+                ior: 1.0,
+                ..glass.classical().into_owned()
+            }
+            .into(),
             ..glass.clone()
         },
     );
@@ -183,11 +207,15 @@ pub fn mirrors_and_glass() -> Scene {
         dvec3(0.7, 0.4, 1.0),
         0.35,
         Material {
-            ior: 1.2,
-            fresnel: Fresnel::None,
-            reflect: Vec3::splat(0.2),
-            transmit: vec3(0.3, 0.8, 0.6),
-            opacity: 0.2,
+            bsdf: Phong {
+                ior: 1.2,
+                fresnel: Fresnel::None,
+                reflect: Vec3::splat(0.2),
+                transmit: vec3(0.3, 0.8, 0.6),
+                opacity: 0.2,
+                ..glass.classical().into_owned()
+            }
+            .into(),
             ..glass
         },
     );
@@ -242,13 +270,13 @@ pub fn solids() -> Scene {
 }
 
 pub fn shiny(color: Vec3) -> Material {
-    Material {
+    Material::from(Phong {
         diffuse: color * 0.8,
         specular: Vec3::splat(0.4),
         shininess: 30.0,
         ambient: color,
-        ..Material::default()
-    }
+        ..Phong::default()
+    })
 }
 
 /// Helpers for building scenes.

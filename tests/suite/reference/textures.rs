@@ -1,7 +1,7 @@
 //! Textures and backgrounds in f64, from their definitions in `glimray::scene`.
 
 use glam::{DVec2, DVec3, Vec3};
-use glimray::scene::{Background, Material, Pattern, Picture, Scene, Space, Texture, Wrap};
+use glimray::scene::{Background, Material, Pattern, Phong, Picture, Scene, Space, Texture, Wrap};
 use std::f64::consts::{PI, TAU};
 
 /// The coordinate at which a cell of a pattern begins, as in `lib/pattern.wesl`.
@@ -13,11 +13,15 @@ pub fn textured(scene: &Scene, material: Material, p: DVec3, uv: DVec2) -> Mater
         let factor = texture.map(|i| color_at(scene, &scene.textures[i], p, uv));
         color * factor.unwrap_or(DVec3::ONE).as_vec3()
     };
-    let textures = material.textures;
+    let own = material.classical().into_owned();
     Material {
-        diffuse: at(material.diffuse, textures.diffuse),
-        specular: at(material.specular, textures.specular),
-        ambient: at(material.ambient, textures.ambient),
+        bsdf: Phong {
+            diffuse: at(own.diffuse, own.textures.diffuse),
+            specular: at(own.specular, own.textures.specular),
+            ambient: at(own.ambient, own.textures.ambient),
+            ..own
+        }
+        .into(),
         ..material
     }
 }

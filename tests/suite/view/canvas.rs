@@ -13,8 +13,8 @@ use glimray::image::Image;
 use glimray::import;
 use glimray::render::{Antialias, ExecutionPolicy, Integrator, RenderSettings, Tone, Uploads};
 use glimray::scene::{
-    Background, Camera, LayerTextures, Material, MetallicRoughness, Minify, Pattern, Picture,
-    Scene, Space, Texels, Texture, ToneCurve, Wrap,
+    Background, Camera, LayerTextures, MetallicRoughness, Minify, Pattern, Picture, Scene, Space,
+    Texels, Texture, ToneCurve, Wrap,
 };
 use glimray_viewer::worker::progressive_image::PictureSlot;
 use glimray_viewer::worker::progressive_image::{Pace, Shown};
@@ -492,7 +492,8 @@ fn an_edit_of_the_scene_builds_the_trees_of_what_it_changes() {
         edit(&mut scene);
         Arc::new(scene)
     };
-    let recoloured = edited(|scene| scene.materials[0].diffuse = Vec3::new(0.9, 0.1, 0.4));
+    let recoloured =
+        edited(|scene| scene.materials[0].classical_mut().diffuse = Vec3::new(0.9, 0.1, 0.4));
     easel.want(|order| order.scene = recoloured.clone());
     easel.settle();
     let now = easel.shown();
@@ -845,7 +846,11 @@ fn mapped() -> Scene {
         ..LayerTextures::default()
     };
     for material in &mut scene.materials {
-        *material = Material::physical(Arc::new(MetallicRoughness::default()), layers);
+        *material = MetallicRoughness {
+            textures: layers,
+            ..MetallicRoughness::default()
+        }
+        .into();
     }
     scene
 }
@@ -875,11 +880,8 @@ fn classical_maps_are_there_once_the_integrator_is_chosen_and_after_edits() {
     assert_ne!(easel.image(), render(&scene, &whitted).0, "no map shows");
     // One material follows its new colour, and the maps of the others are the same.
     let mut edited = scene.clone();
-    let model = edited.materials[0].metallic_roughness.as_mut();
-    Arc::make_mut(model.expect("a model")).base_color = Vec3::new(0.25, 0.5, 1.0);
-    let layers = *edited.materials[0].layer_textures.as_deref().expect("maps");
-    let model = edited.materials[0].metallic_roughness.clone();
-    edited.materials[0] = Material::physical(model.expect("a model"), layers);
+    let model = edited.materials[0].metallic_roughness_mut();
+    model.expect("a model").base_color = Vec3::new(0.25, 0.5, 1.0);
     easel.want(|order| order.scene = Arc::new(edited.clone()));
     easel.settle();
     assert_eq!(easel.image(), baked(&edited));

@@ -64,7 +64,7 @@ pub(super) fn open(path: &Path, size: &str) -> Window {
     window
 }
 
-fn perform(window: &mut Window, action: Action) {
+pub(super) fn perform(window: &mut Window, action: Action) {
     window.session().clicked.push(action);
     window.settle();
 }
@@ -162,17 +162,17 @@ fn a_material_that_is_changed_gives_the_picture_of_the_changed_scene() {
     window.settle();
     let mut wanted = scene(&window);
     set(&mut window, "Diffuse green", 0.5);
-    wanted.materials[0].diffuse = vec3(0.75, 0.5, 0.0625);
+    wanted.materials[0].classical_mut().diffuse = vec3(0.75, 0.5, 0.0625);
     // Without a colour of its own, ambient light is reflected in the diffuse colour.
-    wanted.materials[0].ambient = wanted.materials[0].diffuse;
+    wanted.materials[0].classical_mut().ambient = wanted.materials[0].classical().diffuse;
     assert_eq!(scene(&window), wanted);
     assert_shows(&mut window, &wanted, "diffuse");
     // An opaque material becomes transparent: other code on the GPU.
     set(&mut window, "Transmit red", 0.5);
-    wanted.materials[0].transmit.x = 0.5;
+    wanted.materials[0].classical_mut().transmit.x = 0.5;
     assert_shows(&mut window, &wanted, "transmit");
     perform(&mut window, Action::Undo);
-    wanted.materials[0].transmit.x = 0.0;
+    wanted.materials[0].classical_mut().transmit.x = 0.0;
     assert_shows(&mut window, &wanted, "undone");
 }
 
@@ -877,7 +877,10 @@ fn ambient_follows_diffuse_until_it_is_unlinked() {
     window.settle();
     let colors = |window: &Window| {
         let material = &scene(window).materials[0];
-        (material.diffuse.y, material.ambient.y)
+        (
+            material.classical().diffuse.y,
+            material.classical().ambient.y,
+        )
     };
     let follows = "Ambient follows diffuse";
     assert!(window.harness.query_by_label("Ambient green").is_none());

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use glimray_app::error::AppError;
 use glimray_render::gpu::Gpu;
 use glimray_render::{ExecutionPolicy, RenderSettings, Tone};
-use glimray_scene::{Camera, Geometry, Light, LightKind, Material, Scene, Shape};
+use glimray_scene::{Camera, Geometry, Light, LightKind, Material, Phong, Scene, Shape};
 
 /// Odd, so that the ray through the centre pixel runs along the camera's axis.
 const SIDE: u32 = 33;
@@ -75,13 +75,13 @@ fn scene() -> Scene {
             material: 0,
             node: None,
         }],
-        materials: vec![Material {
+        materials: vec![Material::from(Phong {
             diffuse: Vec3::splat(DIFFUSE as f32),
             specular: Vec3::splat(SPECULAR as f32),
             shininess: SHININESS as f32,
             ambient: Vec3::ONE,
-            ..Material::default()
-        }],
+            ..Phong::default()
+        })],
         lights: vec![Light {
             kind: LightKind::Point { position: LIGHT },
             color: Vec3::ONE,

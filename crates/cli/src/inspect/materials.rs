@@ -3,7 +3,7 @@
 use super::color;
 use glam::Vec3;
 use glimray_app::console::quoted;
-use glimray_scene::{Coverage, Material, MetallicRoughness};
+use glimray_scene::{Bsdf, Coverage, Material, MetallicRoughness};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::{self, Write};
@@ -67,21 +67,22 @@ struct PhysicalEntry {
 
 impl From<&Material> for MaterialEntry {
     fn from(material: &Material) -> Self {
-        let physical = material.metallic_roughness.as_ref();
+        let physical = material.metallic_roughness();
+        let phong = material.classical();
         Self {
             name: material.name.clone(),
-            diffuse: material.diffuse.into(),
-            specular: material.specular.into(),
-            shininess: material.shininess,
-            ambient: material.ambient.into(),
+            diffuse: phong.diffuse.into(),
+            specular: phong.specular.into(),
+            shininess: phong.shininess,
+            ambient: phong.ambient.into(),
             two_sided: material.two_sided,
-            emission: material.emission.into(),
+            emission: material.radiance().0.into(),
             two_sided_emission: material.two_sided_emission,
-            reflect: material.reflect.into(),
-            transmit: material.transmit.into(),
-            ior: material.ior,
-            thin: material.thin,
-            absorption: material.absorption.into(),
+            reflect: phong.reflect.into(),
+            transmit: phong.transmit.into(),
+            ior: phong.ior,
+            thin: material.is_thin(),
+            absorption: phong.absorption.into(),
             priority: material.priority,
             physical: physical.map(|model| PhysicalEntry::new(material, model)),
         }
@@ -93,11 +94,11 @@ impl PhysicalEntry {
         let distance = model.attenuation_distance;
         Self {
             base_color: (model.base_color * material.tint).into(),
-            alpha: model.alpha,
-            coverage: coverage(model.coverage),
+            alpha: material.alpha,
+            coverage: coverage(material.coverage),
             metallic: model.metallic,
             roughness: model.roughness,
-            emission: model.emission.into(),
+            emission: material.emission.into(),
             unlit: model.unlit,
             ior: model.ior,
             specular: model.specular,
@@ -131,21 +132,22 @@ fn coverage(coverage: Coverage) -> &'static str {
 }
 
 pub fn material_text(out: &mut String, material: &Material) -> fmt::Result {
-    if let Some(model) = &material.metallic_roughness {
-        return physical_text(out, material, model);
-    }
+    let phong = match &material.bsdf {
+        Bsdf::Phong(phong) => phong,
+        Bsdf::MetallicRoughness(model) => return physical_text(out, material, model),
+    };
     write!(
         out,
         "{} diffuse {}, specular {}, shininess {}",
         quoted(&material.name),
-        color(material.diffuse),
-        color(material.specular),
-        material.shininess
+        color(phong.diffuse),
+        color(phong.specular),
+        phong.shininess
     )?;
     for (what, value) in [
-        ("reflect", material.reflect),
-        ("transmit", material.transmit),
-        ("absorption", material.absorption),
+        ("reflect", phong.reflect),
+        ("transmit", phong.transmit),
+        ("absorption", phong.absorption),
         ("emission", material.emission),
     ] {
         if value != Vec3::ZERO {
@@ -153,9 +155,9 @@ pub fn material_text(out: &mut String, material: &Material) -> fmt::Result {
         }
     }
     match material.thin {
-        _ if material.transmit == Vec3::ZERO => {}
+        _ if phong.transmit == Vec3::ZERO => {}
         true => write!(out, ", thin")?,
-        false => write!(out, ", ior {}", material.ior)?,
+        false => write!(out, ", ior {}", phong.ior)?,
     }
     Ok(())
 }
@@ -174,8 +176,13 @@ fn physical_text(out: &mut String, material: &Material, model: &MetallicRoughnes
     if model.unlit {
         write!(out, ", unlit")?;
     }
-    if model.coverage != Coverage::Opaque {
-        write!(out, ", {}, alpha {}", coverage(model.coverage), model.alpha)?;
+    if material.coverage != Coverage::Opaque {
+        write!(
+            out,
+            ", {}, alpha {}",
+            coverage(material.coverage),
+            material.alpha
+        )?;
     }
     for (what, value, usual) in [
         ("ior", model.ior, plain.ior),
@@ -200,7 +207,7 @@ fn physical_text(out: &mut String, material: &Material, model: &MetallicRoughnes
         }
     }
     for (what, value, usual) in [
-        ("emission", model.emission, Vec3::ZERO),
+        ("emission", material.emission, Vec3::ZERO),
         ("specular colour", model.specular_color, Vec3::ONE),
         ("attenuation colour", model.attenuation_color, Vec3::ONE),
         ("sheen colour", model.sheen_color, Vec3::ZERO),

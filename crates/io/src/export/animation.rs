@@ -3,10 +3,10 @@
 use super::materials::has_same_ambient;
 use super::text::{Table, list, number, quaternion, string, vector};
 use super::{Writer, exact};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use glimray_scene::{
-    Beyond, CameraProperty, Curve, Easing, Interpolation, LightProperty, MaterialProperty,
-    NodeProperty, Target, Track, Values,
+    Beyond, CameraProperty, Curve, Easing, Interpolation, LayerProperty, LightProperty,
+    MaterialProperty, NodeProperty, Target, Track, Values,
 };
 
 /// Longer lists of keys have one key per line.
@@ -22,7 +22,31 @@ impl Writer<'_> {
                 self.text.gap();
                 self.animation(&targets, &track.curve);
             }
+            for (target, factor) in self.diffuse_of_base_colors(track) {
+                self.text.gap();
+                self.animation(&[target], &scaled(&track.curve, factor));
+            }
         }
+    }
+
+    /// The diffuse colours that follow the base colours of `track`, and their ratios to them.
+    fn diffuse_of_base_colors(&self, track: &Track) -> Vec<(Target, DVec3)> {
+        let diffuse = |target: &Target| {
+            let Target::Layer(index, LayerProperty::BaseColor) = *target else {
+                return None;
+            };
+            let material = &self.scene.materials[index];
+            let model = material.metallic_roughness()?;
+            if model.unlit || model.phong.is_some() || material.has_classical_maps() {
+                return None;
+            }
+            let mut white = model.point();
+            white.base_color = Vec3::ONE;
+            let factor = material.tint * model.lobes(&white, model.roughness).diffuse;
+            let target = Target::Material(index, MaterialProperty::Diffuse);
+            Some((target, factor.as_dvec3()))
+        };
+        track.targets.iter().filter_map(diffuse).collect()
     }
 
     /// The targets of a track, grouped so that one animation can name each group.
@@ -39,7 +63,7 @@ impl Writer<'_> {
                         (
                             Target::Material(a, MaterialProperty::Diffuse),
                             Target::Material(b, MaterialProperty::Ambient),
-                        ) => a == b && has_same_ambient(&self.scene.materials[a]),
+                        ) => a == b && has_same_ambient(&self.scene.materials[a].classical()),
                         _ => false,
                     }
                 });
@@ -83,7 +107,7 @@ impl Writer<'_> {
                 table.put("material", string(&names.materials[index]));
                 of_material(property)
             }
-            // Deforming meshes and textures are written at rest, and materials with their classical colours.
+            // Deforming meshes and textures are written at rest, and materials with their diffuse colours.
             Target::Weight(..) | Target::Layer(..) | Target::Texture(..) => return,
         };
         table.put("property", string(property));
@@ -110,6 +134,15 @@ impl Writer<'_> {
         self.text.head("[[animation]]");
         self.text.lines(&table);
     }
+}
+
+/// A curve of vectors, multiplied by `factor`.
+fn scaled(curve: &Curve, factor: DVec3) -> Curve {
+    let mut scaled = curve.clone();
+    if let Values::Vector(values) = &mut scaled.values {
+        values.iter_mut().for_each(|value| *value *= factor);
+    }
+    scaled
 }
 
 fn easing(easing: Easing, points: [f64; 4]) -> String {

@@ -37,8 +37,7 @@ impl Names {
         // A texture is named after the first material that uses it.
         let mut textures = vec![String::new(); scene.textures.len()];
         for (name, material) in materials.iter().zip(&scene.materials) {
-            let layers = material.layer_textures.iter().flat_map(|it| it.all());
-            for texture in material.textures.all().into_iter().chain(layers).flatten() {
+            for texture in material.texture_indices() {
                 if textures[texture].is_empty() {
                     textures[texture].clone_from(name);
                 }

@@ -4,64 +4,42 @@ use super::Writer;
 use super::exact::{same_bits, shortest};
 use super::text::{Table, color, list, number, number32, string};
 use glam::Vec3;
-use glimray_scene::{LayerTextures, Material, MetallicRoughness};
-use std::sync::Arc;
-
-/// The material that the importer makes of `pbr` alone.
-pub(super) fn plain(material: &Material, model: &Arc<MetallicRoughness>) -> Material {
-    let layers = material.layer_textures.as_deref().copied();
-    let mut plain = Material::physical(model.clone(), layers.unwrap_or_default());
-    if !same_bits(material.tint, Vec3::ONE) {
-        plain.paint(material.tint);
-    }
-    Material {
-        // Emission has a key of its own, unless the material is unlit.
-        emission: if model.unlit {
-            plain.emission
-        } else {
-            Vec3::ZERO
-        },
-        priority: material.priority,
-        ..plain
-    }
-}
+use glimray_scene::{LayerTextures, Material, MetallicRoughness, Phong};
 
 impl Writer<'_> {
-    /// Adds keys for the classical integrators, where these show `material` otherwise than `plain`.
+    /// Adds keys for the classical integrators, where these show `material` otherwise than what follows from `model`.
     pub fn classical(
         &self,
         table: &mut Table,
         index: usize,
         material: &Material,
-        plain: &Material,
+        model: &MetallicRoughness,
     ) {
-        let own = &material.textures;
-        let local = |m: &Material| {
-            let colors = [m.diffuse, m.specular, m.ambient];
-            let it = &m.textures;
+        let (own, derived) = (material.classical(), model.derived_phong(material.tint));
+        let local = |phong: &Phong| {
+            let colors = [phong.diffuse, phong.specular, phong.ambient];
+            let it = &phong.textures;
             let textures = (it.diffuse, it.specular, it.ambient);
-            (format!("{colors:?}"), m.shininess.to_bits(), textures)
+            (format!("{colors:?}"), phong.shininess.to_bits(), textures)
         };
-        if local(material) != local(plain) || self.is_own_ambient(index) {
-            table.put("phong", self.phong(index, material).inline());
+        if local(&own) != local(&derived) || self.is_own_ambient(index) {
+            table.put("phong", self.phong(index, &own).inline());
         }
-        let optical = |m: &Material| {
-            let colors = [m.reflect, m.transmit, m.absorption];
-            let numbers = [m.opacity, m.ior].map(f32::to_bits);
-            (format!("{colors:?}"), numbers, (m.fresnel, m.mixing))
+        let optical = |phong: &Phong| {
+            let colors = [phong.reflect, phong.transmit, phong.absorption];
+            let numbers = [phong.opacity, phong.ior].map(f32::to_bits);
+            let textures = (phong.textures.reflect, phong.textures.transmit);
+            let ways = (phong.fresnel, phong.mixing);
+            (format!("{colors:?}"), numbers, ways, textures)
         };
-        let textures = (own.reflect, own.transmit);
-        if optical(material) != optical(plain)
-            || textures != (plain.textures.reflect, plain.textures.transmit)
-        {
-            table.put("optics", self.directly(material).inline());
+        if optical(&own) != optical(&derived) {
+            table.put("optics", self.directly(material, &own).inline());
         }
     }
 
     /// The parameters that are not the defaults of a native scene.
     pub fn physical(&self, material: &Material, model: &MetallicRoughness) -> Table {
-        let layers = material.layer_textures.as_deref().copied();
-        let layers = layers.unwrap_or_default();
+        let layers = &model.textures;
         let none = MetallicRoughness::default();
         let mut table = Table::default();
         macro_rules! numbers {
@@ -115,7 +93,7 @@ impl Writer<'_> {
         colors!(sheen_color Vec3::ZERO);
         numbers!(sheen_roughness 0.0, anisotropy 0.0, iridescence 0.0);
         plain!(iridescence_ior);
-        self.film(&mut table, model, &layers);
+        self.film(&mut table, model, layers);
         table.put_if(
             model.anisotropy_rotation.to_bits() != 0,
             "anisotropy_rotation_deg",

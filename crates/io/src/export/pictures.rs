@@ -3,7 +3,7 @@
 use super::text::string;
 use super::{ExportError, Writer};
 use glam::Vec4;
-use glimray_scene::{Origin, Pattern, Picture, Texels, linear_from_srgb};
+use glimray_scene::{Origin, Pattern, Picture, Texels, Textures, linear_from_srgb};
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 use std::io::Cursor;
 
@@ -38,18 +38,16 @@ impl Writer<'_> {
         let scene = self.scene;
         let shows = |texture: usize| matches!(scene.textures[texture].pattern, Pattern::Picture { picture: own, .. } if own == picture);
         let mut others = scene.materials.iter().flat_map(|material| {
-            let textures = &material.textures;
-            let layers = material
-                .layer_textures
-                .as_deref()
-                .copied()
-                .unwrap_or_default();
-            (textures.looked_up().into_iter())
-                .chain([textures.occlusion])
-                .chain(layers.all())
+            let Textures {
+                emission,
+                normal: _,
+                occlusion,
+                alpha,
+            } = material.textures;
+            let own = [emission, occlusion, alpha].into_iter().flatten();
+            own.chain(material.bsdf.texture_indices())
         });
-        matches!(scene.pictures[picture].origin, Origin::Heights { .. })
-            && !others.any(|texture| texture.is_some_and(shows))
+        matches!(scene.pictures[picture].origin, Origin::Heights { .. }) && !others.any(shows)
     }
 }
 

@@ -4,7 +4,6 @@ use super::notes::Notes;
 use glam::Vec3;
 use glimray_scene::{LightTransport, Material, Mesh, Scene};
 use std::collections::HashMap;
-use std::sync::Arc;
 
 /// Notes how many triangles of `scene` have more than interpolated colours from the material of their first corner.
 pub(super) fn note(scene: &mut Scene) {
@@ -46,19 +45,22 @@ pub(super) fn note(scene: &mut Scene) {
 fn rest(material: &Material, paths: bool) -> Material {
     let mut rest = Material {
         name: String::new(),
-        diffuse: Vec3::ZERO,
-        ambient: Vec3::ZERO,
         tint: Vec3::ONE,
         ..material.clone()
     };
-    match &mut rest.metallic_roughness {
-        Some(model) if paths => Arc::make_mut(model).base_color = Vec3::ZERO,
-        _ if paths => {}
-        model => {
-            *model = None;
-            rest.specular = Vec3::ZERO;
-            rest.shininess = 0.0;
-            rest.reflect = Vec3::ZERO;
+    match rest.metallic_roughness_mut() {
+        Some(model) if paths => {
+            model.base_color = Vec3::ZERO;
+            model.phong = None;
+        }
+        _ => {
+            let mut phong = material.classical().into_owned();
+            (phong.diffuse, phong.ambient) = (Vec3::ZERO, Vec3::ZERO);
+            if !paths {
+                (phong.specular, phong.shininess) = (Vec3::ZERO, 0.0);
+                phong.reflect = Vec3::ZERO;
+            }
+            rest.bsdf = phong.into();
         }
     }
     rest

@@ -32,7 +32,7 @@ impl Model {
         if self.materials.is_empty() {
             self.materials.push(Material::default());
         }
-        let is_clear = |material: &Material| material.transmit.max_element() > 0.0;
+        let is_clear = |material: &Material| material.classical().transmit.max_element() > 0.0;
         let mut scene = Scene {
             shadows: match self.materials.iter().any(is_clear) {
                 true => Shadows::Filtered,

@@ -35,7 +35,7 @@ use super::{number, suggest};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use glimray_scene::{
     Background, CanonicalShape, Fresnel, Geometry, Light, LightKind, Material, Mixing,
-    OutputDefaults, Scene, Shape, Transfer,
+    OutputDefaults, Phong, Scene, Shape, Transfer,
 };
 use mesh::Surface;
 use std::collections::HashMap;
@@ -248,16 +248,20 @@ impl<'s> Reader<'s> {
         let key = values.map(|value| (value + 0.0).to_bits());
         let id = *self.material_ids.entry(key).or_insert_with(|| {
             self.scene.materials.push(Material {
-                diffuse: diffuse.as_vec3(),
-                specular: Vec3::splat(ks as f32),
-                shininess: shine as f32,
-                ambient: Vec3::ZERO,
                 two_sided: true,
-                reflect: Vec3::splat(ks as f32),
-                transmit: Vec3::splat(t as f32),
-                ior: if index < SHORTEST { 1.0 } else { index as f32 },
-                fresnel: Fresnel::None,
-                mixing: Mixing::Sum,
+                bsdf: Phong {
+                    diffuse: diffuse.as_vec3(),
+                    specular: Vec3::splat(ks as f32),
+                    shininess: shine as f32,
+                    ambient: Vec3::ZERO,
+                    reflect: Vec3::splat(ks as f32),
+                    transmit: Vec3::splat(t as f32),
+                    ior: if index < SHORTEST { 1.0 } else { index as f32 },
+                    fresnel: Fresnel::None,
+                    mixing: Mixing::Sum,
+                    ..Phong::default()
+                }
+                .into(),
                 ..Material::default()
             });
             self.scene.materials.len() - 1

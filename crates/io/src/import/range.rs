@@ -4,8 +4,8 @@
 use super::notes::Notes;
 use glam::{DVec3, Vec3, Vec4};
 use glimray_scene::{
-    Attenuation, Background, Light, LightProperty, Material, MaterialProperty, Pattern, Scene,
-    Target, Texture, Values,
+    Attenuation, Background, Bsdf, Light, LightProperty, Material, MaterialProperty, Pattern,
+    Phong, Scene, Target, Texture, Values,
 };
 use std::sync::Arc;
 
@@ -113,21 +113,25 @@ impl Counts {
     }
 
     fn material(&mut self, material: &mut Material) {
-        let Material {
+        self.radiance(&mut material.emission);
+        let phong = match &mut material.bsdf {
+            Bsdf::Phong(phong) => phong,
+            Bsdf::MetallicRoughness(model) if model.phong.is_none() => return,
+            Bsdf::MetallicRoughness(_) => material.classical_mut(),
+        };
+        let Phong {
             diffuse,
             specular,
             ambient,
             reflect,
             transmit,
-            emission,
             absorption,
             ior,
             ..
-        } = material;
+        } = phong;
         for color in [diffuse, specular, ambient, reflect, transmit] {
             lower(color, COEFFICIENT, &mut self.coefficients);
         }
-        self.radiance(emission);
         lower(absorption, ABSORPTION, &mut self.coefficients);
         if !(IOR.0..=IOR.1).contains(ior) {
             *ior = ior.clamp(IOR.0, IOR.1);

@@ -139,5 +139,5 @@ pub(super) fn note_lost_light(notes: &mut Notes, mesh: &Mesh, materials: &[Mater
 }
 
 fn is_emissive(material: &Material) -> bool {
-    material.emission != Vec3::ZERO
+    material.radiance().0 != Vec3::ZERO
 }

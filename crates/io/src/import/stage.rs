@@ -4,7 +4,7 @@ use super::{Ground, Options, Staging, visibility};
 use glam::{DVec3, Vec3};
 use glimray_scene::{
     Attenuation, Backdrop, Background, Camera, Framing, Geometry, Light, LightKind, LightTransport,
-    Material, Scene, Shape, Sight, ToneCurve,
+    Material, Phong, Scene, Shape, Sight, ToneCurve,
 };
 
 /// The field of view of the camera, in radians.
@@ -172,9 +172,13 @@ fn add_ground(scene: &mut Scene, ground: Ground) {
     let color = Vec3::splat(GROUND);
     scene.materials.push(Material {
         name: "ground".to_owned(),
-        diffuse: color,
-        ambient: color,
         shadow_catcher: ground == Ground::Shadow,
+        bsdf: Phong {
+            diffuse: color,
+            ambient: color,
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     });
     scene.shapes.push(Shape {

@@ -3,8 +3,9 @@
 
 use super::budget;
 use glam::{Vec3, Vec4};
-use glimray_scene::{Material, linear_from_srgb};
+use glimray_scene::{Bsdf, Material, Phong, linear_from_srgb};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Limit of the number of materials. If there are more, colours keep fewer bits.
 const MOST: usize = 32_768;
@@ -68,13 +69,25 @@ fn tinted(material: &Material, color: u32) -> Material {
     let [_, r, g, b] = color.to_be_bytes();
     let linear = Vec3::from([r, g, b].map(|c| linear_from_srgb(f64::from(c) / 255.0) as f32));
     let separator = if material.name.is_empty() { "" } else { " " };
-    Material {
+    let mut tinted = Material {
         name: format!("{}{separator}#{color:06x}", material.name),
-        diffuse: material.diffuse * linear,
-        ambient: material.ambient * linear,
-        tint: linear,
         ..material.clone()
+    };
+    let own = match &mut tinted.bsdf {
+        Bsdf::Phong(phong) => Some(phong),
+        Bsdf::MetallicRoughness(model) => {
+            tinted.tint = linear;
+            // Materials share what needs no change.
+            (model.phong.is_some())
+                .then(|| Arc::make_mut(model).phong.as_deref_mut())
+                .flatten()
+        }
+    };
+    if let Some(phong) = own {
+        phong.diffuse *= linear;
+        phong.ambient *= linear;
     }
+    tinted
 }
 
 /// The upper bits of a channel, spread over its range so that white stays white.
@@ -100,9 +113,9 @@ pub(super) fn rgb(color: Vec3) -> Rgb {
 
 /// A white material, which shows a colour unchanged.
 pub(super) fn white() -> Material {
-    Material {
+    Material::from(Phong {
         diffuse: Vec3::ONE,
         ambient: Vec3::ONE,
-        ..Material::default()
-    }
+        ..Phong::default()
+    })
 }

@@ -33,11 +33,12 @@ fn is_invisible(material: &Material, scene: &Scene) -> bool {
     if is_hole || material.coverage != Coverage::Opaque && is_masked_out(material, scene) {
         return true;
     }
-    let is_bent = !material.thin && material.ior != 1.0;
-    let reflects = material.reflect != Vec3::ZERO && (material.fresnel == Fresnel::None || is_bent);
-    material.opacity == 0.0
-        && material.emission == Vec3::ZERO
-        && material.transmit.min_element() > 0.999
+    let phong = material.classical();
+    let is_bent = !material.is_thin() && phong.ior != 1.0;
+    let reflects = phong.reflect != Vec3::ZERO && (phong.fresnel == Fresnel::None || is_bent);
+    phong.opacity == 0.0
+        && material.radiance().0 == Vec3::ZERO
+        && phong.transmit.min_element() > 0.999
         && !is_bent
         && !reflects
 }

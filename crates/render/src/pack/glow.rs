@@ -48,7 +48,7 @@ impl Glow {
     pub fn of_materials(scene: &Scene, emits: &[bool]) -> Vec<Self> {
         let mut pictures = vec![None; scene.pictures.len()];
         let mut textures = vec![None; scene.textures.len()];
-        let mut of = |material: &Material, emits: bool| match material.textures.emission {
+        let mut of = |material: &Material, emits: bool| match material.radiance().1 {
             Some(index) if emits => (textures[index])
                 .get_or_insert_with(|| Self::of_texture(scene, index, &mut pictures))
                 .clone(),

@@ -8,13 +8,13 @@ use crate::layout::{
     SLOT_TRANSMISSION,
 };
 use glam::Vec3;
-use glimray_scene::{Material, MetallicRoughness};
+use glimray_scene::{Bsdf, Material, MetallicRoughness, Phong};
 
 /// The layers of a material. `light` is the index of the light whose surface it is.
 pub fn packed(material: &Material, light: Option<usize>) -> PackedLayers {
-    let layers = match &material.metallic_roughness {
-        Some(model) => of_metallic_roughness(material, model),
-        None => of_phong(material),
+    let layers = match &material.bsdf {
+        Bsdf::MetallicRoughness(model) => of_metallic_roughness(material, model),
+        Bsdf::Phong(phong) => of_phong(phong),
     };
     let slots = slots(material);
     let index = |slot: usize| slots[slot].map_or(NO_TEXTURE, |index| index as u32);
@@ -76,34 +76,33 @@ fn of_metallic_roughness(material: &Material, model: &MetallicRoughness) -> Pack
 /// Phong's lobe as microfacets. Near the mirrored direction (r·v)^s equals (n·h)^(4s), the Blinn–Phong lobe of
 /// microfacets of the width 1/√(2s + 1). Seen along the normal, k_s (r·v)^s for light of irradiance π L reflects
 /// 2 k_s/(s + 1) of it, so that is the reflectance of the microfacets, from all directions.
-fn of_phong(material: &Material) -> PackedLayers {
-    let width = (2.0 * material.shininess + 1.0).sqrt().recip();
-    let reflectance = 2.0 * material.specular / (material.shininess + 1.0);
+fn of_phong(phong: &Phong) -> PackedLayers {
+    let width = (2.0 * phong.shininess + 1.0).sqrt().recip();
+    let reflectance = 2.0 * phong.specular / (phong.shininess + 1.0);
     PackedLayers {
-        base: material.diffuse.into(),
+        base: phong.diffuse.into(),
         f0: reflectance.min(Vec3::ONE).into(),
         roughness: width.sqrt(),
-        ior: material.ior,
+        ior: phong.ior,
         ..Default::default()
     }
 }
 
 /// The textures of a material, by their slots.
 fn slots(material: &Material) -> [Option<usize>; 24] {
-    let textures = &material.textures;
     let mut slots = [None; 24];
     let mut set = |slot: u32, texture| slots[slot as usize] = texture;
-    set(SLOT_EMISSION, textures.emission);
-    match &material.metallic_roughness {
-        None => {
+    set(SLOT_EMISSION, material.radiance().1);
+    match &material.bsdf {
+        Bsdf::Phong(phong) => {
+            let textures = &phong.textures;
             set(SLOT_BASE, textures.diffuse);
             set(SLOT_F0, textures.specular);
             set(SLOT_TRANSMISSION, textures.transmit);
             set(SLOT_REFLECT, textures.reflect);
         }
-        Some(_) => {
-            let layers = material.layer_textures.as_deref().copied();
-            let layers = layers.unwrap_or_default();
+        Bsdf::MetallicRoughness(model) => {
+            let layers = &model.textures;
             set(SLOT_BASE, layers.base_color);
             // Both are looked up at once where they have the same texture.
             if layers.metallic == layers.roughness {

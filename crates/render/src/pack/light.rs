@@ -10,7 +10,8 @@ use crate::layout::{
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use glimray_scene::{
-    Attenuation, CanonicalShape, Frame, Geometry, LUMINANCE, Light, LightKind, Material, Scene,
+    Attenuation, CanonicalShape, Frame, Geometry, LUMINANCE, Light, LightKind, Material, Phong,
+    Scene,
 };
 
 /// The indices of visible lights, in scene order.
@@ -30,10 +31,14 @@ pub fn material_and_id(scene: &Scene, light: usize) -> (usize, usize) {
 pub fn material(light: &Light) -> Material {
     let radiance = light.kind.radiance().unwrap_or(0.0);
     Material {
-        diffuse: Vec3::ZERO,
-        ambient: Vec3::ZERO,
         emission: (light.color.as_dvec3() * radiance).as_vec3(),
         two_sided: false,
+        bsdf: Phong {
+            diffuse: Vec3::ZERO,
+            ambient: Vec3::ZERO,
+            ..Phong::default()
+        }
+        .into(),
         ..Material::default()
     }
 }

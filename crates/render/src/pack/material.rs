@@ -12,7 +12,7 @@ use crate::layout::{
 };
 use glam::{DAffine3, DVec3, Vec3};
 use glimray_scene::{
-    Coverage, Fresnel, LayerProperty, Material, MaterialProperty, MetallicRoughness, Mixing,
+    Bsdf, Coverage, Fresnel, LayerProperty, Material, MaterialProperty, MetallicRoughness, Mixing,
     Pattern, Scene, Space, Target, Texels, Texture, Values, Wrap,
 };
 use std::sync::Arc;
@@ -22,12 +22,14 @@ const NOISE_PERIOD: f64 = 256.0;
 
 /// Packs a material. `lamp` is the index of the light whose surface it is.
 pub fn material(material: &Material, lamp: Option<usize>) -> PackedMaterial {
-    let fresnel = match material.fresnel {
+    let phong = material.classical();
+    let (emission, emission_texture) = material.radiance();
+    let fresnel = match phong.fresnel {
         Fresnel::None => 0,
         Fresnel::Exact => MATERIAL_FRESNEL,
         Fresnel::Schlick => MATERIAL_FRESNEL | MATERIAL_SCHLICK,
     };
-    let mixing = match material.mixing {
+    let mixing = match phong.mixing {
         Mixing::Layer => 0,
         Mixing::Sum => MATERIAL_SUM,
         Mixing::Blend => MATERIAL_BLEND,
@@ -55,39 +57,39 @@ pub fn material(material: &Material, lamp: Option<usize>) -> PackedMaterial {
         let index = |texture: Option<usize>| texture.map_or(NO_TEXTURE, |index| index as u32);
         index(low) | index(high) << 16
     };
-    let textures = &material.textures;
+    let (textures, shaded) = (&material.textures, &phong.textures);
     PackedMaterial {
-        diffuse: material.diffuse.into(),
-        shininess: material.shininess,
-        specular: material.specular.into(),
+        diffuse: phong.diffuse.into(),
+        shininess: phong.shininess,
+        specular: phong.specular.into(),
         flags: sides
             | fresnel
             | mixing
             | covers
             | colored
-            | if material.thin { MATERIAL_THIN } else { 0 }
+            | if material.is_thin() { MATERIAL_THIN } else { 0 }
             | if material.shadow_catcher {
                 MATERIAL_SHADOW_CATCHER
             } else {
                 0
             }
-            | match material.metallic_roughness {
-                Some(_) => MATERIAL_METALLIC_ROUGHNESS,
-                None => 0,
+            | match material.bsdf {
+                Bsdf::MetallicRoughness(_) => MATERIAL_METALLIC_ROUGHNESS,
+                Bsdf::Phong(_) => 0,
             },
-        ambient: material.ambient.into(),
-        opacity: material.opacity,
-        reflect: material.reflect.into(),
-        ior: material.ior,
-        transmit: material.transmit.into(),
+        ambient: phong.ambient.into(),
+        opacity: phong.opacity,
+        reflect: phong.reflect.into(),
+        ior: phong.ior,
+        transmit: phong.transmit.into(),
         priority: material.priority,
-        absorption: material.absorption.into(),
+        absorption: phong.absorption.into(),
         alpha,
-        emission: material.emission.into(),
+        emission: emission.into(),
         textures: [
-            pair(textures.diffuse, textures.specular),
-            pair(textures.reflect, textures.transmit),
-            pair(textures.ambient, textures.emission),
+            pair(shaded.diffuse, shaded.specular),
+            pair(shaded.reflect, shaded.transmit),
+            pair(shaded.ambient, emission_texture),
             pair(textures.normal, textures.alpha),
         ],
         normal_scale: material.normal_scale,
@@ -113,7 +115,9 @@ fn may_be_nonblack(
         for target in &track.targets {
             match *target {
                 Target::Material(index, p) if p == property => nonblack[index] |= !is_black,
-                Target::Layer(index, p) if layer_changes(p, property) => nonblack[index] = true,
+                Target::Layer(index, p) if layer_changes(&scene.materials[index], p, property) => {
+                    nonblack[index] = true;
+                }
                 _ => {}
             }
         }
@@ -122,8 +126,12 @@ fn may_be_nonblack(
 }
 
 /// Whether a track of a layer may give this classical colour a value.
-fn layer_changes(layer: LayerProperty, property: MaterialProperty) -> bool {
+fn layer_changes(material: &Material, layer: LayerProperty, property: MaterialProperty) -> bool {
     match property {
+        MaterialProperty::Emission => {
+            let is_unlit = material.metallic_roughness().is_some_and(|it| it.unlit);
+            is_unlit && layer == LayerProperty::BaseColor
+        }
         MaterialProperty::Transmit => layer == LayerProperty::Transmission,
         MaterialProperty::Reflect => !matches!(
             layer,
@@ -135,19 +143,23 @@ fn layer_changes(layer: LayerProperty, property: MaterialProperty) -> bool {
 
 /// For each material, whether it emits light at some time.
 pub fn may_emit(scene: &Scene) -> Vec<bool> {
-    may_be_nonblack(scene, |m| m.emission, MaterialProperty::Emission)
+    may_be_nonblack(scene, |m| m.radiance().0, MaterialProperty::Emission)
 }
 
 /// For each material, whether it is transparent at some time.
 pub fn may_transmit(scene: &Scene) -> Vec<bool> {
-    may_be_nonblack(scene, |m| m.transmit, MaterialProperty::Transmit)
+    may_be_nonblack(
+        scene,
+        |m| m.classical().transmit,
+        MaterialProperty::Transmit,
+    )
 }
 
 /// For each material, whether it encloses a transparent medium at some time.
 pub fn may_enclose(scene: &Scene) -> Vec<bool> {
     let transmits = may_transmit(scene).into_iter().zip(&scene.materials);
     transmits
-        .map(|(is, material)| is && !material.thin)
+        .map(|(is, material)| is && !material.is_thin())
         .collect()
 }
 
@@ -156,14 +168,15 @@ pub fn may_enclose(scene: &Scene) -> Vec<bool> {
 fn has_total_reflection(scene: &Scene) -> bool {
     let mut materials = scene.materials.iter().zip(may_enclose(scene));
     materials.any(|(material, encloses)| {
-        encloses && material.fresnel == Fresnel::None && material.mixing != Mixing::Sum
+        let phong = material.classical();
+        encloses && phong.fresnel == Fresnel::None && phong.mixing != Mixing::Sum
     })
 }
 
 /// Whether some material has partly weighted local shading at some time.
 fn has_thin_material(scene: &Scene) -> bool {
-    let is_layer = |material: &Material| material.mixing == Mixing::Layer;
-    let is_thin = |material: &Material| is_layer(material) && material.opacity != 1.0;
+    let is_layer = |material: &Material| material.classical().mixing == Mixing::Layer;
+    let is_thin = |material: &Material| is_layer(material) && material.classical().opacity != 1.0;
     let thins = |target: &Target| {
         matches!(*target, Target::Material(index, MaterialProperty::Opacity)
             if is_layer(&scene.materials[index]))
@@ -174,7 +187,8 @@ fn has_thin_material(scene: &Scene) -> bool {
 
 /// The features used by materials, textures and pictures.
 pub fn features(scene: &Scene) -> Features {
-    let mirrors = may_be_nonblack(scene, |m| m.reflect, MaterialProperty::Reflect).contains(&true);
+    let mirrors = may_be_nonblack(scene, |m| m.classical().reflect, MaterialProperty::Reflect)
+        .contains(&true);
     let refraction = may_transmit(scene).contains(&true);
     let emission = may_emit(scene).contains(&true);
     let transparent = may_enclose(scene).into_iter().zip(&scene.materials);
@@ -189,22 +203,26 @@ pub fn features(scene: &Scene) -> Features {
             || has_total_reflection(scene)
             || !refraction && has_thin_material(scene),
         refraction,
-        gloss: (may_be_nonblack(scene, |m| m.specular, MaterialProperty::Specular)).contains(&true)
+        gloss: (may_be_nonblack(
+            scene,
+            |m| m.classical().specular,
+            MaterialProperty::Specular,
+        ))
+        .contains(&true)
             || has_layers(scene, |_, _, model| !model.unlit),
         metallic_roughness: has_layers(scene, |_, _, _| true),
         coatings: has_layers(scene, |_, _, model| model.is_coated()),
         coated_emission: emission && has_layers(scene, |_, _, model| model.clearcoat > 0.0),
         coat_normals: has_layers(scene, |_, material, model| {
-            let layers = material.layer_textures.as_ref();
-            let own = layers.and_then(|layers| layers.clearcoat_normal);
+            let own = model.textures.clearcoat_normal;
             model.clearcoat > 0.0 && own.or(material.textures.normal).is_some()
         }),
         rough_glass: has_rough_glass(scene),
         dispersion: has_layers(scene, |_, material, it| {
-            it.dispersion > 0.0 && !material.thin
+            it.dispersion > 0.0 && !material.is_thin()
         }),
         thin_walls: (may_transmit(scene).into_iter().zip(&scene.materials))
-            .any(|(transmits, material)| transmits && material.thin),
+            .any(|(transmits, material)| transmits && material.is_thin()),
         shadow_catchers: scene.materials.iter().any(|it| it.shadow_catcher),
         textures: !scene.textures.is_empty(),
         noise: has_pattern(|it| matches!(it, Pattern::Noise { .. })),
@@ -217,13 +235,16 @@ pub fn features(scene: &Scene) -> Features {
         }),
         byte_texels: has_texels(|it| !matches!(it, Texels::Float(_))),
         half_texels: has_texels(|it| matches!(it, Texels::Float(_))),
-        optics_textures: (scene.materials.iter())
-            .map(|material| &material.textures)
-            .any(|it| it.reflect.or(it.transmit).or(it.emission).is_some()),
+        optics_textures: scene.materials.iter().any(|material| {
+            let shaded = material.classical().textures;
+            (shaded.reflect.or(shaded.transmit))
+                .or(material.radiance().1)
+                .is_some()
+        }),
         coverage: (scene.materials.iter()).any(|it| it.coverage != Coverage::Opaque),
         occlusion_maps: (scene.materials.iter()).any(|it| it.textures.occlusion.is_some()),
         anisotropy: (scene.materials.iter())
-            .filter_map(|material| material.metallic_roughness.as_ref())
+            .filter_map(Material::metallic_roughness)
             .any(|model| model.anisotropy > 0.0 && !model.unlit),
         normal_maps: (scene.materials.iter()).any(|material| material.textures.normal.is_some()),
         emission: emission || light::visible(scene).next().is_some(),
@@ -246,7 +267,7 @@ fn has_rough_glass(scene: &Scene) -> bool {
 /// Whether a metallic-roughness material, its index and its model satisfy `holds`.
 fn has_layers(scene: &Scene, holds: impl Fn(usize, &Material, &MetallicRoughness) -> bool) -> bool {
     (scene.materials.iter().enumerate()).any(|(index, material)| {
-        let model = material.metallic_roughness.as_ref();
+        let model = material.metallic_roughness();
         model.is_some_and(|model| holds(index, material, model))
     })
 }

@@ -80,7 +80,7 @@ pub fn at_point(
 ) -> Result<[u32; MEDIA_SIZE], PackError> {
     let transmits = |material: u32| {
         let now = frame.materials.get(material as usize);
-        now.is_none_or(|material| material.transmit != Vec3::ZERO)
+        now.is_none_or(|material| material.classical().transmit != Vec3::ZERO)
     };
     let mut inside: Vec<(f64, u32)> = (volumes.iter())
         .filter(|volume| transmits(volume.material))

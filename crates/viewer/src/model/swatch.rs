@@ -1,7 +1,7 @@
 //! How a material looks in a small patch of colour.
 
 use glam::Vec3;
-use glimray_scene::{Fresnel, Material};
+use glimray_scene::{Fresnel, Material, Phong};
 
 /// The thickness of glass that its absorption tints, in scene units.
 const THICKNESS: f32 = 0.5;
@@ -23,17 +23,18 @@ impl Swatch {
     /// The swatch of a material, seen at normal incidence. Metals reflect most of the light in their colour,
     /// so reflection and transmission count as much as the diffuse colour.
     pub fn of(material: &Material) -> Self {
-        let Material {
+        let phong = material.classical();
+        let Phong {
             diffuse,
             specular,
             reflect,
             transmit,
-            emission,
             absorption,
             fresnel,
             ior,
             ..
-        } = *material;
+        } = *phong;
+        let (emission, _) = material.radiance();
         let reflect = match fresnel {
             Fresnel::None | Fresnel::Schlick => reflect,
             Fresnel::Exact => reflect * ((ior - 1.0) / (ior + 1.0)).powi(2),
@@ -45,7 +46,7 @@ impl Swatch {
         Self {
             // Scaled as a whole: clamping each channel would change the hue.
             color: color / color.max_element().max(1.0),
-            is_glossy: material.reflect.max(specular).max_element() >= LEAST,
+            is_glossy: phong.reflect.max(specular).max_element() >= LEAST,
             is_clear: transmit.max_element() >= LEAST,
         }
     }

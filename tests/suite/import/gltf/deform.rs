@@ -498,7 +498,7 @@ fn pointers_animate_what_they_point_at() {
     let material = &frame.materials[0];
     let emission = material.emission.as_dvec3();
     assert!(emission.abs_diff_eq(DVec3::new(1.25, 2.5, 0.625), 1e-5));
-    let diffuse = material.diffuse.as_dvec3();
+    let diffuse = material.classical().diffuse.as_dvec3();
     assert!(
         diffuse.abs_diff_eq(DVec3::new(0.5, 0.75, 1.0), 1e-5),
         "{diffuse}"
@@ -554,7 +554,7 @@ fn pointers_animate_the_layers_of_materials() {
     });
     let (scene, half) = material_at_half(material, &channels);
     assert!(scene.skipped.is_empty(), "{:?}", scene.skipped);
-    let model = half.metallic_roughness.as_ref().expect("the model");
+    let model = half.metallic_roughness().expect("the model");
     let near = |a: f32, b: f32| (a - b).abs() < 1e-6;
     assert!(near(model.roughness, 0.4) && near(model.metallic, 0.25));
     assert!(near(model.ior, 1.75) && near(model.transmission, 0.5));
@@ -574,15 +574,18 @@ fn pointers_animate_the_layers_of_materials() {
     let still = Model::triangle(json!({ "material": 0 })).with(json!({ "materials": [still] }));
     let expected = still.scene().materials[0].clone();
     for (found, expected) in [
-        (half.diffuse, expected.diffuse),
-        (half.specular, expected.specular),
-        (half.reflect, expected.reflect),
-        (half.transmit, expected.transmit),
-        (Vec3::splat(half.shininess), Vec3::splat(expected.shininess)),
+        (half.classical().diffuse, expected.classical().diffuse),
+        (half.classical().specular, expected.classical().specular),
+        (half.classical().reflect, expected.classical().reflect),
+        (half.classical().transmit, expected.classical().transmit),
+        (
+            Vec3::splat(half.classical().shininess),
+            Vec3::splat(expected.classical().shininess),
+        ),
     ] {
         assert!(found.abs_diff_eq(expected, 1e-5), "{found}, not {expected}");
     }
-    assert!(half.thin && half.transmit != Vec3::ZERO);
+    assert!(half.thin && half.classical().transmit != Vec3::ZERO);
     // Both integrators get them, and the code for glass.
     let packed = glimray::pack::scene(&scene).expect("a scene that can be packed");
     assert!(packed.features.refraction && packed.features.thin_walls);
@@ -646,10 +649,10 @@ fn base_colors_move_with_vertex_colors_and_alpha_in_both_models() {
     let material = &scene.frame(1.0).materials[0];
     assert!((material.alpha - 0.6).abs() < 1e-6, "{}", material.alpha);
     let base = DVec3::new(0.5, 0.75, 1.0);
-    let model = material.metallic_roughness.as_ref().expect("the model");
+    let model = material.metallic_roughness().expect("the model");
     assert!(model.base_color.as_dvec3().abs_diff_eq(base, 1e-6));
     assert_eq!(scene.meshes[0].colors, [glam::vec4(0.25, 1.0, 0.0, 1.0); 3]);
-    let diffuse = material.diffuse.as_dvec3();
+    let diffuse = material.classical().diffuse.as_dvec3();
     assert!(diffuse.abs_diff_eq(base, 1e-6), "{diffuse}, not {base}");
     let packed = glimray::pack::scene(&scene).expect("a scene that can be packed");
     let view = packed.frame(&scene.frame(1.0)).expect("a frame");

@@ -291,8 +291,14 @@ fn numbers_at_the_end_of_their_range_do_no_harm() {
         .with(json!({ "materials": [material] }))
         .scene();
     let found = &scene.materials[0];
-    assert!(found.emission.is_finite() && found.specular.is_finite() && found.ior >= 1.0);
-    assert!(found.diffuse.is_finite() && found.diffuse.min_element() >= 0.0);
+    assert!(
+        found.emission.is_finite()
+            && found.classical().specular.is_finite()
+            && found.classical().ior >= 1.0
+    );
+    assert!(
+        found.classical().diffuse.is_finite() && found.classical().diffuse.min_element() >= 0.0
+    );
 }
 
 /// Programs write such files, and others read them.

@@ -35,7 +35,7 @@ fn material(material: Value) -> Material {
 }
 
 fn metallic_roughness(material: &Material) -> &MetallicRoughness {
-    material.metallic_roughness.as_deref().expect("the model")
+    material.metallic_roughness().expect("the model")
 }
 
 /// The texels of a texture.
@@ -73,23 +73,29 @@ fn assert_texel(found: Vec3, expected: [f64; 3]) {
 fn a_rough_dielectric_is_diffuse_with_a_wide_weak_highlight() {
     let found = material(json!({ "pbrMetallicRoughness": {
         "baseColorFactor": [0.5, 0.25, 1, 1], "metallicFactor": 0, "roughnessFactor": 0.5 } }));
-    assert_near(found.diffuse, [0.5, 0.25, 1.0]);
+    assert_near(found.classical().diffuse, [0.5, 0.25, 1.0]);
     // α = 1/4: the exponent of Blinn and Phong is 2/α² − 2 = 30, Phong's a quarter of it. F₀ is 0.04.
-    assert_eq!(found.shininess, 7.5);
-    assert_near(found.specular, [0.04 * 38.0 / 8.0; 3]);
-    assert_eq!((found.transmit, found.opacity), (Vec3::ZERO, 1.0));
-    assert_eq!((found.fresnel, found.ior), (Fresnel::Schlick, 1.5));
+    assert_eq!(found.classical().shininess, 7.5);
+    assert_near(found.classical().specular, [0.04 * 38.0 / 8.0; 3]);
+    assert_eq!(
+        (found.classical().transmit, found.classical().opacity),
+        (Vec3::ZERO, 1.0)
+    );
+    assert_eq!(
+        (found.classical().fresnel, found.classical().ior),
+        (Fresnel::Schlick, 1.5)
+    );
     // (1 − 1/2)⁴ of a mirror.
-    assert_near(found.reflect, [0.0625; 3]);
+    assert_near(found.classical().reflect, [0.0625; 3]);
 }
 
 #[test]
 fn a_smooth_metal_reflects_its_base_color() {
     let found = material(json!({ "pbrMetallicRoughness": {
         "baseColorFactor": [1, 0.75, 0.25, 1], "metallicFactor": 1, "roughnessFactor": 0 } }));
-    assert_eq!(found.diffuse, Vec3::ZERO);
-    assert_near(found.reflect, [1.0, 0.75, 0.25]);
-    assert_eq!(found.fresnel, Fresnel::None);
+    assert_eq!(found.classical().diffuse, Vec3::ZERO);
+    assert_near(found.classical().reflect, [1.0, 0.75, 0.25]);
+    assert_eq!(found.classical().fresnel, Fresnel::None);
 }
 
 #[test]
@@ -111,11 +117,17 @@ fn a_volume_refracts_and_absorbs() {
                                       "attenuationColor": [1, 0.5, 0.25] },
         },
     }));
-    assert_eq!((found.transmit, found.ior), (Vec3::ONE, 1.3));
-    assert_eq!((found.fresnel, found.diffuse), (Fresnel::Exact, Vec3::ZERO));
+    assert_eq!(
+        (found.classical().transmit, found.classical().ior),
+        (Vec3::ONE, 1.3)
+    );
+    assert_eq!(
+        (found.classical().fresnel, found.classical().diffuse),
+        (Fresnel::Exact, Vec3::ZERO)
+    );
     // Half remains after two units: exp(−2 a) = 1/2.
     let half = std::f64::consts::LN_2 / 2.0;
-    assert_near(found.absorption, [0.0, half, 2.0 * half]);
+    assert_near(found.classical().absorption, [0.0, half, 2.0 * half]);
 }
 
 #[test]
@@ -125,9 +137,9 @@ fn a_thin_wall_does_not_refract() {
                                   "baseColorFactor": [0, 1, 0, 1] },
         "extensions": { "KHR_materials_transmission": { "transmissionFactor": 0.75 } },
     }));
-    assert_eq!(found.ior, 1.0);
-    assert_near(found.transmit, [0.0, 0.75, 0.0]);
-    assert_near(found.diffuse, [0.0, 0.25, 0.0]);
+    assert_eq!(found.classical().ior, 1.0);
+    assert_near(found.classical().transmit, [0.0, 0.75, 0.0]);
+    assert_near(found.classical().diffuse, [0.0, 0.25, 0.0]);
 }
 
 #[test]
@@ -141,8 +153,11 @@ fn emission_has_its_strength_and_what_is_unlit_shines() {
         "pbrMetallicRoughness": { "baseColorFactor": [0.5, 0, 1, 1] },
         "extensions": { "KHR_materials_unlit": {} },
     }));
-    assert_near(found.emission, [0.5, 0.0, 1.0]);
-    assert_eq!((found.diffuse, found.specular), (Vec3::ZERO, Vec3::ZERO));
+    assert_near(found.radiance().0, [0.5, 0.0, 1.0]);
+    assert_eq!(
+        (found.classical().diffuse, found.classical().specular),
+        (Vec3::ZERO, Vec3::ZERO)
+    );
 }
 
 /// glTF's default is single-sided. Surfaces are seen from both sides, unlit ones with their colour.
@@ -181,7 +196,6 @@ fn every_parameter_is_kept() {
         },
     }));
     let expected = MetallicRoughness {
-        coverage: Coverage::Mask(0.3),
         clearcoat: 0.5,
         clearcoat_roughness: 0.25,
         sheen_color: Vec3::Z,
@@ -199,6 +213,7 @@ fn every_parameter_is_kept() {
         ..MetallicRoughness::default()
     };
     assert_eq!(*metallic_roughness(&found), expected);
+    assert_eq!(found.coverage, Coverage::Mask(0.3));
 }
 
 /// The notes on a material.
@@ -335,12 +350,12 @@ fn a_base_color_picture_is_srgb_times_a_linear_factor() {
         "baseColorTexture": { "index": 0 }, "baseColorFactor": [0.5, 1, 1, 1], "metallicFactor": 0 } }));
     picture(&mut model, 2, &[[255, 0, 0, 255], [188, 188, 188, 255]]);
     let scene = model.scene();
-    let textures = scene.materials[0].textures;
+    let textures = scene.materials[0].classical().textures;
     let found = texels(&scene, textures.diffuse);
     assert_eq!(found[0], Vec3::X);
     // ((188/255 + 0.055) / 1.055)^2.4
     assert_near(found[1], [0.502_886_5; 3]);
-    assert_near(scene.materials[0].diffuse, [0.5, 1.0, 1.0]);
+    assert_near(scene.materials[0].classical().diffuse, [0.5, 1.0, 1.0]);
     assert_eq!(textures.ambient, textures.diffuse);
     assert_eq!(scene.pictures.len(), 1);
 }
@@ -352,7 +367,7 @@ fn a_metallic_roughness_picture_divides_a_surface_into_metal_and_dielectric() {
     // Roughness 1 in green; blue is 0, then 1. Red means nothing.
     picture(&mut model, 2, &[[77, 255, 0, 255], [77, 255, 255, 255]]);
     let scene = model.scene();
-    let textures = scene.materials[0].textures;
+    let textures = scene.materials[0].classical().textures;
     let diffuse = texels(&scene, textures.diffuse);
     assert_texel(diffuse[0], [1.0, 0.5, 0.25]);
     assert_texel(diffuse[1], [0.6, 0.3, 0.15]);
@@ -379,7 +394,11 @@ fn alpha_is_kept_and_means_what_its_mode_says() {
         // Alpha means nothing where all of the surface is there.
         let alpha = if mode == "OPAQUE" { 1.0 } else { 0.5 };
         assert_eq!((material.coverage, material.alpha), (coverage, alpha));
-        assert_eq!(material.transmit, Vec3::ZERO, "alpha is not transmission");
+        assert_eq!(
+            material.classical().transmit,
+            Vec3::ZERO,
+            "alpha is not transmission"
+        );
         let Some(texture) = material.textures.alpha else {
             assert_eq!(mode, "OPAQUE");
             continue;
@@ -404,7 +423,11 @@ fn placed(extension: Value, sampler: Value) -> (Texture, Scene) {
     model.push("samplers", sampler);
     model.json["textures"][0]["sampler"] = json!(0);
     let scene = model.scene();
-    let index = scene.materials[0].textures.diffuse.expect("a texture");
+    let index = scene.materials[0]
+        .classical()
+        .textures
+        .diffuse
+        .expect("a texture");
     (scene.textures[index].clone(), scene)
 }
 
@@ -492,7 +515,7 @@ fn vertex_colors_multiply_the_base_color() {
     let factor = json!({ "baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0 });
     model.push("materials", json!({ "pbrMetallicRoughness": factor }));
     let scene = model.scene();
-    assert_near(scene.materials[0].diffuse, [0.5; 3]);
+    assert_near(scene.materials[0].classical().diffuse, [0.5; 3]);
     let colors = [
         vec4(1.0, 0.0, 0.0, 1.0),
         vec4(0.0, 1.0, 0.0, 1.0),
@@ -581,7 +604,7 @@ fn pictures_that_cannot_be_read_are_skipped_by_name_and_those_outside_refused() 
         model
     };
     let scene = with("gone.png").scene();
-    assert_near(scene.materials[0].diffuse, [0.0, 1.0, 0.0]);
+    assert_near(scene.materials[0].classical().diffuse, [0.0, 1.0, 0.0]);
     assert_eq!(
         scene.skipped,
         ["texture skipped: images[0] `gone.png` does not exist"]
@@ -604,7 +627,7 @@ fn a_clear_coat_has_its_own_normal_map() {
     let scene = super::scene("a.glb", model.glb());
     assert_eq!(scene.skipped, [] as [&str; 0]);
     let material = &scene.materials[0];
-    let layers = material.layer_textures.as_ref().expect("textures");
+    let layers = &metallic_roughness(material).textures;
     // The map's bytes are numbers and not colours.
     assert_near(texels(&scene, layers.clearcoat_normal)[0], [0.2, 0.4, 1.0]);
     assert_eq!(material.textures.normal, None);
@@ -634,8 +657,8 @@ fn what_is_not_shown_is_named() {
         path_traced.skipped,
         ["the extension `EXT_unheard_of` is not supported and was ignored"]
     );
-    let layers = scene.materials[0].layer_textures.as_ref();
-    assert!(layers.is_some_and(|layers| layers.clearcoat.is_some()));
+    let layers = &metallic_roughness(&scene.materials[0]).textures;
+    assert!(layers.clearcoat.is_some());
 }
 
 #[test]
@@ -658,7 +681,7 @@ fn maps_use_two_sets_of_texture_coordinates() {
     let textures = &material.textures;
     assert_eq!(
         [
-            textures.diffuse,
+            material.classical().textures.diffuse,
             textures.normal,
             textures.emission,
             textures.occlusion
@@ -717,14 +740,14 @@ fn maps_with_a_third_set_are_noted_and_those_that_cannot_be_combined_count_with_
     let lobes = expected.lobes(&expected.point(), 0.5);
     let near = |a: Vec3, b: Vec3| (a - b).abs().max_element() < 5e-3;
     assert!(
-        near(material.diffuse, lobes.diffuse),
+        near(material.classical().diffuse, lobes.diffuse),
         "{}",
-        material.diffuse
+        material.classical().diffuse
     );
     assert!(
-        near(material.reflect, lobes.reflect),
+        near(material.classical().reflect, lobes.reflect),
         "{}",
-        material.reflect
+        material.classical().reflect
     );
 }
 
@@ -748,8 +771,8 @@ fn paths_have_the_pictures_of_the_file_only() {
     picture(&mut model, 2, &[[0, 255, 0, 255], [0, 0, 255, 255]]);
     let traced = path_traced(&model);
     assert_eq!((traced.pictures.len(), traced.textures.len()), (2, 2));
-    let layers = traced.materials[0].layer_textures.as_deref();
-    assert_eq!(layers.and_then(|it| it.base_color), Some(0));
+    let layers = &metallic_roughness(&traced.materials[0]).textures;
+    assert_eq!(layers.base_color, Some(0));
     assert!(traced.lacks_classical_maps());
     // Three colours differ from texel to texel; what passes is zero.
     let classical = model.scene();
@@ -770,8 +793,8 @@ fn glass_by_a_map_is_glass_for_paths() {
     }));
     picture(&mut model, 1, &[[0, 255, 0, 255]]);
     let material = &path_traced(&model).materials[0];
-    assert_eq!(material.transmit, Vec3::ONE);
-    assert!(material.thin);
+    assert_eq!(material.classical().transmit, Vec3::ONE);
+    assert!(material.is_thin());
 }
 
 #[test]
@@ -784,8 +807,8 @@ fn transmission_without_a_volume_is_a_thin_wall() {
         } }),
         );
         let material = &model.scene().materials[0];
-        assert_eq!(material.thin, is_thin, "{thickness}");
-        assert!(material.transmit.min_element() > 0.0);
+        assert_eq!(material.is_thin(), is_thin, "{thickness}");
+        assert!(material.classical().transmit.min_element() > 0.0);
     }
 }
 

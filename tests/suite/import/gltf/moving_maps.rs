@@ -101,7 +101,10 @@ fn pointers_move_the_maps_that_they_name() {
         Integrator::Path,
     );
     assert_eq!(scene.skipped, [""; 0]);
-    let layers = *scene.materials[0].layer_textures.as_deref().expect("maps");
+    let layers = scene.materials[0]
+        .metallic_roughness()
+        .expect("a model")
+        .textures;
     let (base, values) = (
         layers.base_color.expect("a map"),
         layers.metallic.expect("a map"),
@@ -193,10 +196,9 @@ fn computed_pictures_move_with_their_first_map_and_others_count_with_their_mean(
         Integrator::Whitted,
     );
     let base = scene.materials[0]
-        .layer_textures
-        .as_deref()
-        .and_then(|it| it.base_color);
-    let diffuse = scene.materials[0].textures.diffuse;
+        .metallic_roughness()
+        .and_then(|it| it.textures.base_color);
+    let diffuse = scene.materials[0].classical().textures.diffuse;
     assert!(diffuse.is_some() && diffuse != base);
     for texture in [base, diffuse].into_iter().flatten() {
         for property in TextureProperty::ALL {

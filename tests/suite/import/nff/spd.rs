@@ -70,12 +70,12 @@ fn every_entity_of_the_files_is_imported() {
         assert_eq!(scene.output.size, (512, 512), "{name}");
         let fill = last("f", 0);
         assert_eq!(
-            scene.materials[0].reflect,
+            scene.materials[0].classical().reflect,
             Vec3::splat(fill[4] as f32),
             "{name}"
         );
         assert_eq!(
-            scene.materials[0].transmit,
+            scene.materials[0].classical().transmit,
             Vec3::splat(fill[6] as f32),
             "{name}"
         );

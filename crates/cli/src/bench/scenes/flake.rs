@@ -2,20 +2,20 @@
 
 use super::{Detail, empty};
 use glam::{DMat3, DVec3, Vec3, dvec3};
-use glimray_scene::{Geometry, Material, Scene, Shape};
+use glimray_scene::{Geometry, Material, Phong, Scene, Shape};
 
 /// A sphere with nine smaller spheres on it, and so on, after `balls` of Haines' Standard Procedural Databases
 /// (1987): 7,381 spheres.
 pub fn sphereflake(detail: Detail) -> Scene {
     let mut scene = empty([dvec3(1.5, 0.9, 1.2), DVec3::ZERO], dvec3(4.0, 3.0, 2.0));
     scene.cameras[0].up = DVec3::Z;
-    scene.materials = vec![Material {
+    scene.materials = vec![Material::from(Phong {
         diffuse: Vec3::new(0.5, 0.45, 0.35),
         specular: Vec3::splat(0.3),
         shininess: 30.0,
         reflect: Vec3::splat(0.3),
-        ..Material::default()
-    }];
+        ..Phong::default()
+    })];
     let root = Sphere {
         center: DVec3::ZERO,
         radius: 0.5,

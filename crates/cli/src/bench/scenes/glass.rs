@@ -2,7 +2,7 @@
 
 use super::{Detail, empty, parts::Builder, placed};
 use glam::{DAffine3, DVec3, Vec3, dvec3};
-use glimray_scene::{Fresnel, Geometry, Material, Mesh, Scene, Shape};
+use glimray_scene::{Fresnel, Geometry, Material, Mesh, Phong, Scene, Shape};
 
 /// Bounces after the first hit.
 const DEPTH: u32 = 12;
@@ -13,12 +13,12 @@ pub fn glass(detail: Detail) -> Scene {
     let view = [dvec3(0.0, 2.2, 5.5), dvec3(0.0, 0.4, 0.0)];
     let mut scene = empty(view, dvec3(1.0, 6.0, 3.0));
     scene.output.max_depth = DEPTH;
-    let mirror = Material {
+    let mirror = Material::from(Phong {
         diffuse: Vec3::splat(0.02),
         reflect: Vec3::splat(0.9),
-        ..Material::default()
-    };
-    let glass = Material {
+        ..Phong::default()
+    });
+    let glass = Material::from(Phong {
         diffuse: Vec3::ZERO,
         ambient: Vec3::ZERO,
         reflect: Vec3::ONE,
@@ -27,12 +27,16 @@ pub fn glass(detail: Detail) -> Scene {
         ior: 1.5,
         absorption: Vec3::new(0.3, 0.1, 0.2),
         fresnel: Fresnel::Exact,
-        ..Material::default()
-    };
+        ..Phong::default()
+    });
     let air = Material {
-        ior: 1.0,
-        absorption: Vec3::ZERO,
         priority: 1,
+        bsdf: Phong {
+            ior: 1.0,
+            absorption: Vec3::ZERO,
+            ..glass.classical().into_owned()
+        }
+        .into(),
         ..glass.clone()
     };
     scene.materials.extend([mirror, glass, air]);

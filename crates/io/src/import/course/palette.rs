@@ -2,7 +2,7 @@
 
 use crate::import::budget;
 use glam::Vec3;
-use glimray_scene::{Material, Mixing};
+use glimray_scene::{Material, Mixing, Phong};
 use std::collections::HashMap;
 
 /// Distinct materials, in order of appearance.
@@ -21,13 +21,17 @@ impl Palette {
         let key = [a, b, c, d, e, f, shininess].map(|value| (value + 0.0).to_bits());
         *self.indices.entry(key).or_insert_with(|| {
             self.materials.push(Material {
-                diffuse,
-                specular,
-                shininess,
-                ambient: Vec3::ONE,
                 two_sided: false,
-                reflect: specular,
-                mixing: Mixing::Blend,
+                bsdf: Phong {
+                    diffuse,
+                    specular,
+                    shininess,
+                    ambient: Vec3::ONE,
+                    reflect: specular,
+                    mixing: Mixing::Blend,
+                    ..Phong::default()
+                }
+                .into(),
                 ..Material::default()
             });
             self.materials.len() as u32 - 1

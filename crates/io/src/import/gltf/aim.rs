@@ -6,10 +6,10 @@ use super::document::{ChannelTarget, Kind, Material as Source, TextureInfo};
 use super::map_kinds::{MapKind, all_maps};
 use super::materials::MaterialKey;
 use crate::import::error::ImportError;
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use glimray_scene::{
     CameraProperty, Coverage, LayerProperty, LightProperty, Material, MaterialProperty,
-    NodeProperty, Target, TextureProperty,
+    MetallicRoughness, NodeProperty, Target, TextureProperty,
 };
 use std::f64::consts::PI;
 
@@ -223,7 +223,7 @@ impl Reader<'_> {
             Aim::Emission(index) => {
                 let factor = DVec3::splat(self.emissive_strength(index));
                 let add = |material: usize, shown: &Material| {
-                    let is_unlit = shown.metallic_roughness.as_ref().is_some_and(|it| it.unlit);
+                    let is_unlit = shown.metallic_roughness().is_some_and(|it| it.unlit);
                     let target = Target::Material(material, MaterialProperty::Emission);
                     (!is_unlit)
                         .then_some((target, factor))
@@ -298,40 +298,29 @@ impl Reader<'_> {
             // Where there is glass at some time, it is a thin wall at all times unless it has a thickness.
             if let Some(material) = self.shown_material(index) {
                 let material = &mut self.scene.materials[material];
-                let thickness = material.metallic_roughness.as_ref().map(|it| it.thickness);
-                material.thin = thickness == Some(0.0);
+                let is_wall =
+                    |it: &MetallicRoughness| it.thickness == 0.0 && it.transmission == 0.0;
+                material.thin = material.metallic_roughness().is_some_and(is_wall);
             }
         }
-        let follows = |shown: &Material| shown.follows_layers() && !shown.has_classical_maps();
         let targets = self.targets_of_material(index, |material, shown| {
-            let Some(model) = &shown.metallic_roughness else {
+            let Some(model) = shown.metallic_roughness() else {
                 return Vec::new();
             };
             let layer = |factor| (Target::Layer(material, property), DVec3::splat(factor));
-            let classical = |property, factor| (Target::Material(material, property), factor);
             match property {
                 LayerProperty::EmissionStrength => vec![layer(rest.recip())],
                 // The colour is the emission then.
                 LayerProperty::BaseColor if model.unlit => {
-                    vec![classical(MaterialProperty::Emission, DVec3::ONE)]
-                }
-                // These are kept when the scene is converted.
-                LayerProperty::BaseColor if follows(shown) => {
-                    let mut white = model.point();
-                    white.base_color = Vec3::ONE;
-                    let factor = model.lobes(&white, model.roughness).diffuse.as_dvec3();
-                    vec![
-                        classical(MaterialProperty::Diffuse, factor),
-                        classical(MaterialProperty::Ambient, factor),
-                        layer(1.0),
-                    ]
+                    let target = Target::Material(material, MaterialProperty::Emission);
+                    vec![(target, DVec3::ONE)]
                 }
                 _ if model.unlit => Vec::new(),
                 _ => vec![layer(1.0)],
             }
         });
         let is_baked = |(target, _): &Scaled| match *target {
-            Target::Layer(material, _) => !follows(&self.scene.materials[material]),
+            Target::Layer(material, _) => self.scene.materials[material].has_classical_maps(),
             _ => false,
         };
         let is_classical = !self.traces_paths && property != LayerProperty::EmissionStrength;

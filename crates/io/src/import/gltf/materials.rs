@@ -9,8 +9,7 @@ use super::values::{Checked, MOST};
 use crate::import::error::ImportError;
 use crate::import::{budget, range};
 use glam::{DVec3, Vec3};
-use glimray_scene::{Coverage, LayerTextures, Material, MetallicRoughness};
-use std::sync::Arc;
+use glimray_scene::{Coverage, Material, MetallicRoughness};
 
 /// Least and most of the factor on the slopes of normal maps.
 pub(super) const NORMAL_SCALE: [f64; 2] = [0.0, 1e3];
@@ -46,7 +45,7 @@ impl Reader<'_> {
         if !self.surfaces.contains_key(&key) {
             let surface = match index {
                 None => Surface {
-                    material: Material::physical(Arc::default(), LayerTextures::default()),
+                    material: MetallicRoughness::default().into(),
                     uv_sets: Vec::new(),
                 },
                 Some(index) => {
@@ -111,11 +110,12 @@ impl Reader<'_> {
     fn surface(&mut self, source: &Source, index: usize) -> Result<Surface, ImportError> {
         let here = format!("materials[{index}]");
         let mut values = Checked::new(&mut self.notes, &here, source.name.as_deref());
-        let model = model(source, &mut values);
+        let (model, mut material) = parameters(source, &mut values);
         self.note_maps(source, &here)?;
         let is_anisotropic = model.anisotropy > 0.0;
-        let sets = self.sets_of(source, index, &model)?;
-        let mut material = self.textured(source, index, model, &sets)?;
+        let can_emit = !model.unlit && self.can_emit(index, &material);
+        let sets = self.sets_of(source, index, &model, can_emit)?;
+        self.textured(source, index, (model, can_emit), &sets, &mut material)?;
         material.name = source.name.clone().unwrap_or_default();
         let mut uv_sets = sets.into_slots();
         if is_anisotropic && uv_sets.is_empty() {
@@ -150,16 +150,17 @@ impl Reader<'_> {
     }
 }
 
-/// The parameters of a material.
-fn model(source: &Source, values: &mut Checked) -> MetallicRoughness {
+/// The parameters of a material: those of its BSDF, and a material with the others.
+fn parameters(source: &Source, values: &mut Checked) -> (MetallicRoughness, Material) {
     let none = Extensions::default();
     let extensions = source.extensions.as_deref().unwrap_or(&none);
+    let mut material = Material::default();
     let mut model = MetallicRoughness::default();
     if let Some(pbr) = &source.pbr_metallic_roughness {
         let color = pbr.base_color_factor.unwrap_or([1.0; 4]);
         let [r, g, b, a] = values.numbers("baseColorFactor", color, [0.0, 1.0]);
         model.base_color = DVec3::new(r, g, b).as_vec3();
-        model.alpha = a as f32;
+        material.alpha = a as f32;
         model.metallic = values.unit("metallicFactor", pbr.metallic_factor, 1.0);
         model.roughness = values.unit("roughnessFactor", pbr.roughness_factor, 1.0);
     }
@@ -167,20 +168,20 @@ fn model(source: &Source, values: &mut Checked) -> MetallicRoughness {
         let color = older.diffuse_factor.unwrap_or([1.0; 4]);
         let [r, g, b, a] = values.numbers("diffuseFactor", color, [0.0, 1.0]);
         model.base_color = DVec3::new(r, g, b).as_vec3();
-        model.alpha = a as f32;
+        material.alpha = a as f32;
         model.metallic = 0.0;
         model.roughness = 1.0 - values.unit("glossinessFactor", older.glossiness_factor, 1.0);
         // F₀ of the default index of refraction is 0.04.
         let specular = values.unit_color("specularFactor", older.specular_factor, Vec3::ONE);
         model.specular_color = specular / 0.04;
     }
-    model.coverage = match source.alpha_mode {
+    material.coverage = match source.alpha_mode {
         AlphaMode::Opaque => Coverage::Opaque,
         AlphaMode::Mask => Coverage::Mask(values.unit("alphaCutoff", source.alpha_cutoff, 0.5)),
         AlphaMode::Blend => Coverage::Blend,
     };
-    if model.coverage == Coverage::Opaque {
-        model.alpha = 1.0;
+    if material.coverage == Coverage::Opaque {
+        material.alpha = 1.0;
     }
     model.unlit = extensions.unlit.is_some();
     if !model.unlit {
@@ -188,7 +189,7 @@ fn model(source: &Source, values: &mut Checked) -> MetallicRoughness {
         let strength = strength.and_then(|it| it.emissive_strength);
         let strength = values.amount("emissiveStrength", strength, 1.0, 0.0);
         let color = values.unit_color("emissiveFactor", source.emissive_factor, Vec3::ZERO);
-        model.emission = strength * color;
+        material.emission = strength * color;
     }
     if let Some(it) = &extensions.ior {
         let most = f64::from(range::IOR.1);
@@ -264,7 +265,7 @@ fn model(source: &Source, values: &mut Checked) -> MetallicRoughness {
         model.diffuse_transmission_color =
             values.unit_color("diffuseTransmissionColorFactor", color, Vec3::ONE);
     }
-    model
+    (model, material)
 }
 
 /// The distance after which light in a volume has its attenuation colour.

@@ -13,27 +13,27 @@ use glam::Vec3;
 use glimray_scene::{
     Coverage, LayerProperty, LayerTextures, Material, MetallicRoughness, Pattern, Space, Texture,
 };
-use std::sync::Arc;
 
 impl Reader<'_> {
-    /// Whether `materials[index]`, whose parameters are `model`, emits light at some time: a clip may begin with none.
-    pub(super) fn can_emit(&self, index: usize, model: &MetallicRoughness) -> bool {
+    /// Whether `materials[index]`, which is `material` at rest, emits light at some time: a clip may begin with none.
+    pub(super) fn can_emit(&self, index: usize, material: &Material) -> bool {
         let is_own = |aim| matches!(aim, Aim::Emission(it) | Aim::Layer(it, LayerProperty::EmissionStrength) if it == index);
         let clips = self.document.animations.iter();
         let mut channels = clips.flat_map(|clip| &clip.channels);
-        model.emission != Vec3::ZERO
+        material.emission != Vec3::ZERO
             || channels.any(|channel| Aim::of(&channel.target).is_some_and(is_own))
     }
 
-    /// The material of `materials[index]`, which is `source` with the parameters `model`, with its maps. `sets` are its sets
-    /// of texture coordinates: [`Self::sets_of`].
+    /// Gives `material`, which is `materials[index]` of the file, its maps and its BSDF, whose parameters are `model`. It emits
+    /// light at some time if it `can_emit`. `sets` are its sets of texture coordinates: [`Self::sets_of`].
     pub(super) fn textured(
         &mut self,
         source: &Source,
         index: usize,
-        model: MetallicRoughness,
+        (mut model, can_emit): (MetallicRoughness, bool),
         sets: &Sets,
-    ) -> Result<Material, ImportError> {
+        material: &mut Material,
+    ) -> Result<(), ImportError> {
         let here = &format!("materials[{index}]");
         let pbr = source.pbr_metallic_roughness.as_deref();
         let extensions = source.extensions.as_deref();
@@ -52,22 +52,20 @@ impl Reader<'_> {
                 .and_then(|it| it.transmission_texture.as_deref()),
         ];
         let is_lit = !model.unlit;
-        let layers = match is_lit {
-            true => self.layer_textures(source, infos, sets, here)?,
-            false => LayerTextures {
+        let layers = if is_lit {
+            self.layer_textures(source, infos, sets, here)?
+        } else {
+            // An unlit surface shines with its colour, and has no layers.
+            LayerTextures {
                 base_color: match infos[0] {
                     Some(info) => self.other(info, false, sets, here)?,
                     None => None,
                 },
                 ..LayerTextures::default()
-            },
+            }
         };
-        let can_emit = is_lit && self.can_emit(index, &model);
-        let mut material = Material::physical(Arc::new(model), layers);
-        if !is_lit {
-            // An unlit surface shines with its colour, and has no layers.
-            material.layer_textures = None;
-        }
+        model.textures = layers;
+        material.bsdf = model.into();
         // Unlit surfaces are seen from both sides.
         material.two_sided_emission = source.double_sided == Some(true) || !can_emit;
         if source.double_sided == Some(false) && !can_emit {
@@ -103,7 +101,7 @@ impl Reader<'_> {
             material.occlusion_strength =
                 values.unit("occlusionTexture.strength", info.strength, 1.0);
         }
-        Ok(material)
+        Ok(())
     }
 
     /// Notes the maps of which classical colours have the mean, for each texel of theirs may lie elsewhere.

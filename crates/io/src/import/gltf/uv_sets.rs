@@ -46,16 +46,16 @@ impl Sets {
 }
 
 impl<'a> Reader<'a> {
-    /// The sets of texture coordinates of `materials[index]`, which is `source` with the parameters `model`. Maps with
-    /// a third set are noted.
+    /// The sets of texture coordinates of `materials[index]`, which is `source` with the parameters `model` and emits light
+    /// at some time if it `can_emit`. Maps with a third set are noted.
     pub(super) fn sets_of(
         &mut self,
         source: &Source,
         index: usize,
         model: &MetallicRoughness,
+        can_emit: bool,
     ) -> Result<Sets, ImportError> {
         let here = format!("materials[{index}]");
-        let can_emit = self.can_emit(index, model);
         let mut maps = Vec::new();
         for (kind, info) in all_maps(source) {
             let Some(rank) = rank(kind, source, model, can_emit) else {

@@ -7,10 +7,9 @@ use super::textures::Textures;
 use crate::import::error::ImportError;
 use crate::import::suggest;
 use glam::Vec3;
-use glimray_scene::{self as scene, Coverage, Fresnel, Material};
+use glimray_scene::{Coverage, Fresnel, Material, Phong};
 use std::collections::HashMap;
 use std::ops::Range;
-use std::sync::Arc;
 use toml::Spanned;
 
 /// The material that `table` describes.
@@ -27,28 +26,32 @@ pub(super) fn material(
         None => (Coverage::Opaque, 1.0),
     };
     let mut material = match &table.pbr {
-        Some(pbr) => physical::material(pbr.get_ref(), (coverage, alpha), textures)?,
+        Some(pbr) => physical::material(pbr.get_ref(), textures)?,
         None => Material::default(),
     };
+    // Beside `pbr`, `phong` and `optics` say what the classical integrators show instead.
+    let mut phong = material.classical().into_owned();
     match &table.phong {
-        Some(phong) => with_phong(&mut material, phong, textures)?,
+        Some(own) => with_phong(&mut phong, own, textures)?,
         None if table.pbr.is_none() => {
-            with_phong(&mut material, &PhongTable::default(), textures)?;
+            with_phong(&mut phong, &PhongTable::default(), textures)?;
         }
         None => {}
     }
     if let Some(emission) = &table.emission {
         (material.emission, material.textures.emission) = textures.color(emission)?;
-        if let Some(model) = &mut material.metallic_roughness
-            && !model.unlit
+        let is_black = (material.emission, material.textures.emission) == (Vec3::ZERO, None);
+        if let Some(model) = material.metallic_roughness_mut()
+            && model.unlit
+            && is_black
         {
-            Arc::make_mut(model).emission = material.emission;
+            model.base_color = Vec3::ZERO;
         }
     }
     name.clone_into(&mut material.name);
     material.two_sided = table.two_sided;
     material.two_sided_emission = table.two_sided_emission;
-    material.thin |= table.thin;
+    material.thin = table.thin;
     material.shadow_catcher = table.shadow_catcher;
     (material.coverage, material.alpha) = (coverage, alpha);
     if let Some(map) = table.coverage.as_ref().and_then(|it| it.map.as_ref()) {
@@ -75,7 +78,10 @@ pub(super) fn material(
             let why = "`optics` replaces `reflect` and `refract`";
             return Err(textures.refuse(optics.span(), why, "Leave out the others"));
         }
-        return with_optics(material, optics.get_ref(), textures);
+        material.priority = optics.get_ref().priority.0;
+        with_optics(&mut phong, optics.get_ref(), textures)?;
+        material.set_classical(phong);
+        return Ok(material);
     }
     if let (Some(pbr), true) = (
         &table.pbr,
@@ -90,69 +96,60 @@ pub(super) fn material(
     if let Some(reflect) = &table.reflect {
         mirrored = reflect.amount.0;
         let color = textures.color(&reflect.color)?;
-        material.reflect = mirrored * color.0;
-        material.textures.reflect = color.1;
-        material.fresnel = reflect.fresnel.into();
-        material.ior = reflect.ior.0;
+        phong.reflect = mirrored * color.0;
+        phong.textures.reflect = color.1;
+        phong.fresnel = reflect.fresnel.into();
+        phong.ior = reflect.ior.0;
     }
     if let Some(refract) = &table.refract {
         check(table, refract, mirrored, textures)?;
         let refract = refract.get_ref();
         let amount = refract.amount.0;
         let color = textures.color(&refract.color)?;
-        material.transmit = amount * color.0;
-        material.textures.transmit = color.1;
-        material.opacity = 1.0 - amount;
-        material.ior = refract.ior.0;
-        material.absorption = refract.absorption.0;
+        phong.transmit = amount * color.0;
+        phong.textures.transmit = color.1;
+        phong.opacity = 1.0 - amount;
+        phong.ior = refract.ior.0;
+        phong.absorption = refract.absorption.0;
         material.priority = refract.priority.0;
-        material.fresnel = refract.fresnel.into();
-        if material.fresnel != Fresnel::None {
-            material.reflect = Vec3::splat(amount);
+        phong.fresnel = refract.fresnel.into();
+        if phong.fresnel != Fresnel::None {
+            phong.reflect = Vec3::splat(amount);
         }
     }
+    material.set_classical(phong);
     Ok(material)
 }
 
 fn with_phong(
-    material: &mut Material,
-    phong: &PhongTable,
+    phong: &mut Phong,
+    table: &PhongTable,
     textures: &mut Textures,
 ) -> Result<(), ImportError> {
-    let own = &mut material.textures;
-    (material.diffuse, own.diffuse) = textures.color(&phong.diffuse)?;
-    (material.specular, own.specular) = textures.color(&phong.specular)?;
-    (material.ambient, own.ambient) = match &phong.ambient {
+    let own = &mut phong.textures;
+    (phong.diffuse, own.diffuse) = textures.color(&table.diffuse)?;
+    (phong.specular, own.specular) = textures.color(&table.specular)?;
+    (phong.ambient, own.ambient) = match &table.ambient {
         Some(ambient) => textures.color(ambient)?,
-        None => (material.diffuse, own.diffuse),
+        None => (phong.diffuse, own.diffuse),
     };
-    material.shininess = phong.shininess.0;
+    phong.shininess = table.shininess.0;
     Ok(())
 }
 
 fn with_optics(
-    material: Material,
+    phong: &mut Phong,
     optics: &OpticsTable,
     textures: &mut Textures,
-) -> Result<Material, ImportError> {
-    let reflect = textures.color(&optics.reflect)?;
-    let transmit = textures.color(&optics.transmit)?;
-    Ok(Material {
-        reflect: reflect.0,
-        transmit: transmit.0,
-        opacity: optics.opacity.0,
-        ior: optics.ior.0 as f32,
-        absorption: optics.absorption.0,
-        priority: optics.priority.0,
-        fresnel: optics.fresnel.into(),
-        mixing: optics.mixing.into(),
-        textures: scene::Textures {
-            reflect: reflect.1,
-            transmit: transmit.1,
-            ..material.textures
-        },
-        ..material
-    })
+) -> Result<(), ImportError> {
+    (phong.reflect, phong.textures.reflect) = textures.color(&optics.reflect)?;
+    (phong.transmit, phong.textures.transmit) = textures.color(&optics.transmit)?;
+    phong.opacity = optics.opacity.0;
+    phong.ior = optics.ior.0 as f32;
+    phong.absorption = optics.absorption.0;
+    phong.fresnel = optics.fresnel.into();
+    phong.mixing = optics.mixing.into();
+    Ok(())
 }
 
 /// Refuses a material that specifies reflection twice, or creates energy.

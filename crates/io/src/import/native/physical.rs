@@ -5,21 +5,14 @@ use super::textures::Textures;
 use super::values::Color;
 use crate::import::error::ImportError;
 use glam::Vec3;
-use glimray_scene::{Coverage, LayerTextures, Material, MetallicRoughness};
+use glimray_scene::{LayerTextures, Material, MetallicRoughness};
 use std::ops::Range;
-use std::sync::Arc;
 use toml::Spanned;
 
-/// The material that `table` describes, of this coverage and alpha.
-pub(super) fn material(
-    table: &PbrTable,
-    coverage: (Coverage, f32),
-    textures: &mut Textures,
-) -> Result<Material, ImportError> {
+/// The material that `table` describes.
+pub(super) fn material(table: &PbrTable, textures: &mut Textures) -> Result<Material, ImportError> {
     let mut layers = LayerTextures::default();
     let mut model = MetallicRoughness {
-        alpha: coverage.1,
-        coverage: coverage.0,
         unlit: table.unlit,
         ior: table.ior.0,
         thickness: table.thickness.0,
@@ -78,12 +71,12 @@ pub(super) fn material(
             return Err(textures.refuse(value.span(), why, "Give it a picture, or a number"));
         }
     }
-    let mut material = Material::physical(Arc::new(model), layers);
-    material.priority = table.priority.0;
-    if tint != Vec3::ONE {
-        material.paint(tint);
-    }
-    Ok(material)
+    model.textures = layers;
+    Ok(Material {
+        tint,
+        priority: table.priority.0,
+        ..model.into()
+    })
 }
 
 /// A colour from 0 to 1.

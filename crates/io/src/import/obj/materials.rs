@@ -8,8 +8,11 @@ use crate::import::picture::{self, Place, Refused, Role};
 use crate::import::source::{Source, Token, quote};
 use crate::import::tint;
 use glam::{Vec3, Vec4};
-use glimray_scene::{Coverage, LayerTextures, Material, Minify, Pattern, Space, Texture, Wrap};
+use glimray_scene::{
+    Bsdf, Coverage, LayerTextures, Material, Minify, Pattern, PhongTextures, Space, Texture, Wrap,
+};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Size limit of a material file in bytes.
 const MAX_MTL_BYTES: u64 = 64 << 20;
@@ -240,10 +243,11 @@ impl<'s> Reader<'s> {
         if self.replaced.is_some() {
             return;
         }
-        material.textures.diffuse = self.picture(maps.diffuse, Role::Color, file);
-        if material.metallic_roughness.is_some() {
-            let layers = LayerTextures {
-                base_color: material.textures.diffuse,
+        let diffuse = self.picture(maps.diffuse, Role::Color, file);
+        let mut phong = material.classical().into_owned();
+        if let Bsdf::MetallicRoughness(model) = &mut material.bsdf {
+            Arc::make_mut(model).textures = LayerTextures {
+                base_color: diffuse,
                 roughness: self.picture(maps.roughness, Role::Data, file),
                 metallic: self.picture(maps.metallic, Role::Data, file),
                 sheen_color: self.picture(maps.sheen, Role::Color, file),
@@ -251,15 +255,19 @@ impl<'s> Reader<'s> {
                 clearcoat_roughness: self.picture(maps.coat_roughness, Role::Data, file),
                 ..LayerTextures::default()
             };
-            material.layer_textures =
-                (layers != LayerTextures::default()).then(|| Box::new(layers));
         }
-        material.textures.specular = self.picture(maps.specular, Role::Color, file);
-        // Few exporters write an ambient texture, and all use the diffuse one.
-        material.textures.ambient = match maps.ambient {
-            None => material.textures.diffuse,
-            map => self.picture(map, Role::Color, file),
+        let specular = self.picture(maps.specular, Role::Color, file);
+        phong.textures = PhongTextures {
+            diffuse,
+            specular,
+            // Few exporters write an ambient texture, and all use the diffuse one.
+            ambient: match maps.ambient {
+                None => diffuse,
+                map => self.picture(map, Role::Color, file),
+            },
+            ..PhongTextures::default()
         };
+        material.set_classical(phong);
         material.textures.emission = self.picture(maps.emission, Role::Color, file);
         material.textures.normal = self.picture(maps.normal, Role::Data, file);
         if material.textures.normal.is_none()
@@ -331,8 +339,10 @@ fn library_name(name: &Token) -> String {
 fn cover(material: &mut Material) {
     if material.coverage == Coverage::Opaque {
         material.coverage = Coverage::Blend;
-        material.alpha *= std::mem::replace(&mut material.opacity, 1.0);
-        material.transmit = Vec3::ZERO;
+        if let Bsdf::Phong(phong) = &mut material.bsdf {
+            material.alpha *= std::mem::replace(&mut phong.opacity, 1.0);
+            phong.transmit = Vec3::ZERO;
+        }
     }
 }
 

@@ -13,7 +13,7 @@ use crate::import::notes::Notes;
 use crate::import::number;
 use crate::import::source::{Source, Token, quote};
 use glam::{DMat3, DVec3, Vec3};
-use glimray_scene::Material;
+use glimray_scene::{Material, Phong};
 use keys::{Color, Key, Number, Slot};
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -403,7 +403,7 @@ impl Draft<'_> {
         let white = |is_image: bool| is_image.then_some(Vec3::ONE);
         let one = |is_image: bool| is_image.then_some(1.0);
         let (maps, values) = (&self.maps, &mut self.values);
-        let default = Material::default();
+        let default = Phong::default();
         let is_pictured = maps.diffuse.is_some();
         values.kd = (self.diffuse.or(white(is_pictured))).unwrap_or(default.diffuse);
         values.ks = (self.specular.or(white(maps.specular.is_some()))).unwrap_or(default.specular);

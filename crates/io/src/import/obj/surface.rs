@@ -4,7 +4,7 @@
 //! MTL, 2012.
 
 use glam::Vec3;
-use glimray_scene::{Coverage, Fresnel, Material, MetallicRoughness};
+use glimray_scene::{Coverage, Fresnel, Material, MetallicRoughness, Phong};
 use std::f32::consts::TAU;
 
 /// The values of a material, by their keys.
@@ -38,7 +38,7 @@ const SHEEN_ROUGHNESS: f32 = 0.5;
 
 impl Default for Values {
     fn default() -> Self {
-        let default = Material::default();
+        let default = Phong::default();
         Self {
             kd: default.diffuse,
             ks: default.specular,
@@ -65,36 +65,50 @@ impl Default for Values {
 impl Values {
     /// The material, without name and textures.
     pub fn material(&self) -> Material {
-        let opacity = self.opacity();
         let mut material = Material {
-            diffuse: self.kd,
-            specular: if self.illum == 1 { Vec3::ZERO } else { self.ks },
-            ambient: self.ka.unwrap_or(self.kd),
-            shininess: self.ns,
             emission: self.ke,
-            opacity,
-            transmit: self.transmit(),
             shadow_catcher: self.illum == 10,
             ..Material::default()
         };
-        if self.is_physical() {
-            self.physical(&mut material);
-        } else if matches!(self.illum, 3..=7) {
-            self.optical(&mut material);
-        }
+        let mut phong = if self.is_physical() {
+            material.bsdf = self.physical().into();
+            self.cover(&mut material);
+            material.classical().into_owned()
+        } else {
+            self.phong()
+        };
         // Models 6 and 7 refract; others are seen straight through.
-        match self.refracts() {
-            true => material.ior = self.ni,
-            false => material.thin = material.transmit != Vec3::ZERO,
+        if self.refracts() {
+            phong.ior = self.ni;
+        } else {
+            material.thin = phong.transmit != Vec3::ZERO;
         }
         if self.illum == 0 {
             // A constant colour.
             material.emission += self.kd;
-            material.diffuse = Vec3::ZERO;
-            material.ambient = Vec3::ZERO;
-            material.specular = Vec3::ZERO;
+            phong.diffuse = Vec3::ZERO;
+            phong.ambient = Vec3::ZERO;
+            phong.specular = Vec3::ZERO;
         }
+        material.set_classical(phong);
         material
+    }
+
+    /// The coefficients of the models of the specification.
+    fn phong(&self) -> Phong {
+        let mut phong = Phong {
+            diffuse: self.kd,
+            specular: if self.illum == 1 { Vec3::ZERO } else { self.ks },
+            ambient: self.ka.unwrap_or(self.kd),
+            shininess: self.ns,
+            opacity: self.opacity(),
+            transmit: self.transmit(),
+            ..Phong::default()
+        };
+        if matches!(self.illum, 3..=7) {
+            self.optical(&mut phong);
+        }
+        phong
     }
 
     fn opacity(&self) -> f32 {
@@ -141,19 +155,26 @@ impl Values {
     }
 
     /// The mirror of models 3 to 7: 8 and 9 do not trace rays. Models 5 and 7 have Fresnel's equations.
-    fn optical(&self, material: &mut Material) {
-        material.reflect = self.ks.min(Vec3::ONE);
+    fn optical(&self, phong: &mut Phong) {
+        phong.reflect = self.ks.min(Vec3::ONE);
         if matches!(self.illum, 5 | 7) {
-            material.fresnel = Fresnel::Exact;
-            material.ior = if self.ni > 1.0 { self.ni } else { 1.5 };
+            phong.fresnel = Fresnel::Exact;
+            phong.ior = if self.ni > 1.0 { self.ni } else { 1.5 };
         }
     }
 
-    /// A metallic-roughness material. What `d` leaves out is a hole: the body of a metal does not refract.
-    fn physical(&self, material: &mut Material) {
-        let opacity = material.opacity;
+    /// Makes what `d` leaves out of a metallic-roughness material a hole: the body of a metal does not refract.
+    fn cover(&self, material: &mut Material) {
+        material.alpha = self.opacity();
+        if material.alpha < 1.0 {
+            material.coverage = Coverage::Blend;
+        }
+    }
+
+    /// The parameters of a metallic-roughness material.
+    fn physical(&self) -> MetallicRoughness {
         let usual = MetallicRoughness::default();
-        let model = MetallicRoughness {
+        MetallicRoughness {
             base_color: self.kd,
             metallic: self.pm.unwrap_or(0.0),
             roughness: self.pr.unwrap_or(0.5),
@@ -163,19 +184,8 @@ impl Values {
             sheen_roughness: SHEEN_ROUGHNESS,
             anisotropy: self.aniso,
             anisotropy_rotation: TAU * self.anisor.fract(),
-            emission: self.ke,
             ior: if self.ni > 1.0 { self.ni } else { usual.ior },
-            alpha: opacity,
-            coverage: match opacity < 1.0 {
-                true => Coverage::Blend,
-                false => Coverage::Opaque,
-            },
             ..usual
-        };
-        *material = Material {
-            metallic_roughness: Some(model.clone().into()),
-            shadow_catcher: material.shadow_catcher,
-            ..model.classical(String::new())
-        };
+        }
     }
 }

@@ -64,5 +64,5 @@ impl Reader<'_> {
 }
 
 fn is_textured(material: &Material) -> bool {
-    material.has_tangents() || material.textures.all().iter().any(Option::is_some)
+    material.has_tangents() || material.texture_indices().next().is_some()
 }

@@ -78,8 +78,8 @@ fn sphere_in(
     time: f64,
 ) -> Option<Geometry> {
     let shape = &scene.shapes[index];
-    let textures = scene.materials[shape.material].textures.all();
-    let is_mapped = (textures.iter().flatten()).any(|&at| scene.textures[at].space != Space::World);
+    let mut textures = scene.materials[shape.material].texture_indices();
+    let is_mapped = textures.any(|at| scene.textures[at].space != Space::World);
     if is_mapped || !matches!(shape.geometry, Geometry::Sphere { .. }) {
         return None;
     }

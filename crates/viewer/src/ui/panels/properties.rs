@@ -5,6 +5,7 @@ mod environment;
 mod fields;
 mod light;
 mod material;
+mod material_rows;
 mod place;
 
 use crate::model::bindings::Action;

@@ -13,7 +13,7 @@ use crate::import::rounding;
 use crate::import::source::quote;
 use crate::import::{MAX_GEOMETRY_BYTES, obj, ply, suggest};
 use glam::{DAffine3, DVec3, Vec2};
-use glimray_scene::{self as scene, Geometry, Instance, Mesh, Repairs, Shape, Space};
+use glimray_scene::{Geometry, Instance, Mesh, Repairs, Shape, Space};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -73,7 +73,9 @@ impl Builder<'_> {
         table: &ObjectTable,
     ) -> Result<Vec<DVec3>, ImportError> {
         let material = self.material_of(index, table.material.as_ref())?;
-        let textured = self.scene.materials[material].textures != scene::Textures::default();
+        let textured = (self.scene.materials[material].texture_indices())
+            .next()
+            .is_some();
         let placed = place.node_from_here;
         let kind = (textured, place.node.is_some() && table.carried_by.is_none());
         let Some(geometry) = shapes::geometry(table, placed, kind, self.texts)? else {
@@ -308,10 +310,7 @@ impl Builder<'_> {
                     .for_each(|index| *index += first);
                 let first = self.textures.textures.len();
                 for material in &mut model.materials {
-                    material.textures.shift(first);
-                    if let Some(layers) = &mut material.layer_textures {
-                        layers.shift(first);
-                    }
+                    material.shift_textures(first);
                 }
                 self.textures.textures.append(&mut model.textures);
                 self.scene.materials.append(&mut model.materials);
@@ -323,8 +322,7 @@ impl Builder<'_> {
     /// Whether a texture of the material with this index uses u and v.
     fn wants_uvs(&self, material: usize) -> bool {
         let material = &self.scene.materials[material];
-        let layers = material.layer_textures.iter().flat_map(|it| it.all());
-        let mut textures = material.textures.all().into_iter().chain(layers).flatten();
+        let mut textures = material.texture_indices();
         textures.any(|index| self.textures.textures[index].space != Space::World)
     }
 

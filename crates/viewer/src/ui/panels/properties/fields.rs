@@ -62,6 +62,9 @@ impl Limits {
         unit: "°",
     };
 
+    /// From 0 to 1.
+    pub const UNIT: Self = Self::between(0.0, 1.0);
+
     pub const fn between(least: f64, most: f64) -> Self {
         Self {
             least,
@@ -116,6 +119,12 @@ impl<'a> Fields<'a> {
     /// Disables the next row if a track animates `target`.
     pub fn driven_by(&mut self, target: Target) -> &mut Self {
         self.driver = Some(target);
+        self
+    }
+
+    /// Disables the next row if a track animates `target`, if there is one.
+    pub fn may_be_driven_by(&mut self, target: Option<Target>) -> &mut Self {
+        self.driver = target;
         self
     }
 

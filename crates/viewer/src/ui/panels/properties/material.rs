@@ -1,209 +1,205 @@
 //! The properties of a material.
 
+use super::material_rows::{NORMAL_MAP, Part, TextureRow, color, number, textures, with};
 use crate::model::objects;
 use crate::model::objects::Id;
 use crate::state::session::Session;
 use crate::ui::panels::icon;
 use crate::ui::panels::properties::fields::{Fields, Limits};
 use glam::Vec3;
-use glimray_scene::{
-    Fresnel, Material, MaterialProperty, Mixing, ObjectRef, Pattern, Scene, Target, Textures,
-};
+use glimray_scene::{Bsdf, Fresnel, Material, MaterialProperty, Mixing, ObjectRef, Phong, Target};
 
 /// The option that links the ambient colour to the diffuse colour.
 const FOLLOWS: &str = "Ambient follows diffuse";
 
-/// Draws all properties of a material.
+/// Draws all properties of a material: those that it has in common with others, and those of its BSDF.
 pub fn show(fields: &mut Fields, index: usize) {
     let scene = fields.scene;
     let material = &scene.materials[index];
-    local_shading(fields, index, material);
-    mirror_and_glass(fields, index, material);
-    textures(fields, index, &material.textures);
+    match &material.bsdf {
+        Bsdf::Phong(phong) => {
+            local_shading(fields, index, phong);
+            emission(fields, index, material);
+            mirror_and_glass(fields, index, phong);
+            priority(fields, index, material);
+            texture_heading(fields);
+            textures(fields, index, PHONG_TEXTURES);
+        }
+        Bsdf::MetallicRoughness(_) => {
+            emission(fields, index, material);
+            priority(fields, index, material);
+            texture_heading(fields);
+        }
+    }
+    textures(fields, index, TEXTURES);
 }
 
-/// A change of a material.
-fn with<T>(index: usize, change: fn(&mut Material, T)) -> impl FnOnce(&mut Scene, T) {
-    move |scene, to| change(&mut scene.materials[index], to)
-}
-
-fn local_shading(fields: &mut Fields, index: usize, material: &Material) {
+fn local_shading(fields: &mut Fields, index: usize, phong: &Phong) {
     use MaterialProperty as P;
+    let at = |property| Some(Target::Material(index, property));
     fields.heading("Local shading");
     let tip = "Diffuse reflection coefficient (k_d).";
-    let is_same = material.ambient == material.diffuse;
+    let is_same = phong.ambient == phong.diffuse;
     let follows = is_same && fields.option_value(FOLLOWS, true);
-    let set = match follows {
-        true => |material: &mut Material, to: Vec3| {
-            (material.diffuse, material.ambient) = (to, to);
-        },
-        false => |material: &mut Material, to: Vec3| material.diffuse = to,
+    let set = if follows {
+        |phong: &mut Phong, to: Vec3| (phong.diffuse, phong.ambient) = (to, to)
+    } else {
+        |phong: &mut Phong, to: Vec3| phong.diffuse = to
     };
     fields.driven_by(Target::Material(index, P::Diffuse)).color(
         ("Diffuse", tip),
-        material.diffuse,
+        phong.diffuse,
         with(index, set),
     );
     let tip = "Specular reflection coefficient (k_s).";
-    color(fields, index, ("Specular", tip), P::Specular, |m| {
-        &mut m.specular
+    let label = ("Specular", tip);
+    color(fields, index, label, at(P::Specular), |p: &mut Phong| {
+        &mut p.specular
     });
     if !follows {
         let tip = "Factor on the scene's ambient light.";
-        color(fields, index, ("Ambient", tip), P::Ambient, |m| {
-            &mut m.ambient
-        });
+        color(
+            fields,
+            index,
+            ("Ambient", tip),
+            at(P::Ambient),
+            |p: &mut Phong| &mut p.ambient,
+        );
     }
     let tip = "Set the ambient colour together with the diffuse colour.";
     if fields.option((FOLLOWS, tip), follows) == Some(true) {
         fields.change("ambient", move |scene| {
-            let material = &mut scene.materials[index];
-            material.ambient = material.diffuse;
+            if let Some(phong) = Phong::of(&mut scene.materials[index]) {
+                phong.ambient = phong.diffuse;
+            }
             Ok(())
         });
     }
-    let tip = "Radiance emitted by the surface.";
-    color(fields, index, ("Emission", tip), P::Emission, |m| {
-        &mut m.emission
-    });
     let tip = "Phong exponent of the highlight, 0 or more. Larger values are sharper.";
     let label = ("Shininess", tip);
-    number(fields, index, label, Limits::AMOUNT, P::Shininess, |m| {
-        &mut m.shininess
-    });
+    let target = at(P::Shininess);
+    number(
+        fields,
+        index,
+        label,
+        Limits::AMOUNT,
+        target,
+        |p: &mut Phong| &mut p.shininess,
+    );
+}
+
+/// The emission, and the sides of the surface.
+fn emission(fields: &mut Fields, index: usize, material: &Material) {
+    let tip = match material.metallic_roughness() {
+        Some(model) if model.unlit => {
+            "Radiance emitted by the surface. Without it the unlit surface shows its base colour."
+        }
+        _ => "Radiance emitted by the surface.",
+    };
+    let target = Some(Target::Material(index, MaterialProperty::Emission));
+    color(
+        fields,
+        index,
+        ("Emission", tip),
+        target,
+        |m: &mut Material| &mut m.emission,
+    );
     let tip = "Shade both sides. Otherwise the back shows ambient light only.";
-    let set = with(index, |material, to| material.two_sided = to);
+    let set = with(index, |material: &mut Material, to| material.two_sided = to);
     fields.toggle(("Two-sided", tip), material.two_sided, set);
     let tip = "Emit on both sides of a two-sided surface. Otherwise its back emits nothing.";
-    let set = with(index, |material, to| material.two_sided_emission = to);
+    let set = with(index, |material: &mut Material, to| {
+        material.two_sided_emission = to;
+    });
     let label = ("Two-sided emission", tip);
     fields.toggle(label, material.two_sided_emission, set);
 }
 
-fn mirror_and_glass(fields: &mut Fields, index: usize, material: &Material) {
+fn mirror_and_glass(fields: &mut Fields, index: usize, phong: &Phong) {
     use MaterialProperty as P;
+    let at = |property| Some(Target::Material(index, property));
     fields.heading("Mirror and glass");
     let tip = "Fraction of light that is reflected; with Fresnel, at grazing angles.";
-    color(fields, index, ("Reflect", tip), P::Reflect, |m| {
-        &mut m.reflect
-    });
+    color(
+        fields,
+        index,
+        ("Reflect", tip),
+        at(P::Reflect),
+        |p: &mut Phong| &mut p.reflect,
+    );
     let tip = "Fraction of light that is transmitted.";
-    color(fields, index, ("Transmit", tip), P::Transmit, |m| {
-        &mut m.transmit
+    let label = ("Transmit", tip);
+    color(fields, index, label, at(P::Transmit), |p: &mut Phong| {
+        &mut p.transmit
     });
     let tip = "Absorption coefficient: transmittance is exp(−absorption · length).";
-    color(fields, index, ("Absorption", tip), P::Absorption, |m| {
-        &mut m.absorption
+    let label = ("Absorption", tip);
+    color(fields, index, label, at(P::Absorption), |p: &mut Phong| {
+        &mut p.absorption
     });
     let tip = "Index of refraction, from 0.01 to 100: water 1.33, glass 1.5, diamond 2.42.";
     let limits = Limits::between(0.01, 100.0);
-    number(fields, index, ("Index (ior)", tip), limits, P::Ior, |m| {
-        &mut m.ior
+    let label = ("Index (ior)", tip);
+    number(fields, index, label, limits, at(P::Ior), |p: &mut Phong| {
+        &mut p.ior
     });
     let tip = "Weight of local shading when mixing is “Layer”, 0 to 1.";
-    let limits = Limits::between(0.0, 1.0);
-    number(fields, index, ("Opacity", tip), limits, P::Opacity, |m| {
-        &mut m.opacity
-    });
+    let label = ("Opacity", tip);
+    let target = at(P::Opacity);
+    number(
+        fields,
+        index,
+        label,
+        Limits::UNIT,
+        target,
+        |p: &mut Phong| &mut p.opacity,
+    );
     let tip = "Dependence of reflectance on the angle.";
     let options = [
         (Fresnel::None, "Constant"),
         (Fresnel::Exact, "Fresnel's equations"),
         (Fresnel::Schlick, "Schlick's approximation"),
     ];
-    let set = with(index, |material, to| material.fresnel = to);
-    fields.choice(("Fresnel", tip), material.fresnel, &options, set);
+    let set = with(index, |phong: &mut Phong, to| phong.fresnel = to);
+    fields.choice(("Fresnel", tip), phong.fresnel, &options, set);
     let tip = "How local shading, reflection and transmission are combined.";
     let options = [
         (Mixing::Layer, "Layer"),
         (Mixing::Sum, "Sum"),
         (Mixing::Blend, "Blend"),
     ];
-    let set = with(index, |material, to| material.mixing = to);
-    fields.choice(("Mixing", tip), material.mixing, &options, set);
+    let set = with(index, |phong: &mut Phong, to| phong.mixing = to);
+    fields.choice(("Mixing", tip), phong.mixing, &options, set);
+}
+
+fn priority(fields: &mut Fields, index: usize, material: &Material) {
     let tip = "Where dielectric volumes overlap, the highest priority wins. An integer.";
     let limits = Limits::between(-100.0, 100.0).with_speed(0.1);
-    let set = with(index, |material, to: f64| {
-        material.priority = to.round() as i32
+    let set = with(index, |material: &mut Material, to: f64| {
+        material.priority = to.round() as i32;
     });
     fields.number(("Priority", tip), f64::from(material.priority), limits, set);
 }
 
-/// A row with a colour of a material.
-fn color(
-    fields: &mut Fields,
-    index: usize,
-    label: (&str, &str),
-    property: MaterialProperty,
-    slot: fn(&mut Material) -> &mut Vec3,
-) {
-    let value = *slot(&mut fields.scene.materials[index].clone());
-    fields
-        .driven_by(Target::Material(index, property))
-        .color(label, value, move |scene, to| {
-            *slot(&mut scene.materials[index]) = to;
-        });
-}
+/// The textures of Phong colours.
+const PHONG_TEXTURES: &[TextureRow<Phong>] = &[
+    ("× Diffuse", |p| &mut p.textures.diffuse),
+    ("× Specular", |p| &mut p.textures.specular),
+    ("× Ambient", |p| &mut p.textures.ambient),
+    ("× Reflect", |p| &mut p.textures.reflect),
+    ("× Transmit", |p| &mut p.textures.transmit),
+];
 
-/// A row with a number of a material.
-fn number(
-    fields: &mut Fields,
-    index: usize,
-    label: (&str, &str),
-    limits: Limits,
-    property: MaterialProperty,
-    slot: fn(&mut Material) -> &mut f32,
-) {
-    let value = f64::from(*slot(&mut fields.scene.materials[index].clone()));
-    fields.driven_by(Target::Material(index, property)).number(
-        label,
-        value,
-        limits,
-        move |scene, to| {
-            *slot(&mut scene.materials[index]) = to as f32;
-        },
-    );
-}
+/// The textures that all materials have.
+const TEXTURES: &[TextureRow<Material>] = &[
+    ("× Emission", |m| &mut m.textures.emission),
+    (NORMAL_MAP, |m| &mut m.textures.normal),
+    ("× Alpha", |m| &mut m.textures.alpha),
+];
 
-/// Accesses a texture of a material.
-type Slot = fn(&mut Textures) -> &mut Option<usize>;
-
-/// The textures, and the colours that they multiply.
-fn textures(fields: &mut Fields, index: usize, textures: &Textures) {
-    if fields.scene.textures.is_empty() {
-        return;
-    }
-    fields.heading("Textures");
-    let mut options = vec![(None, "None".to_owned())];
-    for (number, texture) in fields.scene.textures.iter().enumerate() {
-        let kind = match texture.pattern {
-            Pattern::Checker { .. } => "Checker",
-            Pattern::Stripes { .. } => "Stripes",
-            Pattern::Gradient { .. } => "Gradient",
-            Pattern::Noise { .. } => "Noise",
-            Pattern::Picture { .. } => "Picture",
-        };
-        options.push((Some(number), format!("{kind} (texture {})", number + 1)));
-    }
-    let slots: [(&str, Option<usize>, Slot); 8] = [
-        ("× Diffuse", textures.diffuse, |t| &mut t.diffuse),
-        ("× Specular", textures.specular, |t| &mut t.specular),
-        ("× Ambient", textures.ambient, |t| &mut t.ambient),
-        ("× Emission", textures.emission, |t| &mut t.emission),
-        ("× Reflect", textures.reflect, |t| &mut t.reflect),
-        ("× Transmit", textures.transmit, |t| &mut t.transmit),
-        ("Normal map", textures.normal, |t| &mut t.normal),
-        ("× Alpha", textures.alpha, |t| &mut t.alpha),
-    ];
-    for (label, value, slot) in slots {
-        let tip = match label {
-            "Normal map" => "Normals of small bumps, as a picture.",
-            "× Alpha" => "Texture whose alpha says how much of the surface is there.",
-            _ => "Texture that multiplies this colour.",
-        };
-        fields.choice((label, tip), value, &options, move |scene, to| {
-            *slot(&mut scene.materials[index].textures) = to;
-        });
+fn texture_heading(fields: &mut Fields) {
+    if !fields.scene.textures.is_empty() {
+        fields.heading("Textures");
     }
 }
 

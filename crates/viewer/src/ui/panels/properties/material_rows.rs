@@ -1,0 +1,130 @@
+//! Rows of parts of a material.
+
+use crate::ui::panels::properties::fields::{Fields, Limits};
+use glam::Vec3;
+use glimray_scene::{Bsdf, Material, MetallicRoughness, Pattern, Phong, Scene, Target};
+
+/// A part of a material that rows edit.
+pub trait Part: Sized {
+    /// The part; `None` if the material is of another kind.
+    fn of(material: &mut Material) -> Option<&mut Self>;
+}
+
+impl Part for Material {
+    fn of(material: &mut Material) -> Option<&mut Self> {
+        Some(material)
+    }
+}
+
+impl Part for Phong {
+    fn of(material: &mut Material) -> Option<&mut Self> {
+        match &mut material.bsdf {
+            Bsdf::Phong(phong) => Some(phong),
+            Bsdf::MetallicRoughness(_) => None,
+        }
+    }
+}
+
+impl Part for MetallicRoughness {
+    fn of(material: &mut Material) -> Option<&mut Self> {
+        material.metallic_roughness_mut()
+    }
+}
+
+/// A change of a part of a material.
+pub fn with<P: Part, T>(index: usize, change: fn(&mut P, T)) -> impl FnOnce(&mut Scene, T) {
+    move |scene, to| {
+        if let Some(part) = P::of(&mut scene.materials[index]) {
+            change(part, to);
+        }
+    }
+}
+
+/// A row with a colour of a part of a material, which a track of `target` may animate.
+pub fn color<P: Part + 'static>(
+    fields: &mut Fields,
+    index: usize,
+    label: (&str, &str),
+    target: Option<Target>,
+    slot: fn(&mut P) -> &mut Vec3,
+) {
+    if let Some(part) = P::of(&mut fields.scene.materials[index].clone()) {
+        let set = move |scene: &mut Scene, to| {
+            if let Some(part) = P::of(&mut scene.materials[index]) {
+                *slot(part) = to;
+            }
+        };
+        fields
+            .may_be_driven_by(target)
+            .color(label, *slot(part), set);
+    }
+}
+
+/// A row with a number of a part of a material, which a track of `target` may animate.
+pub fn number<P: Part + 'static>(
+    fields: &mut Fields,
+    index: usize,
+    label: (&str, &str),
+    limits: Limits,
+    target: Option<Target>,
+    slot: fn(&mut P) -> &mut f32,
+) {
+    if let Some(part) = P::of(&mut fields.scene.materials[index].clone()) {
+        let value = f64::from(*slot(part));
+        let set = move |scene: &mut Scene, to: f64| {
+            if let Some(part) = P::of(&mut scene.materials[index]) {
+                *slot(part) = to as f32;
+            }
+        };
+        fields
+            .may_be_driven_by(target)
+            .number(label, value, limits, set);
+    }
+}
+
+/// The label of a texture, and access to it.
+pub type TextureRow<P> = (&'static str, fn(&mut P) -> &mut Option<usize>);
+
+/// The label of the normal map.
+pub const NORMAL_MAP: &str = "Normal map";
+
+/// The label of the clear coat's normal map.
+pub const COAT_NORMAL_MAP: &str = "Clear coat normal map";
+
+/// The label of the map of the film's thickness.
+pub const FILM_MAP: &str = "Film thickness map";
+
+/// The textures of a part of a material, and the numbers and colours that they multiply.
+pub fn textures<P: Part + 'static>(fields: &mut Fields, index: usize, rows: &[TextureRow<P>]) {
+    if fields.scene.textures.is_empty() {
+        return;
+    }
+    let mut options = vec![(None, "None".to_owned())];
+    for (number, texture) in fields.scene.textures.iter().enumerate() {
+        let kind = match texture.pattern {
+            Pattern::Checker { .. } => "Checker",
+            Pattern::Stripes { .. } => "Stripes",
+            Pattern::Gradient { .. } => "Gradient",
+            Pattern::Noise { .. } => "Noise",
+            Pattern::Picture { .. } => "Picture",
+        };
+        options.push((Some(number), format!("{kind} (texture {})", number + 1)));
+    }
+    let mut material = fields.scene.materials[index].clone();
+    let Some(part) = P::of(&mut material) else {
+        return;
+    };
+    for &(label, slot) in rows {
+        let tip = match label {
+            NORMAL_MAP | COAT_NORMAL_MAP => "Normals of small bumps, as a picture.",
+            FILM_MAP => "Texture that is 0 where the film is as thick as “Film from”, in green.",
+            "× Alpha" => "Texture whose alpha says how much of the surface is there.",
+            _ => "Texture that multiplies this colour or number.",
+        };
+        fields.choice((label, tip), *slot(part), &options, move |scene, to| {
+            if let Some(part) = P::of(&mut scene.materials[index]) {
+                *slot(part) = to;
+            }
+        });
+    }
+}
