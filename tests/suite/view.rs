@@ -14,6 +14,7 @@ mod layers;
 mod loading;
 mod look;
 mod looks;
+mod material;
 mod modal;
 mod names;
 mod outline;

@@ -6,6 +6,7 @@ mod fields;
 mod light;
 mod material;
 mod material_rows;
+mod metallic_roughness;
 mod place;
 
 use crate::model::bindings::Action;

@@ -1,6 +1,7 @@
 //! The properties of a material.
 
 use super::material_rows::{NORMAL_MAP, Part, TextureRow, color, number, textures, with};
+use super::metallic_roughness;
 use crate::model::objects;
 use crate::model::objects::Id;
 use crate::state::session::Session;
@@ -25,10 +26,15 @@ pub fn show(fields: &mut Fields, index: usize) {
             texture_heading(fields);
             textures(fields, index, PHONG_TEXTURES);
         }
-        Bsdf::MetallicRoughness(_) => {
+        Bsdf::MetallicRoughness(model) => {
+            metallic_roughness::surface(fields, index, model);
             emission(fields, index, material);
+            metallic_roughness::glass(fields, index);
             priority(fields, index, material);
+            metallic_roughness::layers(fields, index, model);
+            metallic_roughness::classical(fields, index, model);
             texture_heading(fields);
+            textures(fields, index, metallic_roughness::TEXTURES);
         }
     }
     textures(fields, index, TEXTURES);

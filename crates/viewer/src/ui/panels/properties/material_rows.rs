@@ -33,9 +33,22 @@ impl Part for MetallicRoughness {
 
 /// A change of a part of a material.
 pub fn with<P: Part, T>(index: usize, change: fn(&mut P, T)) -> impl FnOnce(&mut Scene, T) {
+    edit(index, change)
+}
+
+/// A change of a part of a material, after which surfaces have the tangents that they need.
+pub fn edit<P: Part, T>(
+    index: usize,
+    change: impl FnOnce(&mut P, T),
+) -> impl FnOnce(&mut Scene, T) {
     move |scene, to| {
-        if let Some(part) = P::of(&mut scene.materials[index]) {
+        let material = &mut scene.materials[index];
+        let had_tangents = material.has_tangents();
+        if let Some(part) = P::of(material) {
             change(part, to);
+        }
+        if !had_tangents && material.has_tangents() {
+            scene.complete_tangents();
         }
     }
 }
@@ -49,11 +62,7 @@ pub fn color<P: Part + 'static>(
     slot: fn(&mut P) -> &mut Vec3,
 ) {
     if let Some(part) = P::of(&mut fields.scene.materials[index].clone()) {
-        let set = move |scene: &mut Scene, to| {
-            if let Some(part) = P::of(&mut scene.materials[index]) {
-                *slot(part) = to;
-            }
-        };
+        let set = edit(index, move |part, to| *slot(part) = to);
         fields
             .may_be_driven_by(target)
             .color(label, *slot(part), set);
@@ -71,11 +80,7 @@ pub fn number<P: Part + 'static>(
 ) {
     if let Some(part) = P::of(&mut fields.scene.materials[index].clone()) {
         let value = f64::from(*slot(part));
-        let set = move |scene: &mut Scene, to: f64| {
-            if let Some(part) = P::of(&mut scene.materials[index]) {
-                *slot(part) = to as f32;
-            }
-        };
+        let set = edit(index, move |part, to: f64| *slot(part) = to as f32);
         fields
             .may_be_driven_by(target)
             .number(label, value, limits, set);
@@ -121,10 +126,7 @@ pub fn textures<P: Part + 'static>(fields: &mut Fields, index: usize, rows: &[Te
             "× Alpha" => "Texture whose alpha says how much of the surface is there.",
             _ => "Texture that multiplies this colour or number.",
         };
-        fields.choice((label, tip), *slot(part), &options, move |scene, to| {
-            if let Some(part) = P::of(&mut scene.materials[index]) {
-                *slot(part) = to;
-            }
-        });
+        let set = edit(index, move |part, to| *slot(part) = to);
+        fields.choice((label, tip), *slot(part), &options, set);
     }
 }
