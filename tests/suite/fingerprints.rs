@@ -3,10 +3,10 @@
 use crate::reference::scenes;
 use crate::support::settings::texts;
 use glam::{dvec3, vec3};
-use glimray_app::settings::SETTINGS;
 use glimray::pack;
 use glimray::render::{Fingerprint, INTEGRATORS, Integrator, Levels, RenderSettings, Tone};
 use glimray::scene::{Backdrop, Scene, ToneCurve, Transfer};
+use glimray_app::settings::SETTINGS;
 use std::collections::{HashMap, HashSet};
 
 /// Films and journals of other builds contain it: when the encoding changes, increase the version and update

@@ -4,8 +4,6 @@ use crate::reference::compare::render;
 use crate::support::random::Random;
 use crate::support::settings::texts;
 use glam::{DAffine3, dvec2, dvec3, vec3};
-use glimray_app::overrides::ToneOverrides;
-use glimray_app::settings::SETTINGS;
 use glimray::import;
 use glimray::output;
 use glimray::pack;
@@ -16,6 +14,8 @@ use glimray::scene::{
     Background, Beyond, Camera, CameraProperty, Curve, Easing, Filter, Interpolation, Lens, Node,
     OutputDefaults, Scene, Shutter, Target, ToneCurve, Track, Transfer, Values,
 };
+use glimray_app::overrides::ToneOverrides;
+use glimray_app::settings::SETTINGS;
 use glimray_cli::view::picture;
 use glimray_viewer::model::camera::CameraController;
 use glimray_viewer::model::command_line::{CommandLine, Pasted, Shown, copy, paste};
