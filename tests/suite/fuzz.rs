@@ -236,7 +236,7 @@ fn the_poses_that_the_fuzzer_starts_from_are_of_deforming_meshes() {
         let is_sized = notes.all(|note| note.starts_with("the scene measures"));
         assert!(is_sized, "{}: {:?}", path.display(), scene.skipped);
         assert_eq!(scene.deformations.len(), 1, "{}", path.display());
-        assert_eq!(scene.tracks.len(), 10, "{}", path.display());
+        assert_eq!(scene.tracks.len(), 9, "{}", path.display());
         assert!(scene.frame(0.7) != scene.frame(0.0), "{}", path.display());
     }
 }

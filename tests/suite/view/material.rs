@@ -62,10 +62,10 @@ emission = [0.1, 0.2, 0.3]
 coverage = { alpha = 0.9 }
 "#;
 
-/// Every coefficient of it has an effect.
+/// Every coefficient of it has an effect. A mesh without textures would lose its texture coordinates.
 const PHONG: &str = r#"
 [materials.tested]
-phong = { diffuse = [0.75, 0.5, 0.25], specular = [0.25, 0.5, 0.25], shininess = 20, ambient = [0.5, 0.75, 0.5] }
+phong = { diffuse = { texture = "map" }, specular = [0.25, 0.5, 0.25], shininess = 20, ambient = [0.5, 0.75, 0.5] }
 optics = { reflect = [0.25, 0.5, 0.25], transmit = [0.5, 0.25, 0.5], opacity = 0.75, ior = 1.5, absorption = [0.25, 0.5, 0.25], fresnel = "schlick" }
 emission = [0.1, 0.2, 0.3]
 coverage = { alpha = 0.9 }
