@@ -3,7 +3,6 @@
 
 use crate::deformation;
 use crate::explain::{finish, project_scenes, random_pixels, renderer};
-use crate::export;
 use crate::path::{emitter_tree, lobes};
 use crate::reference::compare::{assert_none, check_same_bits, fetched, open_gpu, try_render};
 use crate::reference::scenes;
@@ -137,7 +136,7 @@ fn crops_of_generated_scenes_are_the_pixels_of_the_whole() {
         ..settings(integrator)
     };
     for seed in 0..5 {
-        let mut scene = export::random::scene(&mut Random::new(seed));
+        let mut scene = crate::random_scene::scene(&mut Random::new(seed));
         (scene.lights.iter_mut()).for_each(|light| light.samples = 1);
         let renders = |integrator| try_render(&scene, &transparent(integrator)).is_ok();
         if pack::scene(&scene).is_ok() && renders(Integrator::Path) && renders(Integrator::Whitted)

@@ -24,7 +24,6 @@ mod endings;
 mod environment;
 mod examples;
 mod explain;
-mod export;
 mod exposure;
 mod faults;
 mod features;
@@ -64,6 +63,8 @@ mod path;
 mod pictures;
 mod ray_offset;
 mod ray_query;
+#[path = "../../crates/io/tests/suite/export/random.rs"]
+mod random_scene;
 mod readme;
 mod reference;
 mod render;

@@ -1,7 +1,7 @@
 //! One model in every format: a letter that has no symmetry, in four colours. It looks the same in all.
 
 use crate::import::gltf::model::{Model, UNSIGNED_SHORT};
-use crate::import::zipped::archive;
+use crate::import::writing::archive;
 use crate::reference::compare::{assert_none, check_alike, sized, start_packed};
 use glam::{Vec3, vec3};
 use glimray::image::Image;

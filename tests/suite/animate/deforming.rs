@@ -1,6 +1,6 @@
 //! A model with a skin and morph targets on the command line.
 
-use crate::import::gltf::deform::bending;
+use crate::import::gltf::bar::bending;
 use crate::support::program::Workspace;
 use std::collections::BTreeSet;
 

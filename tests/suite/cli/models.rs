@@ -1,6 +1,6 @@
 //! Defaults of models: few samples that are denoised, an estimate, and warnings of black pictures.
 
-use crate::import::cameras::ship;
+use crate::import::gltf::model::ship;
 use crate::support::program::Workspace;
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader};

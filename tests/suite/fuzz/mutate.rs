@@ -1,7 +1,7 @@
 //! Changes files at random, in the same way in every run: words and lines of text, bytes and numbers of binary files, and
 //! the contents of containers, whose lengths and checksums are put right so that readers look inside.
 
-use crate::import::zipped::archive;
+use crate::import::writing::archive;
 use crate::support::random::Random;
 use glimray::import::{Archive, Resolver};
 

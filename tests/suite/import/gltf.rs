@@ -1,17 +1,12 @@
 //! glTF 2.0. The models are built here, byte by byte.
 
-mod compressed;
-pub mod deform;
-mod geometry;
-mod hostile;
-mod materials;
+#[path = "../../../crates/io/tests/suite/import/gltf/bar.rs"]
+pub mod bar;
+#[path = "../../../crates/io/tests/suite/import/gltf/model.rs"]
 pub mod model;
 mod motion;
 mod moving_maps;
-mod nodes;
 mod properties;
 mod tangents;
-mod unused;
-mod uv_sets;
 
-use super::{folder, load, message_in, scene};
+use super::{folder, message_in};

@@ -94,7 +94,7 @@ impl Harness {
     }
 
     /// Evaluates a function for a table of (name, arguments, result) and fails with all wrong rows.
-    pub fn check<I: Input + Clone, E: Expected>(
+    pub fn check<I: Input + Clone, E: Expected<Got: Output>>(
         &self,
         function: &str,
         tolerance: Tolerance,

@@ -1,5 +1,6 @@
 //! The structs of `shaders/types.wesl` and `shaders/types/` that functions take and return.
 
+use super::verdict::{Expected, Tolerance};
 use super::words::shader_struct;
 use glimray::layout::{
     NO_INSTANCE, NONE, PackedCamera, PackedKey, PackedLight, PackedShape, PackedTone,
@@ -204,3 +205,20 @@ shader_struct!(PackedTone = "package::types::PackedTone" {
     has_range: u32,
     film_rows: u32,
 });
+
+/// The distance of a hit.
+impl Expected for Option<f64> {
+    type Got = Candidate;
+    fn is_met(&self, got: &Candidate, tolerance: Tolerance) -> bool {
+        got.hit == self.is_some() && self.is_none_or(|t| tolerance.allows(got.t, t))
+    }
+}
+
+/// Distance and barycentric weights of a hit.
+impl Expected for Option<[f64; 3]> {
+    type Got = Candidate;
+    fn is_met(&self, got: &Candidate, tolerance: Tolerance) -> bool {
+        let hit = |expected: &[f64; 3]| expected.is_met(&[got.t, got.b1, got.b2], tolerance);
+        got.hit == self.is_some() && self.as_ref().is_none_or(hit)
+    }
+}

@@ -1,6 +1,6 @@
 //! Maps of materials that clips move: `KHR_animation_pointer` to `KHR_texture_transform`.
 
-use super::materials::picture;
+use super::model::picture;
 use super::model::Model;
 use crate::reference::compare::{sized, start_packed};
 use glam::DVec3;

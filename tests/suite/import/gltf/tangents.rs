@@ -20,7 +20,7 @@ fn model(attributes: Value, has_map: bool) -> Model {
         all[name] = accessor.clone();
     }
     model.primitive(position, json!({ "attributes": all, "material": 0 }));
-    let texture = super::materials::picture(&mut model, 1, &[[200, 90, 220, 255]]);
+    let texture = super::model::picture(&mut model, 1, &[[200, 90, 220, 255]]);
     model.json["materials"] = match has_map {
         true => json!([{ "normalTexture": { "index": texture } }]),
         false => json!([{}]),

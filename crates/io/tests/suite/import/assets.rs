@@ -10,8 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// The file `name` in the folder of scenes.
 pub fn path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("assets/scenes")
+    Path::new("assets/scenes")
         .join(name)
 }
 

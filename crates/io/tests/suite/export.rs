@@ -1,9 +1,10 @@
 //! Round trips of scenes through the native format: nothing that is rendered is lost.
 
 mod physical;
-pub mod random;
+mod random;
 mod text;
 
+use crate::support::random::Random;
 use crate::support::skip::{Need, skip};
 use crate::support::verdict::Verdict;
 use glimray::export::{self, Export};
@@ -135,8 +136,8 @@ fn scenes_in(folder: &Path) -> Vec<PathBuf> {
 
 #[test]
 fn every_scene_of_the_project_is_packed_to_the_same_bytes_after_a_round_trip() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
-    let scenes = scenes_in(&folder);
+    let folder = Path::new("assets/scenes");
+    let scenes = scenes_in(folder);
     assert!(scenes.len() > 15, "the scenes are in {}", folder.display());
     let mut verdict = Verdict::on("round trips");
     for path in scenes {
@@ -149,8 +150,8 @@ fn every_scene_of_the_project_is_packed_to_the_same_bytes_after_a_round_trip() {
 /// Third-party models beside the checkout, in all formats. They are optional.
 #[test]
 fn third_party_models_are_packed_to_the_same_bytes_after_a_round_trip() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    let mut scenes = scenes_in(&folder);
+    let folder = Path::new("../shared/data");
+    let mut scenes = scenes_in(folder);
     // These are broken on purpose.
     scenes.retain(|path| !path.starts_with(folder.join("faults")));
     if scenes.is_empty() {
@@ -160,6 +161,18 @@ fn third_party_models_are_packed_to_the_same_bytes_after_a_round_trip() {
     for path in scenes {
         let lost = loss(&import::load(&path).expect("a scene"));
         verdict.that(path.display(), lost.is_ok(), || lost.clone().unwrap_err());
+    }
+    verdict.close();
+}
+
+#[test]
+fn random_scenes_are_packed_to_the_same_bytes_after_a_round_trip() {
+    let mut verdict = Verdict::on("round trips");
+    for seed in 0..60 {
+        let lost = loss(&random::scene(&mut Random::new(seed)));
+        verdict.that(format!("seed {seed}"), lost.is_ok(), || {
+            lost.clone().unwrap_err()
+        });
     }
     verdict.close();
 }

@@ -1,6 +1,6 @@
 //! Materials and their pictures.
 
-use super::model::{Model, UNSIGNED_BYTE, base64, png};
+use super::model::{Model, UNSIGNED_BYTE, base64, picture, png};
 use super::{folder, message_in};
 use crate::support::verdict::Verdict;
 use glam::{DVec3, Vec3};
@@ -18,13 +18,6 @@ fn model(material: Value) -> Model {
     model.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uv);
     model.push("materials", material);
     model
-}
-
-/// Adds a picture as a texture and returns its index.
-pub fn picture(model: &mut Model, width: u32, texels: &[[u8; 4]]) -> usize {
-    let uri = format!("data:image/png;base64,{}", base64(&png(width, texels)));
-    let source = model.push("images", json!({ "uri": uri }));
-    model.push("textures", json!({ "source": source }))
 }
 
 fn material(material: Value) -> Material {

@@ -186,7 +186,7 @@ fn values_that_are_out_of_range_are_refused() {
 /// The model of the project has metal, glass, a normal map, holes and vertex colours.
 #[test]
 fn a_gltf_model_keeps_its_materials() {
-    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes/flower.glb");
+    let model = Path::new("assets/scenes/flower.glb");
     // The model moves; native scenes keep its pose.
     let mut scene = import::load(&model).expect("a model").at_rest();
     scene.clips.clear();

@@ -1,51 +1,10 @@
 //! The camera of a model: its own where it sees something lit, in pictures of any aspect.
 
-use super::gltf::model::{Model, UNSIGNED_SHORT};
+use super::gltf::model::{Model, closed_box, ship};
 use glam::DVec3;
 use glimray::import::{self, Memory, Options, Staging};
 use glimray::scene::{Camera, Scene};
 use serde_json::{Value, json};
-
-/// The corners and faces of a closed box around the origin, twice as long as `half`.
-fn closed_box(model: &mut Model, half: f32) -> (usize, usize) {
-    let corners: Vec<_> = (0..8)
-        .map(|i: u32| [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -half } else { half }))
-        .collect();
-    let faces: [[u16; 4]; 6] = [
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-    ];
-    let indices = faces
-        .iter()
-        .flat_map(|[a, b, c, d]| [*a, *b, *c, *a, *c, *d]);
-    let bytes: Vec<u8> = indices.flat_map(u16::to_le_bytes).collect();
-    let positions = model.vectors(&corners);
-    (
-        positions,
-        model.accessor(&bytes, UNSIGNED_SHORT, "SCALAR", 36),
-    )
-}
-
-/// A closed ship around the origin with a camera in it, a tower beside it, and more nodes, cameras and materials. The ship
-/// has the material 0.
-pub fn ship(more: Value) -> Model {
-    let mut model = Model::new();
-    let (positions, indices) = closed_box(&mut model, 1.0);
-    model.primitive(positions, json!({ "indices": indices, "material": 0 }));
-    let tower = json!({ "mesh": 0, "translation": [10, 0, 0] });
-    let lens = json!({ "type": "perspective", "perspective": { "yfov": 0.8, "znear": 0.1 } });
-    let model = model.with(json!({
-        "scenes": [{ "nodes": [0, 1, 2] }],
-        "nodes": [{ "mesh": 0 }, tower, { "camera": 0, "name": "bridge" }],
-        "cameras": [lens],
-        "materials": [{}],
-    }));
-    model.with(more)
-}
 
 fn load(model: &Model, options: &Options) -> Scene {
     let files = Memory::from_iter([("a.glb", &model.glb()[..])]);

@@ -29,7 +29,7 @@ fn text(scene: &Scene) -> String {
 }
 
 fn load(name: &str) -> Scene {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
+    let folder = Path::new("assets/scenes");
     import::load(&folder.join(name)).expect("a scene")
 }
 

@@ -1,21 +1,10 @@
 //! Models in ZIP archives.
 
-use super::{load, scene};
+use super::{archive, load, scene};
 use crate::support::effort;
 use std::io::Write;
 use zip::CompressionMethod;
 use zip::write::SimpleFileOptions;
-
-/// A ZIP archive of files with these names.
-pub fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
-    let mut writer = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
-    let options = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
-    for (name, contents) in files {
-        writer.start_file(*name, options).expect("an entry");
-        writer.write_all(contents).expect("its contents");
-    }
-    writer.finish().expect("an archive").into_inner()
-}
 
 const MODEL: &[u8] =
     b"mtllib textures/a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";

@@ -1,6 +1,6 @@
 //! Sets of texture coordinates: whatever their numbers are, a material gets the two that it uses.
 
-use super::materials::picture;
+use super::model::picture;
 use super::model::Model;
 use glimray::scene::{Scene, Space};
 use serde_json::{Value, json};

@@ -1,8 +1,6 @@
 //! Random scenes.
 
-use super::loss;
 use crate::support::random::Random;
-use crate::support::verdict::Verdict;
 use glam::Vec4;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3};
 use glimray::scene::*;
@@ -631,16 +629,4 @@ pub fn scene(random: &mut Random) -> Scene {
     scene.output.shutter.close = random.between(0.0, 1.0);
     scene.complete_tangents();
     scene
-}
-
-#[test]
-fn random_scenes_are_packed_to_the_same_bytes_after_a_round_trip() {
-    let mut verdict = Verdict::on("round trips");
-    for seed in 0..60 {
-        let lost = loss(&scene(&mut Random::new(seed)));
-        verdict.that(format!("seed {seed}"), lost.is_ok(), || {
-            lost.clone().unwrap_err()
-        });
-    }
-    verdict.close();
 }
