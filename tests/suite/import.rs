@@ -1,5 +1,6 @@
 //! Importers with the renderer and the program. `crates/io` has the other tests of importers.
 
+mod demo;
 pub mod gltf;
 mod memory;
 mod nff;

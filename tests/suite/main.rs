@@ -61,10 +61,10 @@ mod pack_again;
 mod pack_view;
 mod path;
 mod pictures;
-mod ray_offset;
-mod ray_query;
 #[path = "../../crates/io/tests/suite/export/random.rs"]
 mod random_scene;
+mod ray_offset;
+mod ray_query;
 mod readme;
 mod reference;
 mod render;

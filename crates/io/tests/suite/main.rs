@@ -5,7 +5,7 @@ mod import;
 mod support;
 
 /// Paths in tests start at the root of the repository.
-#[ctor::ctor(unsafe)]
+#[ctor::ctor]
 fn start_at_the_root() {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     std::env::set_current_dir(root).expect("the root of the repository");

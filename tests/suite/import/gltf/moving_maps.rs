@@ -1,7 +1,7 @@
 //! Maps of materials that clips move: `KHR_animation_pointer` to `KHR_texture_transform`.
 
-use super::model::picture;
 use super::model::Model;
+use super::model::picture;
 use crate::reference::compare::{sized, start_packed};
 use glam::DVec3;
 use glimray::image::Image;

@@ -10,8 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// The file `name` in the folder of scenes.
 pub fn path(name: &str) -> PathBuf {
-    Path::new("assets/scenes")
-        .join(name)
+    Path::new("assets/scenes").join(name)
 }
 
 fn is_color(color: Vec3) -> bool {
@@ -215,20 +214,6 @@ fn the_showcase_needs_no_files() {
     assert!(scene.cameras[0].lens.is_some());
     let features = glimray::pack::scene(&scene).expect("packed").features;
     assert!(features.reflection && features.refraction);
-}
-
-/// The demo's version has the same objects, and nothing that needs many samples.
-#[test]
-fn the_demo_is_the_showcase_for_few_paths() {
-    let scene = glimray_app::showcase::scene().expect("the showcase");
-    let demo = glimray_app::showcase::path_traced().expect("the demo");
-    let shapes = demo.shapes.iter().zip(&scene.shapes);
-    assert_eq!(demo.shapes.len(), scene.shapes.len());
-    assert!(shapes.clone().all(|(a, b)| a.geometry == b.geometry));
-    assert_eq!(demo.output.integrator, LightTransport::Path);
-    assert!(demo.cameras[0].lens.is_none());
-    let features = glimray::pack::scene(&demo).expect("packed").features;
-    assert!(features.reflection && !features.refraction);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The camera of a model: its own where it sees something lit, in pictures of any aspect.
 
-use super::gltf::model::{Model, closed_box, ship};
+use super::gltf::model::{Model, ship};
 use glam::DVec3;
 use glimray::import::{self, Memory, Options, Staging};
 use glimray::scene::{Camera, Scene};

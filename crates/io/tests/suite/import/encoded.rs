@@ -12,27 +12,27 @@ const SIZE: (u32, u32) = (61, 47);
 const FILES: [(&str, &[u8], bool, usize); 5] = [
     (
         "alpha.webp",
-        include_bytes!("../../encoded/alpha.webp"),
+        include_bytes!("../../../../../tests/encoded/alpha.webp"),
         true,
         24,
     ),
     ("etc1s_alpha.ktx2", ETC1S, true, 24),
     (
         "etc1s_levels.ktx2",
-        include_bytes!("../../encoded/etc1s_levels.ktx2"),
+        include_bytes!("../../../../../tests/encoded/etc1s_levels.ktx2"),
         false,
         24,
     ),
     ("uastc_alpha.ktx2", UASTC, true, 16),
     (
         "uastc_zstd.ktx2",
-        include_bytes!("../../encoded/uastc_zstd.ktx2"),
+        include_bytes!("../../../../../tests/encoded/uastc_zstd.ktx2"),
         false,
         16,
     ),
 ];
-const ETC1S: &[u8] = include_bytes!("../../encoded/etc1s_alpha.ktx2");
-const UASTC: &[u8] = include_bytes!("../../encoded/uastc_alpha.ktx2");
+const ETC1S: &[u8] = include_bytes!("../../../../../tests/encoded/etc1s_alpha.ktx2");
+const UASTC: &[u8] = include_bytes!("../../../../../tests/encoded/uastc_alpha.ktx2");
 
 fn read(bytes: &[u8]) -> Result<Arc<Picture>, ImportError> {
     let folder = folder(&[("picture", bytes)]);

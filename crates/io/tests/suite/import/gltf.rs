@@ -6,7 +6,7 @@ mod deform;
 mod geometry;
 mod hostile;
 mod materials;
-mod model;
+pub mod model;
 mod nodes;
 mod unused;
 mod uv_sets;

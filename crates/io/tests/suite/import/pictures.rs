@@ -252,7 +252,8 @@ fn whole_pictures() -> Vec<(&'static str, Vec<u8>)> {
         // Written by libjpeg, with chroma at half the resolution.
         (
             "progressive.jpg",
-            include_bytes!("../../fuzz/regressions/picture/progressive.jpg").to_vec(),
+            include_bytes!("../../../../../tests/fuzz/regressions/picture/progressive.jpg")
+                .to_vec(),
         ),
         ("a.webp", encode(color.clone(), ImageFormat::WebP)),
         ("a.png", encode(color, ImageFormat::Png)),

@@ -2,9 +2,6 @@
 
 use super::{archive, load, scene};
 use crate::support::effort;
-use std::io::Write;
-use zip::CompressionMethod;
-use zip::write::SimpleFileOptions;
 
 const MODEL: &[u8] =
     b"mtllib textures/a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";

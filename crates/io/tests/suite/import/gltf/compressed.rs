@@ -7,10 +7,11 @@ use glimray::scene::{Mesh, Scene};
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-const EXT: &[u8] = include_bytes!("../../../encoded/meshopt_ext.glb");
-const KHR: &[u8] = include_bytes!("../../../encoded/meshopt_khr.glb");
-const DRACO: &[u8] = include_bytes!("../../../encoded/draco.glb");
-const DRACO_SEQUENTIAL: &[u8] = include_bytes!("../../../encoded/draco_sequential.glb");
+const EXT: &[u8] = include_bytes!("../../../../../../tests/encoded/meshopt_ext.glb");
+const KHR: &[u8] = include_bytes!("../../../../../../tests/encoded/meshopt_khr.glb");
+const DRACO: &[u8] = include_bytes!("../../../../../../tests/encoded/draco.glb");
+const DRACO_SEQUENTIAL: &[u8] =
+    include_bytes!("../../../../../../tests/encoded/draco_sequential.glb");
 const ALL: [(&str, &[u8]); 4] = [
     ("EXT_meshopt_compression", EXT),
     ("KHR_meshopt_compression", KHR),

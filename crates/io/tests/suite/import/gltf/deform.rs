@@ -1,8 +1,8 @@
 //! Skins and morph targets that clips move, against matrices multiplied here in f64.
 
-use super::bar::{COUNT, bar, bend, bending, channel, morph, positions, rest, share};
+use super::bar::{COUNT, bar, bend, bending, channel, indices, morph, rest, share};
 use super::model::{Model, UNSIGNED_BYTE, floats, picture};
-use glam::{DMat4, DQuat, DVec3, DVec4, Vec3};
+use glam::{DMat4, DVec3, DVec4, Vec3};
 use glimray::scene::{Scene, Target};
 use serde_json::{Value, json};
 

@@ -1,6 +1,6 @@
 //! Materials and their pictures.
 
-use super::model::{Model, UNSIGNED_BYTE, base64, picture, png};
+use super::model::{Model, UNSIGNED_BYTE, picture};
 use super::{folder, message_in};
 use crate::support::verdict::Verdict;
 use glam::{DVec3, Vec3};

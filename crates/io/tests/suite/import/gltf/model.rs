@@ -209,7 +209,7 @@ pub fn picture(model: &mut Model, width: u32, texels: &[[u8; 4]]) -> usize {
 }
 
 /// The corners and faces of a closed box around the origin, twice as long as `half`.
-pub fn closed_box(model: &mut Model, half: f32) -> (usize, usize) {
+fn closed_box(model: &mut Model, half: f32) -> (usize, usize) {
     let corners: Vec<_> = (0..8)
         .map(|i: u32| [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -half } else { half }))
         .collect();

@@ -1,7 +1,7 @@
 //! Sets of texture coordinates: whatever their numbers are, a material gets the two that it uses.
 
-use super::model::picture;
 use super::model::Model;
+use super::model::picture;
 use glimray::scene::{Scene, Space};
 use serde_json::{Value, json};
 
