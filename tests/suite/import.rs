@@ -6,6 +6,7 @@ mod memory;
 mod nff;
 mod picture_meaning;
 mod range;
+#[allow(dead_code, reason = "the tests of importers use more of it")]
 #[path = "../../crates/io/tests/suite/import/writing.rs"]
 pub mod writing;
 

@@ -1,3 +1,5 @@
 //! Haines' Neutral File Format.
 
 mod spd;
+
+use super::writing::triangles;

@@ -32,4 +32,4 @@ mod textures;
 mod writing;
 mod zipped;
 
-use writing::{archive, folder, load, message_in, messages, scene, without_folder};
+use writing::{archive, folder, load, message_in, messages, scene, triangles, without_folder};

@@ -2,12 +2,12 @@
 
 mod polygons;
 
-use super::{messages, scene};
+use super::{messages, scene, triangles};
 use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
 use glimray::scene::{
     Background, Camera, CanonicalShape, Fresnel, Geometry, Light, LightKind, Material, Mixing,
-    Phong, Scene, Shape, Transfer,
+    Phong, Shape, Transfer,
 };
 use insta::assert_snapshot;
 
@@ -422,18 +422,4 @@ fn a_scene_may_consist_of_lights_alone() {
     let scene = scene("a.nff", format!("{VIEW}l 0 0 1\n"));
     assert_eq!((scene.shapes.len(), scene.meshes.len()), (0, 0));
     assert_eq!(scene.materials.len(), 1);
-}
-
-/// The triangles of all meshes, in the world, in f64.
-fn triangles(scene: &Scene) -> Vec<[DVec3; 3]> {
-    let of_instance = |instance: &glimray::scene::Instance| {
-        let mesh = &scene.meshes[instance.mesh];
-        let corner = |i: u32| {
-            let position = mesh.positions[i as usize].as_dvec3();
-            instance.placement.transform_point3(position)
-        };
-        let triangles = mesh.triangles.iter();
-        triangles.map(|t| t.map(corner)).collect::<Vec<_>>()
-    };
-    scene.instances.iter().flat_map(of_instance).collect()
 }

@@ -1,7 +1,8 @@
 //! Files for importers, and the results of reading them.
 
+use glam::DVec3;
 use glimray::import::{self, ImportError, Options};
-use glimray::scene::Scene;
+use glimray::scene::{Instance, Scene};
 use std::io::Write;
 use std::path::Path;
 use tempfile::TempDir;
@@ -63,4 +64,18 @@ pub fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
         writer.write_all(contents).expect("its contents");
     }
     writer.finish().expect("an archive").into_inner()
+}
+
+/// The triangles of all meshes, in the world, in f64.
+pub fn triangles(scene: &Scene) -> Vec<[DVec3; 3]> {
+    let of_instance = |instance: &Instance| {
+        let mesh = &scene.meshes[instance.mesh];
+        let corner = |i: u32| {
+            let position = mesh.positions[i as usize].as_dvec3();
+            instance.placement.transform_point3(position)
+        };
+        let triangles = mesh.triangles.iter();
+        triangles.map(|t| t.map(corner)).collect::<Vec<_>>()
+    };
+    scene.instances.iter().flat_map(of_instance).collect()
 }
