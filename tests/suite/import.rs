@@ -10,4 +10,4 @@ mod range;
 #[path = "../../crates/io/tests/suite/import/writing.rs"]
 pub mod writing;
 
-use writing::{folder, load, message_in, scene};
+use writing::{folder, load, message_in, messages, scene};
