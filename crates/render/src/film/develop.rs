@@ -13,7 +13,7 @@ use glimray_scene::{image::Image, threads};
 
 impl Film {
     /// Develops the bounding rectangle of all pixels, with the same result as the renderer that made the film, except
-    /// that it is never denoised: see [`Film::features`] and [`Image::denoised`].
+    /// that it is never denoised: see [`Film::features`] and [`crate::denoise()`].
     /// Pixels without samples are black.
     ///
     /// # Errors
