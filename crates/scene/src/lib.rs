@@ -112,7 +112,7 @@ pub struct Scene {
     pub render_origin: Option<DVec3>,
     /// Radiance of rays that hit nothing.
     pub background: Background,
-    /// Linear radiance of the ambient term, multiplied by [`Material::ambient`].
+    /// Linear radiance of the ambient term, multiplied by [`Phong::ambient`].
     pub ambient: Vec3,
     /// Whether lamps, background, ambient light and ground were added to show a model that has no lights or weak ones. All
     /// its area lights are those lamps, and all its planes that ground.
