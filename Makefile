@@ -28,7 +28,7 @@ skip = echo 'skipped: $(1) ($(2))' >&2; case ",$$GLIMRAY_REQUIRE," in *,$(2),*) 
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help setup demo test test-all farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint typos deny features headless wasm
+.PHONY: help setup demo test test-all farm-test drivers bench peers docs gallery strips man hand-in fuzz build shaders linker compiler display driver opengl lint typos deny features headless wasm embedded
 
 help:
 	@echo 'make setup     install the packages of Debian or Ubuntu that targets need; a target calls it for those that it misses'
@@ -75,7 +75,7 @@ test: lint
 	$(CARGO) test $(FLAGS) --workspace
 
 # Checks that take long and seldom fail after a change that passes the tests.
-test-all: typos deny test features headless wasm
+test-all: typos deny test features headless wasm embedded
 
 # Skipped where it cannot be installed or started: it needs Debian or Ubuntu and root.
 farm-test: build driver
@@ -263,3 +263,7 @@ wasm:
 			--target-dir $(TARGET)/wasm; exit; \
 	fi; \
 	$(call skip,there is no compiler for wasm32-unknown-unknown,wasm)
+
+# Only release builds embed the kernels.
+embedded: shaders
+	$(CARGO) test --release --locked --package glimray-shaders
