@@ -105,7 +105,9 @@ fn files(folder: &str, extension: &str) -> Vec<(PathBuf, String)> {
 /// All sources in Rust of the library and the program.
 fn rust_files() -> Vec<(PathBuf, String)> {
     let folders = ["crates", "shaders/src", "src"].into_iter();
-    folders.flat_map(|folder| files(folder, "rs")).collect()
+    let is_source = |path: &Path| path.iter().any(|name| name == "src");
+    let files = folders.flat_map(|folder| files(folder, "rs"));
+    files.filter(|(path, _)| is_source(path)).collect()
 }
 
 /// The package of a source, and its path below `src/` there. The root has no name.
