@@ -60,6 +60,7 @@ impl Chunk {
 /// Traces rays through a view of a packed scene:
 ///
 /// ```
+/// # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
 /// use glam::{DVec3, Vec3};
 /// use glimray::{gpu::Gpu, import, pack, render::{ExecutionPolicy, QueryRay, RayQuery}};
 ///
