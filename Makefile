@@ -219,18 +219,15 @@ deny:
 	if $(CARGO) deny --locked fetch db; then $(CARGO) deny --locked check advisories; \
 	else $(call skip,the database of advisories cannot be reached,advisories); fi
 
-# Sets of features: each feature is in one set with which each other
-# one is not, so that none uses what only another one has (a test checks it). Nine features need five sets; each by itself
-# would take twice the time. The sets have some packages of `archive` and
-# `gl` in common: then they share what they build. Other code that uses these packages shows without any set.
+# Sets of features: each feature is in one set with which each other one is not, so that none uses what only another one
+# has (a test checks it). Nine features need five sets; each by itself would take twice the time.
 FEATURE_SETS := draco,flip,video archive,basis,draco,gl gl,parallel,video archive,flip,viewer basis,parallel,viewer
-SHARED_PACKAGES := rustix/process wgpu/gles zip/deflate-flate2-zlib-rs
 features: compiler
 	@lint() { \
 		echo "without default features, with: $$1"; \
-		$(CARGO) clippy --quiet $(FLAGS) --lib --bins --no-default-features --features "$$1 $$2" -- --deny warnings; \
+		$(CARGO) clippy --quiet $(FLAGS) --lib --bins --no-default-features --features "$$1" -- --deny warnings; \
 	}; \
-	for features in $(FEATURE_SETS); do lint "$$features" '$(SHARED_PACKAGES)' || exit; done
+	for features in $(FEATURE_SETS); do lint "$$features" || exit; done
 
 # The library alone and the demo have nothing of a window system, or of C and C++; the library nothing of
 # the program either.
