@@ -65,6 +65,7 @@ pub use folder::Folder;
 pub use formats::{FORMAT_KEYS, SCENE_ENDINGS, SCENE_FORMATS, SceneFormat};
 pub use gltf::{GLTF_EXTENSIONS, Support, gltf_properties};
 pub use options::{Axis, Baking, Environment, EnvironmentSource, Ground, Options, Staging};
+#[cfg(not(target_arch = "wasm32"))]
 pub use picture::smaller_pictures;
 pub use picture::{Pixels, pixels};
 pub use resolver::{FileError, Memory, Resolver};
