@@ -1,5 +1,6 @@
 //! How surfaces scatter light.
 
+use super::material::texture_indices;
 use super::{Fresnel, LayerTextures, MetallicRoughness, Mixing};
 use glam::Vec3;
 use std::sync::Arc;
@@ -46,46 +47,19 @@ pub struct Phong {
     pub textures: PhongTextures,
 }
 
-/// For each colour of a [`Phong`] BSDF the index in [`super::Scene::textures`] of the texture that multiplies it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PhongTextures {
-    /// Of [`Phong::diffuse`].
-    pub diffuse: Option<usize>,
-    /// Of [`Phong::specular`].
-    pub specular: Option<usize>,
-    /// Of [`Phong::ambient`].
-    pub ambient: Option<usize>,
-    /// Of [`Phong::reflect`].
-    pub reflect: Option<usize>,
-    /// Of [`Phong::transmit`].
-    pub transmit: Option<usize>,
-}
-
-impl PhongTextures {
-    /// All of them.
-    pub fn all(&self) -> impl Iterator<Item = Option<usize>> + use<> {
-        let Self {
-            diffuse,
-            specular,
-            ambient,
-            reflect,
-            transmit,
-        } = *self;
-        [diffuse, specular, ambient, reflect, transmit].into_iter()
-    }
-
-    /// Adds `first` to every index, for textures that are appended to others.
-    pub fn shift(&mut self, first: usize) {
-        let Self {
-            diffuse,
-            specular,
-            ambient,
-            reflect,
-            transmit,
-        } = self;
-        for index in [diffuse, specular, ambient, reflect, transmit] {
-            *index = index.map(|index| index + first);
-        }
+texture_indices! {
+    /// For each colour of a [`Phong`] BSDF the index in [`super::Scene::textures`] of the texture that multiplies it.
+    PhongTextures {
+        /// Of [`Phong::diffuse`].
+        diffuse,
+        /// Of [`Phong::specular`].
+        specular,
+        /// Of [`Phong::ambient`].
+        ambient,
+        /// Of [`Phong::reflect`].
+        reflect,
+        /// Of [`Phong::transmit`].
+        transmit,
     }
 }
 

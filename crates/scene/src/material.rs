@@ -103,7 +103,7 @@ impl Material {
 
     /// The indices of all its textures in [`super::Scene::textures`], some of them repeatedly.
     pub fn texture_indices(&self) -> impl Iterator<Item = usize> {
-        let own = self.textures.all().into_iter().flatten();
+        let own = self.textures.all().flatten();
         own.chain(self.bsdf.texture_indices())
     }
 
@@ -125,17 +125,16 @@ pub struct ColoredParts {
     pub emission: bool,
 }
 
-/// Defines the list of textures from one list of names.
-macro_rules! layer_textures {
-    ($($(#[$doc:meta])* $name:ident,)*) => {
-        /// For parameters of a [`MetallicRoughness`] the index in [`super::Scene::textures`] of the texture that
-        /// multiplies them.
+/// Defines indices of textures from one list of their names.
+macro_rules! texture_indices {
+    ($(#[$doc:meta])* $type:ident { $($(#[$of:meta])* $name:ident,)* }) => {
+        $(#[$doc])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-        pub struct LayerTextures {
-            $($(#[$doc])* pub $name: Option<usize>,)*
+        pub struct $type {
+            $($(#[$of])* pub $name: Option<usize>,)*
         }
 
-        impl LayerTextures {
+        impl $type {
             /// All of them.
             pub fn all(&self) -> impl Iterator<Item = Option<usize>> + use<> {
                 [$(self.$name,)*].into_iter()
@@ -148,41 +147,46 @@ macro_rules! layer_textures {
         }
     };
 }
+pub(super) use texture_indices;
 
-layer_textures! {
-    /// Of [`MetallicRoughness::base_color`].
-    base_color,
-    /// Of [`MetallicRoughness::metallic`], in blue.
-    metallic,
-    /// Of [`MetallicRoughness::roughness`], in green.
-    roughness,
-    /// Of [`MetallicRoughness::transmission`], in red.
-    transmission,
-    /// Of [`MetallicRoughness::specular`], in alpha.
-    specular,
-    /// Of [`MetallicRoughness::specular_color`].
-    specular_color,
-    /// Of [`MetallicRoughness::clearcoat`], in red.
-    clearcoat,
-    /// Of [`MetallicRoughness::clearcoat_roughness`], in green.
-    clearcoat_roughness,
-    /// The normal map of the clear coat, which does not follow that of the surface.
-    clearcoat_normal,
-    /// Of [`MetallicRoughness::sheen_color`].
-    sheen_color,
-    /// Of [`MetallicRoughness::sheen_roughness`], in alpha.
-    sheen_roughness,
-    /// Of [`MetallicRoughness::anisotropy`], in blue; its red and green are a direction, from -1 to 1 for 0 to 1, that is
-    /// turned by [`MetallicRoughness::anisotropy_rotation`].
-    anisotropy,
-    /// Of [`MetallicRoughness::iridescence`], in red.
-    iridescence,
-    /// The place in [`MetallicRoughness::iridescence_thickness`], in green.
-    iridescence_thickness,
-    /// Of [`MetallicRoughness::diffuse_transmission`], in alpha.
-    diffuse_transmission,
-    /// Of [`MetallicRoughness::diffuse_transmission_color`].
-    diffuse_transmission_color,
+texture_indices! {
+    /// For parameters of a [`MetallicRoughness`] the index in [`super::Scene::textures`] of the texture that
+    /// multiplies them.
+    LayerTextures {
+        /// Of [`MetallicRoughness::base_color`].
+        base_color,
+        /// Of [`MetallicRoughness::metallic`], in blue.
+        metallic,
+        /// Of [`MetallicRoughness::roughness`], in green.
+        roughness,
+        /// Of [`MetallicRoughness::transmission`], in red.
+        transmission,
+        /// Of [`MetallicRoughness::specular`], in alpha.
+        specular,
+        /// Of [`MetallicRoughness::specular_color`].
+        specular_color,
+        /// Of [`MetallicRoughness::clearcoat`], in red.
+        clearcoat,
+        /// Of [`MetallicRoughness::clearcoat_roughness`], in green.
+        clearcoat_roughness,
+        /// The normal map of the clear coat, which does not follow that of the surface.
+        clearcoat_normal,
+        /// Of [`MetallicRoughness::sheen_color`].
+        sheen_color,
+        /// Of [`MetallicRoughness::sheen_roughness`], in alpha.
+        sheen_roughness,
+        /// Of [`MetallicRoughness::anisotropy`], in blue; its red and green are a direction, from -1 to 1 for 0 to 1, that is
+        /// turned by [`MetallicRoughness::anisotropy_rotation`].
+        anisotropy,
+        /// Of [`MetallicRoughness::iridescence`], in red.
+        iridescence,
+        /// The place in [`MetallicRoughness::iridescence_thickness`], in green.
+        iridescence_thickness,
+        /// Of [`MetallicRoughness::diffuse_transmission`], in alpha.
+        diffuse_transmission,
+        /// Of [`MetallicRoughness::diffuse_transmission_color`].
+        diffuse_transmission_color,
+    }
 }
 
 /// How much of a surface is there. The rest is a hole: rays pass it in a straight line, shadow rays too. They
@@ -224,44 +228,19 @@ pub enum Mixing {
     Blend,
 }
 
-/// The indices in [`super::Scene::textures`] of the textures of a [`Material`] besides those of its BSDF.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Textures {
-    /// The texture that multiplies [`Material::emission`].
-    pub emission: Option<usize>,
-    /// The normal map: a picture of shading normals on triangles with u and v. Values from 0 to 1 stand for −1
-    /// to 1; x points along u of the picture, y along v, z along the interpolated normal. Other surfaces
-    /// have none.
-    pub normal: Option<usize>,
-    /// The occlusion map: the fraction of ambient light that reaches the surface, in red.
-    pub occlusion: Option<usize>,
-    /// The texture whose alpha multiplies [`Material::alpha`]. Only pictures have an alpha other than 1.
-    pub alpha: Option<usize>,
-}
-
-impl Textures {
-    /// All of them.
-    pub fn all(&self) -> [Option<usize>; 4] {
-        let Self {
-            emission,
-            normal,
-            occlusion,
-            alpha,
-        } = *self;
-        [emission, normal, occlusion, alpha]
-    }
-
-    /// Adds `first` to every index, for textures that are appended to others.
-    pub fn shift(&mut self, first: usize) {
-        let Self {
-            emission,
-            normal,
-            occlusion,
-            alpha,
-        } = self;
-        for index in [emission, normal, occlusion, alpha] {
-            *index = index.map(|index| index + first);
-        }
+texture_indices! {
+    /// The indices in [`super::Scene::textures`] of the textures of a [`Material`] besides those of its BSDF.
+    Textures {
+        /// The texture that multiplies [`Material::emission`].
+        emission,
+        /// The normal map: a picture of shading normals on triangles with u and v. Values from 0 to 1 stand for −1
+        /// to 1; x points along u of the picture, y along v, z along the interpolated normal. Other surfaces
+        /// have none.
+        normal,
+        /// The occlusion map: the fraction of ambient light that reaches the surface, in red.
+        occlusion,
+        /// The texture whose alpha multiplies [`Material::alpha`]. Only pictures have an alpha other than 1.
+        alpha,
     }
 }
 
