@@ -86,7 +86,7 @@ impl Kernel {
     /// The module of a variant, specialised by overrides of `bindings.wesl`, by name.
     ///
     /// # Errors
-    /// Those of [`Self::source`] and [`specialize`].
+    /// The errors of [`Self::source`] and [`specialize`].
     pub fn specialized(
         &self,
         variant: Variant,
@@ -98,7 +98,7 @@ impl Kernel {
     /// The module of a variant for a kind of adapter.
     ///
     /// # Errors
-    /// Those of [`Self::specialized`].
+    /// The errors of [`Self::specialized`].
     pub fn module(
         &self,
         variant: Variant,

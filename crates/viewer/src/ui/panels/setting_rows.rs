@@ -1,6 +1,5 @@
 //! Rows of settings with a reset button, and titles of command-line values.
 
-use crate::model::view_settings::MAX_SAMPLES;
 use eframe::egui::{self, Response, RichText, Ui, WidgetInfo};
 use glimray_app::settings::{Row, Setting};
 use glimray_app::value_forms::Control;
@@ -58,9 +57,10 @@ fn control(ui: &mut Ui, setting: &Setting, row: &Row, settings: &mut RenderSetti
     match (setting.control)() {
         Control::Switch(place) => ui.checkbox(place(settings), ""),
         Control::Count(place, range) => {
+            let most = *range.end();
             let response = number(ui, place(settings), range, row.speed, row.unit);
             if setting.name == "samples" {
-                halve_or_double(ui, &mut settings.samples);
+                halve_or_double(ui, place(settings), most);
             }
             response
         }
@@ -86,13 +86,13 @@ fn control(ui: &mut Ui, setting: &Setting, row: &Row, settings: &mut RenderSetti
     }
 }
 
-fn halve_or_double(ui: &mut Ui, samples: &mut u32) {
+fn halve_or_double(ui: &mut Ui, samples: &mut u32, most: u32) {
     let mut button = |text: &str, tip: &str| ui.button(text).on_hover_text(tip).clicked();
     if button("½", "Halve the target samples") {
         *samples = (*samples / 2).max(1);
     }
     if button("×2", "Double the target samples") {
-        *samples = (*samples * 2).min(MAX_SAMPLES);
+        *samples = (*samples * 2).min(most);
     }
 }
 

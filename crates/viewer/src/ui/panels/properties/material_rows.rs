@@ -61,8 +61,20 @@ pub fn color<P: Part + 'static>(
     target: Option<Target>,
     slot: fn(&mut P) -> &mut Vec3,
 ) {
+    color_up_to(fields, Vec3::INFINITY, index, label, target, slot);
+}
+
+/// As [`color`], of channels up to those of `most`.
+pub fn color_up_to<P: Part + 'static>(
+    fields: &mut Fields,
+    most: Vec3,
+    index: usize,
+    label: (&str, &str),
+    target: Option<Target>,
+    slot: fn(&mut P) -> &mut Vec3,
+) {
     if let Some(part) = P::of(&mut fields.scene.materials[index].clone()) {
-        let set = edit(index, move |part, to| *slot(part) = to);
+        let set = edit(index, move |part, to: Vec3| *slot(part) = to.min(most));
         fields
             .may_be_driven_by(target)
             .color(label, *slot(part), set);

@@ -1,6 +1,8 @@
 //! The properties of a metallic-roughness BSDF.
 
-use super::material_rows::{COAT_NORMAL_MAP, FILM_MAP, TextureRow, color, edit, number, with};
+use super::material_rows::{
+    COAT_NORMAL_MAP, FILM_MAP, TextureRow, color, color_up_to, number, with,
+};
 use crate::ui::panels::properties::fields::{Fields, Limits};
 use glam::Vec3;
 use glimray_scene::{LayerProperty, MetallicRoughness, Target};
@@ -46,7 +48,7 @@ pub fn surface(fields: &mut Fields, index: usize, model: &MetallicRoughness) {
     fields.toggle(("Unlit", tip), model.unlit, set);
 }
 
-/// What passes through the surface.
+/// The light that passes through the surface.
 pub fn glass(fields: &mut Fields, index: usize) {
     let transmission = Some(Target::Layer(index, LayerProperty::Transmission));
     fields.heading("Glass");
@@ -228,13 +230,5 @@ fn bounded(
     target: Option<Target>,
     slot: fn(&mut MetallicRoughness) -> &mut Vec3,
 ) {
-    let mut material = fields.scene.materials[index].clone();
-    if let Some(model) = material.metallic_roughness_mut() {
-        let set = edit(index, move |model, to: Vec3| {
-            *slot(model) = to.min(Vec3::ONE)
-        });
-        fields
-            .may_be_driven_by(target)
-            .color(label, *slot(model), set);
-    }
+    color_up_to(fields, Vec3::ONE, index, label, target, slot);
 }
