@@ -3,6 +3,17 @@
 //!
 //! Release builds embed the linked kernels; development builds read them from `linked/` at run time, so that an edited
 //! shader needs no compiler of Rust.
+//!
+//! ```
+//! use glimray_shaders::{AdapterKind, Kernel, Variant};
+//!
+//! // The classical ray tracer for GPUs, without code for textures.
+//! let overrides = [("HAS_TEXTURES", 0.0)];
+//! let module = Kernel::WHITTED.module(Variant::Buffer, &overrides, AdapterKind::Gpu)?;
+//! assert_eq!(module.entry_points[0].name, "whitted");
+//! assert!(module.overrides.is_empty());
+//! # Ok::<(), String>(())
+//! ```
 
 mod bound;
 mod files;

@@ -122,19 +122,3 @@ mod vertex_colors;
 mod video;
 #[cfg(feature = "viewer")]
 mod view;
-#[cfg(feature = "viewer")]
-mod view_bindings;
-#[cfg(feature = "viewer")]
-mod view_command_line;
-#[cfg(feature = "viewer")]
-mod view_document;
-#[cfg(feature = "viewer")]
-mod view_handles;
-#[cfg(feature = "viewer")]
-mod view_histogram;
-#[cfg(feature = "viewer")]
-mod view_navigation;
-#[cfg(feature = "viewer")]
-mod view_objects;
-#[cfg(feature = "viewer")]
-mod view_preferences;

@@ -8,6 +8,29 @@
 //!
 //! Placements (cameras, lights, instances, analytic shapes) are kept in f64 and mesh vertices in f32 near
 //! their own origin, so that a scene far from the world origin keeps its precision.
+//!
+//! ```
+//! use glam::{DVec3, Vec3, dvec3};
+//! use glimray_scene::{Camera, Geometry, Light, LightKind, Phong, Scene, Shape};
+//!
+//! let red = Phong { diffuse: Vec3::new(0.8, 0.1, 0.1), ..Phong::default() };
+//! let scene = Scene {
+//!     materials: vec![red.into()],
+//!     shapes: vec![Shape {
+//!         geometry: Geometry::Sphere { center: DVec3::ZERO, radius: 2.0 },
+//!         material: 0,
+//!         node: None,
+//!     }],
+//!     lights: vec![Light {
+//!         kind: LightKind::Point { position: dvec3(3.0, 4.0, 5.0) },
+//!         ..Light::default()
+//!     }],
+//!     cameras: vec![Camera { look_from: dvec3(0.0, 0.0, 9.0), ..Camera::default() }],
+//!     ..Scene::default()
+//! };
+//! assert_eq!(scene.bounds(), Some((DVec3::splat(-2.0), DVec3::splat(2.0))));
+//! assert_eq!(scene.frame(0.0).camera.look_from.z, 9.0);
+//! ```
 
 mod animation;
 mod bounds;

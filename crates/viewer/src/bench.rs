@@ -106,10 +106,10 @@ fn moves_of_one(request: &BenchRequest) -> Result<Vec<f64>, AppError> {
     let mut seconds = Vec::new();
     for step in 0..MOVES {
         stage.rest()?;
-        seconds.push(stage.order_coarse(|order| {
-            let mut scene = Scene::clone(&order.scene);
+        seconds.push(stage.request_coarse(|request| {
+            let mut scene = Scene::clone(&request.scene);
             scene.instances[500 + step as usize].placement.translation.y += 0.01;
-            order.scene = Arc::new(scene);
+            request.scene = Arc::new(scene);
         })?);
     }
     Ok(seconds)
@@ -150,7 +150,7 @@ fn settings(scene: &Scene) -> RenderSettings {
 struct Stage {
     thread: RenderThread<()>,
     news: Receiver<()>,
-    orders: RenderRequests,
+    requests: RenderRequests,
     controller: CameraController,
 }
 
@@ -165,8 +165,8 @@ impl Stage {
         let thread = RenderThread::new(gpu, wake)
             .map_err(|error| AppError::Internal(format!("bench: no thread: {error}")))?;
         let controller = CameraController::new(&scene.frame(0.0).camera, scene.bounds());
-        let mut orders = RenderRequests::default();
-        orders.pictures[PictureSlot::Main as usize] = Some(RenderRequest {
+        let mut requests = RenderRequests::default();
+        requests.pictures[PictureSlot::Main as usize] = Some(RenderRequest {
             settings: settings(&scene),
             policy: request.policy,
             scene: Arc::new(scene),
@@ -177,19 +177,19 @@ impl Stage {
             tone: Tone::LINEAR,
             layer: glimray_app::layers::PictureLayer::Beauty,
         });
-        thread.order(orders.clone());
+        thread.submit(requests.clone());
         Ok(Self {
             thread,
             news,
-            orders,
+            requests,
             controller,
         })
     }
 
     /// Lets the full-resolution picture refine for a while.
     fn rest(&mut self) -> Result<(), AppError> {
-        self.orders.coarse = false;
-        self.thread.order(self.orders.clone());
+        self.requests.coarse = false;
+        self.thread.submit(self.requests.clone());
         std::thread::sleep(REST);
         self.check()
     }
@@ -200,17 +200,17 @@ impl Stage {
         // Past the camera's smoothing.
         self.controller.advance(10.0);
         let camera = self.controller.camera();
-        self.order_coarse(|order| order.camera = Some(camera))
+        self.request_coarse(|request| request.camera = Some(camera))
     }
 
     /// Changes the request, and returns the seconds until its coarse picture is there.
-    fn order_coarse(&mut self, change: impl FnOnce(&mut RenderRequest)) -> Result<f64, AppError> {
-        self.orders.coarse = true;
-        if let Some(order) = &mut self.orders.pictures[PictureSlot::Main as usize] {
-            change(order);
+    fn request_coarse(&mut self, change: impl FnOnce(&mut RenderRequest)) -> Result<f64, AppError> {
+        self.requests.coarse = true;
+        if let Some(request) = &mut self.requests.pictures[PictureSlot::Main as usize] {
+            change(request);
         }
         let started = Instant::now();
-        self.thread.order(self.orders.clone());
+        self.thread.submit(self.requests.clone());
         self.wait(|stage| stage.thread.is_settled())?;
         Ok(started.elapsed().as_secs_f64())
     }

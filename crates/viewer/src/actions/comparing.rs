@@ -35,18 +35,18 @@ fn has_room(session: &mut Session) -> bool {
 }
 
 fn snapshot(frame: &mut FrameRenderer) -> Answer {
-    let (order, region) = (frame.order, frame.renderer.region());
-    let entry = order.settings.integrator.entry();
+    let (request, region) = (frame.request, frame.renderer.region());
+    let entry = request.settings.integrator.entry();
     let is_radiance = entry.shows == Shows::Radiance;
     let tone = match is_radiance {
         true => Tone::LINEAR,
-        false => order.tone,
+        false => request.tone,
     };
     match frame.image(&tone) {
         Ok((image, samples)) => Answer::Snapshot(Box::new(Snapshot {
             image,
             region,
-            size: order.settings.size,
+            size: request.settings.size,
             is_radiance,
             detail: format!("{}, {samples} samples", entry.title),
         })),

@@ -20,19 +20,19 @@ pub fn update(session: &mut Session, progress: &Progress) {
     if !is_at_rest || !has_samples || session.playback.is_playing {
         return;
     }
-    let mut orders = session.orders();
-    let Some(order) = orders.pictures[PictureSlot::Main as usize].take() else {
+    let mut requests = session.requests();
+    let Some(request) = requests.pictures[PictureSlot::Main as usize].take() else {
         return;
     };
-    let [x, y, width, height] = order.settings.region();
+    let [x, y, width, height] = request.settings.region();
     let is_rendered = (x..x + width).contains(&pixel[0]) && (y..y + height).contains(&pixel[1]);
     let stage = match progress.is_done {
-        true => (true, progress.looks),
+        true => (true, progress.frames_shown),
         false => (false, progress.samples.ilog2().into()),
     };
     let subject = Subject {
         pixel,
-        order,
+        request,
         stage,
     };
     if is_rendered && session.cursor.asked.as_ref() != Some(&subject) {
@@ -56,7 +56,7 @@ fn surface(frame: &mut FrameRenderer, pixel: [u32; 2]) -> Option<Surface> {
     let ray = tree.samples.first()?.rays.first()?;
     let hit = ray.hit.as_ref()?;
     let id = hit.object.map(Id::Object);
-    let mut names = outline::labels(&frame.order.scene, id);
+    let mut names = outline::labels(&frame.request.scene, id);
     Some(Surface {
         object: id.and_then(|id| names.remove(&id)).unwrap_or_default(),
         distance: DVec3::from(hit.position).distance(DVec3::from(ray.origin)),

@@ -8,8 +8,9 @@ use crate::worker::progressive_image::{FrameRenderer, Progress};
 /// Asks for the histogram if the picture was presented anew. Previews are not measured. Returns whether a frame is
 /// needed to send the question.
 pub fn ask(session: &mut Session, progress: &Progress) -> bool {
-    let is_due =
-        !progress.is_coarse && progress.samples > 0 && session.histogram.is_due(progress.looks);
+    let is_due = !progress.is_coarse
+        && progress.samples > 0
+        && session.histogram.is_due(progress.frames_shown);
     if is_due {
         session.ask(measure);
     }

@@ -62,7 +62,7 @@ fn rays(frame: &mut FrameRenderer, pixel: [u32; 2]) -> Result<Inspected, String>
     let tree = frame.renderer.explain(pixel, 0..count);
     let is_final = !frame.settings().is_adaptive() || frame.renderer.is_done();
     let tree = tree.map_err(|error| advice::render(&error))?;
-    Ok(Inspected::new(tree, frame.order.clone(), is_final))
+    Ok(Inspected::new(tree, frame.request.clone(), is_final))
 }
 
 /// Handles the answer of the render thread.
@@ -118,19 +118,19 @@ pub fn inspect_hovered(session: &mut Session, response: &egui::Response, viewpor
 /// Whether the picture has changed since the rays were traced.
 pub fn is_stale(session: &Session) -> bool {
     let inspected = session.inspector.inspected.as_ref();
-    let orders = session.orders();
-    let now = orders.pictures[PictureSlot::Main as usize].as_ref();
+    let requests = session.requests();
+    let now = requests.pictures[PictureSlot::Main as usize].as_ref();
     match (inspected, now) {
         (Some(inspected), Some(now)) => {
             // Debug views show the surfaces of the classical tree.
-            let settings = |order: &RenderRequest| glimray_render::RenderSettings {
-                integrator: match order.settings.integrator {
+            let settings = |request: &RenderRequest| glimray_render::RenderSettings {
+                integrator: match request.settings.integrator {
                     Integrator::Path => Integrator::Path,
                     _ => Integrator::Whitted,
                 },
-                ..order.settings.clone()
+                ..request.settings.clone()
             };
-            !inspected.order.shows_same(now) || settings(&inspected.order) != settings(now)
+            !inspected.request.shows_same(now) || settings(&inspected.request) != settings(now)
         }
         _ => false,
     }

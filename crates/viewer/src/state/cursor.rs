@@ -30,7 +30,7 @@ pub struct Surface {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Subject {
     pub(crate) pixel: [u32; 2],
-    pub(crate) order: RenderRequest,
+    pub(crate) request: RenderRequest,
     /// Whether the picture is done, and how often it was shown; before, how often its samples have doubled.
     pub(crate) stage: (bool, u64),
 }

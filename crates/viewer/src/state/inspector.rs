@@ -25,7 +25,7 @@ pub struct Inspected {
     /// All rays of all samples.
     pub tree: RayTree,
     /// The request of the picture.
-    pub order: RenderRequest,
+    pub request: RenderRequest,
     /// Whether the pixel was finished; else adaptive sampling may add samples.
     pub is_final: bool,
     /// The number of bounces before each ray, by sample and ray.
@@ -36,12 +36,12 @@ pub struct Inspected {
 
 impl Inspected {
     /// Prepares the tree of a picture.
-    pub fn new(tree: RayTree, order: RenderRequest, is_final: bool) -> Self {
+    pub fn new(tree: RayTree, request: RenderRequest, is_final: bool) -> Self {
         let bounces = tree.samples.iter().map(rows::bounces).collect();
-        let labels = outline::labels(&order.scene, ray_labels::hit_by(&tree));
+        let labels = outline::labels(&request.scene, ray_labels::hit_by(&tree));
         Self {
             tree,
-            order,
+            request,
             is_final,
             bounces,
             labels,
@@ -50,8 +50,13 @@ impl Inspected {
 
     /// The camera of the picture.
     pub fn camera(&self) -> Camera {
-        let own = || self.order.scene.frame(self.order.shutter_interval.0).camera;
-        self.order.camera.clone().unwrap_or_else(own)
+        let own = || {
+            self.request
+                .scene
+                .frame(self.request.shutter_interval.0)
+                .camera
+        };
+        self.request.camera.clone().unwrap_or_else(own)
     }
 
     /// The label of an object that was hit.
@@ -194,7 +199,7 @@ pub struct Hidden {
 /// The inputs of the result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    pub(crate) order: RenderRequest,
+    pub(crate) request: RenderRequest,
     pub(crate) filter: Filter,
     /// The index of the tree.
     pub(crate) tree: u32,

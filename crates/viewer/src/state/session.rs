@@ -1,7 +1,7 @@
 //! The session: all state that outlives a lost device.
 
 pub mod opening;
-mod orders;
+mod requests;
 mod room;
 
 use crate::model::bindings::{Action, Drag};

@@ -13,7 +13,7 @@ use crate::ui::textures::Textures;
 use crate::ui::{panels, shield, tabs};
 use crate::window::presses::Presses;
 use crate::worker::progressive_image::PictureSlot;
-use crate::worker::progressive_image::patience;
+use crate::worker::progressive_image::wait_limit;
 use crate::worker::render_thread::{Fault, RenderRequests, RenderThread};
 use eframe::egui;
 use glimray_render::gpu::Gpu;
@@ -33,7 +33,7 @@ pub struct Viewer {
     render: RenderThread<Answer>,
     textures: Textures,
     layout: Layout,
-    wanted: Wanted,
+    wanted: Pictures,
     presses: Presses,
     /// Whether the window is cleared with [`eframe::App::clear_color`] first.
     is_cleared: bool,
@@ -54,9 +54,9 @@ impl Viewer {
         context.egui_ctx.set_fonts(fonts());
         let state = context.wgpu_render_state.clone();
         let ctx = context.egui_ctx.clone();
-        let wanted = Wanted {
-            orders: RenderRequests::default(),
-            patience: patience(&gpu),
+        let wanted = Pictures {
+            requests: RenderRequests::default(),
+            wait_limit: wait_limit(&gpu),
             until_wait: 0,
         };
         let render = RenderThread::new(gpu, move || ctx.request_repaint())?;
@@ -148,7 +148,7 @@ impl eframe::App for Viewer {
         for question in session.questions.drain(..) {
             self.render.ask(question);
         }
-        self.wanted.order(&self.render, &session);
+        self.wanted.submit(&self.render, &session);
         if session.is_at_rest() && self.presses.is_empty() && session.recording.is_to_close() {
             ctx.send_viewport_cmd(egui::ViewportCommand::Close);
         }
@@ -183,32 +183,32 @@ impl eframe::App for Viewer {
         panels::messages(ui, &mut context);
         self.textures.end();
         // Input of this frame is shown in this frame.
-        if self.wanted.order(&self.render, &session) {
+        if self.wanted.submit(&self.render, &session) {
             ui.ctx().request_discard("a new picture is available");
         }
     }
 }
 
 /// The last request, and whether the window waits for it.
-struct Wanted {
-    orders: RenderRequests,
+struct Pictures {
+    requests: RenderRequests,
     /// Maximum time to wait.
-    patience: Duration,
+    wait_limit: Duration,
     /// Number of requests not to wait for.
     until_wait: u32,
 }
 
-impl Wanted {
+impl Pictures {
     /// Sends the current request if it has changed. Waits for its first picture, mostly the coarse one,
     /// unless recent waits timed out.
-    fn order(&mut self, render: &RenderThread<Answer>, session: &Session) -> bool {
-        let orders = session.orders();
-        let is_same = orders.is_same(&self.orders);
-        if is_same && orders.shares_prepared(&self.orders) {
+    fn submit(&mut self, render: &RenderThread<Answer>, session: &Session) -> bool {
+        let requests = session.requests();
+        let is_same = requests.is_same(&self.requests);
+        if is_same && requests.shares_prepared(&self.requests) {
             return false;
         }
-        render.order(orders.clone());
-        self.orders = orders;
+        render.submit(requests.clone());
+        self.requests = requests;
         if is_same {
             // Better BVHs bring no picture that is worth waiting for.
             return false;
@@ -217,7 +217,7 @@ impl Wanted {
             self.until_wait -= 1;
             return false;
         }
-        let is_there = render.wait_for_look(self.patience);
+        let is_there = render.wait_for_look(self.wait_limit);
         if !is_there {
             self.until_wait = IN_VAIN;
         }

@@ -15,9 +15,9 @@ pub struct ShownScenes {
 
 impl ShownScenes {
     /// The scene of `order` as its integrator shows it; the same one unless it lacks pictures.
-    pub fn of(&mut self, order: &RenderRequest) -> Arc<Scene> {
-        let scene = &order.scene;
-        if !order.settings.integrator.is_classical() || !scene.lacks_classical_maps() {
+    pub fn of(&mut self, request: &RenderRequest) -> Arc<Scene> {
+        let scene = &request.scene;
+        if !request.settings.integrator.is_classical() || !scene.lacks_classical_maps() {
             return scene.clone();
         }
         if let Some((from, shown)) = &self.last

@@ -60,7 +60,7 @@ pub struct Compared {
     stills: u64,
     subject: Option<Subject>,
     difference: Option<ShownDifference>,
-    looks: u64,
+    frames_shown: u64,
 }
 
 impl Compared {
@@ -73,7 +73,7 @@ impl Compared {
             stills: 0,
             subject: None,
             difference: None,
-            looks: 0,
+            frames_shown: 0,
         }
     }
 
@@ -88,8 +88,8 @@ impl Compared {
     }
 
     /// Number of pictures that this has published.
-    pub fn looks(&self) -> u64 {
-        self.looks
+    pub fn frames_shown(&self) -> u64 {
+        self.frames_shown
     }
 
     /// Develops the requested still, unless it is there already.
@@ -109,7 +109,7 @@ impl Compared {
             self.request = Some(request.clone());
         }
         self.stills += 1;
-        self.looks += 1;
+        self.frames_shown += 1;
         Ok(())
     }
 
@@ -128,7 +128,7 @@ impl Compared {
         };
         let subject = Subject {
             gain,
-            states: [main.looks(), beside.looks(), self.stills],
+            states: [main.frames_shown(), beside.frames_shown(), self.stills],
             region: shown.region,
             size: shown.size,
         };
@@ -136,7 +136,7 @@ impl Compared {
             return Ok(());
         }
         self.difference = self.measured(gain, &shown, beside)?;
-        self.looks += u64::from(self.difference.is_some());
+        self.frames_shown += u64::from(self.difference.is_some());
         self.subject = Some(subject);
         Ok(())
     }

@@ -10,7 +10,7 @@ mod shown;
 
 pub use frame_renderer::{FrameRenderer, ImageError, PictureSlot};
 pub(super) use pace::policy;
-pub use pace::{Pace, patience};
+pub use pace::{Pace, wait_limit};
 pub use shown::{Progress, Shown};
 
 use crate::worker::classical::ShownScenes;
@@ -39,7 +39,7 @@ pub struct ProgressiveImage {
     place: PictureSlot,
     report: ReportStage,
     is_opening: bool,
-    order: Option<RenderRequest>,
+    request: Option<RenderRequest>,
     /// Whether only the coarse preview is wanted.
     stays_coarse: bool,
     is_coarse: bool,
@@ -65,7 +65,7 @@ pub struct ProgressiveImage {
     last_look: Option<Instant>,
     /// How long the last presentation took.
     look_time: Duration,
-    looks: u64,
+    frames_shown: u64,
     /// Seconds of work on this picture.
     busy: f64,
     pace: Pace,
@@ -91,7 +91,7 @@ impl ProgressiveImage {
             place,
             report,
             is_opening: false,
-            order: None,
+            request: None,
             stays_coarse: false,
             is_coarse: false,
             divisor: 1,
@@ -110,7 +110,7 @@ impl ProgressiveImage {
             is_shown: true,
             last_look: None,
             look_time: Duration::ZERO,
-            looks: 0,
+            frames_shown: 0,
             busy: 0.0,
             pace: Pace::default(),
             spent: Spent::default(),
@@ -130,8 +130,8 @@ impl ProgressiveImage {
     }
 
     /// Number of presentations.
-    pub fn looks(&self) -> u64 {
-        self.looks
+    pub fn frames_shown(&self) -> u64 {
+        self.frames_shown
     }
 
     /// Whether a renderer exists for questions.
@@ -159,10 +159,10 @@ impl ProgressiveImage {
 
     /// Begins the next finer picture: on slow devices by levels, each of which comes as a whole.
     fn refine(&mut self) -> Result<(), ImageError> {
-        let Some(order) = &self.order else {
+        let Some(request) = &self.request else {
             return Ok(());
         };
-        let pixels = pace::pixels(&order.settings);
+        let pixels = pace::pixels(&request.settings);
         match self.pace.next(pixels, self.divisor) {
             1 => self.begin(None),
             divisor => self.begin(Some(divisor)),
@@ -177,7 +177,7 @@ impl ProgressiveImage {
         if self.is_coarse && !self.stays_coarse && is_traced && self.is_shown && !paused {
             self.refine()?;
         }
-        let (Some(renderer), Some(order)) = (&mut self.renderer, &self.order) else {
+        let (Some(renderer), Some(request)) = (&mut self.renderer, &self.request) else {
             return Ok(());
         };
         let is_held = paused && !self.is_coarse && self.last_look.is_some();
@@ -188,9 +188,9 @@ impl ProgressiveImage {
             let share = renderer.progress();
             (self.report)(Stage::FirstSamples { share });
         }
-        let is_beauty = order.layer == PictureLayer::Beauty;
-        let is_direct = is_beauty && renderer.shows_directly(&order.tone);
-        let is_denoised = is_beauty && renderer.denoises(&order.tone);
+        let is_beauty = request.layer == PictureLayer::Beauty;
+        let is_direct = is_beauty && renderer.shows_directly(&request.tone);
+        let is_denoised = is_beauty && renderer.denoises(&request.tone);
         let interval = match (is_denoised, is_direct) {
             (true, _) => DENOISED.max(DENOISED_PAUSE * self.look_time),
             (false, true) => pace::between_looks(&self.gpu),
@@ -216,14 +216,14 @@ impl ProgressiveImage {
             Some(screen) if screen.size() == (width, height) => screen,
             _ => screen.insert(renderer.new_screen()?),
         };
-        self.range = match order.layer {
-            layer if layer != PictureLayer::Beauty && order.settings.has_features() => {
+        self.range = match request.layer {
+            layer if layer != PictureLayer::Beauty && request.settings.has_features() => {
                 let features = renderer.features()?;
-                let image = layer_picture::picture(layer, &features, &order.tone, &self.gpu)?;
+                let image = layer_picture::picture(layer, &features, &request.tone, &self.gpu)?;
                 screen.write(&self.gpu, &(&image).into())?;
                 None
             }
-            _ => renderer.show(&order.tone, screen)?,
+            _ => renderer.show(&request.tone, screen)?,
         };
         self.look_time = look.elapsed();
         self.busy += started.elapsed().as_secs_f64();
@@ -232,25 +232,25 @@ impl ProgressiveImage {
         }
         self.is_shown = true;
         self.last_look = Some(Instant::now());
-        self.looks += 1;
+        self.frames_shown += 1;
         self.is_opening = false;
         self.estimate_noise()
     }
 
     /// Estimates the noise each time the samples have doubled.
     fn estimate_noise(&mut self) -> Result<(), ImageError> {
-        let (Some(renderer), Some(order)) = (&mut self.renderer, &self.order) else {
+        let (Some(renderer), Some(request)) = (&mut self.renderer, &self.request) else {
             return Ok(());
         };
         let samples = renderer.samples_done();
         let is_estimable = !self.is_coarse
             && self.place == PictureSlot::Main
-            && order.settings.antialias != Antialias::None;
+            && request.settings.antialias != Antialias::None;
         if is_estimable && self.noise.is_due(samples) {
             // Neighbours share the noise of a denoised picture.
             let tone = Tone {
                 denoise: false,
-                ..order.tone
+                ..request.tone
             };
             self.noise.look(&renderer.develop(&tone)?, samples);
         }
@@ -262,7 +262,7 @@ impl ProgressiveImage {
         (!self.is_coarse).then_some(())?;
         Some(FrameRenderer {
             renderer: self.renderer.as_mut()?,
-            order: self.order.as_ref()?,
+            request: self.request.as_ref()?,
             screen: self.screen.as_ref().filter(|_| self.last_look.is_some()),
             outside: None,
         })

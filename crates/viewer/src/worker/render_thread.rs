@@ -66,7 +66,7 @@ pub enum Fault {
 }
 
 struct State<A> {
-    orders: RenderRequests,
+    requests: RenderRequests,
     questions: Vec<Question<A>>,
     answers: Vec<A>,
     shown: [Option<Shown>; 3],
@@ -77,7 +77,7 @@ struct State<A> {
     is_settled: bool,
     is_closing: bool,
     /// Generation of the current requests.
-    wishes: u64,
+    generation: u64,
     /// The last generation with a published picture.
     seen: u64,
     /// Whether the window waits for it and needs no other wake-up.
@@ -89,7 +89,7 @@ struct Shared<A> {
     /// Signals the thread that there is work.
     news: Condvar,
     /// Signals the window that there is a picture, or no reason to wait.
-    looks: Condvar,
+    picture_shown: Condvar,
 }
 
 impl<A> Shared<A> {
@@ -120,7 +120,7 @@ impl<A: Send + 'static> RenderThread<A> {
     pub fn new(gpu: Gpu, wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
         let shared = Arc::new(Shared {
             state: Mutex::new(State {
-                orders: RenderRequests::default(),
+                requests: RenderRequests::default(),
                 questions: Vec::new(),
                 answers: Vec::new(),
                 shown: [const { None }; 3],
@@ -130,12 +130,12 @@ impl<A: Send + 'static> RenderThread<A> {
                 activity: None,
                 is_settled: true,
                 is_closing: false,
-                wishes: 0,
+                generation: 0,
                 seen: 0,
                 is_awaited: false,
             }),
             news: Condvar::new(),
-            looks: Condvar::new(),
+            picture_shown: Condvar::new(),
         });
         let theirs = shared.clone();
         let wake = Arc::new(wake);
@@ -148,8 +148,8 @@ impl<A: Send + 'static> RenderThread<A> {
         let thread = std::thread::Builder::new()
             .name("render".into())
             .spawn(move || {
-                Painter {
-                    canvases: PictureSlot::ALL.map(|place| {
+                RenderWorker {
+                    images: PictureSlot::ALL.map(|place| {
                         let report = match place {
                             PictureSlot::Main => report.clone(),
                             PictureSlot::Beside | PictureSlot::Outside => Arc::new(|_| ()),
@@ -168,11 +168,11 @@ impl<A: Send + 'static> RenderThread<A> {
     }
 
     /// Replaces the requests.
-    pub fn order(&self, orders: RenderRequests) {
+    pub fn submit(&self, requests: RenderRequests) {
         let mut state = self.shared.lock();
-        state.orders = orders;
+        state.requests = requests;
         state.is_settled = false;
-        state.wishes += 1;
+        state.generation += 1;
         drop(state);
         self.shared.news.notify_one();
     }
@@ -182,11 +182,11 @@ impl<A: Send + 'static> RenderThread<A> {
     pub fn wait_for_look(&self, patience: Duration) -> bool {
         let goes_on = |state: &mut State<A>| {
             state.is_awaited =
-                state.seen < state.wishes && !state.is_settled && state.fault.is_none();
+                state.seen < state.generation && !state.is_settled && state.fault.is_none();
             state.is_awaited
         };
-        let (looks, state) = (&self.shared.looks, self.shared.lock());
-        let waited = looks.wait_timeout_while(state, patience, goes_on);
+        let (picture_shown, state) = (&self.shared.picture_shown, self.shared.lock());
+        let waited = picture_shown.wait_timeout_while(state, patience, goes_on);
         waited.is_ok_and(|(mut state, _)| !std::mem::take(&mut state.is_awaited))
     }
 
@@ -195,7 +195,7 @@ impl<A: Send + 'static> RenderThread<A> {
         let mut state = self.shared.lock();
         state.questions.push(Box::new(question));
         state.is_settled = false;
-        state.wishes += 1;
+        state.generation += 1;
         drop(state);
         self.shared.news.notify_one();
     }
@@ -248,95 +248,96 @@ impl<A: Send + 'static> Drop for RenderThread<A> {
 }
 
 /// The state of the thread itself.
-struct Painter {
+struct RenderWorker {
     /// In the order of [`PictureSlot::ALL`].
-    canvases: [ProgressiveImage; 3],
+    images: [ProgressiveImage; 3],
     compared: Compared,
     /// Requests that failed, to avoid retrying them.
     refused: Option<RenderRequests>,
 }
 
-impl Painter {
+impl RenderWorker {
     fn work<A: Send + 'static>(&mut self, shared: &Shared<A>, wake: impl Fn()) {
         let mut known = 0;
         loop {
-            let (orders, questions) = {
+            let (requests, questions) = {
                 let mut state = shared.lock();
                 // Questions that cannot be answered yet wait for the next requests too.
-                while !state.is_closing && state.is_settled && state.wishes == known {
+                while !state.is_closing && state.is_settled && state.generation == known {
                     state = (shared.news.wait(state)).unwrap_or_else(PoisonError::into_inner);
                 }
                 if state.is_closing {
                     return;
                 }
-                known = state.wishes;
-                (state.orders.clone(), std::mem::take(&mut state.questions))
+                known = state.generation;
+                (state.requests.clone(), std::mem::take(&mut state.questions))
             };
-            let looks = self.looks();
-            let was_refused = self.has_refused(&orders);
-            let (outcome, unanswered, answers) = self.round(&orders, questions);
-            let is_picture = looks != self.looks();
+            let frames_shown = self.frames_shown();
+            let was_refused = self.has_refused(&requests);
+            let (outcome, unanswered, answers) = self.round(&requests, questions);
+            let is_picture = frames_shown != self.frames_shown();
             let is_other_news = outcome != Ok(true) || !answers.is_empty();
             let mut state = shared.lock();
-            if outcome.is_err() || !self.canvases[2].is_opening() {
+            if outcome.is_err() || !self.images[2].is_opening() {
                 state.activity = None;
             }
             state.answers.extend(answers);
-            let has_news = state.wishes != known;
+            let has_news = state.generation != known;
             let wakes = is_other_news || is_picture && !state.is_awaited;
             if is_picture || is_other_news {
                 state.seen = known;
             }
             state.questions.splice(0..0, unanswered);
-            for (canvas, place) in self.canvases.iter().zip(PictureSlot::ALL) {
-                state.shown[place as usize] = canvas.shown();
+            for (image, place) in self.images.iter().zip(PictureSlot::ALL) {
+                state.shown[place as usize] = image.shown();
             }
             state.still = self.compared.still();
             state.difference = self.compared.difference();
             match outcome {
                 Ok(is_busy) => {
                     state.fault = (self.refused.is_some().then(|| state.fault.clone())).flatten();
-                    let waits = !state.questions.is_empty() && self.canvases[2].is_ready();
+                    let waits = !state.questions.is_empty() && self.images[2].is_ready();
                     state.is_settled = !is_busy && !has_news && !waits;
                 }
                 Err(fault) => {
                     // After an error, the previous picture continues.
                     state.is_settled = !has_news && (fault == Fault::Lost || was_refused);
                     if fault != Fault::Lost {
-                        self.refused = Some(orders);
+                        self.refused = Some(requests);
                     }
                     state.fault = Some(fault);
                 }
             }
             drop(state);
-            shared.looks.notify_all();
+            shared.picture_shown.notify_all();
             if wakes {
                 wake();
             }
         }
     }
 
-    fn has_refused(&self, orders: &RenderRequests) -> bool {
-        (self.refused.as_ref())
-            .is_some_and(|refused| refused.shows_same(orders) && refused.shares_prepared(orders))
+    fn has_refused(&self, requests: &RenderRequests) -> bool {
+        (self.refused.as_ref()).is_some_and(|refused| {
+            refused.shows_same(requests) && refused.shares_prepared(requests)
+        })
     }
 
-    fn looks(&self) -> u64 {
-        let rendered = self.canvases.iter().map(ProgressiveImage::looks);
-        rendered.sum::<u64>() + self.compared.looks()
+    fn frames_shown(&self) -> u64 {
+        let rendered = self.images.iter().map(ProgressiveImage::frames_shown);
+        rendered.sum::<u64>() + self.compared.frames_shown()
     }
 
     /// Applies the requests; one that fails does not affect the others.
-    fn set_requests(&mut self, orders: &RenderRequests) -> Result<(), ImageError> {
+    fn set_requests(&mut self, requests: &RenderRequests) -> Result<(), ImageError> {
         let mut outcome = Ok(());
-        for (canvas, place) in self.canvases.iter_mut().zip(PictureSlot::ALL) {
-            let order = orders.pictures[place as usize].as_ref();
-            let prepared = orders.prepared.as_ref();
-            outcome = outcome.and(canvas.set_request(order, orders.coarse, prepared));
+        for (image, place) in self.images.iter_mut().zip(PictureSlot::ALL) {
+            let request = requests.pictures[place as usize].as_ref();
+            let prepared = requests.prepared.as_ref();
+            outcome = outcome.and(image.set_request(request, requests.coarse, prepared));
         }
         outcome.and(
             self.compared
-                .set_request(orders.still.as_ref())
+                .set_request(requests.still.as_ref())
                 .map_err(Into::into),
         )
     }
@@ -348,23 +349,23 @@ impl Painter {
     )]
     fn round<A>(
         &mut self,
-        orders: &RenderRequests,
+        requests: &RenderRequests,
         questions: Vec<Question<A>>,
     ) -> (Result<bool, Fault>, Vec<Question<A>>, Vec<A>) {
         let mut is_busy = false;
-        if !self.has_refused(orders) {
+        if !self.has_refused(requests) {
             self.refused = None;
-            if let Err(error) = self.set_requests(orders) {
+            if let Err(error) = self.set_requests(requests) {
                 return (Err(error.into()), questions, Vec::new());
             }
         }
         let mut answers = Vec::new();
         let mut unanswered = Vec::new();
-        let [outside, _, main] = &mut self.canvases;
+        let [outside, _, main] = &mut self.images;
         for question in questions {
             match main.frame() {
                 Some(frame) => answers.push(question(&mut FrameRenderer {
-                    outside: outside.frame().map(|it| (it.renderer, it.order)),
+                    outside: outside.frame().map(|it| (it.renderer, it.request)),
                     ..frame
                 })),
                 None => unanswered.push(question),
@@ -373,22 +374,22 @@ impl Painter {
         // Questions refer to the full-resolution picture: a paused one continues until it has started.
         let is_asked = !unanswered.is_empty();
         let is_held =
-            |canvas: &ProgressiveImage| orders.paused && !(is_asked && canvas.is_awaited());
-        let has_work = |canvas: &ProgressiveImage| match is_held(canvas) {
-            true => !canvas.is_shown(),
-            false => !canvas.is_done(),
+            |image: &ProgressiveImage| requests.paused && !(is_asked && image.is_awaited());
+        let has_work = |image: &ProgressiveImage| match is_held(image) {
+            true => !image.is_shown(),
+            false => !image.is_done(),
         };
         // The picture with the least progress comes first, so that both sides of a comparison advance.
-        let waiting = self.canvases.iter_mut().filter(|canvas| has_work(canvas));
-        if let Some(canvas) = waiting.min_by(|a, b| a.rank().total_cmp(&b.rank())) {
-            let is_held = is_held(canvas);
-            if let Err(error) = canvas.step(is_held) {
+        let waiting = self.images.iter_mut().filter(|image| has_work(image));
+        if let Some(image) = waiting.min_by(|a, b| a.rank().total_cmp(&b.rank())) {
+            let is_held = is_held(image);
+            if let Err(error) = image.step(is_held) {
                 return (Err(error.into()), unanswered, answers);
             }
-            is_busy = self.canvases.iter().any(has_work);
+            is_busy = self.images.iter().any(has_work);
         }
-        let [_, beside, main] = &self.canvases;
-        if let Err(error) = self.compared.compare(orders.difference, main, beside) {
+        let [_, beside, main] = &self.images;
+        if let Err(error) = self.compared.compare(requests.difference, main, beside) {
             return (Err(ImageError::from(error).into()), unanswered, answers);
         }
         (Ok(is_busy), unanswered, answers)

@@ -160,8 +160,8 @@ fn same_view(a: &Camera, b: &Camera) -> bool {
 
 /// Copies the current view as a command line.
 pub fn copy(session: &mut Session, ctx: &egui::Context) {
-    let orders = session.orders();
-    let Some(order) = &orders.pictures[PictureSlot::Main as usize] else {
+    let requests = session.requests();
+    let Some(request) = &requests.pictures[PictureSlot::Main as usize] else {
         session.messages.notify("There is no picture yet");
         return;
     };
@@ -174,9 +174,9 @@ pub fn copy(session: &mut Session, ctx: &egui::Context) {
         options: &session.request.import,
         scene: original,
         camera: &camera,
-        background: (order.background.as_ref()).unwrap_or(&order.scene.background),
-        settings: &order.settings,
-        tone: order.tone,
+        background: (request.background.as_ref()).unwrap_or(&request.scene.background),
+        settings: &request.settings,
+        tone: request.tone,
         time: session.playback.time,
         fps: session.playback.clock.fps,
         shutter: session.playback.shutter(),

@@ -140,13 +140,13 @@ pub fn size_of(session: &Session, size: SaveSize) -> Option<(u32, u32)> {
 /// Renders the picture at another size on a thread of its own, and writes it.
 fn render(session: &mut Session, mut target: Target, size: (u32, u32)) {
     let integrator = session.view.settings.integrator;
-    let Some(mut order) = session.order(integrator) else {
+    let Some(mut request) = session.render_request(integrator) else {
         return;
     };
-    order.settings = session.view.settings_at(size, integrator);
-    target.opacity = order.settings.has_opacity();
-    let linear = (session.request.overrides.tone).tone(&order.scene.output, integrator, true);
-    let tone = tone_of(&target, order.tone, linear);
+    request.settings = session.view.settings_at(size, integrator);
+    target.opacity = request.settings.has_opacity();
+    let linear = (session.request.overrides.tone).tone(&request.scene.output, integrator, true);
+    let tone = tone_of(&target, request.tone, linear);
     let (sender, receiver) = channel();
     let is_cancelled = Arc::new(AtomicBool::new(false));
     session.files.pending.rendering.push(Rendering {
@@ -162,7 +162,7 @@ fn render(session: &mut Session, mut target: Target, size: (u32, u32)) {
         let gpu = frame.renderer.gpu().clone();
         let work = move || {
             let keeps_raw = target.format.has_layers();
-            let outcome = match still::render(gpu, &order, &tone, keeps_raw, &is_cancelled) {
+            let outcome = match still::render(gpu, &request, &tone, keeps_raw, &is_cancelled) {
                 Ok(Some(still)) => write_file(&still, &target, "").map(Some),
                 Ok(None) => Ok(None),
                 Err(error) => Err(error.to_string()),
@@ -238,7 +238,7 @@ fn capture(frame: &mut FrameRenderer, target: Target, waits: Option<u32>, linear
     if waits.is_some() && !frame.renderer.is_done() {
         return Answer::Picture(Box::new(captured));
     }
-    let tone = tone_of(&captured.target, frame.order.tone, linear);
+    let tone = tone_of(&captured.target, frame.request.tone, linear);
     let keeps_raw = captured.target.format.has_layers();
     match Still::developed(frame.renderer, &tone, keeps_raw) {
         Ok(still) => {
@@ -359,8 +359,8 @@ fn take_reply(session: &mut Session) {
 
 /// Size of the picture in pixels.
 pub fn size(session: &Session) -> (u32, u32) {
-    let orders = session.orders();
-    let order = orders.pictures[PictureSlot::Main as usize].as_ref();
-    let region = order.map(|order| order.settings.region());
+    let requests = session.requests();
+    let request = requests.pictures[PictureSlot::Main as usize].as_ref();
+    let region = request.map(|request| request.settings.region());
     region.map_or((0, 0), |[.., width, height]| (width, height))
 }

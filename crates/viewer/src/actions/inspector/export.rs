@@ -26,7 +26,7 @@ pub enum Format {
 /// As for `explain::json`, in one line.
 pub fn text(inspected: &Inspected, format: Format) -> Result<String, String> {
     match format {
-        Format::Json => ray_text::json(&inspected.tree, inspected.order.settings.size)
+        Format::Json => ray_text::json(&inspected.tree, inspected.request.settings.size)
             .map_err(|error| error.to_string()),
         Format::Obj => Ok(ray_lines::of(&inspected.tree)),
     }
@@ -108,7 +108,7 @@ pub fn command(session: &Session, sample: Option<u32>) -> Result<CommandLine, St
     };
     let settings = RenderSettings {
         integrator: inspected.tree.integrator,
-        ..inspected.order.settings.clone()
+        ..inspected.request.settings.clone()
     };
     let background = session.view.background.as_ref();
     let playback = &session.playback;

@@ -20,7 +20,7 @@ const TOLERANCE: f64 = 5e-3;
 
 fn view(session: &Session) -> Option<View> {
     Some(View {
-        order: session.outside_order()?,
+        request: session.outside_request()?,
         filter: session.inspector.filter,
         tree: session.inspector.tree_count,
     })
@@ -46,7 +46,7 @@ pub fn ask(session: &mut Session) {
     let lines = rays.map(|(id, ray)| (id, outside::ends(ray, reach)));
     let lines: Vec<_> = lines.collect();
     session.inspector.hidden.asked = Some(view.clone());
-    session.ask(move |frame| match parts(frame, &view.order, &lines) {
+    session.ask(move |frame| match parts(frame, &view.request, &lines) {
         Ok(parts) => Answer::Hidden(parts),
         Err(why) => Answer::Failed(why),
     });
@@ -58,13 +58,13 @@ fn parts(
     asked: &RenderRequest,
     lines: &[(RayId, (DVec3, DVec3))],
 ) -> Result<Option<Parts>, String> {
-    let Some((renderer, order)) = &mut frame.outside else {
+    let Some((renderer, request)) = &mut frame.outside else {
         return Ok(None);
     };
-    let (true, Some(camera)) = (**order == *asked, &order.camera) else {
+    let (true, Some(camera)) = (**request == *asked, &request.camera) else {
         return Ok(None);
     };
-    let (width, height) = order.settings.size;
+    let (width, height) = request.settings.size;
     let size = dvec2(width.into(), height.into());
     // Each part: its ray, its index, its pixel and its distance.
     let mut places = Vec::new();

@@ -15,7 +15,7 @@ pub(super) struct Room {
     /// The size of the panel, in pixels.
     available: (u32, u32),
     /// The picture's last request.
-    ordered: Option<RenderRequest>,
+    requested: Option<RenderRequest>,
     /// The picture's seconds of tracing so far.
     spent: f64,
 }
@@ -33,7 +33,7 @@ impl Session {
         if self.room.taken != pixels && !self.is_worth_keeping() {
             self.room.taken = pixels;
         }
-        self.room.ordered = self.order(self.view.settings.integrator);
+        self.room.requested = self.render_request(self.view.settings.integrator);
     }
 
     /// Whether the picture keeps its samples and is scaled to the room that there is now.
@@ -47,8 +47,8 @@ impl Session {
     }
 
     fn is_worth_keeping(&self) -> bool {
-        let order = self.order(self.view.settings.integrator);
-        let goes_on = (self.room.ordered.as_ref().zip(order.as_ref()))
+        let request = self.render_request(self.view.settings.integrator);
+        let goes_on = (self.room.requested.as_ref().zip(request.as_ref()))
             .is_some_and(|(last, now)| last.shows_same(now) && last.settings == now.settings);
         goes_on && self.view.fits && self.room.spent >= WORTH_KEEPING
     }

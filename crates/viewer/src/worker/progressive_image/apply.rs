@@ -13,22 +13,22 @@ impl ProgressiveImage {
     /// scene.
     pub fn set_request(
         &mut self,
-        order: Option<&RenderRequest>,
+        request: Option<&RenderRequest>,
         coarse: bool,
         prepared: Option<&PreparedScene>,
     ) -> Result<(), ImageError> {
-        let Some(order) = order else {
-            if self.order.is_some() {
+        let Some(request) = request else {
+            if self.request.is_some() {
                 *self = Self::new(self.gpu.clone(), self.place, self.report.clone());
             }
             return Ok(());
         };
-        let before = self.order.clone();
-        let packed = prepared.and_then(|prepared| prepared.packed(&order.scene));
-        let outcome = self.apply_request(order, coarse, packed);
+        let before = self.request.clone();
+        let packed = prepared.and_then(|prepared| prepared.packed(&request.scene));
+        let outcome = self.apply_request(request, coarse, packed);
         if outcome.is_err() {
             // Keep the last image, but do not treat it as this request's result.
-            self.order = before;
+            self.request = before;
             self.scene = None;
             self.packed = None;
         }
@@ -37,41 +37,41 @@ impl ProgressiveImage {
 
     fn apply_request(
         &mut self,
-        order: &RenderRequest,
+        request: &RenderRequest,
         coarse: bool,
         packed: Option<&Arc<PackedScene>>,
     ) -> Result<(), ImageError> {
-        let before = self.order.as_ref();
-        let scene = self.scenes.of(order);
+        let before = self.request.as_ref();
+        let scene = self.scenes.of(request);
         let is_other_scene = (self.scene.as_ref()).is_none_or(|it| !Arc::ptr_eq(it, &scene));
-        let shows_same = before.is_some_and(|b| b.shows_same(order));
+        let shows_same = before.is_some_and(|b| b.shows_same(request));
         // Whether the settings are those of before, once this has taken over some of them.
         let shares_rest = |take: fn(&mut RenderSettings, &RenderSettings)| {
             before.is_some_and(|b| {
                 let mut settings = b.settings.clone();
-                take(&mut settings, &order.settings);
-                settings == order.settings && b.policy == order.policy
+                take(&mut settings, &request.settings);
+                settings == request.settings && b.policy == request.policy
             })
         };
         let has_settings = shares_rest(|_, _| ());
         let differs_in_samples = shares_rest(|before, now| before.samples = now.samples);
         let differs_in_size =
-            order.settings.crop.is_none() && shares_rest(|before, now| before.size = now.size);
+            request.settings.crop.is_none() && shares_rest(|before, now| before.size = now.size);
         self.stays_coarse = coarse;
-        if before.is_some_and(|b| b.tone != order.tone || b.layer != order.layer) {
+        if before.is_some_and(|b| b.tone != request.tone || b.layer != request.layer) {
             self.is_shown = false;
             self.noise = Noise::default();
         }
         let is_other_interval =
-            before.is_none_or(|before| before.shutter_interval != order.shutter_interval);
-        if let Some(before) = self.order.replace(order.clone()) {
-            self.keep_whole(&before.settings, &order.settings);
+            before.is_none_or(|before| before.shutter_interval != request.shutter_interval);
+        if let Some(before) = self.request.replace(request.clone()) {
+            self.keep_whole(&before.settings, &request.settings);
         }
         let is_first = is_other_scene || self.packed.is_none();
         // The scene is unchanged, but its BVHs are no longer drafts.
         let is_refined =
             !is_first && packed.is_some_and(|packed| Arc::as_ptr(packed) != self.prepared.as_ptr());
-        let is_packed = packed.is_some() && Arc::ptr_eq(&scene, &order.scene);
+        let is_packed = packed.is_some() && Arc::ptr_eq(&scene, &request.scene);
         if shows_same && has_settings && self.renderer.is_some() {
             // A full-resolution picture is kept when only a preview is wanted, until something changes.
             return match is_refined {
@@ -79,7 +79,7 @@ impl ProgressiveImage {
                 false => Ok(()),
             };
         }
-        if shows_same && differs_in_samples && self.aim_at(order.settings.samples) {
+        if shows_same && differs_in_samples && self.aim_at(request.settings.samples) {
             return Ok(());
         }
         self.is_opening |= is_first && (self.packed.is_none() || packed.is_some());
@@ -87,7 +87,7 @@ impl ProgressiveImage {
             self.pack(&scene, packed, is_packed)?;
         }
         if is_other_scene || is_other_interval || self.scene.is_none() {
-            let (open, close) = order.shutter_interval;
+            let (open, close) = request.shutter_interval;
             self.frames = scene.motion_samples(open, close);
         }
         self.scene = Some(scene);
@@ -95,7 +95,7 @@ impl ProgressiveImage {
             return self.begin(None);
         }
         // A picture at rest begins coarse too, so that there is something to see at once.
-        let divisor = pace::first_divisor(&self.gpu, &mut self.pace, &order.settings);
+        let divisor = pace::first_divisor(&self.gpu, &mut self.pace, &request.settings);
         self.begin(Some(divisor))
     }
 
@@ -171,18 +171,18 @@ impl ProgressiveImage {
     ) -> Result<(), ImageError> {
         let draft = self.packed.clone();
         self.pack(scene, packed, is_packed)?;
-        let (Some(order), Some(packed), Some(renderer)) =
-            (&self.order, &self.packed, &mut self.renderer)
+        let (Some(request), Some(packed), Some(renderer)) =
+            (&self.request, &self.packed, &mut self.renderer)
         else {
             return Ok(());
         };
         let divisor = self.is_coarse.then_some(self.divisor);
-        let integrator = order.settings.integrator;
+        let integrator = request.settings.integrator;
         if integrator.entry().counts_steps || integrator == Integrator::Ids {
             return self.begin(divisor);
         }
-        let view = view(packed, self.view.as_ref(), &self.frames, order)?;
-        let policy = pace::policy(&self.gpu, order.policy);
+        let view = view(packed, self.view.as_ref(), &self.frames, request)?;
+        let policy = pace::policy(&self.gpu, request.policy);
         match renderer.replace_scene(packed.clone(), &view, policy) {
             Ok(()) => {
                 self.view = Some(view);
@@ -198,17 +198,17 @@ impl ProgressiveImage {
 
     /// Starts the picture over: coarse by a divisor of its width and height, or in full.
     pub(super) fn begin(&mut self, divisor: Option<u32>) -> Result<(), ImageError> {
-        let (Some(order), Some(packed)) = (&self.order, &self.packed) else {
+        let (Some(request), Some(packed)) = (&self.request, &self.packed) else {
             return Ok(());
         };
-        let view = view(packed, self.view.as_ref(), &self.frames, order)?;
+        let view = view(packed, self.view.as_ref(), &self.frames, request)?;
         let has_tlas = (self.view.as_ref()).is_some_and(|before| before.shares_tlas(&view));
         self.trees_built += usize::from(packed.features.instances && !has_tlas);
         let settings = match divisor {
-            Some(divisor) => pace::coarse(&order.settings, divisor),
-            None => order.settings.clone(),
+            Some(divisor) => pace::coarse(&request.settings, divisor),
+            None => request.settings.clone(),
         };
-        let policy = pace::policy(&self.gpu, order.policy);
+        let policy = pace::policy(&self.gpu, request.policy);
         let packed = packed.clone();
         if self.is_opening {
             (self.report)(Stage::Uploading);

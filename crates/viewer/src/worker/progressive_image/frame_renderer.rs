@@ -26,7 +26,7 @@ pub struct FrameRenderer<'a> {
     /// The renderer of the main picture, idle between two steps.
     pub renderer: &'a mut Renderer,
     /// The request of the main picture.
-    pub order: &'a RenderRequest,
+    pub request: &'a RenderRequest,
     /// The main picture as displayed; `None` before it has samples.
     pub screen: Option<&'a Screen>,
     /// Renderer and request of the ray view, if it is rendered in full.
@@ -69,7 +69,7 @@ impl FrameRenderer<'_> {
 
     /// The settings of the picture in full.
     pub fn settings(&self) -> &RenderSettings {
-        &self.order.settings
+        &self.request.settings
     }
 }
 

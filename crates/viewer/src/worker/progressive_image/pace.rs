@@ -94,7 +94,7 @@ impl Pace {
 
 /// Maximum time to delay a window frame for its preview. Drawing the window meanwhile would slow down the
 /// preview, only to show the old picture.
-pub fn patience(gpu: &Gpu) -> Duration {
+pub fn wait_limit(gpu: &Gpu) -> Duration {
     let coarse = if gpu.is_cpu() { COARSE_ON_CPU } else { COARSE };
     coarse.mul_f64(1.5)
 }

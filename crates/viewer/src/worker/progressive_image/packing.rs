@@ -9,17 +9,17 @@ pub fn view(
     packed: &PackedScene,
     previous: Option<&PackedView>,
     frames: &[Frame],
-    order: &RenderRequest,
+    request: &RenderRequest,
 ) -> Result<PackedView, pack::PackError> {
-    if order.camera.is_none() && order.background.is_none() {
+    if request.camera.is_none() && request.background.is_none() {
         return packed.view_from(previous, frames);
     }
     let mut frames = frames.to_vec();
     for frame in &mut frames {
-        if let Some(camera) = &order.camera {
+        if let Some(camera) = &request.camera {
             frame.camera = camera.clone();
         }
-        if let Some(background) = &order.background {
+        if let Some(background) = &request.background {
             frame.background = background.clone();
         }
     }

@@ -48,7 +48,7 @@ pub struct Progress {
     /// are enough samples, and without antialiasing.
     pub noise: Option<f64>,
     /// How often a picture was put on a screen.
-    pub looks: u64,
+    pub frames_shown: u64,
     /// Whether this is the coarse picture.
     pub is_coarse: bool,
     /// Whether it has all its samples.
@@ -58,7 +58,7 @@ pub struct Progress {
 impl ProgressiveImage {
     /// The picture to draw.
     pub fn shown(&self) -> Option<Shown> {
-        let (renderer, order) = (self.renderer.as_ref()?, self.order.as_ref()?);
+        let (renderer, request) = (self.renderer.as_ref()?, self.request.as_ref()?);
         let stats = renderer.stats();
         let seconds = stats.trace_seconds - self.spent.seconds;
         let rays = stats.samples - self.spent.samples;
@@ -68,17 +68,17 @@ impl ProgressiveImage {
             under: self.coarse.clone().or(self.screen.clone()),
             under_is_coarse: self.coarse.is_some(),
             whole: self.whole.clone(),
-            region: order.settings.region(),
-            size: order.settings.size,
+            region: request.settings.region(),
+            size: request.settings.size,
             range: self.range,
             progress: Progress {
                 samples: renderer.samples_done(),
-                target: order.settings.samples,
+                target: request.settings.samples,
                 share: renderer.progress(),
                 trace_seconds: seconds,
                 rays_per_second: rays as f64 / seconds.max(1e-9),
                 noise: self.noise.estimate(),
-                looks: self.looks,
+                frames_shown: self.frames_shown,
                 is_coarse: self.is_coarse,
                 is_done: self.is_done(),
             },

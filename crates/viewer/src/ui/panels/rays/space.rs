@@ -82,7 +82,7 @@ fn draw_camera(painter: &egui::Painter, session: &Session, viewport: Viewport) {
         return;
     };
     let first = inspected.camera();
-    let (width, height) = inspected.order.settings.size;
+    let (width, height) = inspected.request.settings.size;
     let size = dvec2(width.into(), height.into());
     let depth = 0.12 * controller.scene_radius();
     let extent = viewport.extent();

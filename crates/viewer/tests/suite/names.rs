@@ -1,6 +1,6 @@
 //! Everything that can be clicked, dragged or typed into has a name that is read aloud.
 
-use super::harness::Window;
+use crate::harness::Window;
 use eframe::egui::{Key, Role};
 use egui_kittest::kittest::{NodeT, Queryable, by};
 use glimray::scene::ObjectRef;

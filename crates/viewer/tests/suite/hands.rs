@@ -1,6 +1,6 @@
 //! Effects of keys and buttons in the window.
 
-use super::harness::Window;
+use crate::harness::Window;
 use eframe::egui::{self, Key, Modifiers, PointerButton, Pos2, Role};
 use egui_kittest::kittest::Queryable;
 use glimray_viewer::model::bindings::Action;

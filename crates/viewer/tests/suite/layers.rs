@@ -1,6 +1,6 @@
 //! The layers of a picture in the window, and what they look like.
 
-use super::harness::Window;
+use crate::harness::Window;
 use crate::reference::compare::open_gpu;
 use eframe::egui::{Key, Modifiers};
 use glimray::image::ScreenImage;

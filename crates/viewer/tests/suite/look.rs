@@ -1,6 +1,6 @@
 //! How the picture is looked at: the panel of its settings, comparing, and rendering a part.
 
-use super::harness::Window;
+use crate::harness::Window;
 use crate::reference::compare::start;
 use eframe::egui::{self, Key, Pos2};
 use egui_kittest::kittest::{NodeT, Queryable, by};
@@ -139,16 +139,18 @@ fn the_line_of_a_split_wipe_is_moved_by_mouse_and_by_keys() {
     let mut window = open();
     window.session().view.compare(Sharing::Wipe(0.5));
     window.settle();
-    let order = |window: &Window, place: PictureSlot| {
-        let orders = window.session().orders();
-        orders.pictures[place as usize].clone().expect("a picture")
+    let request = |window: &Window, place: PictureSlot| {
+        let requests = window.session().requests();
+        requests.pictures[place as usize]
+            .clone()
+            .expect("a picture")
     };
     assert_eq!(
-        order(&window, PictureSlot::Main).settings.integrator,
+        request(&window, PictureSlot::Main).settings.integrator,
         Integrator::Whitted
     );
     assert_eq!(
-        order(&window, PictureSlot::Beside).settings.integrator,
+        request(&window, PictureSlot::Beside).settings.integrator,
         Integrator::Normals
     );
     let share = |window: &Window| match window.session().view.comparison {
@@ -181,11 +183,11 @@ fn the_line_of_a_split_wipe_is_moved_by_mouse_and_by_keys() {
     );
     click(&mut window, "Swap");
     assert_eq!(
-        order(&window, PictureSlot::Main).settings.integrator,
+        request(&window, PictureSlot::Main).settings.integrator,
         Integrator::Normals
     );
     assert_eq!(
-        order(&window, PictureSlot::Beside).settings.integrator,
+        request(&window, PictureSlot::Beside).settings.integrator,
         Integrator::Whitted
     );
 }
@@ -278,7 +280,7 @@ fn a_view_of_a_quantity_has_a_legend_with_its_range_and_unit() {
     ] {
         window.session().view.settings.integrator = integrator;
         window.settle();
-        let tone = window.order().tone;
+        let tone = window.request().tone;
         let [least, most] = window.shown().range.expect("a range");
         assert!(
             least <= most && most > 0.0,
@@ -291,8 +293,8 @@ fn a_view_of_a_quantity_has_a_legend_with_its_range_and_unit() {
             "{found:?}"
         );
         // Saved pictures and those of the command line are as shown.
-        let settings = window.order().settings;
-        let mut renderer = start(&window.order().scene, &settings).expect("a renderer");
+        let settings = window.request().settings;
+        let mut renderer = start(&window.request().scene, &settings).expect("a renderer");
         while !renderer.is_done() {
             renderer.step().expect("a step");
         }

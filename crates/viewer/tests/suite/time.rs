@@ -1,10 +1,8 @@
 //! The animation in the window: played, stepped through, and each frame that of the command line.
 
-use super::harness::Window;
-use super::pixels;
+use crate::harness::Window;
 use eframe::egui::{Key, Role};
 use egui_kittest::kittest::{NodeT, Queryable};
-use glimray::scene::Shutter;
 use glimray_viewer::state::layout::Panel;
 
 const SIZE: [&str; 4] = ["--size", "60x40", "--samples", "2"];
@@ -16,53 +14,6 @@ fn open(scene: &str) -> Window {
     let mut window = Window::open(&arguments);
     window.settle();
     window
-}
-
-/// Holds what is on the screen against `glimray render SCENE --frame N FLAGS…`.
-#[track_caller]
-fn check(window: &Window, scene: &str, flags: &str) {
-    let path = format!("assets/scenes/{scene}");
-    let frame = window.session().playback.frame().to_string();
-    let mut line = vec!["render", "--quiet", &path, "--frame", &frame];
-    line.extend(SIZE);
-    line.extend(flags.split_whitespace());
-    let screen = window.shown().screen.expect("a screen");
-    let shown = pixels::on(&screen, &window.gpu);
-    shown.assert_same(&pixels::of_command_line(&line), &line.join(" "));
-}
-
-#[test]
-fn a_frame_on_the_screen_is_that_of_the_command_line() {
-    for scene in ["orbits.toml", "carousel.toml"] {
-        let mut window = open(scene);
-        for frame in [31, 5] {
-            window.session().playback.go_to(frame);
-            window.settle();
-            check(&window, scene, "");
-        }
-    }
-}
-
-#[test]
-fn motion_blur_shutter_and_frame_rate_are_those_of_the_command_line() {
-    let scene = "orbits.toml";
-    let mut window = open(scene);
-    window.session().playback.go_to(10);
-    window.session().playback.blurs = false;
-    window.settle();
-    check(&window, scene, "--shutter 0");
-    window.session().playback.blurs = true;
-    window.session().playback.clock.shutter = Shutter {
-        open: -0.5,
-        close: 1.25,
-    };
-    window.settle();
-    check(&window, scene, "--shutter=-0.5..1.25");
-    window.session().playback.set_fps(10.0);
-    window.settle();
-    // Frame 10 of 24 a second is nearest to frame 4 of 10.
-    assert_eq!(window.session().playback.frame(), 4);
-    check(&window, scene, "--shutter=-0.5..1.25 --fps 10");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The look of the window: pictures of it, held against those in `tests/snapshots`.
-//! `UPDATE_SNAPSHOTS=1 cargo test --profile ci --test suite looks` writes them anew.
+//! `UPDATE_SNAPSHOTS=1 cargo test --profile ci -p glimray-viewer looks` writes them anew.
 
-use super::harness::Window;
+use crate::harness::Window;
 use crate::support::verdict::Verdict;
 use eframe::egui::{self, Key};
 use egui_kittest::kittest::Queryable;
@@ -28,7 +28,7 @@ fn open() -> Window {
 #[track_caller]
 fn check(window: &mut Window, name: &str) {
     window.settle();
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/snapshots");
+    let folder = "tests/snapshots";
     let options = SnapshotOptions::default()
         .output_path(folder)
         .max_failed_pixels(MAX_PIXELS);
@@ -50,7 +50,7 @@ fn check_part(
         size.x.round() as u32,
         size.y.round() as u32,
     );
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/snapshots");
+    let folder = "tests/snapshots";
     let options = SnapshotOptions::default()
         .output_path(folder)
         .max_failed_pixels(MAX_PIXELS);
@@ -101,10 +101,7 @@ fn the_rays_of_a_pixel_are_a_tree_and_lines_in_space() {
 
 #[test]
 fn the_paths_of_a_pixel_are_lists_and_lines_in_space() {
-    let scene = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/assets/scenes/cornell_box.toml"
-    );
+    let scene = "assets/scenes/cornell_box.toml";
     let mut window = Window::open(&[scene, "--size", "240x240", "--integrator", "path"]);
     window.harness.set_size(egui::vec2(1280.0, 1000.0));
     window.session().shows_statistics = false;

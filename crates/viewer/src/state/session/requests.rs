@@ -15,31 +15,31 @@ const SAMPLES: u32 = 4;
 
 impl Session {
     /// The current render requests.
-    pub fn orders(&self) -> RenderRequests {
-        let mut orders = RenderRequests {
+    pub fn requests(&self) -> RenderRequests {
+        let mut requests = RenderRequests {
             coarse: self.is_moving(),
             paused: self.view.paused,
             prepared: self.prepared.clone(),
             ..RenderRequests::default()
         };
         if self.room.taken.0 > 0 && self.room.taken.1 > 0 {
-            let main = self.order(self.view.settings.integrator);
-            orders.pictures[PictureSlot::Main as usize] = main.map(|order| RenderRequest {
+            let main = self.render_request(self.view.settings.integrator);
+            requests.pictures[PictureSlot::Main as usize] = main.map(|request| RenderRequest {
                 layer: self.view.layer,
-                ..order
+                ..request
             });
             if let Some(comparison) = self.view.comparison.filter(|_| self.scene().is_some()) {
-                orders.pictures[PictureSlot::Beside as usize] =
-                    (comparison.integrator()).and_then(|integrator| self.order(integrator));
-                orders.still = self.still().map(|still| self.still_request(still));
-                orders.difference = comparison.gain();
+                requests.pictures[PictureSlot::Beside as usize] = (comparison.integrator())
+                    .and_then(|integrator| self.render_request(integrator));
+                requests.still = self.still().map(|still| self.still_request(still));
+                requests.difference = comparison.gain();
             }
         }
-        orders.pictures[PictureSlot::Outside as usize] = self.outside_order();
-        orders
+        requests.pictures[PictureSlot::Outside as usize] = self.outside_request();
+        requests
     }
 
-    pub(crate) fn order(&self, integrator: Integrator) -> Option<RenderRequest> {
+    pub(crate) fn render_request(&self, integrator: Integrator) -> Option<RenderRequest> {
         let (scene, controller) = (self.scene()?, self.controller.as_ref()?);
         Some(RenderRequest {
             scene: scene.clone(),
@@ -70,7 +70,7 @@ impl Session {
     }
 
     /// The request of the ray view while it is visible.
-    pub fn outside_order(&self) -> Option<RenderRequest> {
+    pub fn outside_request(&self) -> Option<RenderRequest> {
         let outside = &self.inspector.outside;
         let (controller, size) = (outside.controller.as_ref()?, outside.shown?);
         self.inspector.inspected.as_ref()?;

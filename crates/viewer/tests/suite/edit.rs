@@ -1,6 +1,6 @@
 //! Editing in the window: what is selected, changed, taken back and saved.
 
-use super::harness::Window;
+use crate::harness::Window;
 use crate::reference::compare::render;
 use eframe::egui::{Key, Pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -111,7 +111,7 @@ fn set(window: &mut Window, field: &str, value: f64) {
 }
 
 fn assert_shows(window: &mut Window, wanted: &Scene, what: &str) {
-    let (expected, _) = render(wanted, &window.order().settings);
+    let (expected, _) = render(wanted, &window.request().settings);
     let image = window.image(Tone::LINEAR);
     assert!(
         image == expected,
@@ -358,8 +358,8 @@ fn a_saved_scene_gives_the_same_picture() {
         notices(&window)
     );
     let read = glimray::import::load(&other).expect("a scene");
-    let (expected, _) = render(&edited, &window.order().settings);
-    let (again, _) = render(&read, &window.order().settings);
+    let (expected, _) = render(&edited, &window.request().settings);
+    let (again, _) = render(&read, &window.request().settings);
     assert!(expected == again, "the saved scene gives another picture");
     assert!(
         !window

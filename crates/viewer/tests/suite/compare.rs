@@ -1,8 +1,8 @@
 //! Snapshots, reference pictures, differences and the histogram in the window.
 
 use super::edit;
-use super::harness::Window;
 use super::pixels::{self, Bytes};
+use crate::harness::Window;
 use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable, by};
 use glam::Vec3;

@@ -96,9 +96,9 @@ impl Window {
     }
 
     /// The last request of the main picture.
-    pub fn order(&self) -> RenderRequest {
-        let orders = self.session.borrow().orders();
-        orders.pictures[PictureSlot::Main as usize]
+    pub fn request(&self) -> RenderRequest {
+        let requests = self.session.borrow().requests();
+        requests.pictures[PictureSlot::Main as usize]
             .clone()
             .expect("a picture")
     }

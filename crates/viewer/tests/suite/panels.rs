@@ -1,6 +1,6 @@
 //! Panels and the lines between them: hidden and shown again, squeezed and given room again, dragged quickly.
 
-use super::harness::Window;
+use crate::harness::Window;
 use eframe::App;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Role, pos2, vec2};
 use egui_kittest::kittest::Queryable;

@@ -1,6 +1,6 @@
 //! Sheets of the window: bindings that are changed, preferences that are kept.
 
-use super::harness::Window;
+use crate::harness::Window;
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use glimray_viewer::actions::settings;

@@ -1,11 +1,9 @@
 //! The viewer's picture as a command line, and the way back.
 
-use crate::reference::compare::render;
 use crate::support::random::Random;
 use crate::support::settings::texts;
 use glam::{DAffine3, dvec2, dvec3, vec3};
 use glimray::import;
-use glimray::output;
 use glimray::pack;
 use glimray::render::{
     Antialias, Integrator, Levels, RayOffset, RenderSettings, Tone, TriangleTest,
@@ -19,7 +17,6 @@ use glimray_app::settings::SETTINGS;
 use glimray_cli::view::picture;
 use glimray_viewer::model::camera::CameraController;
 use glimray_viewer::model::command_line::{CommandLine, Pasted, Shown, copy, paste};
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -485,62 +482,4 @@ fn what_is_no_line_of_ours_is_refused_in_one_line() {
         let why = paste(picture, line, &scene).expect_err(line);
         assert!(why.contains(needle) && !why.contains('\n'), "{line}: {why}");
     }
-}
-
-#[test]
-fn the_command_line_makes_the_pixels_that_were_copied() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let text = "background = [0.1, 0.2, 0.3]\n[camera]\nlook_from = [0, 1, 5]\nlook_at = [0, 0, 0]\nfov_y_deg = 40\n\
-        [materials.m]\nphong = { diffuse = [0.8, 0.4, 0.2], ambient = [0.2, 0.1, 0.1] }\n\
-        [[lights]]\npoint = { position = [3, 4, 5] }\n\
-        [[objects]]\nmaterial = 'm'\nsphere = { center = [0, 0, 0], radius = 1 }\n\
-        [[objects]]\nmaterial = 'm'\nbox = { min = [1, -1, -1], max = [2, 1, 1] }\n";
-    let path = folder.path().join("a scene.toml");
-    fs::write(&path, text).expect("a scene");
-    for orthographic in [false, true] {
-        let scene = import::load(&path).expect("a scene");
-        let mut screen = Screen::of(scene);
-        let mut rig = CameraController::new(&screen.camera, screen.scene.bounds());
-        rig.orbit(dvec2(77.0, 33.0), dvec2(640.0, 480.0));
-        rig.zoom(2.0, Some(dvec3(0.5, 0.5, 0.0)));
-        rig.advance(0.05);
-        if orthographic {
-            rig.toggle_orthographic();
-        }
-        screen.path.clone_from(&path);
-        screen.camera = rig.camera();
-        screen.settings.size = (48, 36);
-        screen.settings.samples = 4;
-        screen.settings.antialias = Antialias::Stratified;
-        let line = screen.check();
-        let words = shell_words(&line);
-        let made = folder.path().join("made.png");
-        let status = Command::new(env!("CARGO_BIN_EXE_glimray"))
-            .args(&words[1..])
-            .args(["--transfer", "linear", "--quiet", "-o"])
-            .arg(&made)
-            .status()
-            .expect("glimray runs");
-        assert!(status.success(), "{line}");
-        screen.scene.cameras = vec![screen.camera.clone()];
-        let (image, _) = render(&screen.scene, &screen.settings);
-        let shown = folder.path().join("shown.png");
-        output::save(&shown, &image).expect("a picture");
-        assert_eq!(
-            fs::read(&made).expect("a file"),
-            fs::read(&shown).expect("a file"),
-            "{line}"
-        );
-    }
-}
-
-/// By a real shell, or where there is none by spaces.
-fn shell_words(line: &str) -> Vec<String> {
-    let script = format!("printf '%s\\n' {line}");
-    let output = Command::new("sh").args(["-c", &script]).output();
-    let text = output.map_or_else(
-        |_| line.replace(' ', "\n"),
-        |output| String::from_utf8_lossy(&output.stdout).into_owned(),
-    );
-    text.lines().map(str::to_owned).collect()
 }

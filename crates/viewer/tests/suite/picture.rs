@@ -1,8 +1,8 @@
 //! The picture panel: the pixel under the cursor, pixel zoom, and the room that the picture fills.
 
 use super::edit;
-use super::harness::Window;
 use super::pixels;
+use crate::harness::Window;
 use eframe::egui::{
     Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, Rect, TouchPhase, pos2, vec2,
 };
@@ -174,37 +174,6 @@ fn small() -> (tempfile::TempDir, std::path::PathBuf) {
     let text = text + "\n[output]\nsize = [40, 30]\nsamples = 2\n";
     std::fs::write(&path, text).expect("a file");
     (folder, path)
-}
-
-#[test]
-fn a_picture_is_saved_at_the_scenes_size_and_at_twice_that() {
-    let (folder, scene) = small();
-    let scene = scene.to_str().expect("a path in UTF-8");
-    let mut window = Window::open(&[scene]);
-    window.settle();
-    let shown = window.shown().size;
-    assert!(shown.0 > 80, "the picture does not fit the window");
-    for (label, size) in [("Scene size", "40x30"), ("Scene size ×2", "80x60")] {
-        let path = folder.path().join(format!("{size}.png"));
-        window.harness.key_press(Key::F12);
-        window.harness.run_steps(3);
-        window.harness.get_by_label(label).click();
-        window.harness.run_steps(2);
-        let dialog = path.display().to_string();
-        (window.session().files.saving.as_mut().expect("a sheet")).path = dialog;
-        window.harness.run_steps(2);
-        window.harness.get_by_label("Save").click();
-        window.harness.run_steps(2);
-        window.settle();
-        let written = ::image::open(&path).expect("a PNG").to_rgb8();
-        let written = pixels::Bytes {
-            size: written.dimensions(),
-            rgb: written.pixels().map(|pixel| pixel.0).collect(),
-        };
-        let line = ["render", "--quiet", scene, "--size", size];
-        written.assert_same(&pixels::of_command_line(&line), size);
-    }
-    assert_eq!(window.shown().size, shown, "the window's picture changed");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Rows of a material in the Properties panel: each one edits what the picture shows.
 
 use super::edit::{perform, scene};
-use super::harness::Window;
+use crate::harness::Window;
 use crate::support::verdict::Verdict;
 use eframe::egui::Role;
 use egui_kittest::kittest::{NodeT, Queryable, by};

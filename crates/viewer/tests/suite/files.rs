@@ -1,18 +1,17 @@
 //! Files in the window: dropped, watched, mended, saved; cameras as command lines.
 
-use super::harness::Window;
+use crate::harness::Window;
 use crate::support::PATIENCE;
 use eframe::egui;
 use egui_kittest::kittest::{Queryable, by};
 use glimray::image::Image;
 use glimray::scene::Background;
-use glimray_viewer::actions::files::{self, pictures};
+use glimray_viewer::actions::files::{self};
 use glimray_viewer::model::file_dialog::{FileDialogs, Reply};
 use glimray_viewer::model::messages::sentence;
-use glimray_viewer::state::files::{Intent, SaveSize};
+use glimray_viewer::state::files::Intent;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -125,13 +124,6 @@ fn replace(path: &Path, text: &str) {
     fs::rename(&beside, path).expect("a file that can be replaced");
 }
 
-fn glimray(arguments: &[&str]) -> Output {
-    let output = Command::new(env!("CARGO_BIN_EXE_glimray"))
-        .args(arguments)
-        .output();
-    output.expect("glimray runs")
-}
-
 #[test]
 fn a_dropped_scene_is_opened_and_remembered() {
     let place = Folder::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
@@ -184,7 +176,7 @@ fn a_dropped_picture_becomes_the_surroundings_and_can_be_undone() {
     wait(&mut window, "the picture is read", |window| {
         has_notice(window, "sky.exr")
     });
-    let scene = window.order().scene;
+    let scene = window.request().scene;
     assert!(matches!(scene.background, Background::Picture { .. }));
     let corner = picture(&mut window).pixel(0, 0).expect("a pixel");
     assert_eq!(corner, [0.25, 0.5, 2.0, 1.0]);
@@ -304,93 +296,6 @@ fn a_scene_that_was_broken_from_the_start_is_shown_when_it_is_mended() {
         w.session.borrow().scene().is_some()
     });
     assert_eq!(message(&window), None);
-}
-
-/// Saves through the sheet, with `name` chosen in the dialog.
-fn save(window: &mut Window, path: &Path) {
-    let chosen = path.to_owned();
-    window.session().files.dialogs = FileDialogs::answering(move |request| {
-        assert!(request.saves);
-        Reply::Chosen(chosen.clone())
-    });
-    window.harness.key_press(egui::Key::F12);
-    window.harness.step();
-    window.harness.step();
-    window.harness.get_by_label("Browse…").click();
-    window.harness.run_steps(3);
-    window.harness.get_by_label("Save").click();
-    window.harness.step();
-    wait(window, "the picture is written", |_| path.exists());
-}
-
-#[test]
-fn a_saved_picture_has_the_bytes_of_the_command_lines() {
-    let text = scene("1") + "\n[output]\nexposure_ev = 0.5\ntone = \"aces\"\n";
-    let place = Folder::new(&[("one.toml", &text)]);
-    let mut window = place.open("one.toml");
-    for ending in ["png", "jpg", "exr", "hdr"] {
-        let (ours, theirs) = (format!("ours.{ending}"), format!("theirs.{ending}"));
-        let (ours, theirs) = (place.path(&ours), place.path(&theirs));
-        save(&mut window, &ours);
-        let scene = place.path("one.toml");
-        let [scene, out] = [&scene, &theirs].map(|path| path.to_str().expect("a name"));
-        let output = glimray(&[&["render", scene, "-o", out], SMALL.as_slice()].concat());
-        assert!(output.status.success(), "{output:?}");
-        let [ours, theirs] = [ours, theirs].map(|path| fs::read(path).expect("a picture"));
-        assert!(ours == theirs, "the {ending} files differ");
-    }
-}
-
-/// An OpenEXR file has the raw picture as a layer, whether the window's picture is saved or one is rendered for it.
-#[test]
-fn a_denoised_picture_has_the_bytes_of_the_command_lines() {
-    let place = Folder::new(&[("one.toml", &scene("1"))]);
-    let path = place.path("one.toml");
-    let path = path.to_str().expect("a name");
-    let plain = ["--samples", "2", "--integrator", "path"];
-    let flags = [&plain[..], &["--denoise"]].concat();
-    let mut window = Window::open(&[&[path, "--size", "48x32"], flags.as_slice()].concat());
-    window.settle();
-    // The switch in the panel counts, not how the window was started.
-    for (ending, larger, denoises) in [
-        ("png", false, true),
-        ("exr", false, true),
-        ("exr", true, true),
-        ("hdr", false, true),
-        ("exr", false, false),
-        ("exr", true, false),
-    ] {
-        window.session().view.tone.denoise = denoises;
-        window.harness.run_steps(2);
-        window.settle();
-        let name = |side: &str| place.path(&format!("{side}_{larger}_{denoises}.{ending}"));
-        let (ours, theirs) = (name("ours"), name("theirs"));
-        let size = match larger {
-            true => "96x64",
-            false => "48x32",
-        };
-        {
-            let mut session = window.session();
-            pictures::open(&mut session, false);
-            let dialog = session.files.saving.as_mut().expect("a sheet");
-            dialog.path = ours.display().to_string();
-            if larger {
-                dialog.size = SaveSize::Twice;
-            }
-            pictures::save(&mut session, false);
-        }
-        wait(&mut window, "the picture is written", |_| ours.exists());
-        let out = theirs.to_str().expect("a name");
-        let line = ["render", path, "-o", out, "--size", size];
-        let flags = if denoises { &flags[..] } else { &plain };
-        let output = glimray(&[line.as_slice(), flags].concat());
-        assert!(output.status.success(), "{output:?}");
-        let [ours, theirs] = [ours, theirs].map(|path| fs::read(path).expect("a picture"));
-        assert!(
-            ours == theirs,
-            "the {ending} files of {size} differ, {denoises}"
-        );
-    }
 }
 
 #[test]
@@ -691,13 +596,13 @@ fn a_crop_of_the_command_line_is_a_region_that_can_be_ended() {
     let crop = ["--crop", "12,8,36,24"];
     let mut window = Window::open(&[&[path], SMALL.as_slice(), &crop].concat());
     window.settle();
-    assert_eq!(window.order().settings.crop, Some([12, 8, 36, 24]));
+    assert_eq!(window.request().settings.crop, Some([12, 8, 36, 24]));
     window.harness.key_press(egui::Key::B);
     window.settle();
-    assert_eq!(window.order().settings.crop, None);
+    assert_eq!(window.request().settings.crop, None);
     let mut window = Window::open(&[&[path, "--samples", "1"], crop.as_slice()].concat());
     window.settle();
-    assert!(window.order().settings.crop.is_some());
+    assert!(window.request().settings.crop.is_some());
 }
 
 /// Stops the picture before it is finished, and wants it saved when it is.
@@ -842,7 +747,7 @@ fn a_picture_saved_with_overlays_is_what_the_window_shows() {
     wait(&mut window, "the picture is written", |_| path.exists());
     let shot = image::open(&path).expect("a picture").into_rgb8();
     assert_eq!(shot.dimensions(), (48, 32));
-    let tone = window.order().tone;
+    let tone = window.request().tone;
     let shown = window.image(tone);
     let levels = shown.pixels.iter().flat_map(|pixel| pixel[..3].to_vec());
     for (shot, level) in shot.as_raw().iter().zip(levels) {

@@ -1,19 +1,16 @@
 //! The ray inspector in a path-traced picture.
 
 use super::{GLASS, click, inspect, weighted};
-use crate::view::harness::Window;
+use crate::harness::Window;
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use glam::{DVec2, DVec3, Vec3};
 use glimray::render::{Integrator, RayKind, Tone};
 use glimray_viewer::actions::inspector;
-use glimray_viewer::actions::inspector::export;
-use glimray_viewer::actions::inspector::export::Format;
 use glimray_viewer::actions::inspector::outside;
 use glimray_viewer::state::inspector::rows;
 use glimray_viewer::state::inspector::rows::{Filter, Row};
 use std::collections::BTreeSet;
-use std::process::Command;
 
 const FLAGS: [&str; 7] = [
     GLASS,
@@ -130,26 +127,4 @@ fn lines_of_paths_end_where_they_meet_surfaces_and_skip_what_was_not_traced() {
     }
     let kinds = |kind| lines.iter().filter(|line| line.kind == kind).count();
     assert!(kinds(RayKind::Refraction) >= 4 && kinds(RayKind::Shadow) > 0);
-}
-
-#[test]
-fn the_copied_command_prints_the_paths() {
-    let window = open_paths();
-    let session = window.session();
-    let command = export::command(&session, None).expect("a command");
-    assert_eq!(command.left_out, [""; 0], "{}", command.line);
-    assert!(
-        command.line.contains("--integrator path"),
-        "{}",
-        command.line
-    );
-    let words = shlex::split(&command.line).expect("a command line");
-    let printed = Command::new(env!("CARGO_BIN_EXE_glimray"))
-        .args(&words[1..])
-        .arg("--json")
-        .output()
-        .expect("glimray runs");
-    let inspected = session.inspector.inspected.as_ref().expect("paths");
-    let json = export::text(inspected, Format::Json).expect("JSON");
-    assert!(json.as_bytes() == printed.stdout, "{}", command.line);
 }

@@ -1,9 +1,8 @@
-//! Pictures as bytes: what is on a screen of the GPU, and what the command line writes.
+//! The bytes of a screen of the GPU.
 
 use eframe::wgpu;
 use glimray::gpu::Gpu;
 use glimray::render::Screen;
-use std::process::Command;
 
 /// Width, height, and 8 bits of red, green and blue for each pixel.
 #[derive(Clone, PartialEq)]
@@ -69,24 +68,5 @@ pub fn on(screen: &Screen, gpu: &Gpu) -> Bytes {
     Bytes {
         size: (width, height),
         rgb,
-    }
-}
-
-/// The PNG that `glimray ARGUMENTS… -o FILE` writes.
-pub fn of_command_line(arguments: &[&str]) -> Bytes {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("picture.png");
-    let output = Command::new(env!("CARGO_BIN_EXE_glimray"))
-        .args(arguments)
-        .arg("-o")
-        .arg(&path)
-        .output()
-        .expect("glimray runs");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{arguments:?}: {errors}");
-    let picture = ::image::open(&path).expect("a PNG").to_rgb8();
-    Bytes {
-        size: picture.dimensions(),
-        rgb: picture.pixels().map(|pixel| pixel.0).collect(),
     }
 }

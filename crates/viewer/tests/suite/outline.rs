@@ -1,7 +1,7 @@
 //! The outline under the mouse: whole lines, groups, several lines at once, lines that are dragged.
 
 use super::focus::click_at;
-use super::harness::Window;
+use crate::harness::Window;
 use eframe::egui::{Modifiers, PointerButton, Pos2, Role, pos2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{DVec3, dvec3};

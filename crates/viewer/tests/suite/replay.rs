@@ -1,8 +1,8 @@
 //! Recordings of what a person does: played again they lead to the same, and the same use for long
 //! takes no more memory.
 
-use super::harness::Window;
 use super::pixels::{self, Bytes};
+use crate::harness::Window;
 use eframe::App;
 use eframe::egui::{
     Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, RawInput,
@@ -153,47 +153,6 @@ fn open_replay(file: &Path) -> Window {
     window
 }
 
-#[test]
-fn what_is_no_recording_is_refused_with_its_line() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let good = r#"{"time":1.0,"event":"PointerGone"}"#;
-    for (text, why) in [
-        ("", "contains no events"),
-        ("\n\n", "contains no events"),
-        ("{}", ":1): missing field `time`"),
-        (
-            &format!("{good}\n{good}\nrubbish"),
-            ":3): expected value in column 1",
-        ),
-        (
-            &format!("{good}\n{}", good.replace("1.0", "0.5")),
-            ":2): its time, 0.5 s, is before",
-        ),
-        (
-            &good.replace("PointerGone", "Nonsense"),
-            ":1): unknown variant `Nonsense`",
-        ),
-    ] {
-        let file = folder.path().join("bad.jsonl");
-        std::fs::write(&file, text).expect("a file");
-        let output = Command::new(env!("CARGO_BIN_EXE_glimray"))
-            .args(["view", "--replay"])
-            .arg(&file)
-            .output()
-            .expect("glimray runs");
-        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(3), "{errors}");
-        assert!(errors.contains(why), "{errors} does not say {why}");
-    }
-    let nowhere = folder.path().join("none").join("session.jsonl");
-    let output = Command::new(env!("CARGO_BIN_EXE_glimray"))
-        .args(["view", "--record"])
-        .arg(&nowhere)
-        .output()
-        .expect("glimray runs");
-    assert_eq!(output.status.code(), Some(4));
-}
-
 /// Names how often the long test does the same, in place of a few times.
 const SOAK: &str = "GLIMRAY_SOAK_ROUNDS";
 const FEW_ROUNDS: usize = 12;
@@ -255,7 +214,7 @@ fn soak() {
 #[test]
 fn long_use_takes_no_more_memory() {
     let output = Command::new(std::env::current_exe().expect("this test"))
-        .args(["--exact", "view::replay::soak", "--ignored", "--nocapture"])
+        .args(["--exact", "replay::soak", "--ignored", "--nocapture"])
         .env(MAPPED.0, MAPPED.1)
         .output()
         .expect("this test runs");

@@ -1,6 +1,6 @@
 //! The stages of a scene that is opened: in order, shown, cancelled.
 
-use super::harness::Window;
+use crate::harness::Window;
 use crate::reference::compare::render;
 use crate::support::PATIENCE;
 use egui_kittest::kittest::{Queryable, by};
@@ -90,7 +90,7 @@ fn a_cancelled_import_builds_no_bvh() {
     assert!(loaded.is_none(), "it was cancelled at {stages:?}");
 }
 
-fn order(scene: Arc<Scene>) -> RenderRequest {
+fn request(scene: Arc<Scene>) -> RenderRequest {
     RenderRequest {
         settings: RenderSettings {
             size: (32, 24),
@@ -129,7 +129,7 @@ fn the_first_picture_waits_for_uploads_shaders_and_samples() {
         scene: scene.clone(),
         packed: imported.packed,
     };
-    let order = order(scene.clone());
+    let request = request(scene.clone());
     for prepared in [Some(&prepared), None] {
         let stages = Arc::new(Mutex::new(Vec::new()));
         let report = {
@@ -139,8 +139,8 @@ fn the_first_picture_waits_for_uploads_shaders_and_samples() {
         // A device of its own has compiled nothing yet.
         let gpu = Gpu::new(&AdapterChoice::default()).expect("an adapter");
         let mut picture = ProgressiveImage::new(gpu, PictureSlot::Main, report);
-        let mut settle = |order: &RenderRequest, prepared: Option<&PreparedScene>| {
-            let outcome = picture.set_request(Some(order), false, prepared);
+        let mut settle = |request: &RenderRequest, prepared: Option<&PreparedScene>| {
+            let outcome = picture.set_request(Some(request), false, prepared);
             outcome.expect("a picture");
             let start = Instant::now();
             while !picture.is_done() {
@@ -148,7 +148,7 @@ fn the_first_picture_waits_for_uploads_shaders_and_samples() {
                 picture.step(false).expect("a step");
             }
         };
-        settle(&order, prepared);
+        settle(&request, prepared);
         let mut expected = vec![
             "Uploading to the device",
             "Compiling shaders",
@@ -165,7 +165,7 @@ fn the_first_picture_waits_for_uploads_shaders_and_samples() {
             ambient: scene.ambient * 2.0,
             ..Scene::clone(&scene)
         };
-        settle(&self::order(Arc::new(edited)), prepared);
+        settle(&self::request(Arc::new(edited)), prepared);
         assert_eq!(names(&stages), [""; 0]);
     }
     let packed = pack::scene(&scene).expect("a packed scene");
@@ -196,10 +196,10 @@ fn the_render_thread_tells_its_stage_until_there_is_a_picture() {
         activity
     };
     assert_eq!(thread.activity(), None);
-    let mut orders = RenderRequests::default();
-    orders.pictures[PictureSlot::Main as usize] = Some(order(Arc::new(imported.scene)));
+    let mut requests = RenderRequests::default();
+    requests.pictures[PictureSlot::Main as usize] = Some(request(Arc::new(imported.scene)));
     let start = Instant::now();
-    thread.order(orders);
+    thread.submit(requests);
     let mut seen = Vec::new();
     while !thread.is_settled() {
         assert!(start.elapsed() < PATIENCE, "never settled");
@@ -251,11 +251,11 @@ fn a_scene_that_is_not_loaded_after_all_leaves_the_one_that_is_open() {
     let folder = Folder::new(2);
     let mut window = Window::open(&["--size", "64x48", "--samples", "1"]);
     window.settle();
-    let before = window.order();
+    let before = window.request();
     files::open(&mut window.session(), vec![folder.scene()]);
     files::cancel_loading(&mut window.session());
     window.settle();
-    assert!(window.order() == before);
+    assert!(window.request() == before);
     assert_eq!(window.session().title(), "demo");
     assert!(window.shown().progress.is_done);
     let render = window.harness.state().render_thread();
@@ -264,7 +264,7 @@ fn a_scene_that_is_not_loaded_after_all_leaves_the_one_that_is_open() {
     files::open(&mut window.session(), vec![folder.scene()]);
     window.settle();
     assert_eq!(window.session().title(), "scene.toml");
-    assert_eq!(window.order().scene.triangle_count(), 8);
+    assert_eq!(window.request().scene.triangle_count(), 8);
 }
 
 #[test]
@@ -283,12 +283,12 @@ fn a_picture_keeps_its_samples_when_the_drafts_of_its_trees_are_replaced() {
         scene: scene.clone(),
         packed: Arc::new(refined),
     };
-    let mut order = order(scene);
-    order.settings.samples = 1 << 20;
+    let mut request = request(scene);
+    request.settings.samples = 1 << 20;
     let gpu = Gpu::new(&AdapterChoice::default()).expect("an adapter");
     let mut picture = ProgressiveImage::new(gpu, PictureSlot::Main, Arc::new(|_| ()));
     let ask = |picture: &mut ProgressiveImage, prepared: &PreparedScene| {
-        let outcome = picture.set_request(Some(&order), false, Some(prepared));
+        let outcome = picture.set_request(Some(&request), false, Some(prepared));
         outcome.expect("a picture");
     };
     ask(&mut picture, &draft);
@@ -325,13 +325,13 @@ fn a_picture_of_steps_is_that_of_the_usual_trees() {
         scene: scene.clone(),
         packed,
     });
-    let mut order = order(scene);
-    order.settings.integrator = Integrator::Heat;
+    let mut request = request(scene);
+    request.settings.integrator = Integrator::Heat;
     let gpu = Gpu::new(&AdapterChoice::default()).expect("an adapter");
     let mut picture = ProgressiveImage::new(gpu, PictureSlot::Main, Arc::new(|_| ()));
     let mut pictures = Vec::new();
     for prepared in &prepared {
-        let outcome = picture.set_request(Some(&order), false, Some(prepared));
+        let outcome = picture.set_request(Some(&request), false, Some(prepared));
         outcome.expect("a picture");
         let start = Instant::now();
         while !picture.is_done() {
@@ -341,7 +341,7 @@ fn a_picture_of_steps_is_that_of_the_usual_trees() {
         let image = picture.frame().expect("a frame").image(&Tone::LINEAR);
         pictures.push(image.expect("a picture").0);
     }
-    let (usual, _) = render(&order.scene, &order.settings);
+    let (usual, _) = render(&request.scene, &request.settings);
     assert!(pictures[0] != pictures[1], "the draft is the usual tree");
     assert!(pictures[1] == usual, "the steps of the draft are left");
 }

@@ -1,8 +1,8 @@
 //! One picture that follows its orders: what restarts it and what does not, coarse and fine, whole and
 //! in part; and that it is the command line's.
 
-use super::harness::Window;
 use super::pixels;
+use crate::harness::Window;
 use crate::reference::compare::{open_gpu, render, sized};
 use crate::reference::scenes;
 use crate::support::PATIENCE;
@@ -28,15 +28,15 @@ use std::time::{Duration, Instant};
 struct Easel {
     gpu: Gpu,
     thread: RenderThread<()>,
-    orders: RenderRequests,
+    requests: RenderRequests,
 }
 
 impl Easel {
     fn new(scene: &Scene, settings: RenderSettings) -> Self {
         let gpu = open_gpu();
         let thread = RenderThread::new(gpu.clone(), || {}).expect("a thread");
-        let mut orders = RenderRequests::default();
-        orders.pictures[PictureSlot::Main as usize] = Some(RenderRequest {
+        let mut requests = RenderRequests::default();
+        requests.pictures[PictureSlot::Main as usize] = Some(RenderRequest {
             scene: Arc::new(scene.clone()),
             restarts: 0,
             camera: None,
@@ -50,22 +50,22 @@ impl Easel {
         let easel = Self {
             gpu,
             thread,
-            orders,
+            requests,
         };
-        easel.thread.order(easel.orders.clone());
+        easel.thread.submit(easel.requests.clone());
         easel
     }
 
     /// Changes what is wanted.
     fn want(&mut self, change: impl FnOnce(&mut RenderRequest)) {
-        let order = self.orders.pictures[PictureSlot::Main as usize].as_mut();
-        change(order.expect("an order"));
-        self.thread.order(self.orders.clone());
+        let request = self.requests.pictures[PictureSlot::Main as usize].as_mut();
+        change(request.expect("an order"));
+        self.thread.submit(self.requests.clone());
     }
 
     fn pause(&mut self, paused: bool) {
-        self.orders.paused = paused;
-        self.thread.order(self.orders.clone());
+        self.requests.paused = paused;
+        self.thread.submit(self.requests.clone());
     }
 
     #[track_caller]
@@ -115,9 +115,9 @@ fn developing_otherwise_takes_no_new_samples() {
     easel.settle();
     let before = easel.shown();
     let first = pixels::on(&before.screen.expect("a screen"), &easel.gpu);
-    easel.want(|order| {
-        order.tone.exposure_ev = 1.0;
-        order.tone.curve = ToneCurve::Agx;
+    easel.want(|request| {
+        request.tone.exposure_ev = 1.0;
+        request.tone.curve = ToneCurve::Agx;
     });
     easel.settle();
     let after = easel.shown();
@@ -140,7 +140,7 @@ fn another_background_gives_the_picture_of_a_scene_that_has_it() {
         let mut easel = Easel::new(&scene, settings.clone());
         easel.settle();
         let background = Background::Color(Vec3::new(0.1, 0.5, 0.2));
-        easel.want(|order| order.background = Some(background.clone()));
+        easel.want(|request| request.background = Some(background.clone()));
         easel.settle();
         assert!(easel.shown().progress.is_done);
         let other = glimray::scene::Scene {
@@ -167,7 +167,7 @@ fn a_pause_does_not_show_in_the_picture() {
     easel.settle();
     let held = easel.shown();
     assert!(held.progress.samples < 600, "it was done before the pause");
-    easel.want(|order| order.tone.exposure_ev = -1.0);
+    easel.want(|request| request.tone.exposure_ev = -1.0);
     easel.settle();
     assert_eq!(
         easel.shown().stats.samples,
@@ -188,8 +188,8 @@ fn a_paused_picture_that_is_still_coarse_answers_questions() {
     let scene = scenes::everything();
     let mut easel = Easel::new(&scene, stratified(4));
     easel.settle();
-    easel.orders.paused = true;
-    easel.want(|order| order.shutter_interval = (0.5, 0.5));
+    easel.requests.paused = true;
+    easel.want(|request| request.shutter_interval = (0.5, 0.5));
     easel.settle();
     assert!(easel.shown().progress.is_coarse);
     let image = easel.image();
@@ -225,9 +225,9 @@ fn a_refused_order_passes_for_nothing_else_and_the_last_picture_stays() {
     let mut easel = Easel::new(&scene, stratified(2));
     easel.settle();
     let done = easel.shown().stats.samples;
-    easel.want(|order| {
-        order.settings.size = (16384, 16384);
-        order.policy.memory_limit_bytes = 1 << 20;
+    easel.want(|request| {
+        request.settings.size = (16384, 16384);
+        request.policy.memory_limit_bytes = 1 << 20;
     });
     let is_refused = |easel: &Easel| matches!(easel.thread.fault(), Some(Fault::Refused(_)));
     let wait = |easel: &Easel| {
@@ -238,13 +238,13 @@ fn a_refused_order_passes_for_nothing_else_and_the_last_picture_stays() {
         }
     };
     wait(&easel);
-    easel.want(|order| order.tone.exposure_ev = 1.0);
+    easel.want(|request| request.tone.exposure_ev = 1.0);
     wait(&easel);
     assert_eq!(easel.shown().size, (61, 43));
-    easel.want(|order| {
-        order.settings = stratified(2);
-        order.policy = ExecutionPolicy::default();
-        order.tone.exposure_ev = 0.0;
+    easel.want(|request| {
+        request.settings = stratified(2);
+        request.policy = ExecutionPolicy::default();
+        request.tone.exposure_ev = 0.0;
     });
     let start = Instant::now();
     while easel.thread.fault().is_some() || !easel.thread.is_settled() {
@@ -264,7 +264,7 @@ fn more_samples_go_on_from_those_that_there_are() {
     // The second lot ends where sums go into totals, the third begins there.
     let mut before = easel.shown().stats.samples;
     for (from, to) in [(4, 8), (8, 256), (256, 300)] {
-        easel.want(|order| order.settings.samples = to);
+        easel.want(|request| request.settings.samples = to);
         easel.settle();
         let now = easel.shown().stats.samples;
         assert_eq!(
@@ -286,7 +286,7 @@ fn fewer_samples_and_adaptive_ones_are_those_of_the_command_line_too() {
     let scene = scenes::everything();
     let mut easel = Easel::new(&scene, stratified(8));
     easel.settle();
-    easel.want(|order| order.settings.samples = 2);
+    easel.want(|request| request.settings.samples = 2);
     easel.settle();
     assert!(
         easel.image() == render(&scene, &stratified(2)).0,
@@ -297,7 +297,7 @@ fn fewer_samples_and_adaptive_ones_are_those_of_the_command_line_too() {
         ..stratified(samples)
     };
     for samples in [16, 32] {
-        easel.want(|order| order.settings = adaptive(samples));
+        easel.want(|request| request.settings = adaptive(samples));
         easel.settle();
         let image = easel.image();
         assert!(
@@ -316,7 +316,7 @@ fn another_size_starts_over_and_the_last_picture_stays_meanwhile() {
         size: (90, 30),
         ..stratified(4)
     };
-    easel.want(|order| order.settings = other.clone());
+    easel.want(|request| request.settings = other.clone());
     easel.wait_until("ordered", |easel| easel.shown().size == (90, 30));
     assert!(
         easel.shown().under.is_some(),
@@ -334,7 +334,7 @@ fn a_region_is_the_same_part_of_the_picture_and_leaves_the_rest() {
     easel.settle();
     let whole = easel.image();
     for crop in [[7, 5, 40, 33], [9, 5, 40, 33]] {
-        easel.want(|order| order.settings.crop = Some(crop));
+        easel.want(|request| request.settings.crop = Some(crop));
         easel.settle();
         let shown = easel.shown();
         let [x, y, width, height] = shown.region;
@@ -351,7 +351,7 @@ fn a_region_is_the_same_part_of_the_picture_and_leaves_the_rest() {
             );
         }
     }
-    easel.want(|order| order.settings.crop = None);
+    easel.want(|request| request.settings.crop = None);
     easel.settle();
     assert!(
         easel.shown().whole.is_none(),
@@ -364,8 +364,8 @@ fn a_region_is_the_same_part_of_the_picture_and_leaves_the_rest() {
 fn what_moves_is_one_whole_coarse_picture() {
     let mut easel = Easel::new(&scenes::everything(), stratified(64));
     easel.settle();
-    easel.orders.coarse = true;
-    easel.want(|order| order.shutter_interval = (0.5, 0.5));
+    easel.requests.coarse = true;
+    easel.want(|request| request.shutter_interval = (0.5, 0.5));
     easel.settle();
     let shown = easel.shown();
     assert!(shown.progress.is_coarse, "{:?}", shown.progress);
@@ -375,7 +375,7 @@ fn what_moves_is_one_whole_coarse_picture() {
     );
     let (width, height) = shown.under.expect("a picture").size();
     assert!((1..=61).contains(&width) && (1..=43).contains(&height));
-    easel.orders.coarse = false;
+    easel.requests.coarse = false;
     easel.want(|_| {});
     easel.settle();
     assert!(!easel.shown().progress.is_coarse);
@@ -411,26 +411,26 @@ fn the_coarse_picture_is_what_is_wanted_too_after_a_way_back() {
     let changes: [Change; 2] = [
         (
             "camera",
-            |order, home| {
-                order.camera = Some(Camera {
+            |request, home| {
+                request.camera = Some(Camera {
                     look_at: home.look_from + (home.look_from - home.look_at),
                     ..home.clone()
                 });
             },
-            |order| order.camera = None,
+            |request| request.camera = None,
         ),
         (
             "background",
-            |order, _| order.background = Some(Background::Color(Vec3::new(9.0, 0.0, 9.0))),
-            |order| order.background = None,
+            |request, _| request.background = Some(Background::Color(Vec3::new(9.0, 0.0, 9.0))),
+            |request| request.background = None,
         ),
     ];
     for (what, there, back) in changes {
-        easel.orders.coarse = false;
-        easel.want(|order| there(order, &home));
+        easel.requests.coarse = false;
+        easel.want(|request| there(request, &home));
         easel.settle();
         let far = apart(means(&easel), wanted);
-        easel.orders.coarse = true;
+        easel.requests.coarse = true;
         easel.want(back);
         easel.settle();
         assert!(easel.shown().progress.is_coarse);
@@ -455,14 +455,14 @@ fn a_camera_that_moves_and_comes_to_rest_builds_no_tree_and_uploads_only_frames(
         assert!(before.trees_built > 0 && before.stats.uploads.geometry > 0);
         let mut frames = before.stats.uploads.frames;
         for step in 1..4 {
-            easel.orders.coarse = true;
-            easel.want(|order| {
+            easel.requests.coarse = true;
+            easel.want(|request| {
                 let mut camera = home.clone();
                 camera.look_from.x += f64::from(step);
-                order.camera = Some(camera);
+                request.camera = Some(camera);
             });
             easel.settle();
-            easel.orders.coarse = false;
+            easel.requests.coarse = false;
             easel.want(|_| {});
             easel.settle();
             let now = easel.shown();
@@ -494,7 +494,7 @@ fn an_edit_of_the_scene_builds_the_trees_of_what_it_changes() {
     };
     let recoloured =
         edited(|scene| scene.materials[0].classical_mut().diffuse = Vec3::new(0.9, 0.1, 0.4));
-    easel.want(|order| order.scene = recoloured.clone());
+    easel.want(|request| request.scene = recoloured.clone());
     easel.settle();
     let now = easel.shown();
     assert_eq!(now.trees_built, before.trees_built);
@@ -504,7 +504,7 @@ fn an_edit_of_the_scene_builds_the_trees_of_what_it_changes() {
     assert!(easel.image() == render(&recoloured, &stratified(2)).0);
 
     let moved = edited(|scene| scene.instances[0].placement.translation.y += 0.5);
-    easel.want(|order| order.scene = moved.clone());
+    easel.want(|request| request.scene = moved.clone());
     easel.settle();
     assert_eq!(easel.shown().trees_built, before.trees_built + 1);
     assert!(easel.image() == render(&moved, &stratified(2)).0);
@@ -588,7 +588,7 @@ fn the_last_picture_lies_scaled_under_the_one_of_another_size() {
     easel.settle();
     let last = easel.shown().screen.expect("a screen");
     // Enough samples for a look before it is done.
-    easel.want(|order| order.settings.size = (610, 430));
+    easel.want(|request| request.settings.size = (610, 430));
     let mut is_under = false;
     let start = Instant::now();
     while !easel.thread.is_settled() {
@@ -630,8 +630,8 @@ fn a_window_without_room_renders_nothing_and_comes_back() {
     window.settle();
     let size = window.shown().size;
     window.session().set_space((0, 0));
-    let orders = window.session().orders();
-    assert!(orders.pictures.iter().all(Option::is_none));
+    let requests = window.session().requests();
+    assert!(requests.pictures.iter().all(Option::is_none));
     window.harness.set_size(egui::vec2(1.0, 1.0));
     window.harness.step();
     window.harness.step();
@@ -692,114 +692,6 @@ fn samples_outlast_a_window_of_another_size_until_the_picture_begins_again() {
         (size.0 + 40, size.1 + 30),
         "a new picture does not take its room"
     );
-}
-
-/// Opens a scene, lets `change` happen, and holds what is on the GPU against what the command line
-/// writes that says the same.
-#[track_caller]
-fn check(scene: &str, flags: &[&str], change: impl FnOnce(&mut Window) -> Vec<String>) {
-    let path = format!("assets/scenes/{scene}");
-    let mut arguments = vec![path.as_str()];
-    arguments.extend(flags);
-    let mut window = Window::open(&arguments);
-    window.settle();
-    let more = change(&mut window);
-    window.settle();
-    let shown = window.shown();
-    assert!(shown.progress.is_done, "{scene}: {:?}", shown.progress);
-    let screen = pixels::on(&shown.screen.expect("a screen"), &window.gpu);
-    let mut line = vec!["render", "--quiet"];
-    line.extend(&arguments);
-    line.extend(more.iter().map(String::as_str));
-    screen.assert_same(&pixels::of_command_line(&line), &line.join(" "));
-}
-
-/// The flags of a model whose picture is not denoised: the screen denoises to within a level of files.
-fn raw<'a>(flags: &[&'a str]) -> Vec<&'a str> {
-    [flags, &["--no-denoise"]].concat()
-}
-
-#[test]
-fn what_is_on_the_screen_is_the_png_of_the_command_line() {
-    let flags = ["--size", "72x48", "--samples", "4"];
-    for scene in [
-        "showcase.toml",
-        "glass_and_mirrors.toml",
-        "lights.toml",
-        "depth_of_field.toml",
-        "far_away.toml",
-        "tones.toml",
-        "neutral.nff",
-    ] {
-        check(scene, &flags, |_| Vec::new());
-    }
-    check("lighthouse.obj", &raw(&flags), |_| Vec::new());
-    let adaptive = [
-        "--size",
-        "72x48",
-        "--samples",
-        "32",
-        "--antialias",
-        "adaptive",
-    ];
-    check("soft_shadows.toml", &adaptive, |_| Vec::new());
-    let crop = ["--size", "72x48", "--samples", "2", "--crop", "10,5,50,41"];
-    check("patterns.toml", &crop, |_| Vec::new());
-    let normals = ["--size", "72x48", "--integrator", "normals"];
-    check("shapes.toml", &normals, |_| Vec::new());
-}
-
-#[test]
-fn a_background_that_was_changed_gives_the_png_of_the_command_line() {
-    let green = Vec3::new(0.1, 0.5, 0.2);
-    let flags = ["--size", "72x48", "--samples", "4"];
-    let change = |window: &mut Window| {
-        window.session().view.background = Some(Background::Color(green));
-        window.settle();
-        vec!["--background".into(), "0.1,0.5,0.2".into()]
-    };
-    check("glass_and_mirrors.toml", &flags, change);
-    // The window keeps the ground below the model, which the flag leaves out unless it is asked for.
-    check("lighthouse.obj", &raw(&flags), |window| {
-        [change(window), vec!["--ground=surface".into()]].concat()
-    });
-    // Of the command line from the start, and back to it.
-    let flags = [&flags[..], &["--background", "0.1,0.5,0.2"]].concat();
-    check("lighthouse.obj", &raw(&flags), |_| Vec::new());
-    check("media.toml", &flags, |window| {
-        window.session().view.background = Some(Background::Color(Vec3::ONE));
-        window.settle();
-        window.session().view.background = None;
-        Vec::new()
-    });
-    let adaptive = [&flags[..], &["--antialias", "adaptive"]].concat();
-    check("glass_and_mirrors.toml", &adaptive, |_| Vec::new());
-}
-
-#[test]
-fn a_camera_that_was_moved_gives_the_png_of_the_command_line() {
-    let flags = ["--size", "72x48", "--samples", "4"];
-    for scene in ["showcase.toml", "far_away.toml", "mesh.toml"] {
-        check(scene, &flags, |window| {
-            let mut session = window.session();
-            let rig = session.controller.as_mut().expect("a rig");
-            rig.orbit_by(0.4, -0.1);
-            rig.zoom(1.5, None);
-            session.moved();
-            drop(session);
-            window.settle();
-            let camera = window.camera();
-            let place = |v: glam::DVec3| format!("{},{},{}", v.x, v.y, v.z);
-            vec![
-                "--look-from".into(),
-                place(camera.look_from),
-                "--look-at".into(),
-                place(camera.look_at),
-                "--up".into(),
-                place(camera.up),
-            ]
-        });
-    }
 }
 
 /// Spheres whose metalness and roughness differ from texel to texel, as a path-traced model has them.
@@ -869,7 +761,7 @@ fn classical_maps_are_there_once_the_integrator_is_chosen_and_after_edits() {
     let mut easel = Easel::new(&scene, path.clone());
     easel.settle();
     let traced = easel.image();
-    easel.want(|order| order.settings = whitted.clone());
+    easel.want(|request| request.settings = whitted.clone());
     easel.settle();
     let baked = |scene: &Scene| {
         let mut scene = scene.clone();
@@ -882,12 +774,12 @@ fn classical_maps_are_there_once_the_integrator_is_chosen_and_after_edits() {
     let mut edited = scene.clone();
     let model = edited.materials[0].metallic_roughness_mut();
     model.expect("a model").base_color = Vec3::new(0.25, 0.5, 1.0);
-    easel.want(|order| order.scene = Arc::new(edited.clone()));
+    easel.want(|request| request.scene = Arc::new(edited.clone()));
     easel.settle();
     assert_eq!(easel.image(), baked(&edited));
-    easel.want(|order| {
-        order.scene = Arc::new(scene.clone());
-        order.settings = path;
+    easel.want(|request| {
+        request.scene = Arc::new(scene.clone());
+        request.settings = path;
     });
     easel.settle();
     assert_eq!(easel.image(), traced);

@@ -1,7 +1,7 @@
 //! Where the keyboard goes: real clicks and keys, nothing set from outside.
 
 use super::edit::{BLUE, RED, file, open, scene};
-use super::harness::Window;
+use crate::harness::Window;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Role};
 use egui_kittest::kittest::{NodeT, Queryable};
 use glimray::scene::{Geometry, Scene};

@@ -2,7 +2,7 @@
 
 mod paths;
 
-use super::harness::Window;
+use crate::harness::Window;
 use crate::support::effort;
 use eframe::egui;
 use egui_kittest::kittest::{NodeT, Queryable, by};
@@ -20,12 +20,8 @@ use glimray_viewer::state::inspector::rows;
 use glimray_viewer::state::inspector::rows::{Filter, Row};
 use glimray_viewer::state::inspector::{Inspected, PARTS};
 use std::collections::BTreeSet;
-use std::process::Command;
 
-const GLASS: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/assets/scenes/glass_and_mirrors.toml"
-);
+const GLASS: &str = "assets/scenes/glass_and_mirrors.toml";
 
 /// Takes the tool and clicks on a pixel of the picture.
 fn inspect(window: &mut Window, pixel: [u32; 2]) {
@@ -238,49 +234,6 @@ fn the_tree_stays_and_says_so_when_the_picture_changes() {
 }
 
 #[test]
-fn what_is_saved_is_what_the_command_prints() {
-    let mut window = open_glass([31, 18]);
-    for turn in [0.0, 0.7] {
-        if turn > 0.0 {
-            let mut session = window.session();
-            session
-                .controller
-                .as_mut()
-                .expect("a rig")
-                .orbit_by(turn, 0.2);
-            drop(session);
-            window.settle();
-            inspector::inspect(&mut window.session(), [28, 21]);
-            window.settle();
-        }
-        let session = window.session();
-        let command = export::command(&session, None).expect("a command");
-        assert_eq!(command.left_out, [""; 0], "{}", command.line);
-        let inspected = session.inspector.inspected.as_ref().expect("a tree");
-        let words = shlex::split(&command.line).expect("a command line");
-        assert_eq!(words[..2], ["glimray", "explain"]);
-        let folder = tempfile::tempdir().expect("a folder");
-        let lines = folder.path().join("rays.obj");
-        let printed = Command::new(env!("CARGO_BIN_EXE_glimray"))
-            .args(&words[1..])
-            .args(["--json", "--obj"])
-            .arg(&lines)
-            .output()
-            .expect("glimray runs");
-        let error = String::from_utf8_lossy(&printed.stderr);
-        assert!(printed.status.success(), "{}: {error}", command.line);
-        let json = export::text(inspected, Format::Json).expect("JSON");
-        assert!(json.as_bytes() == printed.stdout, "{}", command.line);
-        let obj = export::text(inspected, Format::Obj).expect("lines");
-        assert!(obj.as_bytes() == std::fs::read(&lines).expect("lines"));
-        let copy = folder.path().join("copy.json");
-        let details = export::write(&copy, &json).expect("a file");
-        assert!(details.starts_with("Saved "), "{details}");
-        assert!(std::fs::read(&copy).expect("a file") == printed.stdout);
-    }
-}
-
-#[test]
 fn rays_that_cannot_be_saved_are_trouble_that_is_told() {
     let mut window = open_glass([31, 18]);
     for (reply, words) in [
@@ -368,7 +321,7 @@ fn lines_in_space_end_where_their_rays_do() {
     let size = dvec2(64.0, 36.0);
     let lines = outside::lines(inspected, &all, &camera, size, 5.0, None);
     let primary = lines.iter().filter(|line| line.kind == RayKind::Primary);
-    let reach = f64::from(inspected.order.settings.filter_radius) + 0.01;
+    let reach = f64::from(inspected.request.settings.filter_radius) + 0.01;
     let middle = DVec2::from(pixel.map(f64::from)) + 0.5;
     let mut seen = 0;
     for line in primary {
@@ -443,7 +396,7 @@ fn a_tree_of_very_many_rays_is_listed_at_once() {
         }],
         ..inspected.tree.clone()
     };
-    let long = Inspected::new(tree, inspected.order.clone(), true);
+    let long = Inspected::new(tree, inspected.request.clone(), true);
     let rows = || rows::rows(&long, &Filter::default(), &BTreeSet::new(), None);
     let rows = effort::within(2000.0, rows);
     assert_eq!(rows.len(), COUNT);
@@ -462,7 +415,7 @@ fn a_tree_of_very_many_rays_is_listed_at_once() {
 
 #[test]
 fn what_a_sphere_hides_of_a_ray_is_known() {
-    const SPHERE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/scenes/sphere.scene");
+    const SPHERE: &str = "assets/scenes/sphere.scene";
     let mut window = Window::open(&[SPHERE, "--size", "64x48", "--samples", "1"]);
     inspect(&mut window, [32, 24]);
     // From the other side, a little from above.
@@ -618,7 +571,7 @@ fn the_path_over_the_picture_follows_the_camera() {
         let length = primary.from.distance(primary.to);
         if turn == 0.0 {
             // From its own eye a ray is a point, in the pixel.
-            let reach = f64::from(inspected.order.settings.filter_radius).max(0.5) + 0.01;
+            let reach = f64::from(inspected.request.settings.filter_radius).max(0.5) + 0.01;
             let off = (primary.to - dvec2(155.5, 90.5)).abs().max_element();
             assert!(off <= reach && length < 1e-6, "{primary:?}");
         } else {

@@ -2,7 +2,7 @@
 
 use super::edit::{BLUE, RED, file, on_screen, open, scene};
 use super::focus::click_at;
-use super::harness::Window;
+use crate::harness::Window;
 use eframe::egui::{Key, Modifiers, PointerButton, vec2};
 use glam::{DAffine3, DMat3, DVec3, dvec3};
 use glimray_viewer::model::bindings::Preset;

@@ -1,0 +1,42 @@
+//! The window, driven through the names that screen readers read, drawn and rendered by lavapipe; and the models behind it.
+
+mod bindings;
+mod canvas;
+mod command_line;
+mod compare;
+mod document;
+mod edit;
+mod files;
+mod first_picture;
+mod focus;
+mod handles;
+mod hands;
+mod harness;
+mod histogram;
+mod layers;
+mod loading;
+mod look;
+mod looks;
+mod material;
+mod modal;
+mod names;
+mod navigation;
+mod objects;
+mod outline;
+mod panels;
+mod picture;
+mod pixels;
+mod preferences;
+mod rays;
+mod reference;
+mod replay;
+mod sheets;
+mod support;
+mod time;
+mod tools;
+
+/// Paths in tests start at the root of the repository.
+#[ctor::ctor]
+fn start_at_the_root() {
+    std::env::set_current_dir(support::ROOT).expect("the root of the repository");
+}
