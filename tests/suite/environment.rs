@@ -318,7 +318,7 @@ fn densities_are_in_proportion_to_the_light_above_the_mean() {
     verdict.close();
 }
 
-/// Of the height h of a direction, in -1..=1, ((1 + h)/2)^k has the mean 1/(k + 1) over all directions, and its square
+/// With the height h of a direction, in -1..=1, ((1 + h)/2)^k has the mean 1/(k + 1) over all directions, and its square
 /// 1/(2k + 1). So the variance over the square of the mean is k²/(2k + 1): 1/3 for a gradient from black, 4/5 for its square.
 #[test]
 fn pictures_without_contrast_have_no_table() {

@@ -348,7 +348,7 @@ fn only_a_few_files_of_the_library_need_more_than_a_browser_has() {
         "std::time::SystemTime",
         "tempfile",
     ];
-    // Of these a browser has the clock, and the one file that asks first.
+    // A browser has the clock of these, and the one file that asks first.
     const PARTS: &[&str] = &["app", "cli", "link", "main", "viewer", "output", "clock"];
     const FILES: &[&str] = &[
         "crates/io/src/import/folder.rs",

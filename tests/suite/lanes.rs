@@ -113,9 +113,12 @@ fn crops_of_asset_scenes_are_the_pixels_of_the_whole_by_paths() {
 fn crops_of_asset_scenes_are_the_pixels_of_the_whole_by_whitted() {
     let settings = settings(Integrator::Whitted);
     assert_none(assets().iter().enumerate().map(|(index, (name, scene))| {
-        check_crops(name, scene, &settings, Fetch::Packet)?;
+        check_crops(name, scene, &settings, Fetch::Image)?;
+        let of = |fetch| picture(renderer(scene, &fetched(&settings, fetch)));
+        let expected = of(Fetch::Image);
+        check_same_bits(&format!("{name}, packets"), &expected, &of(Fetch::Packet))?;
         match index % 3 {
-            0 => check_crops(name, scene, &settings, Fetch::Image),
+            0 => check_crops(name, scene, &settings, Fetch::Packet),
             1 => check_crops(name, scene, &settings, Fetch::Buffer),
             _ => Ok(()),
         }

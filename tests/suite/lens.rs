@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 const SIDE: u32 = 48;
 const FOCUS: f64 = 10.0;
-/// Of the picture, at distance 1.
+/// Half the height of the picture, at distance 1.
 const HALF_HEIGHT: f64 = 0.1;
 
 const ROUND: Lens = Lens {

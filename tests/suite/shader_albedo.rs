@@ -509,7 +509,7 @@ fn lookups_of_rough_glass_meet_the_entries() {
     for (slice, expected) in slices.iter().zip(expected) {
         verdict.near("slice", slice, &expected, Tolerance::Absolute(1e-4));
     }
-    // Of a slice, a column and a row the index of refraction, α and the cosine. The first and the last slice are those of 1/3
+    // A slice, a column and a row stand for the index of refraction, α and the cosine. The first and the last slice are those of 1/3
     // and 3; from that of equal media the root of the amplitude grows evenly.
     let place = |(slice, column, row): (usize, usize, usize)| {
         let steps = if slice < CLEAR {

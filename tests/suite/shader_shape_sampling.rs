@@ -58,7 +58,7 @@ fn kinds() -> Vec<Kind> {
     ]
 }
 
-/// Of a transform: the areas of the images of unit areas across x, y and z.
+/// Factors of a transform: the areas of the images of unit areas across x, y and z.
 fn factors(transform: DMat3) -> DVec3 {
     let [x, y, z] = [transform.x_axis, transform.y_axis, transform.z_axis];
     dvec3(

@@ -120,7 +120,7 @@ fn registers_hold_the_deepest_way_through_a_tree() {
         (20, 0, 8..=8),
     ] {
         for registers in registers {
-            // Of the chains for which so many registers are just enough, the one that fills most of them.
+            // The chain that fills most of the registers, of those for which they are just enough.
             let fits = |(packed, view): &(Arc<PackedScene>, PackedView)| {
                 packed.stack_entries(view).div_ceil(4) == registers
             };

@@ -327,7 +327,7 @@ fn a_floor_at_the_boundary_of_a_checkers_cells_is_clean() {
         let wrong = (image.pixels.iter().zip(&expected.pixels))
             .filter(|(a, b)| (a[0] - b[0]).abs() > 0.5)
             .count();
-        // Of 19,200; a pixel exactly on an edge may be either colour.
+        // There are 19,200 pixels; a pixel exactly on an edge may be either colour.
         assert!(wrong <= 8, "scale {scale}: {wrong} speckles");
     }
 }

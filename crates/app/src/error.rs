@@ -32,7 +32,7 @@ pub enum AppError {
     /// Two films cannot be merged.
     #[error("cannot merge ({} and {}): {error}", paths[0].display(), paths[1].display())]
     Films {
-        /// Their files.
+        /// The files of the films.
         paths: [PathBuf; 2],
         /// The reason.
         error: FilmError,

@@ -13,7 +13,7 @@ pub const VARIABLE: &str = "GLIMRAY_FETCH";
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
-    /// It is usual for adapters of this kind.
+    /// Adapters of this kind usually have it.
     DeviceType,
     /// The environment variable says so.
     Environment,

@@ -20,7 +20,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::Path;
 
-/// What `--report` writes.
+/// The report that `--report` writes.
 #[derive(Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum AnyReport<'a> {
@@ -129,7 +129,7 @@ pub struct SceneReport {
     pub instances: usize,
     pub materials: usize,
     pub lights: usize,
-    /// What the importer skipped or repaired.
+    /// Parts of the file that the importer skipped or repaired.
     pub skipped: Vec<String>,
 }
 

@@ -88,7 +88,7 @@ impl Adaptive {
             },
             samples: settings.samples,
             first_samples,
-            // As many rows as without features.
+            // The number of rows is that without features.
             tile_pixels: 2 * side * side / layers::rows(layers::of_sampling(settings)),
             order,
             layers: layers::of_sampling(settings),

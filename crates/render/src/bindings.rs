@@ -112,7 +112,7 @@ struct SceneBuffers {
     fetch: Fetch,
     /// In the order of [`arrays`] and of the bindings.
     buffers: Vec<Rows>,
-    /// Their contents; `None` before they are written or after a failure.
+    /// Contents of the buffers; `None` before they are written or after a failure.
     on_device: Option<(Arc<PackedScene>, PackedView)>,
 }
 

@@ -79,18 +79,18 @@ pub fn denoise(image: &Image, gpu: &Gpu, features: &Features) -> Result<Denoised
 #[derive(Clone, Copy)]
 struct Cover {
     opacity: f32,
-    /// Of the opacity, for samples which are either opaque or not: the greatest that the mean allows, where samples of the
+    /// Variance of the opacity, for samples which are either opaque or not: the greatest that the mean allows, where samples of the
     /// light on a catcher are alike.
     opacity_variance: f32,
     albedo: [f32; 3],
     albedo_variance: f32,
-    /// Of the luminance.
+    /// Variance of the luminance.
     variance: f32,
 }
 
 impl Cover {
-    /// Of a pixel with these features. Those are means over all samples; of these only some met what covers it. Where nothing
-    /// does, all is 0.
+    /// The cover of a pixel with these features, which are means over all samples, of which only some met what covers
+    /// it. Without a cover all is 0.
     fn of(features: &PixelFeatures) -> Self {
         let opacity = 1.0 - features.transparency;
         let opacity_variance = opacity * (1.0 - opacity) / (features.samples - 1.0).max(1.0);
@@ -117,7 +117,7 @@ impl Cover {
 struct Filtered {
     /// Radiance times opacity.
     colors: Vec<[f32; 4]>,
-    /// Their first numbers are opacities; `None` if only colours were filtered.
+    /// Covers, whose first numbers are opacities; `None` if only colours were filtered.
     covers: Option<Vec<[f32; 4]>>,
     /// By the adapter's timestamps; `None` if it has none.
     pass_seconds: Option<f64>,

@@ -37,7 +37,7 @@ pub enum LongPath {
         /// Maximum number of bounces of a path.
         bounces: u32,
     },
-    /// None of these: rays hit the boxes of very many primitives.
+    /// No other reason: rays hit the boxes of very many primitives.
     Crowded,
 }
 

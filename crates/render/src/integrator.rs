@@ -9,7 +9,7 @@ use crate::{
 };
 use glimray_scene::LightTransport;
 
-/// What a camera ray computes.
+/// The algorithm that follows camera rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Integrator {

@@ -25,7 +25,7 @@ pub enum LayerKind {
     /// tone.
     Weighted,
     /// The sum of squared luminance, which decides when a pixel has converged; then the pixel position, and 1.
-    /// It is not developed.
+    /// The layer is not developed.
     Squares,
     /// Three weighted sums, and the sum of their weights or what the layer says.
     Mean,

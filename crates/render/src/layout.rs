@@ -576,7 +576,7 @@ packed! {
         origin: [f32; 3],
         /// [`RAY_PRIMARY`] and so on.
         kind: u32,
-        /// Of unit length.
+        /// Unit vector.
         direction: [f32; 3],
         /// Distance to the hit.
         t: f32,

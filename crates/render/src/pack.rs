@@ -93,7 +93,7 @@ pub struct PackedScene {
     pub vertices: Segments<PackedVertex>,
     /// (u, v) of each vertex and its second set, zeros for meshes without texture coordinates; empty if no mesh has any.
     pub uvs: Segments<[f32; 4]>,
-    /// Of each vertex, zeros for meshes without tangents; empty if no mesh has any.
+    /// Tangents of each vertex, zeros for meshes without tangents; empty if no mesh has any.
     pub tangents: Segments<PackedTangent>,
     /// Linear red, green, blue and alpha of each vertex, white for meshes without colours; empty if no mesh has any.
     pub colors: Segments<[f32; 4]>,

@@ -68,7 +68,7 @@ impl Fetch {
 /// and each step moves all of its entries; where scenes are in buffers it is in workgroup memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stack {
-    /// As many entries as rays usually need. If one needs more, that part of the picture is rendered again, and the rest too,
+    /// The number of entries that rays usually need. If one needs more, that part of the picture is rendered again, and the rest too,
     /// with `Deepest`.
     #[default]
     Usual,

@@ -21,7 +21,7 @@ const UNIT: f64 = 1.0 / (1_u64 << FRACTION_BITS) as f64;
 /// The rows of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PixelRows {
-    /// Their number.
+    /// The number of rows.
     pub count: usize,
     /// The first row that is not a sum. From it on the rows describe the sample nearest the pixel's centre: the first
     /// number is its nearness, the second its index. Totals hold the bits of these numbers.

@@ -23,19 +23,19 @@ pub struct Clip {
 /// A property that a track drives. The numbers are indices into the [`super::Scene`]'s lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
-    /// Of a [`super::Node`].
+    /// A property of a [`super::Node`].
     Node(usize, NodeProperty),
-    /// Of a [`super::Camera`].
+    /// A property of a [`super::Camera`].
     Camera(usize, CameraProperty),
-    /// Of a [`super::Light`].
+    /// A property of a [`super::Light`].
     Light(usize, LightProperty),
-    /// Of a [`super::Material`]: its emission, or a coefficient of its [`super::Phong`] BSDF. Coefficients of other BSDFs
+    /// A property of a [`super::Material`]: its emission, or a coefficient of its [`super::Phong`] BSDF. Coefficients of other BSDFs
     /// are those of [`super::Material::classical`].
     Material(usize, MaterialProperty),
-    /// Of the [`super::MetallicRoughness`] of a material. Classical colours that are derived from it follow, but not those
+    /// A property of the [`super::MetallicRoughness`] of a material. Classical colours that are derived from it follow, but not those
     /// that a file gives or that were computed from several maps.
     Layer(usize, LayerProperty),
-    /// Of the [`super::UvTransform`] of a texture; what has no track has its default.
+    /// A property of the [`super::UvTransform`] of a texture; what has no track has its default.
     Texture(usize, TextureProperty),
     /// The weight of a morph target, a scalar: the index of a [`super::Deformation`], and that of one of
     /// its targets.

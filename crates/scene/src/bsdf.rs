@@ -50,15 +50,15 @@ pub struct Phong {
 texture_indices! {
     /// For each colour of a [`Phong`] BSDF the index in [`super::Scene::textures`] of the texture that multiplies it.
     PhongTextures {
-        /// Of [`Phong::diffuse`].
+        /// Texture of [`Phong::diffuse`].
         diffuse,
-        /// Of [`Phong::specular`].
+        /// Texture of [`Phong::specular`].
         specular,
-        /// Of [`Phong::ambient`].
+        /// Texture of [`Phong::ambient`].
         ambient,
-        /// Of [`Phong::reflect`].
+        /// Texture of [`Phong::reflect`].
         reflect,
-        /// Of [`Phong::transmit`].
+        /// Texture of [`Phong::transmit`].
         transmit,
     }
 }

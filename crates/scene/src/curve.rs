@@ -10,11 +10,11 @@ const END_TOLERANCE: f64 = 2e-7;
 /// The value of a [`Curve`] at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
-    /// Of [`Values::Scalar`].
+    /// A value of [`Values::Scalar`].
     Scalar(f64),
-    /// Of [`Values::Vector`].
+    /// A value of [`Values::Vector`].
     Vector(DVec3),
-    /// Of [`Values::Rotation`]; of unit length.
+    /// A value of [`Values::Rotation`], of unit length.
     Rotation(DQuat),
 }
 

@@ -73,7 +73,7 @@ pub enum LightKind {
     Disc {
         /// The centre.
         center: DVec3,
-        /// Of unit length.
+        /// Unit vector.
         normal: DVec3,
         /// Above 0.
         radius: f64,

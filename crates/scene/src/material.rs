@@ -153,38 +153,38 @@ texture_indices! {
     /// For parameters of a [`MetallicRoughness`] the index in [`super::Scene::textures`] of the texture that
     /// multiplies them.
     LayerTextures {
-        /// Of [`MetallicRoughness::base_color`].
+        /// Texture of [`MetallicRoughness::base_color`].
         base_color,
-        /// Of [`MetallicRoughness::metallic`], in blue.
+        /// Texture of [`MetallicRoughness::metallic`], in blue.
         metallic,
-        /// Of [`MetallicRoughness::roughness`], in green.
+        /// Texture of [`MetallicRoughness::roughness`], in green.
         roughness,
-        /// Of [`MetallicRoughness::transmission`], in red.
+        /// Texture of [`MetallicRoughness::transmission`], in red.
         transmission,
-        /// Of [`MetallicRoughness::specular`], in alpha.
+        /// Texture of [`MetallicRoughness::specular`], in alpha.
         specular,
-        /// Of [`MetallicRoughness::specular_color`].
+        /// Texture of [`MetallicRoughness::specular_color`].
         specular_color,
-        /// Of [`MetallicRoughness::clearcoat`], in red.
+        /// Texture of [`MetallicRoughness::clearcoat`], in red.
         clearcoat,
-        /// Of [`MetallicRoughness::clearcoat_roughness`], in green.
+        /// Texture of [`MetallicRoughness::clearcoat_roughness`], in green.
         clearcoat_roughness,
         /// The normal map of the clear coat, which does not follow that of the surface.
         clearcoat_normal,
-        /// Of [`MetallicRoughness::sheen_color`].
+        /// Texture of [`MetallicRoughness::sheen_color`].
         sheen_color,
-        /// Of [`MetallicRoughness::sheen_roughness`], in alpha.
+        /// Texture of [`MetallicRoughness::sheen_roughness`], in alpha.
         sheen_roughness,
-        /// Of [`MetallicRoughness::anisotropy`], in blue; its red and green are a direction, from -1 to 1 for 0 to 1, that is
+        /// Texture of [`MetallicRoughness::anisotropy`], in blue; its red and green are a direction, from -1 to 1 for 0 to 1, that is
         /// turned by [`MetallicRoughness::anisotropy_rotation`].
         anisotropy,
-        /// Of [`MetallicRoughness::iridescence`], in red.
+        /// Texture of [`MetallicRoughness::iridescence`], in red.
         iridescence,
         /// The place in [`MetallicRoughness::iridescence_thickness`], in green.
         iridescence_thickness,
-        /// Of [`MetallicRoughness::diffuse_transmission`], in alpha.
+        /// Texture of [`MetallicRoughness::diffuse_transmission`], in alpha.
         diffuse_transmission,
-        /// Of [`MetallicRoughness::diffuse_transmission_color`].
+        /// Texture of [`MetallicRoughness::diffuse_transmission_color`].
         diffuse_transmission_color,
     }
 }

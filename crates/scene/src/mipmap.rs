@@ -94,7 +94,7 @@ impl<'a> Light<'a> {
         }
     }
 
-    /// Of a colour with this alpha. That of an opaque one is 1, so that no colour overflows.
+    /// Weight of a colour with this alpha. An opaque colour has the weight 1, so that no colour overflows.
     fn weight(&self, alpha: f32) -> f32 {
         match self.is_weighted {
             true => (alpha + LEAST_WEIGHT) / (1.0 + LEAST_WEIGHT),
@@ -199,7 +199,7 @@ fn mean(
 struct Covered {
     first: usize,
     count: usize,
-    /// Of `count` texels, together 1.
+    /// Weights of `count` texels, which add up to 1.
     shares: [f32; 3],
 }
 

@@ -28,7 +28,7 @@ pub enum Geometry {
     Plane {
         /// Any point on the plane; u and v are 0 there.
         point: DVec3,
-        /// Of unit length.
+        /// Unit vector.
         normal: DVec3,
     },
     /// A canonical shape placed by a transform.

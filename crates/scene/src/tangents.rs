@@ -240,7 +240,7 @@ impl Part {
 
 /// Vertices that are divided where their corners differ in tangent.
 struct Divided {
-    /// Of all vertices and copies.
+    /// Tangents of all vertices and copies.
     tangents: Vec<Vec4>,
     /// Whether the tangent of a vertex was determined.
     is_set: Vec<bool>,

@@ -32,7 +32,7 @@ impl Texture {
 pub struct UvTransform {
     /// In widths and heights of the picture.
     pub offset: DVec2,
-    /// Of the coordinates, counter-clockwise seen on the picture, in radians.
+    /// Rotation of the coordinates, counter-clockwise seen on the picture, in radians.
     pub rotation: f64,
     /// How many times the picture is repeated along u and v.
     pub scale: DVec2,

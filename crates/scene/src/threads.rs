@@ -170,7 +170,7 @@ fn divided<'a, T: Ord>(
     parts
 }
 
-/// Of the `count` least elements of two sorted slices, how many are in the left one.
+/// The number of the `count` least elements of two sorted slices that are in the left one.
 fn least_on_left<T: Ord>((left, right): (&[T], &[T]), count: usize) -> usize {
     let (mut low, mut high) = (count.saturating_sub(right.len()), count.min(left.len()));
     while low < high {

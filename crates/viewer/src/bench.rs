@@ -44,7 +44,7 @@ struct Row {
     longest_submission_seconds: f64,
     /// Host time from the end of a camera movement to the first submission at full resolution.
     rest_seconds: f64,
-    /// The same in a scene of 1,000 objects with 1,000,000 triangles.
+    /// Seconds of rest in a scene of 1,000 objects with 1,000,000 triangles.
     thousand_rest_seconds: f64,
     /// From a request that moves one of those objects to the coarse picture.
     thousand_move_seconds: f64,

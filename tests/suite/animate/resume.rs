@@ -73,7 +73,7 @@ fn only_a_deleted_truncated_or_modified_frame_is_rendered_again() {
     assert_eq!(run.counts(), (1, 5));
     run.says("re-rendering frame 4: its file has been modified");
 
-    // Of equal length, but one bit differs.
+    // One bit differs in a file of equal length.
     let mut bytes = workspace.read("f_0.png");
     *bytes.last_mut().expect("bytes") ^= 1;
     workspace.write("f_0.png", bytes);

@@ -123,7 +123,7 @@ fn transparent_pictures_have_an_alpha_channel_even_where_all_is_opaque() {
     let run = |line: &str| workspace.run(line).expect(0);
     let colors = |name: &str| {
         let picture = image::open(workspace.path(name)).expect("a picture");
-        // Of a crop, the reader adds what is missing of the whole picture.
+        // The reader of a crop adds what is missing of the whole picture.
         let mut pixels = picture
             .to_rgba32f()
             .into_vec()

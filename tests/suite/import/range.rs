@@ -67,7 +67,7 @@ const SCENES: [(&str, &str); 8] = [
     ),
 ];
 
-/// Their products may be brighter than any light that makes sense: such samples are counted, and no pixel is infinite.
+/// Products of such colours may be brighter than any light that makes sense: such samples are counted, and no pixel is infinite.
 #[test]
 fn finite_colours_of_any_size_give_finite_pictures() {
     for (name, scene) in SCENES {

@@ -64,7 +64,7 @@ pub fn importance(cluster: &PackedCluster, p: DVec3, n: DVec3) -> f64 {
 pub struct Chances {
     pub lamps: Vec<(f64, u32)>,
     pub emitters: Vec<(f64, u32)>,
-    /// That of clusters in which no light may reach the point.
+    /// The chance of clusters in which no light may reach the point.
     pub missed: f64,
 }
 

@@ -24,7 +24,7 @@ pub trait Wanted {
 
 impl Wanted for RenderSettings {
     fn parts(&self) -> (RenderSettings, ExecutionPolicy) {
-        (self.clone(), packets())
+        (self.clone(), ExecutionPolicy::default())
     }
 }
 
@@ -34,19 +34,11 @@ impl Wanted for (RenderSettings, ExecutionPolicy) {
     }
 }
 
-/// Test pictures are too small for packets unless the policy asks for them.
-fn packets() -> ExecutionPolicy {
-    ExecutionPolicy {
-        fetch: Fetch::Packet,
-        ..ExecutionPolicy::default()
-    }
-}
-
 /// The settings with rays counted.
 pub fn counting(settings: &RenderSettings) -> (RenderSettings, ExecutionPolicy) {
     let policy = ExecutionPolicy {
         count_rays: true,
-        ..packets()
+        ..ExecutionPolicy::default()
     };
     (settings.clone(), policy)
 }

@@ -58,7 +58,7 @@ pub struct Phong {
     pub reflect: [f32; 3],
 }
 
-/// Of texels; see `lib/picture.wesl`.
+/// Neighbouring texels; see `lib/picture.wesl`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Neighbours {
     pub first: u32,

@@ -167,7 +167,7 @@ fn a_background_that_was_changed_gives_the_png_of_the_command_line() {
     check("lighthouse.obj", &raw(&flags), |window| {
         [change(window), vec!["--ground=surface".into()]].concat()
     });
-    // Of the command line from the start, and back to it.
+    // A background of the command line, and back to it.
     let flags = [&flags[..], &["--background", "0.1,0.5,0.2"]].concat();
     check("lighthouse.obj", &raw(&flags), |_| Vec::new());
     check("media.toml", &flags, |window| {

@@ -293,7 +293,7 @@ impl CameraFlags {
         reading.import_options(up, self.background.is_some(), picture)
     }
 
-    /// Those of a command that reads its scene with these flags.
+    /// The overrides of a command that reads its scene with these flags.
     pub fn overrides(&self, reading: &SceneFlags) -> CameraOverrides {
         CameraOverrides {
             name: self.camera.clone(),

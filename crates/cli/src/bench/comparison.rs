@@ -42,7 +42,7 @@ pub struct Ratio {
     grew: bool,
 }
 
-/// What only one of two runs has.
+/// Entries that only one of two runs has.
 #[derive(Debug, Serialize)]
 pub struct Sides {
     /// Conditions that are not the same, so that the figures may differ for that reason.

@@ -16,7 +16,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Of at least one value.
+    /// The figure of at least one value.
     pub fn of(values: impl Iterator<Item = f64>) -> Self {
         let values: Vec<_> = values.collect();
         Self {

@@ -85,17 +85,17 @@ pub struct Row {
     load_mtriangles_per_second: Option<Figure>,
     /// Millions of triangles and spheres per second of building the trees; each mesh counts once.
     build_mprimitives_per_second: Figure,
-    /// The same for the first picture in the window; null without a mesh that is large enough.
+    /// Primitives for the first picture in the window; null without a mesh that is large enough.
     draft_mprimitives_per_second: Option<Figure>,
     /// GPU memory of nodes, instances, triangles and spheres.
     bytes_per_primitive: f64,
-    /// The same with vertices, materials and lights.
+    /// GPU memory, with vertices, materials and lights.
     all_bytes_per_primitive: f64,
     width: u32,
     height: u32,
     /// The whole render, from opening the adapter to the developed picture.
     render_seconds: Figure,
-    /// Its tracing.
+    /// Seconds of tracing.
     trace_seconds: Figure,
     rays: Vec<SetRow>,
 }
@@ -105,21 +105,21 @@ pub struct Row {
 struct SetRow {
     set: &'static str,
     rays: usize,
-    /// Of the rays, the same on every machine.
+    /// Checksum of the rays, equal on every machine.
     checksum: String,
     hits: usize,
-    /// Of the hits, which may differ in rounding between adapters.
+    /// Checksum of the hits, which may differ in rounding between adapters.
     hit_checksum: String,
     /// Millions of rays per second.
     mrays_per_second: Figure,
     /// How those were traced: "packet", or "single" for rays one by one.
     walk: &'static str,
-    /// Of rays one by one. Exact, like the following.
+    /// Visits of rays one by one. Exact, like the following.
     nodes_per_ray: f64,
     primitives_per_ray: f64,
     /// Rays of a packet; null where none are traced, as the next.
     packet_rays: Option<u32>,
-    /// Of a packet: the mean over the rays of what their packets visited and tested.
+    /// Visits of a packet: the mean over the rays of what their packets visited and tested.
     nodes_per_packet: Option<f64>,
     primitives_per_packet: Option<f64>,
 }

@@ -7,11 +7,11 @@ use glimray_app::error::AppError;
 
 /// Differences up to these count as equal.
 pub struct Limits {
-    /// Of a pixel, in levels of 1/255.
+    /// Limit of a pixel's difference, in levels of 1/255.
     pub tolerance: f64,
-    /// Of the percentage of pixels that differ by more.
+    /// Limit of the percentage of pixels that differ by more.
     pub max_share: Option<f64>,
-    /// Of the mean of FLIP.
+    /// Limit of the mean of FLIP.
     pub flip: Option<f64>,
 }
 

@@ -49,7 +49,7 @@ pub struct Manifest {
     pub samples: u32,
     /// The frames of an animation; null for a picture.
     pub frames: Option<Frames>,
-    /// What was measured for the plan.
+    /// Measurements for the plan.
     pub measured: Measured,
     /// The parts, by number.
     pub parts: Vec<Part>,
@@ -84,7 +84,7 @@ pub struct Frames {
     pub repeat: bool,
 }
 
-/// What the plan measured.
+/// Measurements for the plan.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Measured {
     /// The adapter.

@@ -25,7 +25,7 @@ pub struct MaterialEntry {
     thin: bool,
     absorption: [f32; 3],
     priority: i32,
-    /// Of physically based materials, whose other coefficients are made from these.
+    /// The model of physically based materials, from which the other coefficients are made.
     #[serde(skip_serializing_if = "Option::is_none")]
     physical: Option<PhysicalEntry>,
 }

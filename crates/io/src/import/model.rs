@@ -18,7 +18,7 @@ pub(super) struct Model {
     pub offset: DVec3,
     /// The points of a cloud, as spheres in world space.
     pub points: Vec<Shape>,
-    /// Their textures are indices into `textures`.
+    /// Materials, whose textures are indices into `textures`.
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
     pub notes: Notes,

@@ -56,7 +56,7 @@ struct Content {
     mesh: Mesh,
     /// World from mesh: the translation to the position in the file.
     offset: DVec3,
-    /// Of each vertex in sRGB, from 0 to 1, or empty.
+    /// Colour of each vertex in sRGB, from 0 to 1, or empty.
     colors: Vec<Vec3>,
     radii: Vec<f32>,
     /// Number of faces of fewer than three corners.
@@ -246,7 +246,7 @@ fn vertices(
     let is_double = (0..3).any(|i| kind(i) == Kind::Double);
     let is_model = matches!(purpose, Purpose::Model);
     reader.reserve(layout.memory(element.count, is_double, is_cloud && is_model))?;
-    // Of 8 bits, or of 16 or a fraction of 1.
+    // A colour has 8 or 16 bits, or is a fraction of 1.
     let most_color = match layout.color.map(kind) {
         Some(Kind::Float | Kind::Double) => 1.0,
         Some(Kind::U16) => 65535.0,

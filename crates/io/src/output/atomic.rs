@@ -23,7 +23,7 @@ enum Target {
     File {
         /// With symbolic links resolved, so that the link is kept and its target is replaced or created.
         path: PathBuf,
-        /// Of the existing file.
+        /// Permissions of the existing file.
         permissions: Option<Permissions>,
     },
     /// A pipe, a device or a socket, which is written to directly.

@@ -174,7 +174,7 @@ fn copy(
             min: aabb.min.into(),
             max: aabb.max.into(),
         },
-        // Of an inner node, until its right child has a place.
+        // The link of an inner node, until its right child has a place.
         link: node.link,
     };
 }
@@ -232,7 +232,7 @@ fn longest_axis_of_centers(boxes: impl Iterator<Item = Aabb>) -> usize {
 /// The tree with subtrees replaced by balanced ones as far down as possible, such that no leaf is more than
 /// `height` steps below the root; or a balanced tree where that is impossible.
 pub fn limit_height(boxes: &[Aabb], tree: &[Node], height: u32) -> Tree {
-    // Of each subtree, the number of steps to its deepest leaf and the index after its last node.
+    // For each subtree, the number of steps to its deepest leaf and the index after its last node.
     let mut shapes = vec![(0u32, 0u32); tree.len()];
     for (index, node) in tree.iter().enumerate().rev() {
         shapes[index] = match node.kind() {

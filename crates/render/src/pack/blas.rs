@@ -29,7 +29,7 @@ pub struct Blas {
     pub nodes: Arc<[PackedNode]>,
     /// In leaf order, then those in several leaves or in none.
     pub triangles: Arc<[PackedTriangle]>,
-    /// Likewise.
+    /// Shapes in leaf order, then those in several leaves or in none.
     pub shapes: Arc<[PackedShape]>,
     /// In mesh order.
     pub vertices: Arc<[PackedVertex]>,

@@ -7,7 +7,7 @@ use crate::bvh::Aabb;
 pub struct Divided<P> {
     /// Boxes of undivided primitives, followed by boxes of pieces.
     pub boxes: Vec<Aabb>,
-    /// Their primitives are places in [`Self::order`].
+    /// Pieces, whose primitives are places in [`Self::order`].
     pub pieces: Vec<P>,
     /// The primitives that have a box of their own, and the others, in ascending order.
     whole: Vec<u32>,

@@ -29,7 +29,7 @@ impl Default for Places {
 }
 
 impl Places {
-    /// Of an instance of a view with these keys.
+    /// The places of an instance of a view with these keys.
     pub fn of(instance: &PackedInstance, keys: &[PackedKey]) -> Self {
         let matrix = |rows: [[f32; 3]; 3]| Mat3::from_cols_array_2d(&rows).transpose();
         let linear = matrix([instance.linear_x, instance.linear_y, instance.linear_z]);

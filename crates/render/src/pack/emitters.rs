@@ -79,7 +79,7 @@ pub struct EmissiveParts {
 /// The emitters of a view, and their share of its light.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Emitters {
-    /// Their chances follow those of the lights and reach 1.
+    /// Emitters, whose cumulative chances follow those of the lights and reach 1.
     pub rows: Vec<PackedEmitter>,
     /// The sum of radiance times area, in luminance. 0 if there are none.
     pub power: f64,
@@ -324,7 +324,7 @@ impl PackedScene {
             }
             let places = Places::of(instance, &tlas.keys);
             match deformed.starting_at(instance.first) {
-                // Their order may differ from that at rest.
+                // The order of deformed triangles may differ from that at rest.
                 Some(tree) => tree.triangles().for_each(|(own, triangle, vertices)| {
                     let corners = [triangle.i0, triangle.i1, triangle.i2];
                     let of_material = || materials[vertices[0].material as usize].layers.glow;

@@ -35,12 +35,12 @@ const LEAST_DENSITY: f64 = 1e-30;
 /// A picture in the background.
 #[derive(Clone, Debug)]
 pub struct Environment {
-    /// Its index in the scene.
+    /// Index of the picture in the scene.
     index: usize,
     picture: Arc<Picture>,
     /// The largest value of its texels that is shown.
     largest: f32,
-    /// Its table; `None` if light samples do not pay.
+    /// The table that samples it; `None` if light samples do not pay.
     table: Option<Table>,
 }
 
@@ -140,7 +140,7 @@ impl PackedScene {
     }
 }
 
-/// What a texel has of the light of a row of cells.
+/// The light of a row of cells that a texel has.
 struct Spread {
     /// The first cell that it lights. Beyond the last one the row begins anew.
     first: usize,
@@ -262,7 +262,7 @@ fn bands(levels: u32) -> impl Iterator<Item = f64> {
     (0..rows).map(move |row| (sine_at(row + 1) - sine_at(row)) / 2.0)
 }
 
-/// Of `total`, the part `first` in steps: 0 or all of them only if the one or the other half has nothing.
+/// The part `first` of the sum in steps: 0 or all of them only if the one or the other half has nothing.
 fn steps(first: f64, second: f64) -> u32 {
     match (first > 0.0, second > 0.0) {
         (_, false) => STEPS,

@@ -26,7 +26,7 @@ pub enum PackError {
     TooMany {
         /// The counted objects, in the plural.
         what: &'static str,
-        /// Their number, with each instance counted.
+        /// The number in the scene, with each instance counted.
         count: usize,
         /// The maximum number.
         limit: usize,

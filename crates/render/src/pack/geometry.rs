@@ -28,7 +28,7 @@ const GLOBE_RATIO: f64 = 16.0;
 pub struct Flat {
     pub triangles: Vec<PackedTriangle>,
     pub vertices: Vec<PackedVertex>,
-    /// Of all vertices; empty if none has any.
+    /// Tangents of all vertices; empty if none has any.
     pub tangents: Vec<PackedTangent>,
     /// Bounded shapes with their boxes, and unbounded ones.
     pub bounded: Vec<(PackedShape, Aabb)>,

@@ -52,7 +52,7 @@ impl PartialEq for JointInput {
 }
 
 impl JointInput {
-    /// That of a scene.
+    /// The input of a scene.
     pub fn new(
         scene: &Scene,
         (rest, origin): (&Frame, DVec3),

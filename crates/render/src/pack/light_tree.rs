@@ -28,7 +28,7 @@ pub struct LightTree {
     leaves: Vec<Leaf>,
     /// Children are side by side; empty if lights are chosen without a tree. The first is the root.
     pub nodes: Vec<PackedCluster>,
-    /// Of each leaf: bit k says whether it is under the second child at depth k.
+    /// The way to each leaf: bit k says whether the leaf is under the second child at depth k.
     trails: Vec<u32>,
 }
 

@@ -64,7 +64,7 @@ fn half_area(extent: DVec3) -> f64 {
 struct Axis {
     canonical: CanonicalShape,
     world_from_canonical: DAffine3,
-    /// Of the canonical space: 0, 1 or 2.
+    /// Index of the axis of the canonical space: 0, 1 or 2.
     index: usize,
     /// From one end of the shape to the other.
     way: DVec3,

@@ -35,7 +35,7 @@ pub struct Topology {
     pub children: Vec<[u32; 4]>,
     /// Triangles of the mesh in leaf order, then those in pieces.
     order: Vec<u32>,
-    /// Their triangles are places in `order`.
+    /// Pieces, whose triangles are places in `order`.
     pub pieces: Vec<TrianglePiece>,
     pub stack_need: usize,
     /// The cost of traversal in the position that it was built for; see [`cost_of`]. Infinite for drafts, whose meshes do

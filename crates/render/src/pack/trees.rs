@@ -350,7 +350,7 @@ impl Top {
             nodes::quantize(Children::new(children).as_slice())
         };
         let (root, others) = (&bvh.nodes[..1], &bvh.nodes[1..]);
-        // As many nodes as there may be over these trees, so that an edit does not require a larger buffer.
+        // Room for all nodes that may be over these trees, so that an edit does not require a larger buffer.
         let spare = (limit - 1).saturating_sub(others.len());
         let unused = std::iter::repeat_n(PackedNode::default(), spare);
         let (root, nodes) = (

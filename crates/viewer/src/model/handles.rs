@@ -86,7 +86,7 @@ impl Eye<'_> {
 pub struct Handles {
     /// The tool: [`Tool::Move`], [`Tool::Rotate`] or [`Tool::Scale`].
     pub tool: Tool,
-    /// Their common origin.
+    /// The common origin of the handles.
     pub origin: DVec3,
     /// Unit axes: the world's, or the object's own for scaling.
     pub axes: [DVec3; 3],

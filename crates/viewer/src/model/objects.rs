@@ -35,15 +35,15 @@ pub enum EditError {
     /// An animation sets the property.
     #[error("its {property} is animated. Edit the keys or its parent node.")]
     Animated {
-        /// Such as "translation".
+        /// The property, such as "translation".
         property: &'static str,
     },
     /// The object does not support this edit.
     #[error("{what} cannot be {done}. {todo}.")]
     Unable {
-        /// Such as "a point light".
+        /// The kind of object, such as "a point light".
         what: &'static str,
-        /// Such as "turned".
+        /// The edit, such as "turned".
         done: &'static str,
         /// A suggested alternative.
         todo: &'static str,
@@ -60,7 +60,7 @@ pub enum EditError {
     /// A list must not become empty.
     #[error("a scene needs at least one {what}. Add another one first.")]
     Last {
-        /// Such as "camera".
+        /// The kind of object, such as "camera".
         what: &'static str,
     },
 }

@@ -13,7 +13,7 @@ pub const OBJECTS: &str = "Objects";
 pub struct Entry {
     /// The item; `None` for headings.
     pub id: Option<Id>,
-    /// Such as "sphere 3 (glass)".
+    /// Text of the line, such as "sphere 3 (glass)".
     pub label: String,
     /// How far it is indented: 0 for headings.
     pub depth: usize,

@@ -5,7 +5,7 @@ use crate::model::histogram::Histogram;
 /// The histogram of the main picture.
 #[derive(Debug, Default)]
 pub struct HistogramView {
-    /// That of the last picture that was measured.
+    /// The histogram of the last picture that was measured.
     pub latest: Option<Box<Histogram>>,
     /// Whether the height of its bars is logarithmic.
     pub is_logarithmic: bool,

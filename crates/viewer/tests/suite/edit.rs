@@ -565,7 +565,7 @@ fn undo_keeps_the_selection_on_the_same_object() {
     assert_eq!(window.session().selection, None, "what is gone");
     window.session().selection = Some(RED);
     perform(&mut window, Action::Duplicate);
-    // As many balls as in the file, but others.
+    // The number of balls is that of the file, but the balls are others.
     perform(&mut window, Action::Revert);
     assert_eq!(window.session().selection, None, "another scene");
 }

@@ -193,7 +193,7 @@ fn shadow_rays_and_bounces_are_left_out_where_that_is_asked_for() {
     });
     assert!(without.iter().all(|id| kind(*id) != RayKind::Shadow));
     assert!((1..every).contains(&without.len()));
-    // Of no bounce: the primary rays, and what these sent to lights.
+    // Rays of no bounce are the primary rays and their shadow rays.
     for id in listed(Filter { bounces: 0, ..all }) {
         let ray = inspected.ray(id).expect("a ray");
         let from_first = ray.kind == RayKind::Shadow && ray.parent == Some(0);

@@ -15,7 +15,7 @@ use std::io::Cursor;
 /// How an OpenEXR file is written.
 #[derive(Clone)]
 pub struct Exr {
-    /// Of the display window, which begins at (0, 0).
+    /// Size of the display window, which begins at (0, 0).
     pub size: [usize; 2],
     /// The corner and the size of the data window.
     pub data: ([i32; 2], [usize; 2]),

@@ -289,7 +289,7 @@ impl Reader<'_> {
         let size =
             budget::size::<[f64; 2]>(times.len() * width) + budget::size::<[f64; 4]>(values.len());
         self.ledger.take(size, 2 * size, here)?;
-        // Of keys at the same time the last one counts.
+        // The last of several keys at one time counts.
         let is_last = |i: &usize| times.get(i + 1).is_none_or(|next| times[*i] < *next);
         let kept: Vec<usize> = (0..times.len()).filter(is_last).collect();
         let interpolation = match sampler.interpolation {

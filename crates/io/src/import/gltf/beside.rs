@@ -368,7 +368,7 @@ fn in_buffers(document: &Document, unused: &mut Unused) {
             unused.of("bufferViews", index, "byteStride", why);
         }
     }
-    // Of those without a URI only the first may be in the file.
+    // Only the first buffer without a URI may be in the file.
     let others = document.buffers.iter().skip(1);
     for _ in others.filter(|buffer| buffer.uri.is_none()) {
         unused.idle("buffers[].byteLength".to_owned());

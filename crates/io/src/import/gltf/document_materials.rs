@@ -50,10 +50,10 @@ pub struct TextureInfo {
     pub index: usize,
     #[serde(default)]
     pub tex_coord: Option<u32>,
-    /// Of normal textures.
+    /// Scale of normal textures.
     #[serde(default)]
     pub scale: Option<f64>,
-    /// Of occlusion textures.
+    /// Strength of occlusion textures.
     #[serde(default)]
     pub strength: Option<f64>,
     #[serde(default)]

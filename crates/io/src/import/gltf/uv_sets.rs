@@ -12,11 +12,11 @@ use std::collections::HashMap;
 /// How much a map matters, from the most: where there are too many sets, the last ones are not shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Rank {
-    /// Of the surface itself.
+    /// A texture of the surface itself.
     Main,
-    /// Of a layer on it, which only paths show.
+    /// A texture of a layer on it, which only paths show.
     Layer,
-    /// Of a layer that is not there: its factor is 0.
+    /// A texture of a layer that is not there: its factor is 0.
     Idle,
 }
 

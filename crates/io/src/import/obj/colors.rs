@@ -34,7 +34,7 @@ impl Colors {
 
     /// Linear colours with opacity; white where there is none. Notes what was changed.
     pub fn finish(mut self, notes: &mut Notes) -> Vec<Vec4> {
-        // Of four numbers the first is a weight if it is always 1 and the last one is not, which then is no opacity.
+        // The first of four numbers is a weight if it is always 1 and the last one is not, which then is no opacity.
         let four = || self.rows.iter().filter(|row| !row[3].is_nan());
         let has_weights = four().all(|row| row[0] == 1.0) && four().any(|row| row[3] != 1.0);
         if has_weights {

@@ -24,7 +24,7 @@ pub(super) struct Head {
     pub height: u32,
     /// Whether its texels become floats.
     pub has_floats: bool,
-    /// Of formats that are not those of `image`.
+    /// The decoder of a format that `image` does not have.
     special: Option<Special>,
 }
 

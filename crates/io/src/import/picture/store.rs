@@ -59,7 +59,7 @@ type Decoded = Result<Arc<Picture>, Refused>;
 pub(in crate::import) struct Pictures {
     /// `None` until [`Self::complete`].
     pictures: Vec<Option<Arc<Picture>>>,
-    /// Of the texels of `pictures`.
+    /// Bytes of the texels of `pictures`.
     bytes: usize,
     indices: HashMap<(Place, Role), usize>,
     /// In the order in which they were planned.
@@ -68,7 +68,7 @@ pub(in crate::import) struct Pictures {
     order: HashMap<Place, usize>,
     /// Pictures that are not in the scene, or not yet.
     decoded: HashMap<(Place, Role), Decoded>,
-    /// Of the texels in `decoded`.
+    /// Bytes of the texels in `decoded`.
     decoded_bytes: u64,
     /// Length of the longest side that pictures may have.
     limit: u32,

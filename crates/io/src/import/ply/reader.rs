@@ -222,7 +222,7 @@ impl<'a> Reader<'a> {
 
 /// The number at the beginning of `bytes`, which are long enough.
 fn decoded(kind: Kind, bytes: &[u8], encoding: Encoding) -> f64 {
-    // Of a known length, so that it is one load.
+    // The length is known, so that it is one load.
     fn first<const N: usize>(bytes: &[u8], encoding: Encoding) -> [u8; N] {
         let mut first = bytes.first_chunk().copied().unwrap_or([0; N]);
         if encoding == Encoding::Big {

@@ -210,7 +210,7 @@ fn scattered_copies_fill_their_box_evenly_and_the_same_every_time() {
     assert_eq!(copies[..100], scattered(100, 3), "more copies move none");
     assert_ne!(copies[0], scattered(1, 4)[0]);
 
-    // Of a uniform distribution over [0, 1]: mean 1/2 and variance 1/12; the mean of n samples is within
+    // A uniform distribution over [0, 1] has the mean 1/2 and the variance 1/12; the mean of n samples is within
     // five of its standard deviations.
     let evenly = |what: &str, values: Vec<f64>| {
         let count = values.len() as f64;

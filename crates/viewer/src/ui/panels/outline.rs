@@ -19,7 +19,7 @@ use glimray_scene::Scene;
 const INDENT: f32 = 12.0;
 /// Width of icons and toggles.
 const ICON: f32 = 16.0;
-/// Of the triangle that folds a group.
+/// Size of the triangle that folds a group, in points.
 const TRIANGLE: f32 = 12.0;
 
 /// Lines that are being dragged.

@@ -173,8 +173,8 @@ fn scaled(ui: &egui::Ui, context: &mut PanelContext, space: Rect) {
         });
 }
 
-/// Of two pictures side by side, the mouse belongs to the one under it; while a button is held, to the one
-/// where it was pressed.
+/// The picture that the mouse belongs to, of two side by side: the one under it, or while a button is held, the
+/// one where it was pressed.
 fn used_at(response: &egui::Response) -> Option<Pos2> {
     let origin = response.ctx.input(|input| input.pointer.press_origin());
     let id = response.id.with("pressed at");
