@@ -30,7 +30,7 @@ mod formats;
 mod gltf;
 mod levels;
 mod model;
-mod native;
+pub(crate) mod native;
 mod nff;
 mod notes;
 mod number;

@@ -7,7 +7,7 @@
 mod animation;
 mod build;
 mod cameras;
-mod file;
+pub(crate) mod file;
 mod lights;
 mod materials;
 mod nodes;
@@ -18,7 +18,7 @@ mod set;
 mod shapes;
 mod textures;
 mod transforms;
-mod values;
+pub(crate) mod values;
 
 use super::Options;
 use super::error::{ImportError, fault};
@@ -27,7 +27,11 @@ use super::source::Source;
 use super::suggest;
 use glimray_scene::Scene;
 use glimray_scene::text;
+use schemars::Schema;
+use schemars::generate::SchemaSettings;
+use schemars::transform::RecursiveTransform;
 use serde::Deserialize;
+use serde_json::Value;
 use set::Override;
 use std::ops::Range;
 use toml::de::DeTable;
@@ -81,7 +85,36 @@ pub(super) fn read(
 
 /// The JSON Schema of [`file::SceneFile`].
 pub(super) fn schema() -> serde_json::Value {
-    schemars::schema_for!(file::SceneFile).to_value()
+    let settings = SchemaSettings::draft2020_12();
+    let settings = settings.with_transform(RecursiveTransform(without_null));
+    settings
+        .into_generator()
+        .into_root_schema_for::<file::SceneFile>()
+        .to_value()
+}
+
+/// Removes null from a schema: TOML has none.
+fn without_null(schema: &mut Schema) {
+    if schema.get("default").is_some_and(Value::is_null) {
+        schema.remove("default");
+    }
+    if let Some(Value::Array(types)) = schema.get_mut("type") {
+        types.retain(|kind| kind != "null");
+        if let [only] = &types[..] {
+            let only = only.clone();
+            schema.insert("type".to_owned(), only);
+        }
+    }
+    if let Some(Value::Array(kinds)) = schema.get_mut("anyOf") {
+        kinds.retain(|kind| kind["type"] != "null");
+        if let [Value::Object(only)] = &kinds[..] {
+            let only = only.clone();
+            schema.remove("anyOf");
+            only.into_iter().for_each(|(key, value)| {
+                schema.insert(key, value);
+            });
+        }
+    }
 }
 
 /// Refuses input that would take the TOML parser too much memory, or that it would refuse without a

@@ -4,6 +4,7 @@ mod curve;
 
 use super::Texts;
 use super::cameras::{MAX_RADIUS, MAX_RATIO};
+use super::file::Spanned;
 use super::file::{AnimationTable, PropertyName, SceneFile};
 use super::lights::NamedLight;
 use super::materials;
@@ -18,7 +19,6 @@ use glimray_scene::{
     Target, Track, Values,
 };
 use std::collections::{HashMap, HashSet};
-use toml::Spanned;
 
 /// The targets that animations may name.
 pub(super) struct Found<'a> {

@@ -3,23 +3,24 @@
 
 mod surfaces;
 
+use super::file::Spanned;
 use super::file::{MaterialRef, OutputTable, SceneFile, in_order};
 use super::nodes::{NodePlacement, Nodes};
 use super::objects::{Object, Objects};
 use super::textures::Textures;
 use super::transforms::{chain, is_invertible};
+use super::values::or;
 use super::{Texts, animation, cameras, lights, materials};
 use crate::import::error::ImportError;
 use crate::import::notes::Notes;
 use crate::import::number::in_range;
 use crate::import::paths::Files;
 use crate::import::{Options, stage};
-use glam::DAffine3;
-use glimray_scene::{Backdrop, LightTransport, Material, OutputDefaults, Scene, Shutter};
+use glam::{DAffine3, Vec3};
+use glimray_scene::{Material, OutputDefaults, Scene, Shadows, Shutter};
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use surfaces::{MeshKey, MeshPlace, PlacedMesh, Triangles};
-use toml::Spanned;
 
 /// The scene that `file` describes.
 pub(super) fn scene(
@@ -33,7 +34,7 @@ pub(super) fn scene(
     let mut builder = Builder::new(&file, &objects, textures, texts, files)?;
     builder.list(objects.roots.clone(), NodePlacement::default())?;
     builder.finish_triangles();
-    let background = builder.textures.background(&file.background)?;
+    let background = builder.textures.background(file.background.as_ref())?;
     builder.textures.complete()?;
     let (mut nodes, names) = (builder.nodes, builder.names);
     let mut notes = builder.notes;
@@ -119,9 +120,9 @@ impl<'a> Builder<'a> {
             notes: Notes::default(),
             scene: Scene {
                 materials,
-                ambient: file.ambient.0,
-                shadows: file.shadows.into(),
-                staged: file.staged,
+                ambient: or(file.ambient, Vec3::ZERO),
+                shadows: or(file.shadows, Shadows::Opaque),
+                staged: file.staged.unwrap_or_default(),
                 output: output(&file.output),
                 ..Scene::default()
             },
@@ -244,29 +245,28 @@ impl<'a> Builder<'a> {
 }
 
 fn output(table: &OutputTable) -> OutputDefaults {
-    let [width, height] = table.size.0;
-    let [open, close] = table.shutter.0;
-    let integrator = LightTransport::from(table.integrator);
-    let max_depth = table.max_depth.map(|bounces| bounces.0);
+    let plain = OutputDefaults::default();
+    let [open, close] = or(table.shutter, [plain.shutter.open, plain.shutter.close]);
+    let integrator = or(table.integrator, plain.integrator);
     OutputDefaults {
-        size: (width, height),
+        size: table.size.map_or(plain.size, |size| size.0.into()),
         integrator,
-        samples: table.samples.map_or(1, |count| count.0),
+        samples: or(table.samples, plain.samples),
         antialias: table.antialias.map(Into::into),
-        noise: table.noise.0,
-        max_depth: max_depth.unwrap_or(integrator.max_depth()),
-        filter: table.filter.into(),
-        filter_radius: table.filter_radius.map(|radius| radius.0),
-        light_samples: table.light_samples.0,
-        exposure_ev: table.exposure_ev.0,
-        auto_exposure: table.auto_exposure,
+        noise: or(table.noise, plain.noise),
+        max_depth: or(table.max_depth, integrator.max_depth()),
+        filter: or(table.filter, plain.filter),
+        filter_radius: table.filter_radius.map(Into::into),
+        light_samples: or(table.light_samples, plain.light_samples),
+        exposure_ev: or(table.exposure_ev, plain.exposure_ev),
+        auto_exposure: table.auto_exposure.unwrap_or(plain.auto_exposure),
         tone: table.tone.map(Into::into),
-        path_tone: table.path_tone.into(),
-        transfer: table.transfer.into(),
-        fps: table.fps.0,
-        duration: table.duration.map(|duration| duration.0),
+        path_tone: or(table.path_tone, plain.path_tone),
+        transfer: or(table.transfer, plain.transfer),
+        fps: or(table.fps, plain.fps),
+        duration: table.duration.map(Into::into),
         shutter: Shutter { open, close },
-        denoise: table.denoise,
-        backdrop: table.backdrop.map_or(Backdrop::Background, |it| it.0),
+        denoise: table.denoise.unwrap_or(plain.denoise),
+        backdrop: table.backdrop.map_or(plain.backdrop, |it| it.0),
     }
 }

@@ -1,6 +1,7 @@
 //! The cameras of a native scene.
 
 use super::Texts;
+use super::file::Spanned;
 use super::file::{CameraTable, LensTable, LookAt, SceneFile};
 use super::nodes::Nodes;
 use crate::import::error::ImportError;
@@ -8,7 +9,6 @@ use crate::import::number::in_range;
 use crate::import::source::quote;
 use glam::DVec3;
 use glimray_scene::{Camera, Lens};
-use toml::Spanned;
 
 /// Limits of the lens radius and of its ratio to the focus distance, within the range of f32.
 pub(super) const MAX_RADIUS: f64 = 1e9;
@@ -32,7 +32,7 @@ pub(super) fn cameras(
             let why = format!("duplicate camera name {}", quote(camera.name.as_bytes()));
             return Err(texts.malformed(table.span(), why, "Rename one of them"));
         }
-        if table.get_ref().default && default.replace(cameras.len()).is_some() {
+        if table.default == Some(true) && default.replace(cameras.len()).is_some() {
             let why = "a second camera has `default`".to_owned();
             return Err(texts.malformed(table.span(), why, "Remove one `default`"));
         }
@@ -89,7 +89,7 @@ fn camera(table: &CameraTable, nodes: &Nodes, texts: &Texts) -> Result<Camera, I
         }
     }
     Ok(Camera {
-        name: table.name.clone(),
+        name: table.name.clone().unwrap_or_default(),
         look_from,
         look_at,
         up,

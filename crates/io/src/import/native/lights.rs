@@ -1,16 +1,17 @@
 //! The lights of a native scene.
 
 use super::Texts;
-use super::file::{DiscLightTable, LightTable, RectangleLightTable, SceneFile, SpotTable};
+use super::file::{
+    DiscLightTable, LIGHT_SAMPLES, LightTable, RectangleLightTable, SceneFile, Spanned, SpotTable,
+};
 use super::nodes::Nodes;
-use super::values::{AttenuationName, Color, Count, NonNegative, Vector};
+use super::values::{AttenuationName, Color, Count, NonNegative, Vector, or};
 use crate::import::error::ImportError;
 use crate::import::source::quote;
 use glam::{DVec3, Vec3};
-use glimray_scene::{Light, LightKind};
+use glimray_scene::{Attenuation, Light, LightKind};
 use std::collections::HashSet;
 use std::ops::Range;
-use toml::Spanned;
 
 /// A light that animations can refer to.
 pub(super) struct NamedLight {
@@ -66,7 +67,7 @@ fn light(table: &Spanned<LightTable>, texts: &Texts) -> Result<NamedLight, Impor
     if let Some(sun) = &table.directional {
         let direction = sun.direction.0;
         let kind = LightKind::Directional { direction };
-        found.push(reader.small(kind, sun.color, sun.intensity, AttenuationName::None)?);
+        found.push(reader.small(kind, sun.color, sun.intensity, Some(AttenuationName::None))?);
     }
     if let Some(spanned) = &table.spot {
         let (kind, spot) = (cone(spanned, texts)?, spanned.get_ref());
@@ -123,22 +124,23 @@ impl Reader<'_> {
     fn small(
         &self,
         kind: LightKind,
-        color: Color,
-        intensity: NonNegative,
-        attenuation: AttenuationName,
+        color: Option<Color>,
+        intensity: Option<NonNegative>,
+        attenuation: Option<AttenuationName>,
     ) -> Result<NamedLight, ImportError> {
+        let (color, intensity) = (or(color, Vec3::ONE), or(intensity, 1.0));
         let light = Light {
             kind,
-            color: self.product(color, intensity.0)?,
-            attenuation: attenuation.into(),
+            color: self.product(color, intensity)?,
+            attenuation: or(attenuation, Attenuation::InverseSquare),
             ..Light::default()
         };
         Ok(NamedLight {
             name: None,
             light,
-            color: color.0,
-            factor: intensity.0.into(),
-            peak: color.0.max_element().into(),
+            color,
+            factor: intensity.into(),
+            peak: color.max_element().into(),
         })
     }
 
@@ -146,20 +148,20 @@ impl Reader<'_> {
     fn large(
         &self,
         kind: LightKind,
-        color: Color,
+        color: Option<Color>,
         brightness: Brightness,
-        attenuation: AttenuationName,
-        (samples, visible): (Count, bool),
+        attenuation: Option<AttenuationName>,
+        (samples, visible): (Option<Count>, Option<bool>),
     ) -> Result<NamedLight, ImportError> {
         let radiance_of_one = kind.radiance().unwrap_or(1.0);
-        let plain = color.0;
+        let plain = or(color, Vec3::ONE);
         let (color, factor) = match brightness {
             Brightness::Intensity(intensity) => {
-                let color = self.product(color, intensity)?.as_dvec3();
+                let color = self.product(plain, intensity)?.as_dvec3();
                 (color, f64::from(intensity))
             }
             Brightness::Radiance(radiance) => {
-                let color = self.product(color, radiance)?.as_dvec3() / radiance_of_one;
+                let color = self.product(plain, radiance)?.as_dvec3() / radiance_of_one;
                 (color, f64::from(radiance) / radiance_of_one)
             }
         };
@@ -171,9 +173,9 @@ impl Reader<'_> {
         let light = Light {
             kind,
             color: color.as_vec3(),
-            attenuation: attenuation.into(),
-            samples: samples.0,
-            visible,
+            attenuation: or(attenuation, Attenuation::InverseSquare),
+            samples: or(samples, LIGHT_SAMPLES),
+            visible: visible.unwrap_or(true),
             node: None,
         };
         Ok(NamedLight {
@@ -185,8 +187,8 @@ impl Reader<'_> {
         })
     }
 
-    fn product(&self, color: Color, factor: f32) -> Result<Vec3, ImportError> {
-        let product = color.0 * factor;
+    fn product(&self, color: Vec3, factor: f32) -> Result<Vec3, ImportError> {
+        let product = color * factor;
         if product.is_finite() {
             return Ok(product);
         }
@@ -322,7 +324,7 @@ fn cone(spot: &Spanned<SpotTable>, texts: &Texts) -> Result<LightKind, ImportErr
     }
     let outer_deg = match &table.outer {
         Some(radians) => radians.get_ref().0.to_degrees(),
-        None => table.outer_deg.map_or(30.0, |angle| angle.0),
+        None => or(table.outer_deg, 30.0),
     };
     let outer = (table.outer.as_ref()).map_or(outer_deg.to_radians(), |angle| angle.get_ref().0);
     let inner = match (&table.inner_deg, &table.inner) {

@@ -1,16 +1,18 @@
 //! The materials of a native scene.
 
 use super::Texts;
-use super::file::{CoverageTable, MaterialTable, OpticsTable, PhongTable, RefractTable};
+use super::file::{
+    CoverageTable, IOR, MaterialTable, OpticsTable, PhongTable, RefractTable, Spanned,
+};
 use super::physical;
 use super::textures::Textures;
+use super::values::or;
 use crate::import::error::ImportError;
 use crate::import::suggest;
 use glam::Vec3;
 use glimray_scene::{Coverage, Fresnel, Material, Phong};
 use std::collections::HashMap;
 use std::ops::Range;
-use toml::Spanned;
 
 /// The material that `table` describes.
 pub(super) fn material(
@@ -20,8 +22,8 @@ pub(super) fn material(
 ) -> Result<Material, ImportError> {
     let (coverage, alpha) = match &table.coverage {
         Some(CoverageTable { alpha, mask, .. }) => match mask {
-            Some(least) => (Coverage::Mask(least.0), alpha.0),
-            None => (Coverage::Blend, alpha.0),
+            Some(least) => (Coverage::Mask(least.0), or(*alpha, 1.0)),
+            None => (Coverage::Blend, or(*alpha, 1.0)),
         },
         None => (Coverage::Opaque, 1.0),
     };
@@ -39,7 +41,8 @@ pub(super) fn material(
         None => {}
     }
     if let Some(emission) = &table.emission {
-        (material.emission, material.textures.emission) = textures.color(emission)?;
+        (material.emission, material.textures.emission) =
+            textures.color(Some(emission), Vec3::ZERO)?;
         let is_black = (material.emission, material.textures.emission) == (Vec3::ZERO, None);
         if let Some(model) = material.metallic_roughness_mut()
             && model.unlit
@@ -49,14 +52,13 @@ pub(super) fn material(
         }
     }
     name.clone_into(&mut material.name);
-    material.two_sided = table.two_sided;
-    material.two_sided_emission = table.two_sided_emission;
-    material.thin = table.thin;
-    material.shadow_catcher = table.shadow_catcher;
+    material.two_sided = table.two_sided.unwrap_or(true);
+    material.two_sided_emission = table.two_sided_emission.unwrap_or(true);
+    material.thin = table.thin.unwrap_or_default();
+    material.shadow_catcher = table.shadow_catcher.unwrap_or_default();
     (material.coverage, material.alpha) = (coverage, alpha);
-    if let Some(map) = table.coverage.as_ref().and_then(|it| it.map.as_ref()) {
-        material.textures.alpha = textures.color(map)?.1;
-    }
+    let map = table.coverage.as_ref().and_then(|it| it.map.as_ref());
+    material.textures.alpha = textures.color(map, Vec3::ONE)?.1;
     if let Some(map) = &table.height_map {
         if table.normal_map.is_some() {
             let why = "a surface has a normal map or a height map";
@@ -67,18 +69,18 @@ pub(super) fn material(
     }
     if let Some(map) = &table.normal_map {
         material.textures.normal = Some(textures.data_map(map)?);
-        material.normal_scale = map.get_ref().strength.0;
+        material.normal_scale = or(map.strength, 1.0);
     }
     if let Some(map) = &table.occlusion_map {
         material.textures.occlusion = Some(textures.data_map(map)?);
-        material.occlusion_strength = map.get_ref().strength.0.min(1.0);
+        material.occlusion_strength = or(map.strength, 1.0_f32).min(1.0);
     }
     if let Some(optics) = &table.optics {
         if table.reflect.is_some() || table.refract.is_some() {
             let why = "`optics` replaces `reflect` and `refract`";
             return Err(textures.refuse(optics.span(), why, "Leave out the others"));
         }
-        material.priority = optics.get_ref().priority.0;
+        material.priority = or(optics.priority, 0);
         with_optics(&mut phong, optics.get_ref(), textures)?;
         material.set_classical(phong);
         return Ok(material);
@@ -94,25 +96,25 @@ pub(super) fn material(
     }
     let mut mirrored = 0.0;
     if let Some(reflect) = &table.reflect {
-        mirrored = reflect.amount.0;
-        let color = textures.color(&reflect.color)?;
+        mirrored = or(reflect.amount, 1.0);
+        let color = textures.color(reflect.color.as_ref(), Vec3::ONE)?;
         phong.reflect = mirrored * color.0;
         phong.textures.reflect = color.1;
-        phong.fresnel = reflect.fresnel.into();
-        phong.ior = reflect.ior.0;
+        phong.fresnel = or(reflect.fresnel, Fresnel::None);
+        phong.ior = or(reflect.ior, IOR);
     }
     if let Some(refract) = &table.refract {
         check(table, refract, mirrored, textures)?;
         let refract = refract.get_ref();
-        let amount = refract.amount.0;
-        let color = textures.color(&refract.color)?;
+        let amount = or(refract.amount, 1.0);
+        let color = textures.color(refract.color.as_ref(), Vec3::ONE)?;
         phong.transmit = amount * color.0;
         phong.textures.transmit = color.1;
         phong.opacity = 1.0 - amount;
-        phong.ior = refract.ior.0;
-        phong.absorption = refract.absorption.0;
-        material.priority = refract.priority.0;
-        phong.fresnel = refract.fresnel.into();
+        phong.ior = or(refract.ior, IOR);
+        phong.absorption = or(refract.absorption, Vec3::ZERO);
+        material.priority = or(refract.priority, 0);
+        phong.fresnel = or(refract.fresnel, Fresnel::Exact);
         if phong.fresnel != Fresnel::None {
             phong.reflect = Vec3::splat(amount);
         }
@@ -126,14 +128,14 @@ fn with_phong(
     table: &PhongTable,
     textures: &mut Textures,
 ) -> Result<(), ImportError> {
-    let own = &mut phong.textures;
-    (phong.diffuse, own.diffuse) = textures.color(&table.diffuse)?;
-    (phong.specular, own.specular) = textures.color(&table.specular)?;
+    let (own, plain) = (&mut phong.textures, PhongTable::plain());
+    (phong.diffuse, own.diffuse) = textures.color(table.diffuse.as_ref(), plain.diffuse)?;
+    (phong.specular, own.specular) = textures.color(table.specular.as_ref(), plain.specular)?;
     (phong.ambient, own.ambient) = match &table.ambient {
-        Some(ambient) => textures.color(ambient)?,
+        Some(ambient) => textures.color(Some(ambient), plain.ambient)?,
         None => (phong.diffuse, own.diffuse),
     };
-    phong.shininess = table.shininess.0;
+    phong.shininess = or(table.shininess, plain.shininess);
     Ok(())
 }
 
@@ -142,13 +144,14 @@ fn with_optics(
     optics: &OpticsTable,
     textures: &mut Textures,
 ) -> Result<(), ImportError> {
-    (phong.reflect, phong.textures.reflect) = textures.color(&optics.reflect)?;
-    (phong.transmit, phong.textures.transmit) = textures.color(&optics.transmit)?;
-    phong.opacity = optics.opacity.0;
-    phong.ior = optics.ior.0 as f32;
-    phong.absorption = optics.absorption.0;
-    phong.fresnel = optics.fresnel.into();
-    phong.mixing = optics.mixing.into();
+    let (own, plain) = (&mut phong.textures, Phong::default());
+    (phong.reflect, own.reflect) = textures.color(optics.reflect.as_ref(), plain.reflect)?;
+    (phong.transmit, own.transmit) = textures.color(optics.transmit.as_ref(), plain.transmit)?;
+    phong.opacity = or(optics.opacity, plain.opacity);
+    phong.ior = optics.ior.map_or(plain.ior, |ior| ior.0 as f32);
+    phong.absorption = or(optics.absorption, plain.absorption);
+    phong.fresnel = or(optics.fresnel, plain.fresnel);
+    phong.mixing = or(optics.mixing, plain.mixing);
     Ok(())
 }
 
@@ -159,13 +162,13 @@ fn check(
     mirrored: f32,
     textures: &Textures,
 ) -> Result<(), ImportError> {
-    let is_split = Fresnel::from(refract.get_ref().fresnel) != Fresnel::None;
+    let is_split = or(refract.fresnel, Fresnel::Exact) != Fresnel::None;
     let (why, todo) = if table.reflect.is_some() && is_split {
         (
             "Fresnel's equations already determine how much a refracting surface reflects",
             "Leave out `reflect`, or add `fresnel = \"none\"` to `refract`",
         )
-    } else if mirrored + refract.get_ref().amount.0 > 1.0 {
+    } else if mirrored + or(refract.amount, 1.0_f32) > 1.0 {
         (
             "the sum of `amount` and that of `reflect` exceeds 1",
             "Lower one of them",

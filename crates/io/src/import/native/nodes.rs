@@ -2,6 +2,7 @@
 //! camera's target, or has children.
 
 use super::Texts;
+use super::file::Spanned;
 use super::file::{NodeTable, SceneFile, TransformTable};
 use super::objects::{Object, Objects};
 use super::transforms::{chain, check, is_invertible};
@@ -12,7 +13,6 @@ use glam::DAffine3;
 use glimray_scene::Node;
 use std::collections::HashMap;
 use std::ops::Range;
-use toml::Spanned;
 
 /// The coordinate frame in which objects are placed.
 #[derive(Clone, Copy, Default)]
@@ -154,7 +154,7 @@ impl<'a> Nodes<'a> {
     fn push(
         &mut self,
         name: String,
-        visible: bool,
+        visible: Option<bool>,
         transform: Option<&TransformTable>,
         placement: DAffine3,
         place: NodePlacement,
@@ -163,7 +163,7 @@ impl<'a> Nodes<'a> {
             name,
             parent: place.node,
             placement,
-            visible,
+            visible: visible.unwrap_or(true),
             ..Node::default()
         };
         match transform {
@@ -172,9 +172,7 @@ impl<'a> Nodes<'a> {
                 node.placement = chain(placement, table.affine());
             }
             Some(table) => {
-                node.translation = table.translate.0;
-                node.rotation = table.orientation();
-                node.scale = table.scale.0;
+                (node.scale, node.rotation, node.translation) = table.parts();
             }
             None => {}
         }

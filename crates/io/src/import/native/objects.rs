@@ -2,6 +2,7 @@
 //! will be, and which of them need a node because they are animated or have something attached to them.
 
 use super::Texts;
+use super::file::Spanned;
 use super::file::{LookAt, ObjectTable, PropertyName, SceneFile};
 use super::repeat::Repeat;
 use super::shapes;
@@ -12,7 +13,6 @@ use crate::import::source::quote;
 use crate::import::suggest;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
-use toml::Spanned;
 
 /// Limits of the number of surfaces and of the number of groups, counting all copies.
 const MAX_PLACED: u128 = (1 << 20) - 1;
@@ -35,7 +35,7 @@ pub(super) struct Object<'a> {
 impl Object<'_> {
     /// Whether its surface is ever in the scene.
     pub fn is_shown(&self) -> bool {
-        self.table.get_ref().visible || self.is_switched
+        self.table.visible.unwrap_or(true) || self.is_switched
     }
 }
 

@@ -1,7 +1,9 @@
 //! The transforms of repeated objects' copies.
 
 use super::Texts;
+use super::file::Spanned;
 use super::file::{GridTable, PointsTable, RepeatTable, RingTable, ScatterTable};
+use super::values::or;
 use crate::import::error::ImportError;
 use crate::import::paths::Files;
 use crate::import::{MAX_GEOMETRY_BYTES, ply};
@@ -9,7 +11,6 @@ use glam::{DAffine3, DQuat, DVec3};
 use glimray_scene::Transform;
 use glimray_scene::random::{GAMMA, mixed, unit};
 use std::f64::consts::TAU;
-use toml::Spanned;
 
 /// Copies of an object, by index.
 pub(super) enum Repeat<'a> {
@@ -100,7 +101,7 @@ fn points<'a>(
 fn grid(table: &GridTable, index: u64) -> DAffine3 {
     let [x, y, z] = table.count.0;
     let steps = [index % x, index / x % y, index / x / y].map(|step| step as f64);
-    let middle = if table.centered {
+    let middle = if table.centered == Some(true) {
         DVec3::from([x, y, z].map(|count| (count - 1) as f64)) / 2.0
     } else {
         DVec3::ZERO
@@ -109,28 +110,32 @@ fn grid(table: &GridTable, index: u64) -> DAffine3 {
 }
 
 fn ring(table: &RingTable, index: u64) -> DAffine3 {
-    let axis = table.axis.0;
+    let axis = or(table.axis, DVec3::Y);
     let (index, count) = (index as f64, table.count.0 as f64);
     let turn = match table.arc_deg {
         // A single copy is at the start of its arc.
         Some(arc) => index * arc.0.to_radians() / (count - 1.0).max(1.0),
         None => index * TAU / count,
     };
-    let turn = DQuat::from_axis_angle(axis, table.start_deg.0.to_radians() + turn);
+    let turn = DQuat::from_axis_angle(axis, or(table.start_deg, 0.0).to_radians() + turn);
     let outwards = DQuat::from_rotation_arc(DVec3::Y, axis) * DVec3::X;
-    let moved = turn * (f64::from(table.radius.0) * outwards);
-    let turn = if table.turned { turn } else { DQuat::IDENTITY };
+    let moved = turn * (f64::from(or(table.radius, 0.0)) * outwards);
+    let turn = if table.turned.unwrap_or(true) {
+        turn
+    } else {
+        DQuat::IDENTITY
+    };
     DAffine3::from_rotation_translation(turn, moved)
 }
 
 /// Scale, then rotation, then translation. Every copy has its own random numbers.
 fn scatter(table: &ScatterTable, index: u64) -> DAffine3 {
     const DRAWS: u64 = 7;
-    let draw = |i: u64| random(table.seed.0, index * DRAWS + i);
+    let draw = |i: u64| random(or(table.seed, 0), index * DRAWS + i);
     let three = |first: u64| DVec3::new(draw(first), draw(first + 1), draw(first + 2));
     let (min, max) = (table.min.0, table.max.get_ref().0);
-    let turn = (2.0 * three(3) - 1.0) * table.turn_deg.0;
-    let [least, most] = table.scale.0;
+    let turn = (2.0 * three(3) - 1.0) * or(table.turn_deg, DVec3::ZERO);
+    let [least, most] = or(table.scale, [1.0; 2]);
     let scale = least + (most - least) * draw(6);
     let transform = Transform {
         scale: DVec3::splat(scale),

@@ -6,6 +6,7 @@ use super::file::{
     RectangleTable, SphereTable, TorusTable,
 };
 use super::transforms::{chain, normal_matrix};
+use super::values::{Extent, or};
 use crate::import::error::ImportError;
 use glam::{DAffine3, DMat3, DVec3};
 use glimray_scene::{CanonicalShape, Geometry};
@@ -74,21 +75,21 @@ pub(super) fn geometry(
 }
 
 fn ellipsoid(ellipsoid: &EllipsoidTable) -> DAffine3 {
-    let radii = DVec3::from(ellipsoid.radii.map(|radius| radius.0));
-    DAffine3::from_scale_rotation_translation(radii, Default::default(), ellipsoid.center.0)
+    let (radii, center) = (
+        or(ellipsoid.radii, DVec3::ONE),
+        or(ellipsoid.center, DVec3::ZERO),
+    );
+    DAffine3::from_scale_rotation_translation(radii, Default::default(), center)
 }
 
 fn plane(plane: &PlaneTable, placed: DAffine3) -> Geometry {
+    let (point, normal) = (plane.point.0, or(plane.normal, DVec3::Y));
     if placed == DAffine3::IDENTITY {
-        return Geometry::Plane {
-            point: plane.point.0,
-            normal: plane.normal.0,
-        };
+        return Geometry::Plane { point, normal };
     }
-    let normal = normal_matrix(placed) * plane.normal.0;
     Geometry::Plane {
-        point: placed.transform_point3(plane.point.0),
-        normal: normal.normalize_or(plane.normal.0),
+        point: placed.transform_point3(point),
+        normal: (normal_matrix(placed) * normal).normalize_or(normal),
     }
 }
 
@@ -138,8 +139,9 @@ fn disc(disc: &DiscTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), I
         Some(inner) => inner.get_ref().0 / radius,
         None => 0.0,
     };
-    let (u, v) = Geometry::plane_axes(disc.normal.0);
-    let axes = DMat3::from_cols(radius * u, radius * disc.normal.0, -radius * v);
+    let normal = or(disc.normal, DVec3::Y);
+    let (u, v) = Geometry::plane_axes(normal);
+    let axes = DMat3::from_cols(radius * u, radius * normal, -radius * v);
     let object_from_canonical = DAffine3::from_mat3_translation(axes, disc.center.0);
     Ok((CanonicalShape::Disc { hole }, object_from_canonical))
 }
@@ -170,13 +172,13 @@ fn rectangle(rectangle: &RectangleTable, texts: &Texts) -> Result<DAffine3, Impo
         RectangleTable {
             edge_u: None,
             edge_v: None,
-            size: Some([width, height]),
+            size: Some(Extent([width, height])),
             normal,
             ..
         } => {
             let normal = normal.as_ref().map_or(DVec3::Y, |n| n.get_ref().0);
             let (u, v) = Geometry::plane_axes(normal);
-            (width.0 * u, height.0 * v)
+            (*width * u, *height * v)
         }
         _ => {
             let edge = [&rectangle.edge_u, &rectangle.edge_v];
@@ -224,7 +226,7 @@ fn cylinder(
     let canonical = CanonicalShape::Cone {
         bottom: 1.0,
         top: 1.0,
-        capped: !cylinder.open,
+        capped: cylinder.open != Some(true),
     };
     let (from, to) = (cylinder.from.0, cylinder.to.get_ref().0);
     let axes = around(from, to, cylinder.radius.0, cylinder.to.span(), texts)?;
@@ -232,7 +234,7 @@ fn cylinder(
 }
 
 fn cone(cone: &ConeTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), ImportError> {
-    let [bottom, top] = [cone.from_radius.get_ref().0, cone.to_radius.0];
+    let [bottom, top] = [cone.from_radius.get_ref().0, or(cone.to_radius, 0.0)];
     let wide = bottom.max(top);
     if wide < f64::from(f32::MIN_POSITIVE) {
         let why = "both radii of the cone are 0".to_owned();
@@ -242,7 +244,7 @@ fn cone(cone: &ConeTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), I
     let canonical = CanonicalShape::Cone {
         bottom: bottom / wide,
         top: top / wide,
-        capped: !cone.open,
+        capped: cone.open != Some(true),
     };
     let (from, to) = (cone.from.0, cone.to.get_ref().0);
     let axes = around(from, to, wide, cone.to.span(), texts)?;
@@ -259,7 +261,7 @@ fn torus(torus: &TorusTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3)
     let canonical = CanonicalShape::Torus {
         minor: minor / major,
     };
-    let axes = turned_to(torus.axis.0) * major;
+    let axes = turned_to(or(torus.axis, DVec3::Y)) * major;
     Ok((
         canonical,
         DAffine3::from_mat3_translation(axes, torus.center.0),

@@ -3,9 +3,10 @@
 use super::Texts;
 use super::file::{
     BackgroundTable, ColorOrBackground, ColorOrTexture, DataMapTable, HeightMapTable,
-    NamedBackground, NumberTable, PairTable, PatternTables, PictureOrFile, SceneFile, SkyTable,
-    SpaceName, in_order,
+    NamedBackground, NoiseTable, NumberTable, PairTable, PatternTables, PictureOrFile, SceneFile,
+    SkyTable, SpaceName, Spanned, WrapModes, in_order,
 };
+use super::values::or;
 use crate::import::error::ImportError;
 use crate::import::paths::Files;
 use crate::import::picture::{self, Pictures, Place, Refused, Role};
@@ -17,7 +18,6 @@ use glimray_scene::{
 };
 use std::collections::BTreeMap;
 use std::ops::Range;
-use toml::Spanned;
 
 /// All textures of a scene while it is built.
 pub(super) struct Textures<'a> {
@@ -61,14 +61,18 @@ impl<'a> Textures<'a> {
     /// The constant colour of a material, and the texture that multiplies it.
     pub fn color(
         &mut self,
-        color: &Spanned<ColorOrTexture>,
+        color: Option<&Spanned<ColorOrTexture>>,
+        default: Vec3,
     ) -> Result<(Vec3, Option<usize>), ImportError> {
+        let Some(color) = color else {
+            return Ok((default, None));
+        };
         let table = match color.get_ref() {
             ColorOrTexture::Color(color) => return Ok((color.0, None)),
             ColorOrTexture::Table(table) => table,
         };
         let index = self.named_or_own(&table.texture, &table.pattern(), color.span())?;
-        let factor = table.color.map_or(Vec3::ONE, |color| color.0);
+        let factor = or(table.color, Vec3::ONE);
         if !(factor * largest(&self.textures[index].pattern)).is_finite() {
             let why =
                 "`color` times the texture is out of range: at most 3.4e38 is allowed".to_owned();
@@ -154,8 +158,11 @@ impl<'a> Textures<'a> {
     /// The background.
     pub fn background(
         &mut self,
-        background: &Spanned<ColorOrBackground>,
+        background: Option<&Spanned<ColorOrBackground>>,
     ) -> Result<Background, ImportError> {
+        let Some(background) = background else {
+            return Ok(Background::Color(Vec3::ZERO));
+        };
         let refuse = |why: &str, todo: &str| {
             Err(self
                 .texts
@@ -183,7 +190,7 @@ impl<'a> Textures<'a> {
                 top: top.0,
             }),
             (None, None, true) if !has_both => {
-                let strength = table.strength.map_or(1.0, |strength| strength.0);
+                let strength = or(table.strength, 1.0);
                 if !(strength * LARGEST_TEXEL).is_finite() {
                     return refuse(
                         "`strength` is out of range: at most 5e33 is allowed",
@@ -194,7 +201,7 @@ impl<'a> Textures<'a> {
                     let why = "there are both `rotation_deg` and `rotation`";
                     return refuse(why, "Leave out one of them");
                 }
-                let degrees = table.rotation_deg.map_or(0.0, |angle| angle.0);
+                let degrees = or(table.rotation_deg, 0.0);
                 let degrees = (degrees % 360.0).to_radians();
                 let picture = match &table.picture {
                     Some(name) => self.picture(name.get_ref(), name.span(), Role::Environment)?,
@@ -203,7 +210,7 @@ impl<'a> Textures<'a> {
                 Ok(Background::Picture {
                     picture,
                     strength,
-                    rotation: table.rotation.map_or(degrees, |radians| radians.0),
+                    rotation: or(table.rotation, degrees),
                 })
             }
             _ => refuse(
@@ -217,14 +224,14 @@ impl<'a> Textures<'a> {
     fn sky(&mut self, table: Option<&Spanned<SkyTable>>) -> Result<usize, ImportError> {
         let default = SkyTable::default();
         let sky = table.map_or(&default, Spanned::get_ref);
-        let elevation = sky.elevation_deg.0;
+        let elevation = or(sky.elevation_deg, sky::SUN_ELEVATION_DEG);
         match table {
             Some(table) if !(0.0..=90.0).contains(&elevation) => {
                 let why = "the sun stands at most 90 degrees above the horizon, and not below it";
                 Err(self.refuse(table.span(), why, "Give it an `elevation_deg` from 0 to 90"))
             }
             _ => {
-                let azimuth = sky.azimuth_deg.0.to_radians();
+                let azimuth = or(sky.azimuth_deg, sky::SUN_AZIMUTH_DEG).to_radians();
                 Ok(self
                     .pictures
                     .add(sky::picture(elevation.to_radians(), azimuth)))
@@ -246,7 +253,8 @@ impl<'a> Textures<'a> {
         tables: &PatternTables,
         span: Range<usize>,
     ) -> Result<usize, ImportError> {
-        let colors = |table: &PairTable| (table.a.0, table.b.0);
+        let pair = |a, b| (or(a, Vec3::ONE), or(b, Vec3::ZERO));
+        let colors = |table: &PairTable| pair(table.a, table.b);
         let pattern = if tables.count() > 1 {
             None
         } else if let Some((a, b)) = tables.checker.map(colors) {
@@ -256,11 +264,9 @@ impl<'a> Textures<'a> {
         } else if let Some((a, b)) = tables.gradient.map(colors) {
             Some(Pattern::Gradient { a, b })
         } else if let Some(noise) = tables.noise {
-            Some(Pattern::Noise {
-                a: noise.a.0,
-                b: noise.b.0,
-                octaves: noise.octaves.0,
-            })
+            let (a, b) = pair(noise.a, noise.b);
+            let octaves = or(noise.octaves, NoiseTable::OCTAVES);
+            Some(Pattern::Noise { a, b, octaves })
         } else if let Some(picture) = tables.picture {
             Some(self.sampled(picture, tables.role)?)
         } else {
@@ -271,15 +277,14 @@ impl<'a> Textures<'a> {
             let why = "a texture needs exactly one pattern".to_owned();
             return Err(self.texts.malformed(span, why, todo));
         };
-        let space = match (tables.space, tables.picture) {
-            (Some(SpaceName::World), _) | (None, None) => Space::World,
-            (Some(SpaceName::Uv), _) | (None, Some(_)) => Space::Uv,
-            (Some(SpaceName::SecondUv), _) => Space::SecondUv,
-        };
+        let space = or(
+            tables.space,
+            tables.picture.map_or(Space::World, |_| Space::Uv),
+        );
         let space_from_pattern = Transform {
-            scale: tables.scale.map_or(DVec3::ONE, |scale| scale.0),
-            rotate_deg: tables.rotate_deg.map_or(DVec3::ZERO, |degrees| degrees.0),
-            translate: tables.translate.map_or(DVec3::ZERO, |offset| offset.0),
+            scale: or(tables.scale, DVec3::ONE),
+            rotate_deg: or(tables.rotate_deg, DVec3::ZERO),
+            translate: or(tables.translate, DVec3::ZERO),
         }
         .affine();
         let pattern_from_space = match tables.pattern_from_space {
@@ -315,16 +320,16 @@ impl<'a> Textures<'a> {
             }
             PictureOrFile::Table(table) => table,
         };
-        let role = match (table.linear, role) {
+        let role = match (table.linear == Some(true), role) {
             (true, Role::Color) => Role::Data,
             _ => role,
         };
         let file = &table.file;
         Ok(Pattern::Picture {
             picture: self.picture(file.get_ref(), file.span(), role)?,
-            nearest: table.nearest,
-            minify: table.minify.unwrap_or_default().mode(),
-            wrap: table.wrap.unwrap_or_default().modes(),
+            nearest: table.nearest.unwrap_or_default(),
+            minify: or(table.minify, Minify::default()),
+            wrap: table.wrap.map_or([Wrap::Repeat; 2], WrapModes::modes),
         })
     }
 

@@ -1,11 +1,11 @@
 //! Transform arithmetic, and checks for all tables with a transform.
 
 use super::Texts;
+use super::file::Spanned;
 use super::file::TransformTable;
 use crate::import::error::ImportError;
 use crate::import::number::in_range;
 use glam::{DAffine3, DMat3, DVec3};
-use toml::Spanned;
 
 /// Refuses a transform that specifies something twice.
 pub(super) fn check(transform: &Spanned<TransformTable>, texts: &Texts) -> Result<(), ImportError> {

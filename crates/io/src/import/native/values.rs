@@ -2,20 +2,25 @@
 //! and describes itself for the JSON Schema.
 
 mod names;
+mod spanned;
+mod written;
 
-pub(super) use backdrop::BackdropValue;
-pub(super) use layers::{BodyIndex, Dispersion, FilmIndex, Thicknesses};
-pub(super) use moving::{
+pub(crate) use backdrop::BackdropValue;
+pub(crate) use layers::{BodyIndex, Dispersion, FilmIndex, Thicknesses};
+pub(crate) use moving::{
     Copies, Duration, FrameRate, GridCount, Pace, Quaternion, ScaleRange, Seed, Share,
     ShutterTimes, Time,
 };
-pub(super) use names::{
+pub(crate) use names::words;
+pub(crate) use names::{
     AntialiasName, AttenuationName, FilterName, FresnelName, IntegratorName, MixingName,
     ShadowsName, ToneName, TransferName,
 };
-pub(super) use places::{
+pub(crate) use places::{
     AxisRadians, ConeAngle, ConeRadians, Length, Matrix, Upwards, ViewRadians,
 };
+pub(crate) use spanned::Spanned;
+pub(crate) use written::{Written, differing, or};
 
 use crate::import::number::in_range;
 use crate::import::picture::linear_from_srgb;
@@ -23,39 +28,38 @@ use crate::import::source::quote;
 use glam::{DVec3, Vec3};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
+use serde::ser::{Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
+use toml::Value;
+use written::color;
 
-/// Any number in the range of f32, integer or not.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Number(pub f64);
+struct NumberVisitor;
 
-impl<'de> Deserialize<'de> for Number {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Checked;
-        impl Visitor<'_> for Checked {
-            type Value = Number;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a number")
-            }
-            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Number, E> {
-                Ok(Number(value as f64))
-            }
-            fn visit_u64<E: de::Error>(self, value: u64) -> Result<Number, E> {
-                Ok(Number(value as f64))
-            }
-            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Number, E> {
-                match value {
-                    value if in_range(value) => Ok(Number(value)),
-                    value if value.is_finite() => Err(E::custom(format!(
-                        "{value:e} is out of range: at most 3.4e38 is allowed"
-                    ))),
-                    _ => Err(E::custom(format!("{value} is not a finite number"))),
-                }
-            }
+impl Visitor<'_> for NumberVisitor {
+    type Value = f64;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a number")
+    }
+
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<f64, E> {
+        Ok(value as f64)
+    }
+
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<f64, E> {
+        Ok(value as f64)
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<f64, E> {
+        match value {
+            value if in_range(value) => Ok(value),
+            value if value.is_finite() => Err(E::custom(format!(
+                "{value:e} is out of range: at most 3.4e38 is allowed"
+            ))),
+            _ => Err(E::custom(format!("{value} is not a finite number"))),
         }
-        deserializer.deserialize_f64(Checked)
     }
 }
 
@@ -85,24 +89,48 @@ impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Elements<T, N> {
 }
 
 /// Exactly `N` elements, which `expected` describes.
-pub(super) fn elements<'de, T: Deserialize<'de>, const N: usize, D: Deserializer<'de>>(
+pub(crate) fn elements<'de, T: Deserialize<'de>, const N: usize, D: Deserializer<'de>>(
     deserializer: D,
     expected: &'static str,
 ) -> Result<[T; N], D::Error> {
     deserializer.deserialize_seq(Elements(expected, PhantomData))
 }
 
-/// Defines a value type from its docs, the type that it wraps, its schema, and the check.
+/// Defines a value type from its docs, the type that it wraps, its schema, the check, and how it is written if not as
+/// the type that it wraps.
 macro_rules! value {
     ($(#[doc = $doc:literal])* $name:ident($inner:ty), $schema:tt, $read:expr) => {
+        value!($(#[doc = $doc])* $name($inner), $schema, $read, Written::written);
+    };
+    ($(#[doc = $doc:literal])* $name:ident($inner:ty), $schema:tt, $read:expr, $write:expr) => {
         $(#[doc = $doc])*
         #[derive(Clone, Copy, Debug)]
-        pub(in crate::import::native) struct $name(pub $inner);
+        pub(crate) struct $name(pub $inner);
 
         impl<'de> Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 let read: fn(D) -> Result<$inner, D::Error> = $read;
                 read(deserializer).map(Self)
+            }
+        }
+
+        impl Written for $name {
+            fn written(&self) -> Value {
+                let write: fn(&$inner) -> Value = $write;
+                write(&self.0)
+            }
+        }
+
+        impl Serialize for $name {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                self.written().serialize(serializer)
+            }
+        }
+
+        impl PartialEq for $name {
+            /// Zeros differ in their signs.
+            fn eq(&self, other: &Self) -> bool {
+                self.written() == other.written()
             }
         }
 
@@ -114,6 +142,18 @@ macro_rules! value {
                 json_schema!($schema)
             }
         }
+
+        impl From<$inner> for $name {
+            fn from(value: $inner) -> Self {
+                Self(value)
+            }
+        }
+
+        impl From<$name> for $inner {
+            fn from(value: $name) -> Self {
+                value.0
+            }
+        }
     };
 }
 
@@ -122,6 +162,18 @@ mod backdrop;
 mod layers;
 mod moving;
 mod places;
+
+/// One element for each corner of a triangle.
+#[derive(Clone, Debug, serde::Serialize, JsonSchema)]
+#[serde(transparent)]
+pub(crate) struct Triple<T>(pub [T; 3]);
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Triple<T> {
+    // By hand: serde's own arrays ignore surplus elements.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        elements(deserializer, "three elements, one for each corner").map(Self)
+    }
+}
 
 /// Reads a number for which `holds` is true; otherwise an error "is not WANTED".
 fn number<'de, D: Deserializer<'de>>(
@@ -150,6 +202,13 @@ fn shown(value: f64) -> String {
     } else {
         format!("{value:e}")
     }
+}
+
+value! {
+    /// Any number in the range of f32, integer or not.
+    Number(f64),
+    { "type": "number" },
+    |d| d.deserialize_f64(NumberVisitor)
 }
 
 value! {
@@ -198,6 +257,13 @@ value! {
     Extent([f64; 2]),
     { "type": "array", "items": { "type": "number", "exclusiveMinimum": 0 }, "minItems": 2, "maxItems": 2 },
     |d| elements::<Positive, 2, D>(d, "two numbers [width, height]").map(|size| size.map(|side| side.0))
+}
+
+value! {
+    /// Three radii, each greater than 0.
+    Radii(DVec3),
+    { "type": "array", "items": { "type": "number", "exclusiveMinimum": 0 }, "minItems": 3, "maxItems": 3 },
+    |d| elements::<Positive, 3, D>(d, "three radii [x, y, z]").map(|radii| DVec3::from(radii.map(|x| x.0)))
 }
 
 value! {
@@ -324,6 +390,10 @@ value! {
         let scale = d.deserialize_any(NumberOrVector)?;
         let is_flat = scale.abs().min_element() < f64::from(f32::MIN_POSITIVE);
         if is_flat { Err(de::Error::custom("a scale cannot be 0")) } else { Ok(scale) }
+    },
+    |scale| match scale.to_array().map(f64::to_bits) {
+        [x, y, z] if x == y && y == z => scale.x.written(),
+        _ => scale.written(),
     }
 }
 
@@ -334,7 +404,8 @@ value! {
         { "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": 3, "maxItems": 3 },
         { "type": "string", "pattern": "^#[0-9A-Fa-f]{6}$" }
     ] },
-    |d| d.deserialize_any(ColorVisitor)
+    |d| d.deserialize_any(ColorVisitor),
+    color
 }
 
 value! {
@@ -365,7 +436,7 @@ value! {
 }
 
 /// Reads three numbers, or one for all three.
-pub(super) struct NumberOrVector;
+pub(crate) struct NumberOrVector;
 
 impl<'de> Visitor<'de> for NumberOrVector {
     type Value = DVec3;

@@ -2,18 +2,18 @@
 
 use crate::import::error::ImportError;
 use crate::import::native::Texts;
+use crate::import::native::file::Spanned;
 use crate::import::native::file::{
     AnimationTable, InterpolationName, Key, KeyValue, PropertyName as P,
 };
 use crate::import::native::values::{
     Absorption, Color, Direction, Fraction, NonNegative, Number, NumberOrVector, Positive,
-    Quaternion, RefractiveIndex, Scale, Share, Vector, ViewAngle, ViewRadians, elements,
+    Quaternion, RefractiveIndex, Scale, Share, Vector, ViewAngle, ViewRadians, elements, or,
 };
 use glam::{DQuat, DVec3, DVec4};
-use glimray_scene::{Curve, Easing, Values};
+use glimray_scene::{Beyond, Curve, Easing, Values};
 use serde::Deserialize;
 use serde::de::{Deserializer, value};
-use toml::Spanned;
 
 const SEE: &str = "See `glimray schema` for what is allowed";
 
@@ -30,7 +30,7 @@ pub(super) fn curve(table: &AnimationTable, texts: &Texts) -> Result<Curve, Impo
     }
     let mut times = Vec::with_capacity(keys.len());
     let mut samples = Vec::with_capacity(keys.len());
-    for key in keys {
+    for Key(key) in keys {
         let time = key.time.get_ref().0;
         if let Some(&last) = times.last()
             && time <= last
@@ -59,7 +59,7 @@ pub(super) fn curve(table: &AnimationTable, texts: &Texts) -> Result<Curve, Impo
     if interpolation == InterpolationName::Hermite {
         samples = with_tangents(property, keys, &samples, texts)?;
     } else if let Some(tangent) =
-        (keys.iter()).find_map(|key| key.in_tangent.as_ref().or(key.out_tangent.as_ref()))
+        (keys.iter()).find_map(|Key(key)| key.in_tangent.as_ref().or(key.out_tangent.as_ref()))
     {
         let why = "only hermite interpolation has tangents".to_owned();
         let todo = "Leave it out, or add `interpolation = \"hermite\"`";
@@ -70,7 +70,7 @@ pub(super) fn curve(table: &AnimationTable, texts: &Texts) -> Result<Curve, Impo
         values: values(&samples),
         interpolation: interpolation.into(),
         easing,
-        beyond: table.beyond.into(),
+        beyond: or(table.beyond, Beyond::Hold),
     })
 }
 
@@ -165,7 +165,7 @@ fn with_tangents(
     texts: &Texts,
 ) -> Result<Vec<Sample>, ImportError> {
     let mut all = Vec::with_capacity(3 * keys.len());
-    for (key, &sample) in keys.iter().zip(samples) {
+    for (Key(key), &sample) in keys.iter().zip(samples) {
         let read = |given: &Option<Spanned<KeyValue>>| match given {
             None => Ok(match sample {
                 Sample::Scalar(_) => Sample::Scalar(0.0),

@@ -3,11 +3,12 @@
 
 use super::Builder;
 use crate::import::error::ImportError;
+use crate::import::native::file::Spanned;
 use crate::import::native::file::{MeshOrName, MeshTable, ObjectTable, TriangleTable};
 use crate::import::native::nodes::NodePlacement;
 use crate::import::native::shapes;
 use crate::import::native::transforms::{chain, normal_matrix};
-use crate::import::native::values::Vector;
+use crate::import::native::values::{Triple, Vector};
 use crate::import::notes::{self, Notes};
 use crate::import::rounding;
 use crate::import::source::quote;
@@ -17,7 +18,6 @@ use glimray_scene::{Geometry, Instance, Mesh, Repairs, Shape, Space};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use toml::Spanned;
 
 /// A mesh file, and the materials that replace its own.
 pub(super) type MeshKey = (PathBuf, Vec<usize>);
@@ -101,20 +101,18 @@ impl Builder<'_> {
         table: &ObjectTable,
     ) -> Result<Vec<DVec3>, ImportError> {
         let placed = place.node_from_here;
-        let corners = triangle
-            .vertices
-            .map(|Vector(p)| placed.transform_point3(p));
+        let corners = (triangle.vertices.0).map(|Vector(p)| placed.transform_point3(p));
         let flat = (corners[1] - corners[0])
             .cross(corners[2] - corners[0])
             .normalize_or(DVec3::Y);
         let turn = normal_matrix(placed);
-        let normals = match triangle.normals {
-            Some(normals) => normals.map(|n| (turn * n.0).normalize_or(flat)),
+        let normals = match &triangle.normals {
+            Some(Triple(normals)) => normals.map(|n| (turn * n.0).normalize_or(flat)),
             None => [flat; 3],
         };
         let materials = match &triangle.materials {
             None => [self.material_of(index, table.material.as_ref())?; 3],
-            Some([a, b, c]) => [
+            Some(Triple([a, b, c])) => [
                 self.named(a.get_ref(), a.span())?,
                 self.named(b.get_ref(), b.span())?,
                 self.named(c.get_ref(), c.span())?,

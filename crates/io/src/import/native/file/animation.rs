@@ -1,54 +1,44 @@
 //! Animations in a native scene.
 
+use super::Spanned;
 use super::keys::Key;
-use crate::import::native::values::Pace;
+use crate::import::native::values::{Pace, words};
 use glimray_scene::{Beyond, Interpolation};
 use schemars::JsonSchema;
-use serde::Deserialize;
-use toml::Spanned;
+use serde::{Deserialize, Serialize};
 
 /// An animated property of an object, camera, light or material. It overrides the value in the target's
 /// own table.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(in crate::import::native) struct AnimationTable {
+pub(crate) struct AnimationTable {
     /// The name of an object, including all of its copies, or of a node. Exactly one of `object`,
     /// `objects`, `camera`, `light` and `material`.
-    #[schemars(with = "Option<String>")]
     pub object: Option<Spanned<String>>,
     /// The names of several objects or nodes, instead of `object`.
-    #[schemars(with = "Option<Vec<String>>")]
     pub objects: Option<Vec<Spanned<String>>>,
     /// The name of a camera.
-    #[schemars(with = "Option<String>")]
     pub camera: Option<Spanned<String>>,
     /// The name of a light.
-    #[schemars(with = "Option<String>")]
     pub light: Option<Spanned<String>>,
     /// The name of a material under [materials].
-    #[schemars(with = "Option<String>")]
     pub material: Option<Spanned<String>>,
     /// The property.
-    #[schemars(with = "PropertyName")]
     pub property: Spanned<PropertyName>,
     /// How values between two keys are interpolated; default linear, or step for true and false.
-    #[schemars(with = "Option<InterpolationName>")]
     pub interpolation: Option<Spanned<InterpolationName>>,
     /// Timing between two keys with linear interpolation; default constant speed.
-    #[schemars(with = "Option<Pace>")]
     pub easing: Option<Spanned<Pace>>,
     /// The value before the first and after the last key; default hold.
-    #[serde(default)]
-    pub beyond: BeyondName,
+    pub beyond: Option<BeyondName>,
     /// Values at given times, in ascending order of time.
-    #[schemars(with = "Vec<Key>")]
     pub keys: Spanned<Vec<Key>>,
 }
 
 /// An animatable property.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub(in crate::import::native) enum PropertyName {
+pub(crate) enum PropertyName {
     /// Of an object: as in `transform`.
     Translate,
     /// Of an object: a quaternion [x, y, z, w], instead of `rotate_deg`.
@@ -109,50 +99,28 @@ pub(in crate::import::native) enum PropertyName {
     Absorption,
 }
 
-/// How values between two keys are interpolated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(in crate::import::native) enum InterpolationName {
-    /// Constant until the next key.
-    Step,
-    /// Linear; for rotations along the shorter arc, at constant speed.
-    Linear,
-    /// A smooth curve through all keys (Catmull and Rom).
-    Cubic,
-    /// A smooth curve with the tangents given at the keys.
-    Hermite,
-}
-
-impl From<InterpolationName> for Interpolation {
-    fn from(name: InterpolationName) -> Self {
-        match name {
-            InterpolationName::Step => Self::Step,
-            InterpolationName::Linear => Self::Linear,
-            InterpolationName::Cubic => Self::CatmullRom,
-            InterpolationName::Hermite => Self::Hermite,
-        }
+words! {
+    /// How values between two keys are interpolated.
+    InterpolationName for Interpolation {
+        /// Constant until the next key.
+        Step,
+        /// Linear; for rotations along the shorter arc, at constant speed.
+        Linear,
+        /// A smooth curve through all keys (Catmull and Rom).
+        Cubic = CatmullRom,
+        /// A smooth curve with the tangents given at the keys.
+        Hermite,
     }
 }
 
-/// The value before the first and after the last key.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(in crate::import::native) enum BeyondName {
-    /// The value of the nearest key.
-    #[default]
-    Hold,
-    /// Repeats from the start. The last key is shown at the end of the first run.
-    Repeat,
-    /// Alternates between forward and backward.
-    PingPong,
-}
-
-impl From<BeyondName> for Beyond {
-    fn from(name: BeyondName) -> Self {
-        match name {
-            BeyondName::Hold => Self::Hold,
-            BeyondName::Repeat => Self::Repeat,
-            BeyondName::PingPong => Self::PingPong,
-        }
+words! {
+    /// The value before the first and after the last key.
+    BeyondName for Beyond {
+        /// The value of the nearest key.
+        Hold,
+        /// Repeats from the start. The last key is shown at the end of the first run.
+        Repeat,
+        /// Alternates between forward and backward.
+        PingPong,
     }
 }

@@ -1,40 +1,32 @@
 //! The keys of an animation. Their value type depends on the property, so their values are checked later
 //! than those of other tables.
 
-use crate::import::native::values::{Number, Time};
+use super::Spanned;
+use crate::import::native::values::{Number, Time, Written};
+use glam::{DQuat, DVec3};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{self, MapAccessDeserializer, SeqDeserializer};
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
-use serde::{Deserialize, forward_to_deserialize_any};
+use serde::{Deserialize, Serialize, Serializer, forward_to_deserialize_any};
 use std::borrow::Cow;
 use std::fmt;
-use toml::Spanned;
 
 /// A value at a time: [time, value], or a table.
 #[derive(Debug)]
-pub(in crate::import::native) struct Key {
-    pub time: Spanned<Time>,
-    pub value: Spanned<KeyValue>,
-    pub in_tangent: Option<Spanned<KeyValue>>,
-    pub out_tangent: Option<Spanned<KeyValue>>,
-}
+pub(crate) struct Key(pub KeyTable);
 
 /// A value at a time.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct KeyTable {
+pub(crate) struct KeyTable {
     /// Seconds.
-    #[schemars(with = "Time")]
-    time: Spanned<Time>,
+    pub time: Spanned<Time>,
     /// The value of the property at that time.
-    #[schemars(with = "KeyValue")]
-    value: Spanned<KeyValue>,
+    pub value: Spanned<KeyValue>,
     /// With hermite: the rate of change per second when arriving at the key; default 0.
-    #[schemars(with = "Option<KeyValue>")]
-    in_tangent: Option<Spanned<KeyValue>>,
+    pub in_tangent: Option<Spanned<KeyValue>>,
     /// With hermite: the rate of change per second when leaving the key; default 0.
-    #[schemars(with = "Option<KeyValue>")]
-    out_tangent: Option<Spanned<KeyValue>>,
+    pub out_tangent: Option<Spanned<KeyValue>>,
 }
 
 impl<'de> Deserialize<'de> for Key {
@@ -48,28 +40,32 @@ impl<'de> Deserialize<'de> for Key {
             }
             fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Key, A::Error> {
                 let odd = || de::Error::custom("a key is a time and a value: [time, value]");
-                let key = Key {
+                let key = KeyTable {
                     time: seq.next_element()?.ok_or_else(odd)?,
                     value: seq.next_element()?.ok_or_else(odd)?,
                     in_tangent: None,
                     out_tangent: None,
                 };
                 match seq.next_element::<KeyValue>()? {
-                    None => Ok(key),
+                    None => Ok(Key(key)),
                     Some(_) => Err(odd()),
                 }
             }
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Key, A::Error> {
-                let table = KeyTable::deserialize(MapAccessDeserializer::new(map))?;
-                Ok(Key {
-                    time: table.time,
-                    value: table.value,
-                    in_tangent: table.in_tangent,
-                    out_tangent: table.out_tangent,
-                })
+                KeyTable::deserialize(MapAccessDeserializer::new(map)).map(Key)
             }
         }
         deserializer.deserialize_any(PairOrTable)
+    }
+}
+
+impl Serialize for Key {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let key = &self.0;
+        match (&key.in_tangent, &key.out_tangent) {
+            (None, None) => (&key.time, &key.value).serialize(serializer),
+            _ => key.serialize(serializer),
+        }
     }
 }
 
@@ -95,7 +91,7 @@ impl JsonSchema for Key {
 /// The value of a key: a number, true or false, a list of three or four numbers, or a colour as
 /// "#rrggbb".
 #[derive(Clone, Debug)]
-pub(in crate::import::native) enum KeyValue {
+pub(crate) enum KeyValue {
     Number(f64),
     Switch(bool),
     Text(String),
@@ -137,6 +133,30 @@ impl<'de> Deserialize<'de> for KeyValue {
             }
         }
         deserializer.deserialize_any(AnyOfThem)
+    }
+}
+
+impl Serialize for KeyValue {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let value = match self {
+            Self::Number(number) => number.written(),
+            Self::Switch(switch) => (*switch).into(),
+            Self::Text(text) => text.as_str().into(),
+            Self::List(list, count) => list[..*count].written(),
+        };
+        value.serialize(serializer)
+    }
+}
+
+impl From<DVec3> for KeyValue {
+    fn from(value: DVec3) -> Self {
+        Self::List(value.extend(0.0).to_array(), 3)
+    }
+}
+
+impl From<DQuat> for KeyValue {
+    fn from(value: DQuat) -> Self {
+        Self::List(value.to_array(), 4)
     }
 }
 

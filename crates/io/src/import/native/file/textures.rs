@@ -1,25 +1,22 @@
 //! Textures in a native scene.
 
-use super::color_or::color_or;
+use super::Spanned;
+use super::either::either;
 use crate::import::native::values::{
-    Color, Fraction, Matrix, NonNegative, Number, Octaves, Scale, Vector,
+    Color, Fraction, Matrix, NonNegative, Number, Octaves, Scale, Vector, words,
 };
 use crate::import::picture::Role;
-use glam::Vec3;
-use glimray_scene::{Minify, Wrap};
+use glimray_scene::{Minify, Space, Wrap};
 use schemars::JsonSchema;
-use serde::Deserialize;
-use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
-use std::fmt;
-use toml::Spanned;
+use serde::{Deserialize, Serialize};
 
 /// Defines a table with a pattern and its transform, and additional keys.
 macro_rules! with_pattern {
     ($(#[$doc:meta])* $name:ident { $($more:tt)* }) => {
         $(#[$doc])*
-        #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
-        #[serde(deny_unknown_fields, default)]
-        pub(in crate::import::native) struct $name {
+        #[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
+        #[serde(deny_unknown_fields)]
+        pub(crate) struct $name {
             $($more)*
             /// A checkerboard of unit cubes; `a` from [0, 0, 0] to [1, 1, 1].
             pub checker: Option<PairTable>,
@@ -30,7 +27,6 @@ macro_rules! with_pattern {
             /// Noise between `a` and `b`, with features of about one unit.
             pub noise: Option<NoiseTable>,
             /// An image, repeated over every unit of u and v.
-            #[schemars(with = "Option<PictureOrFile>")]
             pub picture: Option<Spanned<PictureOrFile>>,
             /// The coordinates of the pattern; by default the surface's u and v for a picture, and world
             /// coordinates for all others.
@@ -49,7 +45,7 @@ macro_rules! with_pattern {
 
         impl $name {
             /// The pattern and its transform.
-            pub fn pattern(&self) -> PatternTables<'_> {
+            pub(in crate::import::native) fn pattern(&self) -> PatternTables<'_> {
                 PatternTables {
                     checker: self.checker.as_ref(),
                     stripes: self.stripes.as_ref(),
@@ -79,7 +75,6 @@ with_pattern! {
     /// noise and picture.
     ColorTable {
         /// The name of a texture under [textures].
-        #[schemars(with = "Option<String>")]
         pub texture: Option<Spanned<String>>,
         /// Factor on the texture; default white.
         pub color: Option<Color>,
@@ -91,7 +86,6 @@ with_pattern! {
     /// picture, which is not read as sRGB.
     NumberTable {
         /// The name of a texture under [textures]; a picture there needs `linear = true`.
-        #[schemars(with = "Option<String>")]
         pub texture: Option<Spanned<String>>,
         /// Factor on the texture; default 1.
         pub value: Option<Fraction>,
@@ -116,18 +110,15 @@ pub(in crate::import::native) struct PatternTables<'a> {
 /// A map of numbers, for surfaces with u and v: the image is not read as sRGB. In a normal map red, green and blue
 /// from 0 to 1 stand for -1 to 1: red along u, green along v, blue along the surface's own normal; models only. In an
 /// occlusion map red is the fraction of ambient light that reaches the surface.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(in crate::import::native) struct DataMapTable {
+pub(crate) struct DataMapTable {
     /// The image.
-    #[schemars(with = "Option<PictureOrFile>")]
     pub picture: Option<Spanned<PictureOrFile>>,
     /// Instead of it, the name of a texture under [textures] with a picture, which needs `linear = true`.
-    #[schemars(with = "Option<String>")]
     pub texture: Option<Spanned<String>>,
     /// Factor on the tilt of the normals, or weight of the occlusion, at most 1; default 1.
-    #[serde(default = "one")]
-    pub strength: NonNegative,
+    pub strength: Option<NonNegative>,
     /// The set of u and v: uv (the default) or second-uv.
     pub space: Option<SpaceName>,
     /// The scale of the image: a factor for both axes, or one for each; not 0.
@@ -141,14 +132,12 @@ pub(in crate::import::native) struct DataMapTable {
 }
 
 /// A height map.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(in crate::import::native) struct HeightMapTable {
+pub(crate) struct HeightMapTable {
     /// The image: white is high, black is low. One with colours is taken for a normal map.
-    #[schemars(with = "PictureOrFile")]
     pub picture: Spanned<PictureOrFile>,
     /// The height of white above black, in texels; below 0 if white is low. Default 1.
-    #[schemars(with = "Option<f64>")]
     pub strength: Option<Number>,
     /// The set of u and v: uv (the default) or second-uv.
     pub space: Option<SpaceName>,
@@ -170,7 +159,7 @@ impl HeightMapTable {
     }
 
     /// The image and its transform.
-    pub fn pattern(&self) -> PatternTables<'_> {
+    pub(in crate::import::native) fn pattern(&self) -> PatternTables<'_> {
         PatternTables {
             checker: None,
             stripes: None,
@@ -190,13 +179,9 @@ impl HeightMapTable {
     }
 }
 
-fn one() -> NonNegative {
-    NonNegative(1.0)
-}
-
 impl DataMapTable {
     /// The image and its transform.
-    pub fn pattern(&self) -> PatternTables<'_> {
+    pub(in crate::import::native) fn pattern(&self) -> PatternTables<'_> {
         PatternTables {
             checker: None,
             stripes: None,
@@ -214,138 +199,96 @@ impl DataMapTable {
 }
 
 /// Two colours.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub(in crate::import::native) struct PairTable {
+#[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PairTable {
     /// First colour; default white.
-    pub a: Color,
+    pub a: Option<Color>,
     /// Second colour; default black.
-    pub b: Color,
+    pub b: Option<Color>,
 }
 
 /// Noise.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub(in crate::import::native) struct NoiseTable {
+#[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct NoiseTable {
     /// First colour; default white.
-    pub a: Color,
+    pub a: Option<Color>,
     /// Second colour; default black.
-    pub b: Color,
+    pub b: Option<Color>,
     /// Number of octaves, each with half the wavelength and half the amplitude of the one before, 1 to
     /// 16; default 4.
-    pub octaves: Octaves,
+    pub octaves: Option<Octaves>,
 }
 
-/// The path of an image (PNG, JPEG, WebP, KTX2, HDR or EXR) in the scene's folder or below, or a table.
-#[derive(Clone, Debug, JsonSchema)]
-#[schemars(untagged)]
-pub(in crate::import::native) enum PictureOrFile {
-    File(String),
-    Table(PictureTable),
+impl NoiseTable {
+    /// The number of octaves where a file gives none.
+    pub const OCTAVES: u32 = 4;
 }
 
-impl<'de> Deserialize<'de> for PictureOrFile {
-    // By hand: serde's untagged enums lose the position of an error.
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct NameOrTable;
-        impl<'de> Visitor<'de> for NameOrTable {
-            type Value = PictureOrFile;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("the name of a picture file, or a table")
-            }
-            fn visit_str<E: de::Error>(self, name: &str) -> Result<PictureOrFile, E> {
-                Ok(PictureOrFile::File(name.to_owned()))
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<PictureOrFile, A::Error> {
-                let table = de::value::MapAccessDeserializer::new(map);
-                PictureTable::deserialize(table).map(PictureOrFile::Table)
-            }
-        }
-        deserializer.deserialize_any(NameOrTable)
-    }
+either! {
+    /// The path of an image (PNG, JPEG, WebP, KTX2, HDR or EXR) in the scene's folder or below, or a table.
+    PictureOrFile { File(String), Table(PictureTable) },
+    "the name of a picture file, or a table",
+    str: File, map: Table
 }
 
 /// An image file, and how it is sampled.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(in crate::import::native) struct PictureTable {
+pub(crate) struct PictureTable {
     /// The path of a PNG, JPEG, WebP, KTX2, HDR or EXR file in the scene's folder or below.
-    #[schemars(with = "String")]
     pub file: Spanned<String>,
     /// Whether the image holds numbers, as of roughness, and not sRGB colours; default false.
-    #[serde(default)]
-    pub linear: bool,
+    pub linear: Option<bool>,
     /// Whether texels that look larger than a pixel are not interpolated, as in pixel art; default false.
-    #[serde(default)]
-    pub nearest: bool,
+    pub nearest: Option<bool>,
     /// How texels that look smaller than a pixel are filtered; default `"linear-mipmap-linear"`.
     pub minify: Option<MinifyName>,
     /// How the picture continues beyond its edges: for both axes, or for u and v; default `"repeat"`.
     pub wrap: Option<WrapModes>,
 }
 
-/// How texels that look smaller than a pixel are filtered: in the picture, or in its mipmap, whose levels each have
-/// half the width and height of the one before. The modes are those of OpenGL and glTF.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(in crate::import::native) enum MinifyName {
-    /// The nearest texel of the picture.
-    Nearest,
-    /// Interpolated between texels of the picture.
-    Linear,
-    /// The nearest texel of the level whose texels are nearest to a pixel in size.
-    NearestMipmapNearest,
-    /// Interpolated between texels of that level.
-    LinearMipmapNearest,
-    /// Interpolated between two levels, with the nearest texel of each.
-    NearestMipmapLinear,
-    /// Interpolated between texels and between levels.
-    #[default]
-    LinearMipmapLinear,
-}
-
-impl MinifyName {
-    /// The mode of this name.
-    pub fn mode(self) -> Minify {
-        match self {
-            Self::Nearest => Minify::Nearest,
-            Self::Linear => Minify::Linear,
-            Self::NearestMipmapNearest => Minify::NearestMipmapNearest,
-            Self::LinearMipmapNearest => Minify::LinearMipmapNearest,
-            Self::NearestMipmapLinear => Minify::NearestMipmapLinear,
-            Self::LinearMipmapLinear => Minify::LinearMipmapLinear,
-        }
+words! {
+    /// How texels that look smaller than a pixel are filtered: in the picture, or in its mipmap, whose levels each have
+    /// half the width and height of the one before. The modes are those of OpenGL and glTF.
+    MinifyName for Minify {
+        /// The nearest texel of the picture.
+        Nearest,
+        /// Interpolated between texels of the picture.
+        Linear,
+        /// The nearest texel of the level whose texels are nearest to a pixel in size.
+        NearestMipmapNearest,
+        /// Interpolated between texels of that level.
+        LinearMipmapNearest,
+        /// Interpolated between two levels, with the nearest texel of each.
+        NearestMipmapLinear,
+        /// Interpolated between texels and between levels.
+        LinearMipmapLinear,
     }
 }
 
-/// How a picture continues beyond its edges along one axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(in crate::import::native) enum WrapName {
-    /// It is repeated.
-    #[default]
-    Repeat,
-    /// Its edge goes on.
-    Clamp,
-    /// It is repeated, and every second copy is mirrored.
-    Mirror,
+words! {
+    /// How a picture continues beyond its edges along one axis.
+    WrapName for Wrap {
+        /// It is repeated.
+        Repeat,
+        /// Its edge goes on.
+        Clamp,
+        /// It is repeated, and every second copy is mirrored.
+        Mirror,
+    }
 }
 
 /// A mode for both axes, or one for u and one for v.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "expected `repeat`, `clamp`, `mirror`, or two of them for u and v"
 )]
-pub(in crate::import::native) enum WrapModes {
+pub(crate) enum WrapModes {
     Both(WrapName),
     Each([WrapName; 2]),
-}
-
-impl Default for WrapModes {
-    fn default() -> Self {
-        Self::Both(WrapName::Repeat)
-    }
 }
 
 impl WrapModes {
@@ -355,54 +298,35 @@ impl WrapModes {
             Self::Both(name) => [name; 2],
             Self::Each(names) => names,
         };
-        names.map(|name| match name {
-            WrapName::Repeat => Wrap::Repeat,
-            WrapName::Clamp => Wrap::Clamp,
-            WrapName::Mirror => Wrap::Mirror,
-        })
+        names.map(Into::into)
     }
 }
 
-impl Default for PairTable {
-    fn default() -> Self {
-        Self {
-            a: Color(Vec3::ONE),
-            b: Color(Vec3::ZERO),
+impl From<[Wrap; 2]> for WrapModes {
+    fn from([u, v]: [Wrap; 2]) -> Self {
+        match u == v {
+            true => Self::Both(u.into()),
+            false => Self::Each([u.into(), v.into()]),
         }
     }
 }
 
-impl Default for NoiseTable {
-    fn default() -> Self {
-        let PairTable { a, b } = PairTable::default();
-        Self {
-            a,
-            b,
-            octaves: Octaves(4),
-        }
+words! {
+    /// The coordinates of a pattern.
+    SpaceName for Space {
+        /// World coordinates: a solid texture.
+        World,
+        /// The surface's own u and v, as x and y: for a model from its file, for a triangle from its first
+        /// corner to its second and third.
+        Uv,
+        /// The same with the second set of u and v, of models that have one.
+        SecondUv,
     }
 }
 
-/// The coordinates of a pattern.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(in crate::import::native) enum SpaceName {
-    /// World coordinates: a solid texture.
-    World,
-    /// The surface's own u and v, as x and y: for a model from its file, for a triangle from its first
-    /// corner to its second and third.
-    Uv,
-    /// The same with the second set of u and v, of models that have one.
-    SecondUv,
-}
-
-color_or!(
+either! {
     /// A colour, or a texture.
-    ColorOrTexture(ColorTable),
-    "a colour ([r, g, b] or \"#rrggbb\") or a texture"
-);
-
-/// A default colour.
-pub(in crate::import::native) fn plain(color: Vec3) -> Spanned<ColorOrTexture> {
-    Spanned::new(0..0, ColorOrTexture::Color(Color(color)))
+    ColorOrTexture { Color(Color), Table(Box<ColorTable>) },
+    "a colour ([r, g, b] or \"#rrggbb\") or a texture",
+    str: Color, seq: Color, map: Table
 }

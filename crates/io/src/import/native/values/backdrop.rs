@@ -4,16 +4,28 @@ use super::ColorVisitor;
 use glimray_scene::Backdrop;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
+use serde::ser::{Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 
 /// `"transparent"`, or a colour.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::import::native) struct BackdropValue(pub Backdrop);
+pub(crate) struct BackdropValue(pub Backdrop);
 
 impl<'de> Deserialize<'de> for BackdropValue {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(BackdropVisitor).map(Self)
+    }
+}
+
+impl Serialize for BackdropValue {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match &self.0 {
+            // The background is a backdrop that no key gives.
+            Backdrop::Background => serializer.serialize_none(),
+            Backdrop::Color(color) => super::color(color).serialize(serializer),
+            Backdrop::Transparent => serializer.serialize_str("transparent"),
+        }
     }
 }
 

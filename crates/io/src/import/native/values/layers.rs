@@ -1,10 +1,13 @@
 //! Value types of the layers of metallic-roughness materials.
 
+use super::Written;
 use super::{elements, number};
 use crate::import::range;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, Deserializer};
+use serde::ser::{Serialize, Serializer};
 use std::borrow::Cow;
+use toml::Value;
 
 value! {
     /// The index of refraction of a body, 1 or more.

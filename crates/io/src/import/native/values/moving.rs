@@ -1,13 +1,16 @@
 //! Value types for repetition and animation.
 
-use super::{Color, Fraction, Number, Positive, elements, is_unit, number};
+use super::Written;
+use super::{Color, Fraction, Number, Positive, color, elements, is_unit, number};
 use crate::import::source::quote;
 use glam::{DQuat, Vec3};
 use glimray_scene::Easing;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, IntoDeserializer, SeqAccess, Visitor};
+use serde::ser::{Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
+use toml::Value;
 
 /// Limit of the shutter's times, in frames from the frame's own time.
 const MAX_FRAMES: f64 = 1000.0;
@@ -100,7 +103,8 @@ value! {
         { "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": 3, "maxItems": 3 },
         { "type": "string", "pattern": "^#[0-9A-Fa-f]{6}$" }
     ] },
-    |d| d.deserialize_any(ShareVisitor)
+    |d| d.deserialize_any(ShareVisitor),
+    color
 }
 
 value! {
@@ -113,7 +117,11 @@ value! {
         { "type": "string", "pattern": "^[0-9.]+deg$" },
         { "type": "array", "items": { "type": "number", "minimum": -1000, "maximum": 1000 }, "minItems": 2, "maxItems": 2 }
     ] },
-    |d| d.deserialize_any(ShutterVisitor)
+    |d| d.deserialize_any(ShutterVisitor),
+    |[open, close]| match *open == 0.0 {
+        true => close.written(),
+        false => [*open, *close].written(),
+    }
 }
 
 value! {
@@ -124,7 +132,14 @@ value! {
         { "enum": ["none", "in", "out", "in-out"] },
         { "type": "array", "items": { "type": "number", "minimum": -10, "maximum": 10 }, "minItems": 4, "maxItems": 4 }
     ] },
-    |d| d.deserialize_any(PaceVisitor)
+    |d| d.deserialize_any(PaceVisitor),
+    |easing| match *easing {
+        Easing::None => "none".into(),
+        Easing::IN => "in".into(),
+        Easing::OUT => "out".into(),
+        Easing::IN_OUT => "in-out".into(),
+        Easing::Bezier(points) => points.written(),
+    }
 }
 
 struct ShareVisitor;

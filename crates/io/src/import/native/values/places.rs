@@ -1,10 +1,13 @@
 //! Value types that keep every bit of positions and angles.
 
+use super::Written;
 use super::{Vector, elements, number};
 use glam::{DAffine3, DMat3, DVec3};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer};
+use serde::ser::{Serialize, Serializer};
 use std::borrow::Cow;
+use toml::Value;
 
 value! {
     /// A length, 0 or more.
