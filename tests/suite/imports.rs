@@ -42,7 +42,7 @@ const MODULES: &[(&str, &str, &[&str])] = &[
         "import",
         &["bytes", "random", "scene", "text", "threads"],
     ),
-    ("io", "export", &["scene", "text"]),
+    ("io", "export", &["import", "scene", "text"]),
     ("render", "pack", &["clock", "scene", "bvh", "layout"]),
     (
         "render",

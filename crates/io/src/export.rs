@@ -1,5 +1,6 @@
 //! Exports a [`Scene`] as a native scene file that reads like one written by hand: sections in a fixed
-//! order, names for everything that is referred to, and only values that differ from the defaults.
+//! order, names for everything that is referred to, and only values that differ from the defaults. The scene
+//! becomes a [`SceneFile`], which importers read too, and [`text`] lays it out.
 //!
 //! Nothing is lost: [`crate::import`] turns the text and its companion files into a scene that is packed
 //! to the same bytes, and exporting that scene gives the same text. Numbers are written in the fewest
@@ -26,11 +27,14 @@ mod shapes;
 mod text;
 mod textures;
 
+use crate::import::native::MAX_MARKS;
+use crate::import::native::file::{SceneFile, Spanned};
+use crate::import::native::values::differing;
 use files::Beside;
-use glimray_scene::Scene;
+use glam::Vec3;
+use glimray_scene::{Scene, Shadows};
 use names::Names;
-use std::collections::HashMap;
-use text::Text;
+use std::collections::{BTreeMap, HashMap};
 
 /// A scene file and its companion files.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -88,9 +92,6 @@ fn remedy(marks: usize, key_count: usize, clip_count: usize) -> &'static str {
     }
 }
 
-/// Limit of keys, values and brackets in the importer of the native format.
-const MAX_MARKS: usize = 500_000;
-
 /// Exports `scene` as a native scene file. The names of its companion files start with `stem`. `is_taken`
 /// tells whether a name belongs to a file with different contents; then another name is chosen, so that
 /// no file is overwritten and older scene files stay valid.
@@ -115,20 +116,9 @@ pub fn native(
         names: Names::of(scene),
         beside: Beside::new(stem, is_taken),
         pictures: HashMap::new(),
-        text: Text::new(),
     };
-    writer.root()?;
-    writer.output();
-    writer.cameras();
-    writer.lights();
-    writer.textures()?;
-    writer.materials()?;
-    writer.meshes();
-    writer.nodes();
-    writer.instances();
-    writer.shapes();
-    writer.animations();
-    let text = writer.text.finish();
+    let file = toml::Table::try_from(writer.file()?);
+    let text = text::text(&file.expect("strings for keys, and values that TOML has"));
     let marks = text.bytes().filter(|b| b"[]{}.=,#\"'".contains(b)).count();
     if marks > MAX_MARKS {
         let limit = MAX_MARKS;
@@ -151,5 +141,52 @@ struct Writer<'a> {
     beside: Beside<'a>,
     /// The names of image files, by image index.
     pictures: HashMap<(usize, pictures::Role), String>,
-    text: Text,
+}
+
+impl Writer<'_> {
+    fn file(&mut self) -> Result<SceneFile, ExportError> {
+        let scene = self.scene;
+        // Pictures are numbered in this order.
+        let background = self.background()?;
+        let textures = scene.textures.iter().map(|it| self.texture(it));
+        let textures = textures.collect::<Result<Vec<_>, _>>()?;
+        let materials = scene.materials.iter().enumerate();
+        let materials = materials.map(|(i, it)| self.material(i, it).map(Some));
+        let materials = materials.collect::<Result<Vec<_>, _>>()?;
+        let meshes = scene.meshes.iter().enumerate();
+        let meshes: Vec<_> = meshes.map(|(i, it)| Some(self.mesh(i, it))).collect();
+        let mut objects = self.instances();
+        objects.extend(self.shapes());
+        let cameras = scene.cameras.iter().enumerate();
+        let mut cameras: Vec<_> = cameras.map(|(i, it)| self.camera(i, it).into()).collect();
+        let lights = scene.lights.iter().enumerate();
+        let nodes = scene.nodes.iter().enumerate();
+        Ok(SceneFile {
+            output: self.output(),
+            background,
+            ambient: differing(scene.ambient, Vec3::ZERO),
+            shadows: differing(scene.shadows, Shadows::Opaque),
+            staged: scene.staged.then_some(true),
+            camera: cameras.pop_if(|_| scene.cameras.len() == 1),
+            cameras,
+            textures: named(&self.names.textures, textures),
+            materials: named(&self.names.materials, materials),
+            meshes: named(&self.names.meshes, meshes),
+            nodes: nodes.map(|(i, it)| self.node(i, it).into()).collect(),
+            groups: BTreeMap::new(),
+            objects,
+            lights: lights.map(|(i, it)| self.light(i, it).into()).collect(),
+            animation: self.animations(),
+        })
+    }
+}
+
+/// Tables by name, in this order.
+fn named<T>(names: &[String], tables: Vec<Option<T>>) -> BTreeMap<String, Spanned<T>> {
+    let tables = names.iter().zip(tables).enumerate();
+    tables
+        .filter_map(|(index, (name, table))| {
+            Some((name.clone(), Spanned::new(index..index, table?)))
+        })
+        .collect()
 }

@@ -1,32 +1,32 @@
 //! The animations of a scene.
 
 use super::materials::has_same_ambient;
-use super::text::{Table, list, number, quaternion, string, vector};
 use super::{Writer, exact};
+use crate::import::native::file::{
+    AnimationTable, InterpolationName, Key, KeyTable, KeyValue, PropertyName as P, Spanned,
+    of_camera, of_light, of_material, of_node,
+};
+use crate::import::native::values::{Pace, Time, differing};
 use glam::{DVec3, Vec3};
 use glimray_scene::{
-    Beyond, CameraProperty, Curve, Easing, Interpolation, LayerProperty, LightProperty,
-    MaterialProperty, NodeProperty, Target, Track, Values,
+    Beyond, Curve, Easing, Interpolation, LayerProperty, MaterialProperty, Target, Track, Values,
 };
 
-/// Longer lists of keys have one key per line.
-const MOST_IN_A_LINE: usize = 2;
-
 impl Writer<'_> {
-    pub fn animations(&mut self) {
-        if !self.scene.tracks.is_empty() {
-            self.text.section("Animations");
-        }
+    pub fn animations(&self) -> Vec<Spanned<AnimationTable>> {
+        let mut tables = Vec::new();
         for track in &self.scene.tracks {
-            for targets in self.parts(track) {
-                self.text.gap();
-                self.animation(&targets, &track.curve);
-            }
+            let parts = self.parts(track);
+            tables.extend(
+                parts
+                    .iter()
+                    .filter_map(|part| self.animation(part, &track.curve)),
+            );
             for (target, factor) in self.diffuse_of_base_colors(track) {
-                self.text.gap();
-                self.animation(&[target], &scaled(&track.curve, factor));
+                tables.extend(self.animation(&[target], &scaled(&track.curve, factor)));
             }
         }
+        tables.into_iter().map(Spanned::from).collect()
     }
 
     /// The diffuse colours that follow the base colours of `track`, and their ratios to them.
@@ -79,60 +79,63 @@ impl Writer<'_> {
         parts
     }
 
-    fn animation(&mut self, targets: &[Target], curve: &Curve) {
+    fn animation(&self, targets: &[Target], curve: &Curve) -> Option<AnimationTable> {
         let names = &self.names;
-        let mut table = Table::default();
-        let property = match targets[0] {
+        let named = |name: &String| Some(name.clone().into());
+        let (mut object, mut objects, mut camera, mut light, mut material) = Default::default();
+        let words = match targets[0] {
             Target::Node(index, property) => {
-                if targets.len() == 1 {
-                    table.put("object", string(&names.nodes[index]));
-                } else {
-                    let all = targets.iter().filter_map(|target| match *target {
-                        Target::Node(index, _) => Some(string(&names.nodes[index])),
-                        _ => None,
-                    });
-                    table.put("objects", list(all));
+                let all = targets.iter().filter_map(|target| match *target {
+                    Target::Node(index, _) => named(&names.nodes[index]),
+                    _ => None,
+                });
+                match targets.len() {
+                    1 => object = named(&names.nodes[index]),
+                    _ => objects = Some(all.collect()),
                 }
-                of_node(property, curve)
+                of_node(property)
             }
             Target::Camera(index, property) => {
-                table.put("camera", string(&names.cameras[index]));
-                of_camera(property, curve)
+                camera = named(&names.cameras[index]);
+                of_camera(property)
             }
             Target::Light(index, property) => {
-                table.put("light", string(&names.lights[index]));
+                light = named(&names.lights[index]);
                 of_light(property)
             }
             Target::Material(index, property) => {
-                table.put("material", string(&names.materials[index]));
+                material = named(&names.materials[index]);
                 of_material(property)
             }
             // Deforming meshes and textures are written at rest, and materials with their diffuse colours.
-            Target::Weight(..) | Target::Layer(..) | Target::Texture(..) => return,
+            Target::Weight(..) | Target::Layer(..) | Target::Texture(..) => return None,
         };
-        table.put("property", string(property));
-        let is_switch = matches!(property, "visible" | "on");
-        match curve.interpolation {
-            Interpolation::Step => table.put_if(!is_switch, "interpolation", string("step")),
-            Interpolation::Linear => {}
-            Interpolation::CatmullRom => table.put("interpolation", string("cubic")),
-            Interpolation::Hermite => table.put("interpolation", string("hermite")),
-        }
-        match curve.easing {
-            // Easing applies to linear interpolation only, and is an error with others.
-            Easing::Bezier(points) if curve.interpolation == Interpolation::Linear => {
-                table.put("easing", easing(curve.easing, points));
-            }
-            _ => {}
-        }
-        match curve.beyond {
-            Beyond::Hold => {}
-            Beyond::Repeat => table.put("beyond", string("repeat")),
-            Beyond::PingPong => table.put("beyond", string("ping-pong")),
-        }
-        table.put("keys", keys(curve, property));
-        self.text.head("[[animation]]");
-        self.text.lines(&table);
+        let property = match *words {
+            [_, radians] if !in_degrees(curve) => radians,
+            _ => words[0],
+        };
+        let plain = match property {
+            P::Visible | P::On => Interpolation::Step,
+            _ => Interpolation::Linear,
+        };
+        // Easing applies to linear interpolation only, and is an error with others.
+        let easing = match curve.interpolation {
+            Interpolation::Linear => differing::<_, Pace>(curve.easing, Easing::None),
+            _ => None,
+        };
+        Some(AnimationTable {
+            object,
+            objects,
+            camera,
+            light,
+            material,
+            property: property.into(),
+            interpolation: differing::<_, InterpolationName>(curve.interpolation, plain)
+                .map(Into::into),
+            easing: easing.map(Into::into),
+            beyond: differing(curve.beyond, Beyond::Hold),
+            keys: keys(curve, property).into(),
+        })
     }
 }
 
@@ -143,64 +146,6 @@ fn scaled(curve: &Curve, factor: DVec3) -> Curve {
         values.iter_mut().for_each(|value| *value *= factor);
     }
     scaled
-}
-
-fn easing(easing: Easing, points: [f64; 4]) -> String {
-    match easing {
-        easing if easing == Easing::IN => string("in"),
-        easing if easing == Easing::OUT => string("out"),
-        easing if easing == Easing::IN_OUT => string("in-out"),
-        _ => list(points.map(number)),
-    }
-}
-
-fn of_node(property: NodeProperty, curve: &Curve) -> &'static str {
-    match property {
-        NodeProperty::Translation => "translate",
-        NodeProperty::Rotation => "rotation",
-        NodeProperty::Angles if in_degrees(curve) => "rotate_deg",
-        NodeProperty::Angles => "angles",
-        NodeProperty::Scale => "scale",
-        NodeProperty::Visible => "visible",
-    }
-}
-
-fn of_camera(property: CameraProperty, curve: &Curve) -> &'static str {
-    match property {
-        CameraProperty::LookFrom => "look_from",
-        CameraProperty::LookAt => "look_at",
-        CameraProperty::Up => "up",
-        CameraProperty::FovY if in_degrees(curve) => "fov_y_deg",
-        CameraProperty::FovY => "fov_y",
-        CameraProperty::OrthographicHeight => "orthographic",
-        CameraProperty::FocusDistance => "focus_distance",
-        CameraProperty::LensRadius => "lens_radius",
-    }
-}
-
-fn of_light(property: LightProperty) -> &'static str {
-    match property {
-        LightProperty::Position => "position",
-        LightProperty::Direction => "direction",
-        LightProperty::Color => "color",
-        LightProperty::Intensity => "intensity",
-        LightProperty::On => "on",
-    }
-}
-
-fn of_material(property: MaterialProperty) -> &'static str {
-    match property {
-        MaterialProperty::Diffuse => "diffuse",
-        MaterialProperty::Specular => "specular",
-        MaterialProperty::Shininess => "shininess",
-        MaterialProperty::Ambient => "ambient",
-        MaterialProperty::Emission => "emission",
-        MaterialProperty::Reflect => "reflect",
-        MaterialProperty::Transmit => "transmit",
-        MaterialProperty::Opacity => "opacity",
-        MaterialProperty::Ior => "ior",
-        MaterialProperty::Absorption => "absorption",
-    }
 }
 
 /// Whether all values are exactly representable in degrees.
@@ -217,42 +162,41 @@ fn in_degrees(curve: &Curve) -> bool {
     }
 }
 
-fn keys(curve: &Curve, property: &str) -> String {
-    let in_degrees = property.ends_with("_deg");
-    let degrees = |radians: f64| exact::degrees(radians).unwrap_or(radians.to_degrees());
-    let is_switch = matches!(property, "visible" | "on");
+fn keys(curve: &Curve, property: P) -> Vec<Key> {
+    let in_degrees = matches!(property, P::RotateDeg | P::FovYDeg);
+    let given = |x: f64| match in_degrees {
+        true => exact::degrees(x).unwrap_or(x.to_degrees()),
+        false => x,
+    };
     let value = |index: usize| match &curve.values {
-        Values::Scalar(values) if is_switch => (values[index] >= 0.5).to_string(),
-        Values::Scalar(values) if in_degrees => number(degrees(values[index])),
-        Values::Scalar(values) => number(values[index]),
-        Values::Vector(values) if in_degrees => {
-            vector(DVec3::from(values[index].to_array().map(degrees)))
+        Values::Scalar(values) if matches!(property, P::Visible | P::On) => {
+            KeyValue::Switch(values[index] >= 0.5)
         }
-        Values::Vector(values) => vector(values[index]),
-        Values::Rotation(values) => quaternion(values[index]),
+        Values::Scalar(values) => KeyValue::Number(given(values[index])),
+        Values::Vector(values) => DVec3::from(values[index].to_array().map(given)).into(),
+        Values::Rotation(values) => values[index].into(),
     };
     let is_zero = |index: usize| match &curve.values {
         Values::Scalar(values) => values[index].to_bits() == 0,
         Values::Vector(values) => values[index].to_array().iter().all(|x| x.to_bits() == 0),
         Values::Rotation(values) => values[index].to_array().iter().all(|x| x.to_bits() == 0),
     };
-    let keys: Vec<String> = (curve.times.iter().enumerate())
-        .map(|(index, &time)| {
-            if curve.interpolation != Interpolation::Hermite {
-                return list([number(time), value(index)]);
-            }
-            let mut table = Table::default();
-            table.put("time", number(time));
-            table.put("value", value(3 * index + 1));
-            let (reach, leave) = (3 * index, 3 * index + 2);
-            table.put_if(!is_zero(reach), "in_tangent", value(reach));
-            table.put_if(!is_zero(leave), "out_tangent", value(leave));
-            table.inline()
+    let is_hermite = curve.interpolation == Interpolation::Hermite;
+    let tangent = |index: usize| {
+        let is_given = is_hermite && !is_zero(index);
+        is_given.then(|| value(index).into())
+    };
+    let key = |(index, &time): (usize, &f64)| {
+        let (reach, at, leave) = match is_hermite {
+            true => (3 * index, 3 * index + 1, 3 * index + 2),
+            false => (index, index, index),
+        };
+        Key(KeyTable {
+            time: Time(time).into(),
+            value: value(at).into(),
+            in_tangent: tangent(reach),
+            out_tangent: tangent(leave),
         })
-        .collect();
-    if keys.len() <= MOST_IN_A_LINE {
-        return list(keys);
-    }
-    let lines: String = keys.iter().map(|key| format!("    {key},\n")).collect();
-    format!("[\n{lines}]")
+    };
+    curve.times.iter().enumerate().map(key).collect()
 }

@@ -1,72 +1,51 @@
 //! The cameras of a scene.
 
-use super::text::{Table, number, string, vector};
 use super::{Writer, exact};
+use crate::import::native::file::{CameraTable, LensTable, LookAt};
+use crate::import::native::values::{
+    Corners, Distance, Number, Positive, Upwards, ViewAngle, ViewRadians, differing,
+};
 use glam::DVec3;
-use glimray_scene::Camera;
+use glimray_scene::{Camera, Lens};
 
 impl Writer<'_> {
-    pub fn cameras(&mut self) {
-        let count = self.scene.cameras.len();
-        for (index, camera) in self.scene.cameras.iter().enumerate() {
-            let table = self.camera(index, camera);
-            self.text.gap();
-            self.text.head(if count == 1 {
-                "[camera]"
-            } else {
-                "[[cameras]]"
-            });
-            self.text.lines(&table);
+    pub fn camera(&self, index: usize, camera: &Camera) -> CameraTable {
+        let name = &self.names.cameras[index];
+        let is_default = index > 0 && index == self.scene.camera_index;
+        let look_at = match camera.target {
+            Some(node) => LookAt::Object(self.names.nodes[node].clone()),
+            None => LookAt::Point(camera.look_at.into()),
+        };
+        let is_read = |degrees: &f64| (1e-3..=179.999).contains(degrees);
+        let (degrees, radians) = exact::angle(camera.fov_y, is_read);
+        let degrees = degrees.filter(|degrees| *degrees != CameraTable::FOV_Y_DEG);
+        let (near, far) = camera.clip;
+        CameraTable {
+            name: (!name.is_empty()).then(|| name.clone()),
+            look_from: camera.look_from.into(),
+            look_at: look_at.into(),
+            carried_by: self.names.node(camera.node),
+            up: differing::<_, Upwards>(camera.up, DVec3::Y).map(Into::into),
+            fov_y_deg: degrees.map(|it| ViewAngle(it).into()),
+            fov_y: radians.map(ViewRadians),
+            orthographic: camera.orthographic_height.map(Positive),
+            near: (near > 0.0).then_some(Distance(near)),
+            far: (far < f64::INFINITY).then(|| Positive(far).into()),
+            default: is_default.then_some(true),
+            lens: camera.lens.as_ref().map(|it| lens(it).into()),
         }
     }
+}
 
-    fn camera(&self, index: usize, camera: &Camera) -> Table {
-        let mut table = Table::default();
-        let name = &self.names.cameras[index];
-        table.put_if(!name.is_empty(), "name", string(name));
-        let is_default = index > 0 && index == self.scene.camera_index;
-        table.put_if(is_default, "default", "true");
-        if let Some(node) = camera.node {
-            table.put("carried_by", string(&self.names.nodes[node]));
-        }
-        table.put("look_from", vector(camera.look_from));
-        table.put(
-            "look_at",
-            match camera.target {
-                Some(node) => string(&self.names.nodes[node]),
-                None => vector(camera.look_at),
-            },
-        );
-        let bits = |v: DVec3| v.to_array().map(f64::to_bits);
-        table.put_if(bits(camera.up) != bits(DVec3::Y), "up", vector(camera.up));
-        match exact::degrees(camera.fov_y) {
-            Some(60.0) => {}
-            Some(degrees) if (1e-3..=179.999).contains(&degrees) => {
-                table.put("fov_y_deg", number(degrees));
-            }
-            _ => table.put("fov_y", number(camera.fov_y)),
-        }
-        if let Some(height) = camera.orthographic_height {
-            table.put("orthographic", number(height));
-        }
-        let (near, far) = camera.clip;
-        table.put_if(near > 0.0, "near", number(near));
-        table.put_if(far < f64::INFINITY, "far", number(far));
-        if let Some(lens) = &camera.lens {
-            let mut inner = Table::default();
-            inner.put("radius", number(lens.radius));
-            inner.put("focus_distance", number(lens.focus_distance));
-            if lens.blade_count > 0 {
-                inner.put("blades", lens.blade_count.to_string());
-            }
-            if lens.blade_rotation.to_bits() != 0 {
-                match exact::degrees(lens.blade_rotation) {
-                    Some(degrees) => inner.put("blade_rotation_deg", number(degrees)),
-                    None => inner.put("blade_rotation", number(lens.blade_rotation)),
-                }
-            }
-            table.put("lens", inner.inline());
-        }
-        table
+fn lens(lens: &Lens) -> LensTable {
+    let (degrees, radians) = exact::angle(lens.blade_rotation, |_| true);
+    let degrees = degrees.and_then(|degrees| differing::<_, Number>(degrees, 0.0));
+    LensTable {
+        radius: Some(lens.radius.into()),
+        focus_distance: Some(lens.focus_distance.into()),
+        blades: (lens.blade_count > 0).then_some(Corners(lens.blade_count)),
+        blade_rotation_deg: degrees.map(Into::into),
+        blade_rotation: radians.map(Number),
+        ..LensTable::default()
     }
 }

@@ -1,6 +1,7 @@
 //! Numbers as they would be written by hand, provided that they preserve the exact value.
 
-use super::text::{self, Table};
+use crate::import::native::file::TransformTable;
+use crate::import::native::values::{Matrix, Quaternion, Vector, differing};
 use glam::{DAffine3, DQuat, DVec3, EulerRot, Vec3};
 use glimray_scene::{Transform, rotation};
 
@@ -47,28 +48,30 @@ pub(super) fn same_bits(a: Vec3, b: Vec3) -> bool {
     a.to_array().map(f32::to_bits) == b.to_array().map(f32::to_bits)
 }
 
+/// An angle in degrees, or in radians if no degrees that `is_read` accepts give it.
+pub(super) fn angle(radians: f64, is_read: impl Fn(&f64) -> bool) -> (Option<f64>, Option<f64>) {
+    match degrees(radians).filter(is_read) {
+        Some(degrees) => (Some(degrees), None),
+        None => (None, Some(radians)),
+    }
+}
+
 /// A transform as a table; `None` for the identity.
-pub(super) fn transform(affine: DAffine3) -> Option<String> {
+pub(super) fn transform(affine: DAffine3) -> Option<TransformTable> {
     if is_same(affine, DAffine3::IDENTITY) {
         return None;
     }
-    let mut table = Table::default();
+    let mut table = TransformTable::default();
     if is_same(DAffine3::from_translation(affine.translation), affine) {
-        table.put("translate", text::vector(affine.translation));
+        table.translate = Some(affine.translation.into());
     } else if let Some(transform) = decomposed(affine) {
-        let Transform {
-            translate,
-            rotate_deg,
-            scale,
-        } = transform;
-        let is_zero = |v: DVec3| v.to_array().iter().all(|x| x.to_bits() == 0);
-        table.put_if(!is_zero(translate), "translate", text::vector(translate));
-        table.put_if(!is_zero(rotate_deg), "rotate_deg", text::vector(rotate_deg));
-        table.put_if(scale != DVec3::ONE, "scale", text::scale(scale));
+        table.translate = differing(transform.translate, DVec3::ZERO);
+        table.rotate_deg = differing(transform.rotate_deg, DVec3::ZERO);
+        table.scale = differing(transform.scale, DVec3::ONE);
     } else {
-        table.put("matrix", text::matrix(affine));
+        table.matrix = Some(Matrix(affine));
     }
-    Some(table.inline())
+    Some(table)
 }
 
 /// The scale, angles and translation that give exactly `affine`, if they are short enough.
@@ -128,11 +131,11 @@ fn angles(turn: DQuat) -> [DVec3; 2] {
     both
 }
 
-/// A rotation as an entry of a transform; none for the identity.
-pub(super) fn put_rotation(table: &mut Table, turn: DQuat) {
+/// A rotation as angles in degrees or a quaternion; neither for the identity.
+pub(super) fn turn(turn: DQuat) -> (Option<Vector>, Option<Quaternion>) {
     let bits = |q: DQuat| q.to_array().map(f64::to_bits);
     if bits(turn) == bits(DQuat::IDENTITY) {
-        return;
+        return (None, None);
     }
     let found = angles(turn).into_iter().find_map(|angles| {
         shortest(angles.to_array(), |n| {
@@ -140,7 +143,7 @@ pub(super) fn put_rotation(table: &mut Table, turn: DQuat) {
         })
     });
     match found {
-        Some(degrees) => table.put("rotate_deg", text::vector(degrees.into())),
-        None => table.put("rotation", text::quaternion(turn)),
+        Some(degrees) => (Some(Vector(degrees.into())), None),
+        None => (None, Some(Quaternion(turn))),
     }
 }

@@ -1,111 +1,117 @@
 //! The lights of a scene.
 
-use super::text::{Table, color, number, number32, string, vector};
-use super::{Writer, exact};
+use super::Writer;
+use super::exact::{angle, same_bits};
+use crate::import::native::file::{
+    DirectionalTable, DiscLightTable, LIGHT_SAMPLES, LightTable, PointTable, RectangleLightTable,
+    SphereLightTable, SpotTable,
+};
+use crate::import::native::values::{
+    AxisAngle, AxisRadians, ConeAngle, ConeRadians, Vector, differing,
+};
 use glam::Vec3;
 use glimray_scene::{Attenuation, Light, LightKind};
 
-/// The importer's default number of shadow rays of area lights.
-const SAMPLES: u32 = 16;
-
 impl Writer<'_> {
-    pub fn lights(&mut self) {
-        if !self.scene.lights.is_empty() {
-            self.text.section("Lights");
-        }
-        for (index, light) in self.scene.lights.iter().enumerate() {
-            let mut table = Table::default();
-            let name = &self.names.lights[index];
-            table.put_if(!name.is_empty(), "name", string(name));
-            if let Some(node) = light.node {
-                table.put("carried_by", string(&self.names.nodes[node]));
-            }
+    pub fn light(&self, index: usize, light: &Light) -> LightTable {
+        let name = &self.names.lights[index];
+        LightTable {
+            name: (!name.is_empty()).then(|| name.clone().into()),
+            carried_by: self.names.node(light.node),
             // An animated intensity multiplies the plain colour.
-            put(&mut table, light, name.is_empty());
-            self.text.gap();
-            self.text.head("[[lights]]");
-            self.text.lines(&table);
+            ..table(light, name.is_empty())
         }
     }
 }
 
-fn put(table: &mut Table, light: &Light, may_split: bool) {
-    let mut inner = Table::default();
-    let key = match light.kind {
+/// A light without its name and its node. A gray may be written as an intensity if it `may_split`.
+fn table(light: &Light, may_split: bool) -> LightTable {
+    let gray = light.color.x;
+    let is_gray = same_bits(light.color, Vec3::splat(gray));
+    let (color, intensity) = match may_split && is_gray {
+        true => (None, differing(gray, 1.0)),
+        false => (differing(light.color, Vec3::ONE), None),
+    };
+    let attenuation = differing(light.attenuation, Attenuation::InverseSquare);
+    let samples = differing(light.samples, LIGHT_SAMPLES);
+    let visible = (!light.visible).then_some(false);
+    let mut table = LightTable::default();
+    // Tables of all area lights have these members.
+    macro_rules! area {
+        ($table:ident { $($key:ident: $value:expr),* }) => {
+            Some($table { $($key: $value,)* color, intensity, radiance: None, samples, visible, attenuation })
+        };
+    }
+    match light.kind {
         LightKind::Point { position } => {
-            inner.put("position", vector(position));
-            "point"
+            table.point = Some(PointTable {
+                position: position.into(),
+                color,
+                intensity,
+                attenuation,
+            });
         }
         LightKind::Directional { direction } => {
-            inner.put("direction", vector(direction));
-            "directional"
+            table.directional = Some(DirectionalTable {
+                direction: direction.into(),
+                color,
+                intensity,
+            });
         }
         LightKind::Spot {
             position,
             direction,
-            inner: full,
+            inner,
             outer,
         } => {
-            inner.put("position", vector(position));
-            inner.put("direction", vector(direction));
             let is_read = |degrees: &f64| (0.0..=90.0).contains(degrees);
-            match exact::degrees(full).filter(is_read) {
-                Some(degrees) => inner.put("inner_deg", number(degrees)),
-                None => inner.put("inner", number(full)),
-            }
-            match exact::degrees(outer).filter(is_read) {
-                Some(degrees) => inner.put("outer_deg", number(degrees)),
-                None => inner.put("outer", number(outer)),
-            }
-            "spot"
+            let (inner_deg, inner) = angle(inner, is_read);
+            let (outer_deg, outer) = angle(outer, is_read);
+            let spot = SpotTable {
+                position: position.into(),
+                look_at: None,
+                direction: Some(direction.into()),
+                inner_deg: inner_deg.map(|it| AxisAngle(it).into()),
+                outer_deg: outer_deg.map(ConeAngle),
+                inner: inner.map(|it| AxisRadians(it).into()),
+                outer: outer.map(|it| ConeRadians(it).into()),
+                color,
+                intensity,
+                attenuation,
+            };
+            table.spot = Some(spot.into());
         }
         LightKind::Rectangle {
             center,
             edge_u,
             edge_v,
         } => {
-            inner.put("center", vector(center));
-            inner.put("edge_u", vector(edge_u));
-            inner.put("edge_v", vector(edge_v));
-            "rectangle"
+            table.rectangle = area!(RectangleLightTable {
+                center: center.into(),
+                edge_u: Some(Vector(edge_u).into()),
+                edge_v: Some(edge_v.into()),
+                look_at: None,
+                size: None
+            });
         }
         LightKind::Disc {
             center,
             normal,
             radius,
         } => {
-            inner.put("center", vector(center));
-            inner.put("normal", vector(normal));
-            inner.put("radius", number(radius));
-            "disc"
+            table.disc = area!(DiscLightTable {
+                center: center.into(),
+                look_at: None,
+                normal: Some(normal.into()),
+                radius: radius.into()
+            });
         }
         LightKind::Sphere { center, radius } => {
-            inner.put("center", vector(center));
-            inner.put("radius", number(radius));
-            "sphere"
+            table.sphere = area!(SphereLightTable {
+                center: center.into(),
+                radius: radius.into()
+            });
         }
-    };
-    let gray = light.color.x;
-    let is_gray = light
-        .color
-        .to_array()
-        .iter()
-        .all(|c| c.to_bits() == gray.to_bits());
-    if is_gray && may_split {
-        inner.put_if(gray != 1.0, "intensity", number32(gray));
-    } else {
-        inner.put_if(light.color != Vec3::ONE, "color", color(light.color));
     }
-    if light.kind.radiance().is_some() {
-        inner.put_if(
-            light.samples != SAMPLES,
-            "samples",
-            light.samples.to_string(),
-        );
-        inner.put_if(!light.visible, "visible", "false");
-    }
-    let fades = light.attenuation == Attenuation::InverseSquare;
-    let never_fades = matches!(light.kind, LightKind::Directional { .. });
-    inner.put_if(!fades && !never_fades, "attenuation", string("none"));
-    table.put(key, inner.inline());
+    table
 }

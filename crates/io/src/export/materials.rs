@@ -1,99 +1,99 @@
 //! The materials of a scene.
 
 use super::exact::{same_bits, shortest};
-use super::text::{Table, color, key, number32, string};
 use super::{ExportError, Writer};
+use crate::import::native::file::{
+    ColorOrTexture, ColorTable, CoverageTable, IOR, MaterialTable, OpticsTable, PhongTable,
+    ReflectTable, RefractTable, Spanned,
+};
+use crate::import::native::values::{Fraction, Positive, differing, short};
 use glam::Vec3;
 use glimray_scene::{
     Bsdf, Coverage, Fresnel, Material, MaterialProperty, Mixing, Phong, PhongTextures, Target,
 };
 
-/// The defaults of a native material.
-const SHININESS: f32 = 32.0;
-const IOR: f32 = 1.5;
-
 impl Writer<'_> {
-    pub fn materials(&mut self) -> Result<(), ExportError> {
-        let scene = self.scene;
-        if !scene.materials.is_empty() {
-            self.text.section("Materials");
-        }
-        for (index, material) in scene.materials.iter().enumerate() {
-            let mut table = Table::default();
-            match &material.bsdf {
-                Bsdf::MetallicRoughness(model) => {
-                    table.put("pbr", self.physical(material, model).inline());
-                    self.classical(&mut table, index, material, model);
+    pub fn material(
+        &mut self,
+        index: usize,
+        material: &Material,
+    ) -> Result<MaterialTable, ExportError> {
+        let own = &material.textures;
+        let height_map = self.height_map(own.normal, material.normal_scale)?;
+        let normal_map = match height_map {
+            Some(_) => None,
+            None => self.data_map(own.normal, material.normal_scale),
+        };
+        let table = MaterialTable {
+            normal_map,
+            height_map: height_map.map(Into::into),
+            occlusion_map: self.data_map(own.occlusion, material.occlusion_strength),
+            thin: material.thin.then_some(true),
+            shadow_catcher: material.shadow_catcher.then_some(true),
+            coverage: self.coverage(material),
+            emission: self.shade_unless(Vec3::ZERO, material.emission, own.emission),
+            two_sided: (!material.two_sided).then_some(false),
+            two_sided_emission: (!material.two_sided_emission).then_some(false),
+            ..MaterialTable::default()
+        };
+        Ok(match &material.bsdf {
+            Bsdf::MetallicRoughness(model) => {
+                let (phong, optics) = self.classical(index, material, model);
+                MaterialTable {
+                    pbr: Some(self.physical(material, model).into()),
+                    phong,
+                    optics,
+                    ..table
                 }
-                Bsdf::Phong(phong) => {
-                    let local = self.phong(index, phong);
-                    table.put_if(!local.is_empty(), "phong", local.inline());
-                    self.optics(&mut table, material, phong);
-                }
             }
-            let emission = self.shade(material.emission, material.textures.emission);
-            let shines =
-                !same_bits(material.emission, Vec3::ZERO) || material.textures.emission.is_some();
-            table.put_if(shines, "emission", emission);
-            table.put_if(!material.two_sided, "two_sided", "false");
-            let is_from_front = !material.two_sided_emission;
-            table.put_if(is_from_front, "two_sided_emission", "false");
-            let coverage = self.coverage(material);
-            table.put_if(!coverage.is_empty(), "coverage", coverage.inline());
-            table.put_if(material.thin, "thin", "true".to_owned());
-            table.put_if(material.shadow_catcher, "shadow_catcher", "true");
-            let own = &material.textures;
-            if let Some(map) = self.height_map(own.normal, material.normal_scale)? {
-                table.put("height_map", map);
-            } else if let Some(map) = self.data_map(own.normal, material.normal_scale) {
-                table.put("normal_map", map);
+            Bsdf::Phong(phong) => {
+                let local = self.phong(index, phong);
+                let is_plain = matches!(
+                    local,
+                    PhongTable {
+                        diffuse: None,
+                        specular: None,
+                        shininess: None,
+                        ambient: None,
+                    }
+                );
+                let phong_table = (!is_plain).then_some(local);
+                self.optics(
+                    MaterialTable {
+                        phong: phong_table,
+                        ..table
+                    },
+                    material,
+                    phong,
+                )
             }
-            if let Some(map) = self.data_map(own.occlusion, material.occlusion_strength) {
-                table.put("occlusion_map", map);
-            }
-            self.text.gap();
-            let name = key(&self.names.materials[index]);
-            self.text.head(&format!("[materials.{name}]"));
-            self.text.lines(&table);
-        }
-        Ok(())
+        })
     }
 
-    /// How much of the surface is there; empty if all of it is.
-    fn coverage(&self, material: &Material) -> Table {
-        let mut table = Table::default();
-        let least = match material.coverage {
-            Coverage::Opaque => return table,
-            Coverage::Mask(least) => Some(least),
+    /// How much of the surface is there; `None` if all of it is.
+    fn coverage(&self, material: &Material) -> Option<CoverageTable> {
+        let mask = match material.coverage {
+            Coverage::Opaque => return None,
+            Coverage::Mask(least) => Some(Fraction(least)),
             Coverage::Blend => None,
         };
-        table.put("alpha", number32(material.alpha));
-        if let Some(map) = material.textures.alpha {
-            table.put("map", self.shade(Vec3::ONE, Some(map)));
-        }
-        if let Some(least) = least {
-            table.put("mask", number32(least));
-        }
-        table
+        let map = material.textures.alpha;
+        Some(CoverageTable {
+            alpha: differing(material.alpha, 1.0),
+            map: map.map(|map| self.shade(Vec3::ONE, Some(map))),
+            mask,
+        })
     }
 
-    pub fn phong(&self, index: usize, phong: &Phong) -> Table {
-        let PhongTextures {
-            diffuse,
-            specular,
-            ambient,
-            ..
-        } = phong.textures;
-        let mut table = Table::default();
-        let is_plain = same_bits(phong.diffuse, Vec3::splat(0.8)) && diffuse.is_none();
-        table.put_if(!is_plain, "diffuse", self.shade(phong.diffuse, diffuse));
-        let is_matt = same_bits(phong.specular, Vec3::ZERO) && specular.is_none();
-        table.put_if(!is_matt, "specular", self.shade(phong.specular, specular));
-        let differs = phong.shininess != SHININESS;
-        table.put_if(differs, "shininess", number32(phong.shininess));
-        let own = !has_same_ambient(phong) || self.is_own_ambient(index);
-        table.put_if(own, "ambient", self.shade(phong.ambient, ambient));
-        table
+    pub fn phong(&self, index: usize, phong: &Phong) -> PhongTable {
+        let (textures, plain) = (&phong.textures, PhongTable::plain());
+        let has_own = !has_same_ambient(phong) || self.is_own_ambient(index);
+        PhongTable {
+            diffuse: self.shade_unless(plain.diffuse, phong.diffuse, textures.diffuse),
+            specular: self.shade_unless(plain.specular, phong.specular, textures.specular),
+            shininess: differing(phong.shininess, plain.shininess),
+            ambient: has_own.then(|| self.shade(phong.ambient, textures.ambient)),
+        }
     }
 
     /// Whether the diffuse colour of a material is animated while its ambient colour, which is the same
@@ -107,18 +107,31 @@ impl Writer<'_> {
     }
 
     /// A colour, with or without a texture.
-    pub fn shade(&self, constant: Vec3, texture: Option<usize>) -> String {
+    fn shade(&self, constant: Vec3, texture: Option<usize>) -> Spanned<ColorOrTexture> {
         let Some(texture) = texture else {
-            return color(constant);
+            return ColorOrTexture::Color(constant.into()).into();
         };
-        let mut table = Table::default();
-        table.put("texture", string(&self.names.textures[texture]));
-        table.put_if(!same_bits(constant, Vec3::ONE), "color", color(constant));
-        table.inline()
+        let table = ColorTable {
+            texture: Some(self.names.texture(texture)),
+            color: differing(constant, Vec3::ONE),
+            ..ColorTable::default()
+        };
+        ColorOrTexture::Table(Box::new(table)).into()
     }
 
-    /// Reflection and transmission.
-    fn optics(&self, table: &mut Table, material: &Material, phong: &Phong) {
+    /// A colour, unless it is the default one.
+    pub fn shade_unless(
+        &self,
+        default: Vec3,
+        constant: Vec3,
+        texture: Option<usize>,
+    ) -> Option<Spanned<ColorOrTexture>> {
+        let is_default = texture.is_none() && same_bits(constant, default);
+        (!is_default).then(|| self.shade(constant, texture))
+    }
+
+    /// Adds reflection and transmission to `table`.
+    fn optics(&self, table: MaterialTable, material: &Material, phong: &Phong) -> MaterialTable {
         let PhongTextures {
             reflect, transmit, ..
         } = phong.textures;
@@ -131,46 +144,53 @@ impl Writer<'_> {
         let is_layered = phong.mixing == Mixing::Layer;
         let is_bare = phong.ior == 1.0 && phong.fresnel == Fresnel::None;
         if is_layered && is_opaque && is_dull && is_bare {
-            return;
+            return table;
         }
-        let is_read = (0.01..=100.0).contains(&phong.ior);
-        if is_layered && is_read && is_opaque {
-            table.put("reflect", self.reflect(phong).inline());
-        } else if let (true, true, Some(refract)) =
-            (is_layered, is_read, self.refract(material, phong))
-        {
-            if !is_dull && phong.fresnel == Fresnel::None {
-                let mut reflect = Table::default();
-                self.mirror(&mut reflect, phong);
-                table.put("reflect", reflect.inline());
+        let is_read = is_layered && (0.01..=100.0).contains(&phong.ior);
+        if is_read && is_opaque {
+            let reflect = ReflectTable {
+                fresnel: differing(phong.fresnel, Fresnel::None),
+                ior: differing(phong.ior, IOR),
+                ..self.mirror(phong)
+            };
+            let reflect = Some(reflect);
+            return MaterialTable { reflect, ..table };
+        }
+        match self.refract(material, phong).filter(|_| is_read) {
+            Some(refract) => {
+                let has_mirror = !is_dull && phong.fresnel == Fresnel::None;
+                MaterialTable {
+                    reflect: has_mirror.then(|| self.mirror(phong)),
+                    refract: Some(refract.into()),
+                    ..table
+                }
             }
-            table.put("refract", refract.inline());
-        } else {
-            table.put("optics", self.directly(material, phong).inline());
+            None => MaterialTable {
+                optics: Some(self.directly(material, phong).into()),
+                ..table
+            },
         }
-    }
-
-    fn reflect(&self, phong: &Phong) -> Table {
-        let mut table = Table::default();
-        self.mirror(&mut table, phong);
-        put_fresnel(&mut table, phong.fresnel, Fresnel::None);
-        table.put_if(phong.ior != IOR, "ior", number32(phong.ior));
-        table
     }
 
     /// The reflected fraction and its colour.
-    fn mirror(&self, table: &mut Table, phong: &Phong) {
+    fn mirror(&self, phong: &Phong) -> ReflectTable {
         let amount = phong.reflect.x;
         let texture = phong.textures.reflect;
-        if texture.is_none() && same_bits(phong.reflect, Vec3::splat(amount)) && amount <= 1.0 {
-            table.put_if(amount != 1.0, "amount", number32(amount));
-        } else {
-            table.put("color", self.shade(phong.reflect, texture));
+        let is_amount =
+            texture.is_none() && same_bits(phong.reflect, Vec3::splat(amount)) && amount <= 1.0;
+        let (amount, color) = match is_amount {
+            true => (differing(amount, 1.0), None),
+            false => (None, Some(self.shade(phong.reflect, texture))),
+        };
+        ReflectTable {
+            amount,
+            color,
+            ..ReflectTable::default()
         }
     }
 
     /// The `refract` table, if one expresses the transmission exactly, beside a mirror or with its own Fresnel term.
-    fn refract(&self, material: &Material, phong: &Phong) -> Option<Table> {
+    fn refract(&self, material: &Material, phong: &Phong) -> Option<RefractTable> {
         let opacity = phong.opacity.to_bits();
         let gives = |amount: f32| (1.0 - amount).to_bits() == opacity;
         let near = f64::from(1.0 - phong.opacity);
@@ -207,42 +227,29 @@ impl Writer<'_> {
             let of = |n: [f64; 3]| glam::DVec3::from(n).as_vec3();
             of(shortest(near, |n| tint(of(n)))?)
         };
-        let texture = phong.textures.transmit;
-        let mut table = Table::default();
-        table.put_if(amount != 1.0, "amount", number32(amount));
-        table.put_if(phong.ior != IOR, "ior", number32(phong.ior));
-        let is_clear = same_bits(through, Vec3::ONE) && texture.is_none();
-        table.put_if(!is_clear, "color", self.shade(through, texture));
-        put_absorption(&mut table, phong);
-        put_fresnel(&mut table, phong.fresnel, Fresnel::Exact);
-        let differs = material.priority != 0;
-        table.put_if(differs, "priority", material.priority.to_string());
-        Some(table)
+        Some(RefractTable {
+            amount: differing(amount, 1.0),
+            ior: differing(phong.ior, IOR),
+            color: self.shade_unless(Vec3::ONE, through, phong.textures.transmit),
+            absorption: differing(phong.absorption, Vec3::ZERO),
+            fresnel: differing(phong.fresnel, Fresnel::Exact),
+            priority: differing(material.priority, 0),
+        })
     }
 
-    pub fn directly(&self, material: &Material, phong: &Phong) -> Table {
-        let PhongTextures {
-            reflect, transmit, ..
-        } = phong.textures;
-        let mut table = Table::default();
-        let shows =
-            |c: Vec3, texture: Option<usize>| !same_bits(c, Vec3::ZERO) || texture.is_some();
-        let mirrors = shows(phong.reflect, reflect);
-        table.put_if(mirrors, "reflect", self.shade(phong.reflect, reflect));
-        let passes = shows(phong.transmit, transmit);
-        table.put_if(passes, "transmit", self.shade(phong.transmit, transmit));
-        table.put_if(phong.opacity != 1.0, "opacity", number32(phong.opacity));
-        table.put_if(phong.ior != 1.0, "ior", number32(phong.ior));
-        put_absorption(&mut table, phong);
-        put_fresnel(&mut table, phong.fresnel, Fresnel::None);
-        let differs = material.priority != 0;
-        table.put_if(differs, "priority", material.priority.to_string());
-        match phong.mixing {
-            Mixing::Layer => {}
-            Mixing::Sum => table.put("mixing", string("sum")),
-            Mixing::Blend => table.put("mixing", string("blend")),
+    pub fn directly(&self, material: &Material, phong: &Phong) -> OpticsTable {
+        let (textures, plain) = (&phong.textures, Phong::default());
+        let has_ior = phong.ior != plain.ior;
+        OpticsTable {
+            reflect: self.shade_unless(plain.reflect, phong.reflect, textures.reflect),
+            transmit: self.shade_unless(plain.transmit, phong.transmit, textures.transmit),
+            opacity: differing(phong.opacity, plain.opacity),
+            ior: has_ior.then(|| Positive(short(phong.ior))),
+            absorption: differing(phong.absorption, plain.absorption),
+            fresnel: differing(phong.fresnel, plain.fresnel),
+            priority: differing(material.priority, 0),
+            mixing: differing(phong.mixing, plain.mixing),
         }
-        table
     }
 }
 
@@ -250,19 +257,4 @@ impl Writer<'_> {
 pub(super) fn has_same_ambient(phong: &Phong) -> bool {
     let textures = &phong.textures;
     same_bits(phong.ambient, phong.diffuse) && textures.ambient == textures.diffuse
-}
-
-fn put_absorption(table: &mut Table, phong: &Phong) {
-    let clear = same_bits(phong.absorption, Vec3::ZERO);
-    let numbers = phong.absorption.to_array().map(number32);
-    table.put_if(!clear, "absorption", super::text::list(numbers));
-}
-
-fn put_fresnel(table: &mut Table, fresnel: Fresnel, default: Fresnel) {
-    let name = match fresnel {
-        Fresnel::None => "none",
-        Fresnel::Exact => "exact",
-        Fresnel::Schlick => "schlick",
-    };
-    table.put_if(fresnel != default, "fresnel", string(name));
 }

@@ -1,5 +1,6 @@
 //! Names for everything that a scene file refers to.
 
+use crate::import::native::file::Spanned;
 use glimray_scene::{Scene, Target};
 use std::collections::HashSet;
 
@@ -51,6 +52,21 @@ impl Names {
             cameras,
             lights,
         }
+    }
+
+    /// A material as a value.
+    pub fn material(&self, index: usize) -> Spanned<String> {
+        self.materials[index].clone().into()
+    }
+
+    /// A texture as a value.
+    pub fn texture(&self, index: usize) -> Spanned<String> {
+        self.textures[index].clone().into()
+    }
+
+    /// A node as a value; `None` is the world.
+    pub fn node(&self, index: Option<usize>) -> Option<Spanned<String>> {
+        index.map(|index| self.nodes[index].clone().into())
     }
 }
 

@@ -1,80 +1,82 @@
-//! Scene-wide settings: output, background, ambient light and shadows.
+//! The defaults of pictures, and the background.
 
 use super::pictures::Role;
-use super::text::{Table, color, list, number, number32};
 use super::{ExportError, Writer, exact};
-use glam::Vec3;
-use glimray_scene::{
-    Antialias, Backdrop, Background, Filter, LightTransport, Origin, OutputDefaults, Shadows,
-    ToneCurve, Transfer, sky,
+use crate::import::native::file::{
+    BackgroundTable, ColorOrBackground, NamedBackground, OutputTable, SkyTable, Spanned,
 };
+use crate::import::native::values::{Angle, BackdropValue, Number, Size, differing};
+use glam::Vec3;
+use glimray_scene::{Background, Origin, OutputDefaults, Pattern, sky};
 
 impl Writer<'_> {
-    /// Keys outside of tables.
-    pub fn root(&mut self) -> Result<(), ExportError> {
-        let scene = self.scene;
-        let mut table = Table::default();
-        let is_black = |c: Vec3| c.to_array().iter().all(|x| x.to_bits() == 0);
-        match &scene.background {
-            Background::Color(plain) => {
-                table.put_if(!is_black(*plain), "background", color(*plain))
+    pub fn background(&mut self) -> Result<Option<Spanned<ColorOrBackground>>, ExportError> {
+        let table = match self.scene.background {
+            Background::Color(color) => {
+                let color = differing(color, Vec3::ZERO).map(ColorOrBackground::Color);
+                return Ok(color.map(Into::into));
             }
-            Background::Gradient { bottom, top } => {
-                let mut inner = Table::default();
-                inner.put("bottom", color(*bottom));
-                inner.put("top", color(*top));
-                table.put("background", inner.inline());
+            Background::Gradient { bottom, top } => BackgroundTable {
+                bottom: Some(bottom.into()),
+                top: Some(top.into()),
+                ..BackgroundTable::default()
+            },
+            Background::Picture {
+                picture,
+                strength,
+                rotation,
+            } => {
+                let (degrees, radians) = exact::angle(rotation, |degrees| degrees.abs() < 360.0);
+                let table = BackgroundTable {
+                    strength: differing(strength, 1.0),
+                    rotation_deg: differing(degrees.unwrap_or(0.0), 0.0),
+                    rotation: radians.map(Number),
+                    ..BackgroundTable::default()
+                };
+                self.environment(picture, table)?
             }
-            Background::Picture { .. } => table.put("background", self.background_picture()?),
-        }
-        table.put_if(!is_black(scene.ambient), "ambient", color(scene.ambient));
-        let is_filtered = scene.shadows == Shadows::Filtered;
-        table.put_if(is_filtered, "shadows", "\"filtered\"");
-        table.put_if(scene.staged, "staged", "true");
-        if !table.is_empty() {
-            self.text.gap();
-            self.text.lines(&table);
-        }
-        Ok(())
+        };
+        let is_plain_sky = matches!(&table, BackgroundTable {
+            bottom: None,
+            top: None,
+            picture: None,
+            sky: Some(sky),
+            strength: None,
+            rotation_deg: None,
+            rotation: None,
+        } if sky.elevation_deg.is_none() && sky.azimuth_deg.is_none());
+        let background = match is_plain_sky {
+            true => ColorOrBackground::Name(NamedBackground::Sky),
+            false => ColorOrBackground::Table(Box::new(table)),
+        };
+        Ok(Some(background.into()))
     }
 
-    fn background_picture(&mut self) -> Result<String, ExportError> {
-        let Background::Picture {
-            picture,
-            strength,
-            rotation,
-        } = self.scene.background
-        else {
-            return Ok(String::new());
-        };
-        let mut table = Table::default();
+    /// `table` with the picture of the background.
+    fn environment(
+        &mut self,
+        picture: usize,
+        table: BackgroundTable,
+    ) -> Result<BackgroundTable, ExportError> {
         // Textures write their images first: this image may be among them, under the same name.
         for texture in &self.scene.textures {
-            if let glimray_scene::Pattern::Picture { picture, .. } = texture.pattern {
+            if let Pattern::Picture { picture, .. } = texture.pattern {
                 self.picture(picture, self.role(picture))?;
             }
         }
-        match sky(&self.scene.pictures[picture].origin) {
-            Some(sky) => {
-                if sky.is_empty() && strength == 1.0 && rotation.to_bits() == 0 {
-                    return Ok("\"sky\"".to_owned());
-                }
-                table.put("sky", sky.inline());
-            }
-            None => table.put("picture", self.picture(picture, Role::Color)?),
-        }
-        table.put_if(strength != 1.0, "strength", number32(strength));
-        if rotation.to_bits() != 0 {
-            let degrees = exact::degrees(rotation).filter(|degrees| degrees.abs() < 360.0);
-            match degrees {
-                Some(degrees) => table.put("rotation_deg", number(degrees)),
-                None => table.put("rotation", number(rotation)),
-            }
-        }
-        Ok(table.inline())
+        Ok(match self.scene.pictures[picture].origin {
+            Origin::Sky { elevation, azimuth } => BackgroundTable {
+                sky: Some(sky(elevation, azimuth).into()),
+                ..table
+            },
+            _ => BackgroundTable {
+                picture: Some(self.picture(picture, Role::Color)?.into()),
+                ..table
+            },
+        })
     }
 
-    pub fn output(&mut self) {
+    pub fn output(&self) -> OutputTable {
         let plain = OutputDefaults::default();
         let OutputDefaults {
             size,
@@ -97,116 +99,41 @@ impl Writer<'_> {
             backdrop,
             denoise,
         } = self.scene.output.clone();
-        let mut table = Table::default();
-        let size_text = list([size.0.to_string(), size.1.to_string()]);
-        table.put_if(size != plain.size, "size", size_text);
-        let is_path = integrator == LightTransport::Path;
-        table.put_if(is_path, "integrator", "\"path\"");
-        let is_said = samples != self.scene.default_samples();
-        table.put_if(is_said, "samples", samples.to_string());
-        if let Some(antialias) = antialias {
-            table.put(
-                "antialias",
-                match antialias {
-                    Antialias::None => "\"none\"",
-                    Antialias::Stratified => "\"stratified\"",
-                    Antialias::Adaptive => "\"adaptive\"",
-                },
-            );
-        }
-        table.put_if(denoise, "denoise", "true");
-        table.put_if(noise != plain.noise, "noise", number32(noise));
-        table.put_if(
-            max_depth != integrator.max_depth(),
-            "max_depth",
-            max_depth.to_string(),
-        );
-        table.put_if(
-            filter != plain.filter,
-            "filter",
-            match filter {
-                Filter::Box => "\"box\"",
-                Filter::Tent => "\"tent\"",
-                Filter::Gaussian => "\"gaussian\"",
-                Filter::BlackmanHarris => "\"blackman-harris\"",
-                Filter::Mitchell => "\"mitchell\"",
-            },
-        );
-        if let Some(radius) = filter_radius {
-            table.put("filter_radius", number32(radius));
-        }
-        let factor = number32(light_samples);
-        table.put_if(
-            light_samples != plain.light_samples,
-            "light_samples",
-            factor,
-        );
-        table.put_if(
-            exposure_ev != plain.exposure_ev,
-            "exposure_ev",
-            number32(exposure_ev),
-        );
-        table.put_if(auto_exposure, "auto_exposure", "true");
-        if let Some(tone) = tone {
-            table.put("tone", tone_name(tone));
-        }
-        let path_name = tone_name(path_tone);
-        table.put_if(path_tone != plain.path_tone, "path_tone", path_name);
-        table.put_if(
-            transfer != plain.transfer,
-            "transfer",
-            match transfer {
-                Transfer::Srgb => "\"srgb\"",
-                Transfer::Linear => "\"linear\"",
-            },
-        );
-        table.put_if(fps != plain.fps, "fps", number(fps));
-        if let Some(duration) = duration {
-            table.put("duration", number(duration));
-        }
-        if shutter.open == 0.0 {
-            table.put_if(shutter.close != 0.0, "shutter", number(shutter.close));
-        } else {
-            table.put(
-                "shutter",
-                list([number(shutter.open), number(shutter.close)]),
-            );
-        }
-        match backdrop {
-            Backdrop::Background => {}
-            Backdrop::Color(plain) => table.put("backdrop", color(plain)),
-            Backdrop::Transparent => table.put("backdrop", "\"transparent\""),
-        }
-        if !table.is_empty() {
-            self.text.gap();
-            self.text.head("[output]");
-            self.text.lines(&table);
+        OutputTable {
+            size: (size != plain.size).then(|| Size(size.into())),
+            integrator: differing(integrator, plain.integrator),
+            samples: differing(samples, self.scene.default_samples()),
+            antialias: antialias.map(Into::into),
+            noise: differing(noise, plain.noise),
+            max_depth: differing(max_depth, integrator.max_depth()),
+            filter: differing(filter, plain.filter),
+            filter_radius: filter_radius.map(Into::into),
+            light_samples: differing(light_samples, plain.light_samples),
+            exposure_ev: differing(exposure_ev, plain.exposure_ev),
+            auto_exposure: auto_exposure.then_some(true),
+            tone: tone.map(Into::into),
+            path_tone: differing(path_tone, plain.path_tone),
+            transfer: differing(transfer, plain.transfer),
+            fps: differing(fps, plain.fps),
+            duration: duration.map(Into::into),
+            shutter: differing(
+                [shutter.open, shutter.close],
+                [plain.shutter.open, plain.shutter.close],
+            ),
+            denoise: denoise.then_some(true),
+            backdrop: BackdropValue::of(backdrop),
         }
     }
 }
 
-/// The place of the sun in a sky, in the nearest degrees; `None` if the picture is another one.
-fn sky(origin: &Origin) -> Option<Table> {
-    let Origin::Sky { elevation, azimuth } = *origin else {
-        return None;
+/// The place of the sun, in the nearest degrees.
+fn sky(elevation: f64, azimuth: f64) -> SkyTable {
+    let degrees = |radians: f64, default| {
+        let near = exact::degrees(radians).unwrap_or_else(|| radians.to_degrees());
+        differing::<_, Angle>(near, default)
     };
-    let mut table = Table::default();
-    for (key, radians, default) in [
-        ("elevation_deg", elevation, sky::SUN_ELEVATION_DEG),
-        ("azimuth_deg", azimuth, sky::SUN_AZIMUTH_DEG),
-    ] {
-        let degrees = exact::degrees(radians).unwrap_or_else(|| radians.to_degrees());
-        table.put_if(degrees != default, key, number(degrees));
-    }
-    Some(table)
-}
-
-fn tone_name(tone: ToneCurve) -> &'static str {
-    match tone {
-        ToneCurve::None => "\"none\"",
-        ToneCurve::Aces => "\"aces\"",
-        ToneCurve::Agx => "\"agx\"",
-        ToneCurve::Reinhard => "\"reinhard\"",
-        ToneCurve::Neutral => "\"neutral\"",
+    SkyTable {
+        elevation_deg: degrees(elevation, sky::SUN_ELEVATION_DEG),
+        azimuth_deg: degrees(azimuth, sky::SUN_AZIMUTH_DEG),
     }
 }

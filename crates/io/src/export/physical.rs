@@ -1,20 +1,24 @@
 //! Metallic-roughness materials of a scene.
 
 use super::Writer;
-use super::exact::{same_bits, shortest};
-use super::text::{Table, color, list, number, number32, string};
+use super::exact::shortest;
+use crate::import::native::file::{
+    FractionOrTexture, NumberTable, OpticsTable, PbrTable, PhongTable, Spanned,
+};
+use crate::import::native::values::{
+    Angle, Color, Fraction, Positive, Thicknesses, differing, short,
+};
 use glam::Vec3;
-use glimray_scene::{LayerTextures, Material, MetallicRoughness, Phong};
+use glimray_scene::{Material, MetallicRoughness, Phong};
 
 impl Writer<'_> {
-    /// Adds keys for the classical integrators, where these show `material` otherwise than what follows from `model`.
+    /// Keys for the classical integrators, where these show `material` otherwise than what follows from `model`.
     pub fn classical(
         &self,
-        table: &mut Table,
         index: usize,
         material: &Material,
         model: &MetallicRoughness,
-    ) {
+    ) -> (Option<PhongTable>, Option<Spanned<OpticsTable>>) {
         let (own, derived) = (material.classical(), model.derived_phong(material.tint));
         let local = |phong: &Phong| {
             let colors = [phong.diffuse, phong.specular, phong.ambient];
@@ -22,9 +26,7 @@ impl Writer<'_> {
             let textures = (it.diffuse, it.specular, it.ambient);
             (format!("{colors:?}"), phong.shininess.to_bits(), textures)
         };
-        if local(&own) != local(&derived) || self.is_own_ambient(index) {
-            table.put("phong", self.phong(index, &own).inline());
-        }
+        let differs = local(&own) != local(&derived) || self.is_own_ambient(index);
         let optical = |phong: &Phong| {
             let colors = [phong.reflect, phong.transmit, phong.absorption];
             let numbers = [phong.opacity, phong.ior].map(f32::to_bits);
@@ -32,108 +34,82 @@ impl Writer<'_> {
             let ways = (phong.fresnel, phong.mixing);
             (format!("{colors:?}"), numbers, ways, textures)
         };
-        if optical(&own) != optical(&derived) {
-            table.put("optics", self.directly(material, &own).inline());
-        }
+        let is_other = optical(&own) != optical(&derived);
+        (
+            differs.then(|| self.phong(index, &own)),
+            is_other.then(|| self.directly(material, &own).into()),
+        )
     }
 
     /// The parameters that are not the defaults of a native scene.
-    pub fn physical(&self, material: &Material, model: &MetallicRoughness) -> Table {
-        let layers = &model.textures;
-        let none = MetallicRoughness::default();
-        let mut table = Table::default();
-        macro_rules! numbers {
-            ($($name:ident $default:expr),*) => {
-                $(self.fraction(&mut table, stringify!($name), model.$name, layers.$name, $default);)*
-            };
-        }
+    pub fn physical(&self, material: &Material, model: &MetallicRoughness) -> PbrTable {
+        let (layers, plain) = (&model.textures, PbrTable::plain());
+        let distance = model.attenuation_distance;
+        let rotation = model.anisotropy_rotation;
+        let thickness = model.iridescence_thickness;
+        let mut table = PbrTable {
+            tint: differing::<_, Color>(material.tint, Vec3::ONE).map(Into::into),
+            ior: differing(model.ior, plain.ior),
+            thickness: differing(model.thickness, plain.thickness),
+            attenuation_color: differing::<_, Color>(model.attenuation_color, Vec3::ONE)
+                .map(Into::into),
+            attenuation_distance: distance.is_finite().then(|| Positive(short(distance))),
+            priority: differing(material.priority, 0),
+            clearcoat_normal_map: self
+                .data_map(layers.clearcoat_normal, model.clearcoat_normal_scale),
+            iridescence_ior: differing(model.iridescence_ior, plain.iridescence_ior),
+            iridescence_thickness: differing::<_, Thicknesses>(
+                thickness,
+                plain.iridescence_thickness,
+            )
+            .map(Into::into),
+            iridescence_thickness_map: (layers.iridescence_thickness)
+                .map(|map| self.number(map, None).into()),
+            anisotropy_rotation_deg: (rotation.to_bits() != 0).then(|| Angle(degrees(rotation))),
+            dispersion: differing(model.dispersion, plain.dispersion),
+            unlit: model.unlit.then_some(true),
+            ..PbrTable::default()
+        };
         macro_rules! colors {
-            ($($name:ident $default:expr),*) => {
-                $(
-                    let is_default = same_bits(model.$name, $default) && layers.$name.is_none();
-                    let shade = self.shade(model.$name, layers.$name);
-                    table.put_if(!is_default, stringify!($name), shade);
-                )*
+            ($($name:ident)*) => {
+                $(table.$name = self.shade_unless(plain.$name, model.$name, layers.$name);)*
             };
         }
-        macro_rules! plain {
-            ($($name:ident),*) => {
-                $(table.put_if(model.$name != none.$name, stringify!($name), number32(model.$name));)*
+        macro_rules! numbers {
+            ($($name:ident)*) => {
+                $(table.$name = self.fraction(plain.$name, model.$name, layers.$name);)*
             };
         }
-        colors!(base_color Vec3::splat(0.8));
-        table.put_if(
-            !same_bits(material.tint, Vec3::ONE),
-            "tint",
-            color(material.tint),
-        );
-        numbers!(metallic 0.0, roughness 0.5);
-        plain!(ior);
-        numbers!(specular 1.0);
-        colors!(specular_color Vec3::ONE);
-        numbers!(transmission 0.0);
-        plain!(thickness);
-        let tint = model.attenuation_color;
-        table.put_if(
-            !same_bits(tint, Vec3::ONE),
-            "attenuation_color",
-            color(tint),
-        );
-        plain!(attenuation_distance);
-        table.put_if(
-            material.priority != 0,
-            "priority",
-            material.priority.to_string(),
-        );
-        numbers!(clearcoat 0.0, clearcoat_roughness 0.0);
-        let map = self.data_map(layers.clearcoat_normal, model.clearcoat_normal_scale);
-        if let Some(map) = map {
-            table.put("clearcoat_normal_map", map);
-        }
-        colors!(sheen_color Vec3::ZERO);
-        numbers!(sheen_roughness 0.0, anisotropy 0.0, iridescence 0.0);
-        plain!(iridescence_ior);
-        self.film(&mut table, model, layers);
-        table.put_if(
-            model.anisotropy_rotation.to_bits() != 0,
-            "anisotropy_rotation_deg",
-            number(degrees(model.anisotropy_rotation)),
-        );
-        plain!(dispersion);
-        numbers!(diffuse_transmission 0.0);
-        colors!(diffuse_transmission_color Vec3::ONE);
-        table.put_if(model.unlit, "unlit", "true");
+        colors!(base_color specular_color sheen_color diffuse_transmission_color);
+        numbers!(metallic roughness specular transmission clearcoat clearcoat_roughness);
+        numbers!(sheen_roughness anisotropy iridescence diffuse_transmission);
         table
     }
 
-    fn film(&self, table: &mut Table, model: &MetallicRoughness, layers: &LayerTextures) {
-        let range = model.iridescence_thickness;
-        let differs = range != MetallicRoughness::default().iridescence_thickness;
-        table.put_if(differs, "iridescence_thickness", list(range.map(number32)));
-        if let Some(map) = layers.iridescence_thickness {
-            let mut named = Table::default();
-            named.put("texture", string(&self.names.textures[map]));
-            table.put("iridescence_thickness_map", named.inline());
-        }
-    }
-
-    /// A number, with or without a texture.
+    /// A number, with or without a texture, unless it is the default one.
     fn fraction(
         &self,
-        table: &mut Table,
-        key: &'static str,
+        default: f32,
         value: f32,
         texture: Option<usize>,
-        default: f32,
-    ) {
-        let Some(texture) = texture else {
-            table.put_if(value != default, key, number32(value));
-            return;
+    ) -> Option<Spanned<FractionOrTexture>> {
+        let number = match texture {
+            None => FractionOrTexture::Fraction(differing(value, default)?),
+            Some(texture) => {
+                let table = self.number(texture, differing(value, 1.0));
+                FractionOrTexture::Table(Box::new(table))
+            }
         };
-        let mut named = Table::default();
-        named.put("texture", string(&self.names.textures[texture]));
-        named.put_if(value != 1.0, "value", number32(value));
-        table.put(key, named.inline());
+        Some(number.into())
+    }
+
+    /// A texture of numbers, and a factor on it.
+    fn number(&self, texture: usize, value: Option<Fraction>) -> NumberTable {
+        NumberTable {
+            texture: Some(self.names.texture(texture)),
+            value,
+            ..NumberTable::default()
+        }
     }
 }
 

@@ -1,6 +1,5 @@
 //! Images as files that preserve every texel: PNG if it can represent them exactly, otherwise OpenEXR.
 
-use super::text::string;
 use super::{ExportError, Writer};
 use glam::Vec4;
 use glimray_scene::{Origin, Pattern, Picture, Texels, Textures, linear_from_srgb};
@@ -8,10 +7,10 @@ use image::{ExtendedColorType, ImageEncoder, ImageError};
 use std::io::Cursor;
 
 impl Writer<'_> {
-    /// The name of the file with an image that is read in this role, in quotes.
+    /// The name of the file with an image that is read in this role.
     pub fn picture(&mut self, index: usize, role: Role) -> Result<String, ExportError> {
         if let Some(name) = self.pictures.get(&(index, role)) {
-            return Ok(string(name));
+            return Ok(name.clone());
         }
         let own = &self.scene.pictures[index];
         let (picture, role) = match &own.origin {
@@ -26,9 +25,8 @@ impl Writer<'_> {
         })?;
         let number = self.pictures.len() + 1;
         let name = self.beside.add(&format!("picture-{number}"), ending, bytes);
-        let quoted = string(&name);
-        self.pictures.insert((index, role), name);
-        Ok(quoted)
+        self.pictures.insert((index, role), name.clone());
+        Ok(name)
     }
 }
 

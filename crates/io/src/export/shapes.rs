@@ -4,41 +4,62 @@
 use super::Writer;
 use super::exact::{is_same, shortest, transform};
 use super::runs::{LEAST, runs};
-use super::text::{Table, number, string, vector};
+use crate::import::native::file::{
+    BoxTable, ConeTable, CylinderTable, DiscTable, EllipsoidTable, MaterialRef, ObjectTable,
+    PlaneTable, RectangleTable, Spanned, SphereTable, TorusTable,
+};
+use crate::import::native::values::{Length, Positive, Vector, differing};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use glimray_scene::{CanonicalShape, Geometry, Shape};
 
-impl Writer<'_> {
-    pub fn shapes(&mut self) {
-        let shapes = &self.scene.shapes;
-        if !shapes.is_empty() {
-            self.text.section("Surfaces");
+/// An object with the table of its surface.
+macro_rules! object {
+    ($key:ident: $table:expr) => {
+        ObjectTable {
+            $key: Some($table.into()),
+            ..ObjectTable::default()
         }
-        for run in runs(shapes, is_alike) {
-            let first = &shapes[run.start];
-            let places: Option<Vec<_>> = shapes[run.clone()].iter().map(canonical_place).collect();
-            match places {
-                Some(places) if run.len() >= LEAST => {
-                    let (key, canonical, _) = in_place(first.geometry);
-                    let mut table = Table::default();
-                    table.put(key, canonical.inline());
-                    table.put("material", string(&self.names.materials[first.material]));
-                    if let Some(node) = first.node {
-                        table.put("carried_by", string(&self.names.nodes[node]));
-                    }
-                    self.copies(table, key, &places);
-                }
-                _ => shapes[run].iter().for_each(|shape| self.shape(shape)),
-            }
-        }
-    }
+    };
+}
 
-    fn shape(&mut self, shape: &Shape) {
-        let (key, own, place) = readable(shape.geometry);
-        let mut table = Table::default();
-        table.put(key, own.inline());
-        table.put("material", string(&self.names.materials[shape.material]));
-        self.object(table, shape.node, transform(place));
+impl Writer<'_> {
+    pub fn shapes(&mut self) -> Vec<Spanned<ObjectTable>> {
+        let shapes = &self.scene.shapes;
+        let mut tables = Vec::new();
+        for run in runs(shapes, is_alike) {
+            let run = &shapes[run];
+            let places: Option<Vec<_>> = run.iter().map(canonical_place).collect();
+            let of_run = match places {
+                Some(places) if run.len() >= LEAST => {
+                    let repeat = self.copies("surface", &places);
+                    let (table, _) = in_place(run[0].geometry);
+                    vec![ObjectTable { repeat, ..table }]
+                }
+                _ => run.iter().map(|shape| table(shape.geometry)).collect(),
+            };
+            tables.extend(of_run.into_iter().map(|table| {
+                let material = MaterialRef::Name(self.names.materials[run[0].material].clone());
+                let object = ObjectTable {
+                    material: Some(material.into()),
+                    carried_by: self.names.node(run[0].node),
+                    ..table
+                };
+                object.into()
+            }));
+        }
+        tables
+    }
+}
+
+/// A surface with the transform that its table lacks.
+fn table(geometry: Geometry) -> ObjectTable {
+    let (table, place) = match readable(geometry) {
+        Some(table) => (table, DAffine3::IDENTITY),
+        None => in_place(geometry),
+    };
+    ObjectTable {
+        transform: transform(place).map(Into::into),
+        ..table
     }
 }
 
@@ -101,124 +122,117 @@ fn normalized(geometry: Geometry) -> Option<(CanonicalShape, DAffine3)> {
     Some((canonical, world_from_canonical * axes))
 }
 
-/// The key and table of a shape in canonical position, and its transform.
-fn in_place(geometry: Geometry) -> (&'static str, Table, DAffine3) {
-    let mut table = Table::default();
+/// A shape in canonical position, and its transform.
+fn in_place(geometry: Geometry) -> (ObjectTable, DAffine3) {
     let (canonical, place) = match geometry {
-        Geometry::Sphere { .. } => {
-            table.put("center", vector(DVec3::ZERO));
-            table.put("radius", "1");
-            return ("sphere", table, DAffine3::IDENTITY);
-        }
+        Geometry::Sphere { .. } => return (sphere(DVec3::ZERO, 1.0), DAffine3::IDENTITY),
         Geometry::Plane { point, normal } => {
-            table.put("point", vector(point));
-            let is_level =
-                normal.to_array().map(f64::to_bits) == DVec3::Y.to_array().map(f64::to_bits);
-            table.put_if(!is_level, "normal", vector(normal));
-            return ("plane", table, DAffine3::IDENTITY);
+            let plane = PlaneTable {
+                point: point.into(),
+                normal: differing(normal, DVec3::Y),
+            };
+            return (object!(plane: plane), DAffine3::IDENTITY);
         }
         Geometry::Placed {
             canonical,
             world_from_canonical,
         } => normalized(geometry).unwrap_or((canonical, world_from_canonical)),
     };
-    let center = || vector(DVec3::ZERO);
-    let key = match canonical {
-        CanonicalShape::Disc { hole } => {
-            table.put("center", center());
-            table.put("radius", "1");
-            table.put_if(hole != 0.0, "inner_radius", number(hole));
-            "disc"
-        }
+    let table = match canonical {
+        CanonicalShape::Disc { hole } => disc_table(DVec3::ZERO, DVec3::Y, [1.0, hole]),
         CanonicalShape::Rectangle => {
-            table.put("center", center());
-            table.put("edge_u", "[2, 0, 0]");
-            table.put("edge_v", "[0, 0, -2]");
-            "rectangle"
+            rectangle_table(DVec3::ZERO, 2.0 * DVec3::X, DVec3::new(0.0, 0.0, -2.0))
         }
-        CanonicalShape::Box => {
-            table.put("min", vector(DVec3::NEG_ONE));
-            table.put("max", vector(DVec3::ONE));
-            "box"
-        }
+        CanonicalShape::Box => box_table(DVec3::NEG_ONE, DVec3::ONE),
         CanonicalShape::Cone {
             bottom,
             top,
             capped,
-        } => {
-            table.put("from", center());
-            table.put("to", "[0, 1, 0]");
-            let is_cylinder = bottom == 1.0 && top == 1.0;
-            put_radii(&mut table, [bottom, top], capped);
-            if is_cylinder { "cylinder" } else { "cone" }
-        }
-        CanonicalShape::Torus { minor } => {
-            table.put("center", center());
-            table.put("major_radius", "1");
-            table.put("minor_radius", number(minor));
-            "torus"
-        }
-        CanonicalShape::Ellipsoid => "ellipsoid",
+        } => cone_table(DVec3::ZERO, DVec3::Y, [bottom, top], capped),
+        CanonicalShape::Torus { minor } => torus_table(DVec3::ZERO, DVec3::Y, [1.0, minor]),
+        CanonicalShape::Ellipsoid => object!(ellipsoid: EllipsoidTable::default()),
     };
-    (key, table, place)
+    (table, place)
 }
 
-fn put_radii(table: &mut Table, [bottom, top]: [f64; 2], capped: bool) {
-    if bottom == top {
-        table.put("radius", number(bottom));
-    } else {
-        table.put("from_radius", number(bottom));
-        table.put_if(top != 0.0, "to_radius", number(top));
+fn sphere(center: DVec3, radius: f64) -> ObjectTable {
+    object!(sphere: SphereTable { center: center.into(), radius: radius.into() })
+}
+
+fn box_table(min: DVec3, max: DVec3) -> ObjectTable {
+    object!(cuboid: BoxTable { min: min.into(), max: Vector(max).into() })
+}
+
+fn rectangle_table(center: DVec3, edge_u: DVec3, edge_v: DVec3) -> ObjectTable {
+    object!(rectangle: RectangleTable {
+        center: Vector(center).into(),
+        edge_u: Some(Vector(edge_u).into()),
+        edge_v: Some(Vector(edge_v).into()),
+        size: None,
+        normal: None,
+    })
+}
+
+fn disc_table(center: DVec3, normal: DVec3, [radius, hole]: [f64; 2]) -> ObjectTable {
+    object!(disc: DiscTable {
+        center: center.into(),
+        normal: differing(normal, DVec3::Y),
+        radius: radius.into(),
+        inner_radius: (hole != 0.0).then(|| Length(hole).into()),
+    })
+}
+
+fn torus_table(center: DVec3, axis: DVec3, [major, minor]: [f64; 2]) -> ObjectTable {
+    object!(torus: TorusTable {
+        center: center.into(),
+        axis: differing(axis, DVec3::Y),
+        major_radius: major.into(),
+        minor_radius: Positive(minor).into(),
+    })
+}
+
+/// Cylinders, cones and frustums.
+fn cone_table(from: DVec3, to: DVec3, [bottom, top]: [f64; 2], capped: bool) -> ObjectTable {
+    let (from, to) = (from.into(), Vector(to).into());
+    let open = (!capped).then_some(true);
+    match bottom == top {
+        true => object!(cylinder: CylinderTable { from, to, radius: bottom.into(), open }),
+        false => object!(cone: ConeTable {
+            from,
+            to,
+            from_radius: Length(bottom).into(),
+            to_radius: differing(top, 0.0),
+            open,
+        }),
     }
-    table.put_if(!capped, "open", "true");
 }
 
-/// The key and table of a surface as written by hand, and the remaining transform.
-fn readable(geometry: Geometry) -> (&'static str, Table, DAffine3) {
-    let found = match geometry {
-        Geometry::Sphere { center, radius } => {
-            let mut table = Table::default();
-            table.put("center", vector(center));
-            table.put("radius", number(radius));
-            return ("sphere", table, DAffine3::IDENTITY);
-        }
-        Geometry::Plane { .. } => None,
+/// A surface as written by hand, without a transform.
+fn readable(geometry: Geometry) -> Option<ObjectTable> {
+    let (canonical, place) = match geometry {
+        Geometry::Sphere { center, radius } => return Some(sphere(center, radius)),
+        Geometry::Plane { .. } => return None,
         // In canonical position, only the transform keeps the signs of zeros.
         Geometry::Placed {
             world_from_canonical,
             ..
-        } if world_from_canonical == DAffine3::IDENTITY => None,
+        } if world_from_canonical == DAffine3::IDENTITY => return None,
         Geometry::Placed {
             canonical,
             world_from_canonical,
-        } => match canonical {
-            CanonicalShape::Box => cuboid(world_from_canonical).map(|table| ("box", table)),
-            CanonicalShape::Ellipsoid => {
-                ellipsoid(world_from_canonical).map(|table| ("ellipsoid", table))
-            }
-            CanonicalShape::Rectangle => {
-                rectangle(world_from_canonical).map(|table| ("rectangle", table))
-            }
-            CanonicalShape::Disc { hole } => {
-                disc(hole, world_from_canonical).map(|table| ("disc", table))
-            }
-            CanonicalShape::Torus { minor } => {
-                torus(minor, world_from_canonical).map(|table| ("torus", table))
-            }
-            CanonicalShape::Cone {
-                bottom,
-                top,
-                capped,
-            } => {
-                let is_cylinder = bottom == 1.0 && top == 1.0;
-                let table = cone([bottom, top], capped, world_from_canonical);
-                table.map(|table| (if is_cylinder { "cylinder" } else { "cone" }, table))
-            }
-        },
+        } => (canonical, world_from_canonical),
     };
-    match found {
-        Some((key, table)) => (key, table, DAffine3::IDENTITY),
-        None => in_place(geometry),
+    match canonical {
+        CanonicalShape::Box => cuboid(place),
+        CanonicalShape::Ellipsoid => ellipsoid(place),
+        CanonicalShape::Rectangle => rectangle(place),
+        CanonicalShape::Disc { hole } => disc(hole, place),
+        CanonicalShape::Torus { minor } => torus(minor, place),
+        CanonicalShape::Cone {
+            bottom,
+            top,
+            capped,
+        } => cone([bottom, top], capped, place),
     }
 }
 
@@ -230,7 +244,7 @@ fn six(a: DVec3, b: DVec3) -> [f64; 6] {
     [a.x, a.y, a.z, b.x, b.y, b.z]
 }
 
-fn cuboid(place: DAffine3) -> Option<Table> {
+fn cuboid(place: DAffine3) -> Option<ObjectTable> {
     let half = DVec3::new(
         place.matrix3.x_axis.x,
         place.matrix3.y_axis.y,
@@ -245,29 +259,26 @@ fn cuboid(place: DAffine3) -> Option<Table> {
     let found = shortest(near, |n| {
         three(&n).cmplt(three(&n[3..])).all() && is_same(of(n), place)
     })?;
-    let mut table = Table::default();
-    table.put("min", vector(three(&found)));
-    table.put("max", vector(three(&found[3..])));
-    Some(table)
+    Some(box_table(three(&found), three(&found[3..])))
 }
 
-fn ellipsoid(place: DAffine3) -> Option<Table> {
+fn ellipsoid(place: DAffine3) -> Option<ObjectTable> {
     let radii = DVec3::new(
         place.matrix3.x_axis.x,
         place.matrix3.y_axis.y,
         place.matrix3.z_axis.z,
     );
     let of = DAffine3::from_scale_rotation_translation(radii, DQuat::IDENTITY, place.translation);
-    if radii.min_element() <= 0.0 || !is_same(of, place) {
-        return None;
-    }
-    let mut table = Table::default();
-    table.put("center", vector(place.translation));
-    table.put("radii", vector(radii));
-    Some(table)
+    let is_exact = radii.min_element() > 0.0 && is_same(of, place);
+    is_exact.then(|| {
+        object!(ellipsoid: EllipsoidTable {
+            center: Some(place.translation.into()),
+            radii: Some(radii.into()),
+        })
+    })
 }
 
-fn rectangle(place: DAffine3) -> Option<Table> {
+fn rectangle(place: DAffine3) -> Option<ObjectTable> {
     let of = |n: [f64; 6]| {
         let (u, v) = (three(&n), three(&n[3..]));
         let height = u.length().max(v.length());
@@ -276,17 +287,13 @@ fn rectangle(place: DAffine3) -> Option<Table> {
     };
     let near = six(2.0 * place.matrix3.x_axis, -2.0 * place.matrix3.z_axis);
     let found = shortest(near, |n| is_same(of(n), place))?;
-    let mut table = Table::default();
-    table.put("center", vector(place.translation));
-    table.put("edge_u", vector(three(&found) + 0.0));
-    table.put("edge_v", vector(three(&found[3..]) + 0.0));
-    let plain = |v: &[f64]| [v[0] + 0.0, v[1] + 0.0, v[2] + 0.0];
-    let [a, b, c] = plain(&found);
-    let [d, e, f] = plain(&found[3..]);
-    is_same(of([a, b, c, d, e, f]), place).then_some(table)
+    // Zeros without a sign.
+    let found = found.map(|x| x + 0.0);
+    let table = rectangle_table(place.translation, three(&found), three(&found[3..]));
+    is_same(of(found), place).then_some(table)
 }
 
-fn disc(hole: f64, place: DAffine3) -> Option<Table> {
+fn disc(hole: f64, place: DAffine3) -> Option<ObjectTable> {
     let radius = place.matrix3.y_axis.length();
     let normal = place.matrix3.y_axis / radius;
     let of = |n: [f64; 5]| {
@@ -300,20 +307,11 @@ fn disc(hole: f64, place: DAffine3) -> Option<Table> {
     };
     let near = [normal.x, normal.y, normal.z, radius, hole * radius];
     let found = shortest(near, |n| of(n).is_some_and(|made| is_same(made, place)))?;
-    let mut table = Table::default();
-    table.put("center", vector(place.translation));
-    let normal = three(&found);
-    table.put_if(
-        six(normal, normal) != six(DVec3::Y, DVec3::Y),
-        "normal",
-        vector(normal),
-    );
-    table.put("radius", number(found[3]));
-    table.put_if(found[4] != 0.0, "inner_radius", number(found[4]));
-    Some(table)
+    let radii = [found[3], found[4]];
+    Some(disc_table(place.translation, three(&found), radii))
 }
 
-fn torus(minor: f64, place: DAffine3) -> Option<Table> {
+fn torus(minor: f64, place: DAffine3) -> Option<ObjectTable> {
     let major = place.matrix3.y_axis.length();
     let axis = place.matrix3.y_axis / major;
     let of = |n: [f64; 5]| {
@@ -324,21 +322,11 @@ fn torus(minor: f64, place: DAffine3) -> Option<Table> {
     };
     let near = [axis.x, axis.y, axis.z, major, minor * major];
     let found = shortest(near, |n| of(n).is_some_and(|made| is_same(made, place)))?;
-    let mut table = Table::default();
-    table.put("center", vector(place.translation));
-    let axis = three(&found);
-    table.put_if(
-        six(axis, axis) != six(DVec3::Y, DVec3::Y),
-        "axis",
-        vector(axis),
-    );
-    table.put("major_radius", number(found[3]));
-    table.put("minor_radius", number(found[4]));
-    Some(table)
+    let radii = [found[3], found[4]];
+    Some(torus_table(place.translation, three(&found), radii))
 }
 
-/// Cylinders, cones and frustums.
-fn cone([bottom, top]: [f64; 2], capped: bool, place: DAffine3) -> Option<Table> {
+fn cone([bottom, top]: [f64; 2], capped: bool, place: DAffine3) -> Option<ObjectTable> {
     let from = place.translation;
     let wide = place.matrix3.x_axis.length();
     let of = |n: [f64; 5]| {
@@ -353,11 +341,12 @@ fn cone([bottom, top]: [f64; 2], capped: bool, place: DAffine3) -> Option<Table>
     let to = from + place.matrix3.y_axis;
     let near = [to.x, to.y, to.z, bottom * wide, top * wide];
     let found = shortest(near, |n| of(n).is_some_and(|made| is_same(made, place)))?;
-    let mut table = Table::default();
-    table.put("from", vector(from));
-    table.put("to", vector(three(&found)));
-    put_radii(&mut table, [found[3], found[4]], capped);
-    Some(table)
+    Some(cone_table(
+        from,
+        three(&found),
+        [found[3], found[4]],
+        capped,
+    ))
 }
 
 /// A direction as the importer reads it: normalised vectors stay as they are.

@@ -1,170 +1,103 @@
-//! TOML text: numbers in the fewest digits that preserve all bits.
+//! The text of a scene file: a section for each list and each table of its names, one key per line, and tables inside
+//! others in braces.
 
-use glam::{DAffine3, DQuat, DVec3, Vec3};
 use glimray_scene::text;
 use std::fmt::Write;
+use toml::{Table, Value};
 
-/// A scene file being written.
-pub(super) struct Text {
-    out: String,
-    /// Whether a section has just started.
-    is_fresh: bool,
+/// Longer lists of lists or tables have one of them per line.
+const MOST_IN_A_LINE: usize = 2;
+
+/// The text of `file`.
+pub(super) fn text(file: &Table) -> String {
+    let mut out = "# A glimray scene: right-handed, +Y up, linear colours. `glimray schema` lists all keys.\n".to_owned();
+    let (sections, plain): (Vec<_>, Vec<_>) =
+        file.iter().partition(|(key, value)| is_section(key, value));
+    if !plain.is_empty() {
+        out.push('\n');
+        lines(&mut out, plain);
+    }
+    for (key, value) in sections {
+        let mut tables = Vec::new();
+        match value {
+            Value::Array(list) => {
+                let list = list.iter().filter_map(Value::as_table);
+                tables.extend(list.map(|table| (format!("[[{key}]]"), table)));
+            }
+            Value::Table(named) if named.values().all(Value::is_table) => {
+                let named = named
+                    .iter()
+                    .filter_map(|(name, it)| Some((name, it.as_table()?)));
+                tables.extend(named.map(|(name, it)| (format!("[{key}.{}]", quoted(name)), it)));
+            }
+            Value::Table(table) => {
+                let _ = writeln!(out, "\n[{key}]");
+                lines(&mut out, table);
+            }
+            _ => {}
+        }
+        for (index, (head, table)) in tables.into_iter().enumerate() {
+            let _ = match index {
+                0 => writeln!(out, "\n# {}{}\n{head}", key[..1].to_uppercase(), &key[1..]),
+                _ => writeln!(out, "\n{head}"),
+            };
+            lines(&mut out, table);
+        }
+    }
+    out
 }
 
-impl Text {
-    pub fn new() -> Self {
-        let out = "# A glimray scene: right-handed, +Y up, linear colours. `glimray schema` lists all keys.\n";
-        Self {
-            out: out.to_owned(),
-            is_fresh: false,
-        }
-    }
-
-    pub fn finish(self) -> String {
-        self.out
-    }
-
-    /// Starts a section with a comment.
-    pub fn section(&mut self, comment: &str) {
-        let _ = writeln!(self.out, "\n# {comment}");
-        self.is_fresh = true;
-    }
-
-    /// Adds an empty line, unless a section has just started.
-    pub fn gap(&mut self) {
-        if !std::mem::take(&mut self.is_fresh) {
-            self.out.push('\n');
-        }
-    }
-
-    /// The head of a table, such as `[a.b]`, or of a list element.
-    pub fn head(&mut self, head: &str) {
-        let _ = writeln!(self.out, "{head}");
-    }
-
-    /// One line per entry.
-    pub fn lines(&mut self, table: &Table) {
-        for (key, value) in &table.entries {
-            let _ = writeln!(self.out, "{key} = {value}");
-        }
-    }
-}
-
-/// The entries of a table, in order.
-#[derive(Default)]
-pub(super) struct Table {
-    entries: Vec<(&'static str, String)>,
-}
-
-impl Table {
-    pub fn put(&mut self, key: &'static str, value: impl Into<String>) {
-        self.entries.push((key, value.into()));
-    }
-
-    pub fn put_if(&mut self, differs: bool, key: &'static str, value: impl Into<String>) {
-        if differs {
-            self.put(key, value);
-        }
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.entries.is_empty()
-    }
-
-    /// The table as an inline value.
-    pub fn inline(&self) -> String {
-        if self.is_empty() {
-            return "{}".to_owned();
-        }
-        let entries: Vec<_> = (self.entries.iter())
-            .map(|(key, value)| format!("{key} = {value}"))
-            .collect();
-        format!("{{ {} }}", entries.join(", "))
+/// Whether a key of a file has lines of its own.
+fn is_section(key: &str, value: &Value) -> bool {
+    match value {
+        Value::Array(list) => list.iter().all(Value::is_table),
+        value => value.is_table() && key != "background",
     }
 }
 
-pub(super) fn number(value: f64) -> String {
-    let text = format!("{value:?}");
-    match text.strip_suffix(".0") {
-        // Zero has a sign, integers do not.
-        Some(whole) if value != 0.0 || value.is_sign_positive() => whole.to_owned(),
-        _ => text,
-    }
-}
-
-pub(super) fn number32(value: f32) -> String {
-    let text = format!("{value:?}");
-    // The importer parses f64 and rounds to f32: the shortest f32 digits may round to a neighbour.
-    if text
-        .parse::<f64>()
-        .is_ok_and(|read| (read as f32).to_bits() == value.to_bits())
-    {
-        return match text.strip_suffix(".0") {
-            Some(whole) if value != 0.0 || value.is_sign_positive() => whole.to_owned(),
-            _ => text,
+fn lines<'t>(out: &mut String, table: impl IntoIterator<Item = (&'t String, &'t Value)>) {
+    for (key, value) in table {
+        let _ = match value {
+            Value::Array(items) if items.len() > MOST_IN_A_LINE && is_nested(items) => {
+                let items = items.iter().map(|item| format!("    {},\n", inline(item)));
+                writeln!(out, "{key} = [\n{}]", items.collect::<String>())
+            }
+            value => writeln!(out, "{key} = {}", inline(value)),
         };
     }
-    number(f64::from(value))
 }
 
-pub(super) fn list(items: impl IntoIterator<Item = String>) -> String {
-    let items: Vec<_> = items.into_iter().collect();
-    format!("[{}]", items.join(", "))
+fn is_nested(items: &[Value]) -> bool {
+    items.iter().all(|item| item.is_array() || item.is_table())
 }
 
-pub(super) fn vector(value: DVec3) -> String {
-    list(value.to_array().map(number))
-}
-
-pub(super) fn quaternion(value: DQuat) -> String {
-    list(value.to_array().map(number))
-}
-
-pub(super) fn matrix(value: DAffine3) -> String {
-    let axes = value.matrix3;
-    let columns = [axes.x_axis, axes.y_axis, axes.z_axis, value.translation];
-    list(columns.map(vector))
-}
-
-/// A colour: as "#rrggbb" if that is exact and shorter.
-pub(super) fn color(value: Vec3) -> String {
-    let numbers = list(value.to_array().map(number32));
-    let code = |channel: f32| {
-        let is_it = |code: &u8| {
-            let linear = glimray_scene::linear_from_srgb(f64::from(*code) / 255.0) as f32;
-            linear.to_bits() == channel.to_bits()
-        };
-        (0..=u8::MAX).find(is_it)
-    };
-    if numbers.len() <= 18 {
-        return numbers;
-    }
-    match value.to_array().map(code) {
-        [Some(r), Some(g), Some(b)] => format!("\"#{r:02x}{g:02x}{b:02x}\""),
-        _ => numbers,
+/// A value on a line.
+fn inline(value: &Value) -> String {
+    let listed = |items: Vec<String>| items.join(", ");
+    match value {
+        Value::String(text) => string(text),
+        // Fewer digits than TOML's own, which have no exponent.
+        Value::Float(number) => format!("{number:?}"),
+        Value::Array(items) => format!("[{}]", listed(items.iter().map(inline).collect())),
+        Value::Table(table) if table.is_empty() => "{}".to_owned(),
+        Value::Table(table) => {
+            let entries = table.iter();
+            let entries =
+                entries.map(|(key, value)| format!("{} = {}", quoted(key), inline(value)));
+            format!("{{ {} }}", listed(entries.collect()))
+        }
+        other => other.to_string(),
     }
 }
 
-/// A number, or one per axis.
-pub(super) fn scale(value: DVec3) -> String {
-    let [x, y, z] = value.to_array().map(f64::to_bits);
-    if x == y && y == z {
-        number(value.x)
-    } else {
-        vector(value)
-    }
-}
-
-pub(super) fn string(text: &str) -> String {
+/// A string, without control characters.
+fn string(text: &str) -> String {
     let mut quoted = String::from("\"");
     for c in text.chars() {
         match c {
             '"' | '\\' => quoted.extend(['\\', c]),
             c if text::is_control(c) => {
-                let _ = match u32::from(c) {
-                    code @ ..=0xffff => write!(quoted, "\\u{code:04x}"),
-                    code => write!(quoted, "\\U{code:08x}"),
-                };
+                let _ = write!(quoted, "\\U{:08x}", u32::from(c));
             }
             c => quoted.push(c),
         }
@@ -173,11 +106,11 @@ pub(super) fn string(text: &str) -> String {
     quoted
 }
 
-pub(super) fn key(text: &str) -> String {
+/// A key, in quotes if it needs them.
+fn quoted(key: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    if !text.is_empty() && text.chars().all(is_bare) {
-        text.to_owned()
-    } else {
-        string(text)
+    match !key.is_empty() && key.chars().all(is_bare) {
+        true => key.to_owned(),
+        false => string(key),
     }
 }

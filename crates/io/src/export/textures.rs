@@ -1,62 +1,43 @@
 //! The textures of a scene.
 
 use super::pictures::{Role, codes};
-use super::text::{self, Table, color, key, string};
 use super::{ExportError, Writer, exact};
-use glam::{DAffine3, DVec3, Vec3};
+use crate::import::native::file::{
+    DataMapTable, HeightMapTable, NoiseTable, PairTable, PictureOrFile, PictureTable, SpaceName,
+    Spanned, TextureTable,
+};
+use crate::import::native::values::{Matrix, Number, differing, short};
+use glam::{DVec3, Vec3};
 use glimray_scene::{Minify, Origin, Pattern, Space, Texels, Texture, Transform, Wrap};
 
 impl Writer<'_> {
-    pub fn textures(&mut self) -> Result<(), ExportError> {
-        if !self.scene.textures.is_empty() {
-            self.text.section("Textures");
-        }
-        for (index, texture) in self.scene.textures.iter().enumerate() {
-            let mut table = Table::default();
-            let pair = |a: Vec3, b: Vec3, octaves: Option<u32>| {
-                let mut table = Table::default();
-                table.put_if(a != Vec3::ONE, "a", color(a));
-                table.put_if(b.to_array().map(f32::to_bits) != [0; 3], "b", color(b));
-                let octaves = octaves.filter(|octaves| *octaves != 4);
-                if let Some(octaves) = octaves {
-                    table.put("octaves", octaves.to_string());
-                }
-                table.inline()
-            };
-            match texture.pattern {
-                Pattern::Checker { a, b } => table.put("checker", pair(a, b, None)),
-                Pattern::Stripes { a, b } => table.put("stripes", pair(a, b, None)),
-                Pattern::Gradient { a, b } => table.put("gradient", pair(a, b, None)),
-                Pattern::Noise { a, b, octaves } => {
-                    table.put("noise", pair(a, b, Some(octaves)));
-                }
-                // Materials have them.
-                Pattern::Picture { picture, .. } if self.is_relief(picture) => continue,
-                Pattern::Picture {
-                    picture,
-                    nearest,
-                    minify,
-                    wrap,
-                } => {
-                    let role = self.role(picture);
-                    let file = self.picture(picture, role)?;
-                    table.put("picture", sampled(file, role, nearest, minify, wrap));
-                }
+    /// The table of a texture; `None` if only a material has it.
+    pub fn texture(&mut self, texture: &Texture) -> Result<Option<TextureTable>, ExportError> {
+        let pair = |a, b| PairTable {
+            a: differing(a, Vec3::ONE),
+            b: differing(b, Vec3::ZERO),
+        };
+        let mut table = place(texture);
+        let mut space = Space::World;
+        match texture.pattern {
+            Pattern::Checker { a, b } => table.checker = Some(pair(a, b)),
+            Pattern::Stripes { a, b } => table.stripes = Some(pair(a, b)),
+            Pattern::Gradient { a, b } => table.gradient = Some(pair(a, b)),
+            Pattern::Noise { a, b, octaves } => {
+                let PairTable { a, b } = pair(a, b);
+                let octaves = differing(octaves, NoiseTable::OCTAVES);
+                table.noise = Some(NoiseTable { a, b, octaves });
             }
-            let is_picture = matches!(texture.pattern, Pattern::Picture { .. });
-            match (texture.space, is_picture) {
-                (Space::Uv, false) => table.put("space", string("uv")),
-                (Space::SecondUv, _) => table.put("space", string("second-uv")),
-                (Space::World, true) => table.put("space", string("world")),
-                _ => {}
+            // Materials have them.
+            Pattern::Picture { picture, .. } if self.is_relief(picture) => return Ok(None),
+            Pattern::Picture { picture, .. } => {
+                let role = self.role(picture);
+                table.picture = self.sampled(&texture.pattern, role)?;
+                space = Space::Uv;
             }
-            place(&mut table, texture);
-            self.text.gap();
-            let name = key(&self.names.textures[index]);
-            self.text.head(&format!("[textures.{name}]"));
-            self.text.lines(&table);
         }
-        Ok(())
+        table.space = differing(texture.space, space);
+        Ok(Some(table))
     }
 
     /// The height map that a normal map was made from, if there is one.
@@ -64,17 +45,11 @@ impl Writer<'_> {
         &mut self,
         index: Option<usize>,
         scale: f32,
-    ) -> Result<Option<String>, ExportError> {
+    ) -> Result<Option<HeightMapTable>, ExportError> {
         let Some(texture) = index.map(|index| &self.scene.textures[index]) else {
             return Ok(None);
         };
-        let Pattern::Picture {
-            picture,
-            nearest,
-            minify,
-            wrap,
-        } = texture.pattern
-        else {
+        let Pattern::Picture { picture, .. } = texture.pattern else {
             return Ok(None);
         };
         let Origin::Heights { are_depths, .. } = self.scene.pictures[picture].origin else {
@@ -83,27 +58,60 @@ impl Writer<'_> {
         if !self.is_relief(picture) {
             return Ok(None);
         }
-        let file = self.picture(picture, Role::Color)?;
-        let mut table = Table::default();
-        table.put("picture", sampled(file, Role::Color, nearest, minify, wrap));
+        let picture = self.sampled(&texture.pattern, Role::Color)?;
+        let place = place(texture);
         // Depths of 0 are as flat as heights of 0.
         let strength = if are_depths { -scale } else { scale };
-        table.put_if(strength != 1.0, "strength", text::number32(strength));
-        table.put_if(
-            texture.space == Space::SecondUv,
-            "space",
-            string("second-uv"),
-        );
-        place(&mut table, texture);
-        Ok(Some(table.inline()))
+        Ok(picture.map(|picture| HeightMapTable {
+            picture,
+            strength: differing::<_, Number>(short(strength), 1.0),
+            space: (texture.space == Space::SecondUv).then_some(SpaceName::SecondUv),
+            scale: place.scale,
+            rotate_deg: place.rotate_deg,
+            translate: place.translate,
+            pattern_from_space: place.pattern_from_space,
+        }))
     }
 
     /// A normal or occlusion map, if there is one.
-    pub fn data_map(&self, index: Option<usize>, strength: f32) -> Option<String> {
-        let mut table = Table::default();
-        table.put("texture", string(&self.names.textures[index?]));
-        table.put_if(strength != 1.0, "strength", text::number32(strength));
-        Some(table.inline())
+    pub fn data_map(&self, index: Option<usize>, strength: f32) -> Option<Spanned<DataMapTable>> {
+        let table = DataMapTable {
+            texture: Some(self.names.texture(index?)),
+            strength: differing(strength, 1.0),
+            ..DataMapTable::default()
+        };
+        Some(table.into())
+    }
+
+    /// The image file of a pattern, and how it is sampled.
+    fn sampled(
+        &mut self,
+        pattern: &Pattern,
+        role: Role,
+    ) -> Result<Option<Spanned<PictureOrFile>>, ExportError> {
+        let Pattern::Picture {
+            picture,
+            nearest,
+            minify,
+            wrap,
+        } = *pattern
+        else {
+            return Ok(None);
+        };
+        let file = self.picture(picture, role)?;
+        let is_linear = role == Role::Data;
+        let is_plain = !nearest && minify == Minify::default() && wrap == [Wrap::Repeat; 2];
+        let picture = match is_plain && !is_linear {
+            true => PictureOrFile::File(file),
+            false => PictureOrFile::Table(PictureTable {
+                file: file.into(),
+                linear: is_linear.then_some(true),
+                nearest: nearest.then_some(true),
+                minify: differing(minify, Minify::default()),
+                wrap: (wrap != [Wrap::Repeat; 2]).then(|| wrap.into()),
+            }),
+        };
+        Ok(Some(picture.into()))
     }
 
     /// The role of a picture: values that are no colours are linear in 8 bits. Colours of OpenEXR are divided by alpha
@@ -122,69 +130,39 @@ impl Writer<'_> {
     }
 }
 
-/// An image file, and how it is sampled.
-fn sampled(file: String, role: Role, nearest: bool, minify: Minify, wrap: [Wrap; 2]) -> String {
-    let is_linear = role == Role::Data;
-    if !is_linear && !nearest && minify == Minify::default() && wrap == [Wrap::Repeat; 2] {
-        return file;
-    }
-    let mut table = Table::default();
-    table.put("file", file);
-    table.put_if(is_linear, "linear", "true");
-    table.put_if(nearest, "nearest", "true".to_owned());
-    table.put_if(minify != Minify::default(), "minify", string(minify.name()));
-    table.put_if(wrap != [Wrap::Repeat; 2], "wrap", wrap_modes(wrap));
-    table.inline()
-}
-
-/// The name of a mode for both axes, or the names of two.
-fn wrap_modes([u, v]: [Wrap; 2]) -> String {
-    match u == v {
-        true => string(u.name()),
-        false => format!("[{}, {}]", string(u.name()), string(v.name())),
-    }
-}
-
-/// The transform of the pattern.
-fn place(table: &mut Table, texture: &Texture) {
+/// A table with the transform of the pattern alone.
+fn place(texture: &Texture) -> TextureTable {
     let wanted = texture.pattern_from_space;
     // The transform of a file without one.
     if exact::is_same(Transform::default().affine().inverse(), wanted) {
-        return;
+        return TextureTable::default();
     }
-    let near = wanted.inverse();
+    let (near, is_near) = Transform::of(wanted.inverse());
     let candidates = [0, 2, 4, 6, 9, 12].map(|decimals| {
-        let (transform, is_near) = Transform::of(near);
         let round = |v: DVec3| {
             let round = |x: f64| format!("{x:.decimals$}").parse::<f64>().unwrap_or(x) + 0.0;
             DVec3::from(v.to_array().map(round))
         };
-        let transform = Transform {
-            translate: round(transform.translate),
-            rotate_deg: round(transform.rotate_deg),
-            scale: round(transform.scale),
-        };
-        is_near.then_some(transform)
+        Transform {
+            translate: round(near.translate),
+            rotate_deg: round(near.rotate_deg),
+            scale: round(near.scale),
+        }
     });
     let gives_it = |transform: &Transform| {
         let is_flat = transform.scale.abs().min_element() == 0.0;
-        !is_flat && exact::is_same(transform.affine().inverse(), wanted)
+        is_near && !is_flat && exact::is_same(transform.affine().inverse(), wanted)
     };
-    match candidates.into_iter().flatten().find(gives_it) {
-        Some(transform) => {
-            table.put_if(
-                transform.scale != DVec3::ONE,
-                "scale",
-                text::scale(transform.scale),
-            );
-            let turned = transform.rotate_deg != DVec3::ZERO;
-            table.put_if(turned, "rotate_deg", text::vector(transform.rotate_deg));
-            let moved = transform.translate != DVec3::ZERO;
-            table.put_if(moved, "translate", text::vector(transform.translate));
-        }
-        None if exact::is_same(wanted, DAffine3::IDENTITY) => {
-            table.put("pattern_from_space", text::matrix(DAffine3::IDENTITY));
-        }
-        None => table.put("pattern_from_space", text::matrix(wanted)),
+    match candidates.into_iter().find(gives_it) {
+        Some(transform) => TextureTable {
+            scale: differing(transform.scale, DVec3::ONE),
+            rotate_deg: differing(transform.rotate_deg, DVec3::ZERO),
+            translate: differing(transform.translate, DVec3::ZERO),
+            ..TextureTable::default()
+        },
+        None => TextureTable {
+            pattern_from_space: Some(Matrix(wanted)),
+            ..TextureTable::default()
+        },
     }
 }

@@ -1,8 +1,8 @@
 //! glimray's own format (`.toml`): written by hand, and checked down to the last key.
 //!
-//! [`file`] is the format: its types define the keys, and their docs become the JSON Schema. [`values`]
-//! checks single values, and [`build`] checks combinations. [`objects`] resolves names and counts
-//! objects, then everything is placed, and finally [`animation`] adds the tracks.
+//! [`file`] is the format: its types define the keys, the exporter writes them, and their docs become the JSON
+//! Schema. [`values`] checks single values, and [`build`] checks combinations. [`objects`] resolves names and
+//! counts objects, then everything is placed, and finally [`animation`] adds the tracks.
 
 mod animation;
 mod build;
@@ -41,7 +41,7 @@ pub(super) const MAX_BYTES: u64 = 16 << 20;
 
 /// Approximate limit of keys, values and tables in a native scene. The parser takes up to 800 bytes for
 /// each.
-const MAX_MARKS: usize = 500_000;
+pub(crate) const MAX_MARKS: usize = 500_000;
 
 /// Limit of the nesting depth of TOML arrays and inline tables, and of the dots in a key. Scenes need no
 /// more than a handful.
@@ -93,11 +93,9 @@ pub(super) fn schema() -> serde_json::Value {
         .to_value()
 }
 
-/// Removes null from a schema: TOML has none.
+/// Removes null from a schema: TOML has none. Descriptions give the defaults.
 fn without_null(schema: &mut Schema) {
-    if schema.get("default").is_some_and(Value::is_null) {
-        schema.remove("default");
-    }
+    schema.remove("default");
     if let Some(Value::Array(types)) = schema.get_mut("type") {
         types.retain(|kind| kind != "null");
         if let [only] = &types[..] {

@@ -4,8 +4,9 @@ mod curve;
 
 use super::Texts;
 use super::cameras::{MAX_RADIUS, MAX_RATIO};
-use super::file::Spanned;
-use super::file::{AnimationTable, PropertyName, SceneFile};
+use super::file::{
+    AnimationTable, OF_CAMERAS, OF_LIGHTS, OF_MATERIALS, OF_NODES, PropertyName, SceneFile, Spanned,
+};
 use super::lights::NamedLight;
 use super::materials;
 use super::nodes::Nodes;
@@ -15,10 +16,11 @@ use crate::import::source::quote;
 use crate::import::suggest;
 use PropertyName as P;
 use glimray_scene::{
-    Camera, CameraProperty, Curve, LightKind, LightProperty, MaterialProperty, NodeProperty,
-    Target, Track, Values,
+    Camera, CameraProperty, Curve, LightKind, LightProperty, MaterialProperty, Target, Track,
+    Values,
 };
 use std::collections::{HashMap, HashSet};
+use toml::Value;
 
 /// The targets that animations may name.
 pub(super) struct Found<'a> {
@@ -29,58 +31,6 @@ pub(super) struct Found<'a> {
     /// Materials by name.
     pub materials: &'a HashMap<String, usize>,
 }
-
-/// The properties of one kind of target, and their host equivalents.
-type Properties<T> = &'static [(PropertyName, &'static str, T)];
-
-const OF_OBJECTS: Properties<NodeProperty> = &[
-    (P::Translate, "translate", NodeProperty::Translation),
-    (P::Rotation, "rotation", NodeProperty::Rotation),
-    (P::RotateDeg, "rotate_deg", NodeProperty::Angles),
-    (P::Angles, "angles", NodeProperty::Angles),
-    (P::Scale, "scale", NodeProperty::Scale),
-    (P::Visible, "visible", NodeProperty::Visible),
-];
-
-const OF_CAMERAS: Properties<CameraProperty> = &[
-    (P::LookFrom, "look_from", CameraProperty::LookFrom),
-    (P::LookAt, "look_at", CameraProperty::LookAt),
-    (P::Up, "up", CameraProperty::Up),
-    (P::FovYDeg, "fov_y_deg", CameraProperty::FovY),
-    (P::FovY, "fov_y", CameraProperty::FovY),
-    (
-        P::Orthographic,
-        "orthographic",
-        CameraProperty::OrthographicHeight,
-    ),
-    (
-        P::FocusDistance,
-        "focus_distance",
-        CameraProperty::FocusDistance,
-    ),
-    (P::LensRadius, "lens_radius", CameraProperty::LensRadius),
-];
-
-const OF_LIGHTS: Properties<LightProperty> = &[
-    (P::Position, "position", LightProperty::Position),
-    (P::Direction, "direction", LightProperty::Direction),
-    (P::Color, "color", LightProperty::Color),
-    (P::Intensity, "intensity", LightProperty::Intensity),
-    (P::On, "on", LightProperty::On),
-];
-
-const OF_MATERIALS: Properties<MaterialProperty> = &[
-    (P::Diffuse, "diffuse", MaterialProperty::Diffuse),
-    (P::Specular, "specular", MaterialProperty::Specular),
-    (P::Shininess, "shininess", MaterialProperty::Shininess),
-    (P::Ambient, "ambient", MaterialProperty::Ambient),
-    (P::Emission, "emission", MaterialProperty::Emission),
-    (P::Reflect, "reflect", MaterialProperty::Reflect),
-    (P::Transmit, "transmit", MaterialProperty::Transmit),
-    (P::Opacity, "opacity", MaterialProperty::Opacity),
-    (P::Ior, "ior", MaterialProperty::Ior),
-    (P::Absorption, "absorption", MaterialProperty::Absorption),
-];
 
 /// The tracks of all animations in `file`. Notes about animations without effect go to `notes`.
 pub(super) fn tracks(
@@ -128,7 +78,7 @@ impl<'a> Reader<'a> {
             let todo = "Give it one of `object`, `objects`, `camera`, `light` and `material`";
             return Err(self.texts.malformed(table.span(), why, todo));
         };
-        let property = &table.get_ref().property;
+        let property = &table.property;
         // Several keys for one property.
         let moved = match *property.get_ref() {
             P::Rotation | P::Angles => P::RotateDeg,
@@ -137,7 +87,7 @@ impl<'a> Reader<'a> {
         };
         for name in names {
             if !self.given.insert((kind, name.get_ref(), moved)) {
-                let quoted = quote(name.get_ref().as_bytes());
+                let quoted = quote(name.as_bytes());
                 let why = format!("a second animation of the same property of the {kind} {quoted}");
                 let todo = "Put all keys into one animation";
                 return Err(self.texts.malformed(property.span(), why, todo));
@@ -158,7 +108,7 @@ impl<'a> Reader<'a> {
         };
         let targets = match kind {
             "object" => {
-                let property = self.property(table, kind, OF_OBJECTS)?;
+                let property = self.property(table, kind, OF_NODES)?;
                 let mut targets = Vec::new();
                 for name in names {
                     let nodes = self.found.nodes;
@@ -172,7 +122,7 @@ impl<'a> Reader<'a> {
             _ => self.material(table, name)?,
         };
         if targets.is_empty() {
-            let quoted = quote(name.get_ref().as_bytes());
+            let quoted = quote(name.as_bytes());
             self.notes.add("skipped animations", || {
                 format!("animation of {quoted} skipped: the object is nowhere in the scene")
             });
@@ -246,9 +196,7 @@ impl<'a> Reader<'a> {
         let lights = lights.map(|light| light.name.as_deref().unwrap_or_default());
         let index = self.named(name, "light", lights)?;
         let property = self.property(table, "light", OF_LIGHTS)?;
-        let is_paced = self
-            .given
-            .contains(&("light", name.get_ref().as_str(), P::Intensity));
+        let is_paced = self.given.contains(&("light", name.as_str(), P::Intensity));
         let light = &mut self.found.lights[index];
         let kind = light.light.kind;
         let is_without = match property {
@@ -295,13 +243,13 @@ impl<'a> Reader<'a> {
         table: &AnimationTable,
         name: &Spanned<String>,
     ) -> Result<Vec<Target>, ImportError> {
-        let text = name.get_ref().as_str();
+        let text = name.as_str();
         let index = materials::named(self.found.materials, text, name.span(), self.texts)?;
         let property = self.property(table, "material", OF_MATERIALS)?;
         let mut targets = vec![Target::Material(index, property)];
         // A material without an ambient colour of its own uses its diffuse colour at all times.
         let own = self.file.materials.get(text);
-        let has_own = own.and_then(|material| material.get_ref().phong.as_ref());
+        let has_own = own.and_then(|material| material.phong.as_ref());
         let has_own = has_own.is_some_and(|phong| phong.ambient.is_some());
         let is_animated = self.given.contains(&("material", text, P::Ambient));
         if property == MaterialProperty::Diffuse && !has_own && !is_animated {
@@ -317,7 +265,7 @@ impl<'a> Reader<'a> {
         kind: &str,
         names: impl Iterator<Item = &'n str> + Clone,
     ) -> Result<usize, ImportError> {
-        let text = name.get_ref().as_str();
+        let text = name.as_str();
         let found = names.clone().position(|known| known == text);
         found.filter(|_| !text.is_empty()).ok_or_else(|| {
             let known = names.filter(|name| !name.is_empty());
@@ -332,13 +280,15 @@ impl<'a> Reader<'a> {
         &self,
         table: &AnimationTable,
         kind: &str,
-        properties: Properties<T>,
+        properties: &[(PropertyName, T)],
     ) -> Result<T, ImportError> {
         let wanted = *table.property.get_ref();
-        let found = properties.iter().find(|(name, ..)| *name == wanted);
-        found.map(|&(.., property)| property).ok_or_else(|| {
-            let names = properties.iter().map(|(_, name, _)| format!("`{name}`"));
-            let names: Vec<_> = names.collect();
+        let found = properties.iter().find(|(name, _)| *name == wanted);
+        found.map(|(_, property)| *property).ok_or_else(|| {
+            let names = properties
+                .iter()
+                .filter_map(|(name, _)| Value::try_from(name).ok());
+            let names: Vec<_> = names.map(|it| it.to_string().replace('"', "`")).collect();
             let article = if kind == "object" { "an" } else { "a" };
             let why = format!("{article} {kind} has no such property");
             let todo = format!("Allowed here: {}", names.join(", "));

@@ -9,7 +9,7 @@ use super::nodes::{NodePlacement, Nodes};
 use super::objects::{Object, Objects};
 use super::textures::Textures;
 use super::transforms::{chain, is_invertible};
-use super::values::or;
+use super::values::{BackdropValue, or};
 use super::{Texts, animation, cameras, lights, materials};
 use crate::import::error::ImportError;
 use crate::import::notes::Notes;
@@ -149,7 +149,7 @@ impl<'a> Builder<'a> {
         let objects = self.objects;
         for index in list {
             let object = objects.get(index);
-            let place = match &object.table.get_ref().carried_by {
+            let place = match &object.table.carried_by {
                 Some(node) => self.nodes.declared(node, self.texts)?,
                 None => place,
             };
@@ -177,7 +177,7 @@ impl<'a> Builder<'a> {
         let inner = if object.has_node {
             self.nodes.add(index, object, repeated, place)
         } else {
-            let own = transform.map_or(DAffine3::IDENTITY, |t| t.get_ref().affine());
+            let own = transform.map_or(DAffine3::IDENTITY, |t| t.affine());
             NodePlacement {
                 node_from_here: chain(repeated, own),
                 ..place
@@ -267,6 +267,6 @@ fn output(table: &OutputTable) -> OutputDefaults {
         duration: table.duration.map(Into::into),
         shutter: Shutter { open, close },
         denoise: table.denoise.unwrap_or(plain.denoise),
-        backdrop: table.backdrop.map_or(plain.backdrop, |it| it.0),
+        backdrop: (table.backdrop.as_ref()).map_or(plain.backdrop, BackdropValue::backdrop),
     }
 }

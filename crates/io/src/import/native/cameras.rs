@@ -64,7 +64,7 @@ fn camera(table: &CameraTable, nodes: &Nodes, texts: &Texts) -> Result<Camera, I
         let why = "`look_at` is the same point as `look_from`".to_owned();
         return Err(texts.malformed(table.look_at.span(), why, "Move one of them"));
     };
-    let up = table.up.as_ref().map_or(DVec3::Y, |up| up.get_ref().0);
+    let up = table.up.as_ref().map_or(DVec3::Y, |up| up.0);
     if forward.cross(up.normalize()).length() < 1e-6 {
         let span = table
             .up
@@ -82,7 +82,7 @@ fn camera(table: &CameraTable, nodes: &Nodes, texts: &Texts) -> Result<Camera, I
         near = distance.0;
     }
     if let Some(distance) = &table.far {
-        far = distance.get_ref().0;
+        far = distance.0;
         if far <= near {
             let why = format!("`far` is not beyond `near`, which is {near}");
             return Err(texts.malformed(distance.span(), why, "Make `far` larger"));
@@ -122,10 +122,7 @@ fn lens(
             radius.0
         }
         (None, Some(f_number)) => {
-            let height_mm = table
-                .sensor_height_mm
-                .as_ref()
-                .map_or(24.0, |h| h.get_ref().0);
+            let height_mm = table.sensor_height_mm.as_ref().map_or(24.0, |h| h.0);
             let focal_length_mm = height_mm / 2.0 / (camera.angle_of_view() / 2.0).tan();
             focal_length_mm / (2.0 * f_number.0) / 1000.0
         }
@@ -138,7 +135,7 @@ fn lens(
         (None, None) => look_at.distance(look_from),
         (Some(distance), None) => distance.0,
         (None, Some(point)) => {
-            let distance = (point.get_ref().0 - look_from).dot(forward);
+            let distance = (point.0 - look_from).dot(forward);
             if distance < f64::from(f32::MIN_POSITIVE) {
                 let why = "`focus_on` is not in front of the camera";
                 return refuse(point.span(), why, "Give a point in front of it");
@@ -155,7 +152,7 @@ fn lens(
             let why = "there are both `blade_rotation_deg` and `blade_rotation`";
             return refuse(degrees.span(), why, "Leave out one of them");
         }
-        (Some(degrees), None) => degrees.get_ref().0.to_radians(),
+        (Some(degrees), None) => degrees.0.to_radians(),
         (None, radians) => radians.map_or(0.0, |radians| radians.0),
     };
     if radius > MAX_RADIUS.min(focus_distance * MAX_RATIO) || !in_range(focus_distance) {

@@ -4,7 +4,6 @@
 mod animation;
 mod backgrounds;
 mod cameras;
-mod either;
 mod groups;
 mod keys;
 mod lights;
@@ -16,39 +15,25 @@ mod physical;
 mod textures;
 
 pub(crate) use super::values::Spanned;
-pub(crate) use animation::{AnimationTable, InterpolationName, PropertyName};
-pub(crate) use cameras::{CameraTable, LensTable, LookAt};
-pub(crate) use groups::{GridTable, PointsTable, RepeatTable, RingTable, ScatterTable};
-pub(crate) use keys::{Key, KeyTable, KeyValue};
-pub(crate) use lights::{
-    DirectionalTable, DiscLightTable, LIGHT_SAMPLES, LightTable, PointTable, RectangleLightTable,
-    SphereLightTable, SpotTable,
-};
-pub(crate) use materials::{
-    CoverageTable, IOR, MaterialRef, MaterialTable, OpticsTable, PhongTable, ReflectTable,
-    RefractTable,
-};
-pub(crate) use meshes::{MeshOrName, MeshTable};
-pub(crate) use nodes::{NodeTable, TransformTable};
-pub(crate) use objects::{
-    BoxTable, ConeTable, CylinderTable, DiscTable, EllipsoidTable, ObjectTable, PlaneTable,
-    RectangleTable, SphereTable, TorusTable, TriangleTable,
-};
-
-pub(crate) use backgrounds::{BackgroundTable, ColorOrBackground, NamedBackground, SkyTable};
-pub(crate) use physical::{FractionOrTexture, PbrTable};
-pub(in crate::import::native) use textures::PatternTables;
-pub(crate) use textures::{
-    ColorOrTexture, ColorTable, DataMapTable, HeightMapTable, NoiseTable, NumberTable, PairTable,
-    PictureOrFile, PictureTable, SpaceName, TextureTable, WrapModes,
-};
+pub(crate) use animation::*;
+pub(crate) use backgrounds::*;
+pub(crate) use cameras::*;
+pub(crate) use groups::*;
+pub(crate) use keys::*;
+pub(crate) use lights::*;
+pub(crate) use materials::*;
+pub(crate) use meshes::*;
+pub(crate) use nodes::*;
+pub(crate) use objects::*;
+pub(crate) use physical::*;
+pub(crate) use textures::*;
 
 use super::values::{
     AntialiasName, BackdropValue, Bounces, Color, Count, Duration, Factor, FilterName, FrameRate,
     IntegratorName, Noise, Radius, ShadowsName, ShutterTimes, Size, Stops, ToneName, TransferName,
 };
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use std::collections::BTreeMap;
 
 /// A glimray scene. Right-handed, +Y up; lengths in metres or any other unit; colours are linear `[r, g,
@@ -74,10 +59,13 @@ pub(crate) struct SceneFile {
     /// Several cameras, chosen by `--camera NAME`; the first is the default camera.
     pub cameras: Vec<Spanned<CameraTable>>,
     /// Textures by name, for `{ texture = "NAME" }` instead of a colour of a material.
+    #[serde(serialize_with = "ordered")]
     pub textures: BTreeMap<String, Spanned<TextureTable>>,
     /// Materials by name.
+    #[serde(serialize_with = "ordered")]
     pub materials: BTreeMap<String, Spanned<MaterialTable>>,
     /// Meshes by name, for `mesh = "NAME"` in objects.
+    #[serde(serialize_with = "ordered")]
     pub meshes: BTreeMap<String, Spanned<MeshTable>>,
     /// Nodes that objects, cameras and lights are attached to by `carried_by`; parents before their
     /// children.
@@ -140,6 +128,14 @@ pub(crate) struct OutputTable {
     /// What paths from the camera see where there is nothing, directly and through smooth transparent surfaces: a colour,
     /// or "transparent"; default the background. All other light sees the background.
     pub backdrop: Option<BackdropValue>,
+}
+
+/// Writes the entries of a table in their order.
+fn ordered<T: Serialize, S: Serializer>(
+    table: &BTreeMap<String, Spanned<T>>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(in_order(table))
 }
 
 /// The entries of a table in the order of the file, followed by those of overrides.

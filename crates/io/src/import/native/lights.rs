@@ -37,7 +37,7 @@ pub(super) fn lights(
         let mut light = light(spanned, texts)?;
         if let Some(name) = &table.name {
             if !names.insert(name.get_ref()) {
-                let quoted = quote(name.get_ref().as_bytes());
+                let quoted = quote(name.as_bytes());
                 let why = format!("duplicate light name {quoted}");
                 return Err(texts.malformed(name.span(), why, "Rename one of them"));
             }
@@ -217,7 +217,7 @@ impl Reader<'_> {
         let (edge_u, edge_v) = match (&table.edge_u, table.edge_v, &table.look_at, table.size) {
             (Some(edge_u), Some(Vector(edge_v)), None, None) => {
                 let span = edge_u.span();
-                let edge_u = edge_u.get_ref().0;
+                let edge_u = edge_u.0;
                 if is_flat(edge_u, edge_v) {
                     let why = "`edge_u` and `edge_v` span no area".to_owned();
                     let todo = "Give two edges that are not parallel";
@@ -269,13 +269,11 @@ impl Reader<'_> {
     }
 
     fn towards(&self, center: DVec3, look_at: &Spanned<Vector>) -> Result<DVec3, ImportError> {
-        (look_at.get_ref().0 - center)
-            .try_normalize()
-            .ok_or_else(|| {
-                let why = "`look_at` is the centre of the light itself".to_owned();
-                let todo = "Move one of them";
-                self.texts.malformed(look_at.span(), why, todo)
-            })
+        (look_at.0 - center).try_normalize().ok_or_else(|| {
+            let why = "`look_at` is the centre of the light itself".to_owned();
+            let todo = "Move one of them";
+            self.texts.malformed(look_at.span(), why, todo)
+        })
     }
 }
 
@@ -292,7 +290,7 @@ fn cone(spot: &Spanned<SpotTable>, texts: &Texts) -> Result<LightKind, ImportErr
     let position = table.position.0;
     let direction = match (&table.look_at, table.direction) {
         (Some(look_at), None) => {
-            let direction = (look_at.get_ref().0 - position).try_normalize();
+            let direction = (look_at.0 - position).try_normalize();
             direction.ok_or_else(|| {
                 let why = "`look_at` is the position of the spot light itself".to_owned();
                 texts.malformed(look_at.span(), why, "Move one of them")
@@ -323,13 +321,13 @@ fn cone(spot: &Spanned<SpotTable>, texts: &Texts) -> Result<LightKind, ImportErr
         }
     }
     let outer_deg = match &table.outer {
-        Some(radians) => radians.get_ref().0.to_degrees(),
+        Some(radians) => radians.0.to_degrees(),
         None => or(table.outer_deg, 30.0),
     };
-    let outer = (table.outer.as_ref()).map_or(outer_deg.to_radians(), |angle| angle.get_ref().0);
+    let outer = (table.outer.as_ref()).map_or(outer_deg.to_radians(), |angle| angle.0);
     let inner = match (&table.inner_deg, &table.inner) {
-        (Some(degrees), _) => degrees.get_ref().0.to_radians(),
-        (None, Some(radians)) => radians.get_ref().0,
+        (Some(degrees), _) => degrees.0.to_radians(),
+        (None, Some(radians)) => radians.0,
         (None, None) => (0.8 * outer_deg).to_radians(),
     };
     if inner > outer {

@@ -65,7 +65,7 @@ pub(super) fn material(
             return Err(textures.refuse(map.span(), why, "Leave out one of them"));
         }
         material.textures.normal = Some(textures.height_map(map)?);
-        material.normal_scale = map.get_ref().height().abs() as f32;
+        material.normal_scale = map.height().abs() as f32;
     }
     if let Some(map) = &table.normal_map {
         material.textures.normal = Some(textures.data_map(map)?);

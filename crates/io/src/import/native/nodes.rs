@@ -82,7 +82,7 @@ impl<'a> Nodes<'a> {
             check(transform, texts)?;
         }
         let transform = table.transform.as_ref().map(Spanned::get_ref);
-        let placement = table.placement.as_ref().map(|p| p.get_ref().affine());
+        let placement = table.placement.as_ref().map(|p| p.affine());
         let placement = placement.unwrap_or(DAffine3::IDENTITY);
         let name = table.name.get_ref();
         let is_fixed = place.node.is_none_or(|parent| self.fixed[parent]);
@@ -107,7 +107,7 @@ impl<'a> Nodes<'a> {
         name: &Spanned<String>,
         texts: &Texts,
     ) -> Result<NodePlacement, ImportError> {
-        if let Some(&[node]) = self.declared.get(name.get_ref().as_str()) {
+        if let Some(&[node]) = self.declared.get(name.as_str()) {
             return Ok(NodePlacement {
                 node: Some(node),
                 node_from_here: DAffine3::IDENTITY,

@@ -78,7 +78,7 @@ impl<'a> Objects<'a> {
             nodes: HashMap::new(),
         };
         for node in &file.nodes {
-            let name = &node.get_ref().name;
+            let name = &node.name;
             if objects.nodes.insert(name.get_ref(), false).is_some() {
                 return Err(second(name, texts));
             }
@@ -86,9 +86,7 @@ impl<'a> Objects<'a> {
         objects.roots = objects.list(&file.objects, &numbers, texts, files)?;
         for (name, list) in &file.groups {
             let members = objects.list(list, &numbers, texts, files)?;
-            let carried = list
-                .iter()
-                .find_map(|table| table.get_ref().carried_by.as_ref());
+            let carried = list.iter().find_map(|table| table.carried_by.as_ref());
             if let Some(node) = carried {
                 let why = "a member of a group cannot have `carried_by`".to_owned();
                 let todo = "Use `carried_by` in the object that places the group";
@@ -163,13 +161,13 @@ impl<'a> Objects<'a> {
             let table = object.get_ref();
             check(object, texts)?;
             if let Some(name) = &table.name
-                && (self.nodes.contains_key(name.get_ref().as_str())
+                && (self.nodes.contains_key(name.as_str())
                     || self.names.insert(name.get_ref(), self.all.len()).is_some())
             {
                 return Err(second(name, texts));
             }
             let group = table.group.as_ref().map(|name| {
-                groups.get(name.get_ref().as_str()).copied().ok_or_else(|| {
+                groups.get(name.as_str()).copied().ok_or_else(|| {
                     let why = suggest::unknown("group", name.get_ref(), groups.keys().copied());
                     let todo = "Add it under [groups], or use an existing one";
                     texts.malformed(name.span(), why, todo)
@@ -191,7 +189,7 @@ impl<'a> Objects<'a> {
         for table in &file.animation {
             let table = table.get_ref();
             for name in table.object.iter().chain(table.objects.iter().flatten()) {
-                if let Some(is_animated) = self.nodes.get_mut(name.get_ref().as_str()) {
+                if let Some(is_animated) = self.nodes.get_mut(name.as_str()) {
                     *is_animated = true;
                     continue;
                 }
@@ -210,10 +208,10 @@ impl<'a> Objects<'a> {
             }
         }
         let cameras = file.camera.iter().chain(&file.cameras);
-        let cameras = cameras.map(|camera| &camera.get_ref().carried_by);
-        let lights = file.lights.iter().map(|light| &light.get_ref().carried_by);
+        let cameras = cameras.map(|camera| &camera.carried_by);
+        let lights = file.lights.iter().map(|light| &light.carried_by);
         for name in cameras.chain(lights).flatten() {
-            if self.nodes.contains_key(name.get_ref().as_str()) {
+            if self.nodes.contains_key(name.as_str()) {
                 continue;
             }
             let object = self.named(name.get_ref(), name.span(), texts)?;
@@ -235,7 +233,7 @@ impl<'a> Objects<'a> {
         let mut height = 1;
         for member in self.members(group) {
             let object = &self.all[member];
-            let (Some(inner), Some(name)) = (object.group, &object.table.get_ref().group) else {
+            let (Some(inner), Some(name)) = (object.group, &object.table.group) else {
                 continue;
             };
             let span = name.span();
@@ -333,7 +331,7 @@ impl Count {
 }
 
 fn second(name: &Spanned<String>, texts: &Texts) -> ImportError {
-    let quoted = quote(name.get_ref().as_bytes());
+    let quoted = quote(name.as_bytes());
     let why = format!("duplicate object name {quoted}");
     texts.malformed(name.span(), why, "Rename one of them")
 }

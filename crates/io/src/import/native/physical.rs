@@ -52,7 +52,7 @@ pub(super) fn material(table: &PbrTable, textures: &mut Textures) -> Result<Mate
     colors!(sheen_color);
     numbers!(sheen_roughness anisotropy iridescence);
     if let Some(map) = &table.iridescence_thickness_map {
-        if map.get_ref().value.is_some() {
+        if map.value.is_some() {
             let why = "a map between two thicknesses has no `value`";
             return Err(textures.refuse(map.span(), why, "Change the thicknesses instead"));
         }

@@ -43,7 +43,7 @@ impl<'a> Repeat<'a> {
             (None, Some(ring), None, None) => Ok(Self::Ring(ring)),
             (None, None, None, Some(points)) => self::points(points, texts, files),
             (None, None, Some(scatter), None) => {
-                let (min, max) = (scatter.min.0, scatter.max.get_ref().0);
+                let (min, max) = (scatter.min.0, scatter.max.0);
                 let names = ["x", "y", "z"].into_iter().enumerate();
                 if let Some((_, name)) = names.into_iter().find(|&(i, _)| max[i] < min[i]) {
                     let why = format!("{name} of `max` is less than {name} of `min`");
@@ -133,7 +133,7 @@ fn scatter(table: &ScatterTable, index: u64) -> DAffine3 {
     const DRAWS: u64 = 7;
     let draw = |i: u64| random(or(table.seed, 0), index * DRAWS + i);
     let three = |first: u64| DVec3::new(draw(first), draw(first + 1), draw(first + 2));
-    let (min, max) = (table.min.0, table.max.get_ref().0);
+    let (min, max) = (table.min.0, table.max.0);
     let turn = (2.0 * three(3) - 1.0) * or(table.turn_deg, DVec3::ZERO);
     let [least, most] = or(table.scale, [1.0; 2]);
     let scale = least + (most - least) * draw(6);

@@ -132,11 +132,11 @@ fn sphere(sphere: &SphereTable, placed: DAffine3, (textured, moves): (bool, bool
 fn disc(disc: &DiscTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), ImportError> {
     let radius = disc.radius.0;
     let hole = match &disc.inner_radius {
-        Some(inner) if inner.get_ref().0 >= radius => {
+        Some(inner) if inner.0 >= radius => {
             let why = format!("`inner_radius` is not less than `radius`, which is {radius}");
             return Err(texts.malformed(inner.span(), why, "Make the hole smaller"));
         }
-        Some(inner) => inner.get_ref().0 / radius,
+        Some(inner) => inner.0 / radius,
         None => 0.0,
     };
     let normal = or(disc.normal, DVec3::Y);
@@ -155,7 +155,7 @@ fn rectangle(rectangle: &RectangleTable, texts: &Texts) -> Result<DAffine3, Impo
             normal: None,
             ..
         } => {
-            let (u, v) = (edge_u.get_ref().0, edge_v.get_ref().0);
+            let (u, v) = (edge_u.0, edge_v.0);
             for (edge, vector) in [(edge_u, u), (edge_v, v)] {
                 if vector == DVec3::ZERO {
                     let todo = "Give the whole edge, as [x, y, z]";
@@ -176,7 +176,7 @@ fn rectangle(rectangle: &RectangleTable, texts: &Texts) -> Result<DAffine3, Impo
             normal,
             ..
         } => {
-            let normal = normal.as_ref().map_or(DVec3::Y, |n| n.get_ref().0);
+            let normal = normal.as_ref().map_or(DVec3::Y, |n| n.0);
             let (u, v) = Geometry::plane_axes(normal);
             (*width * u, *height * v)
         }
@@ -197,14 +197,11 @@ fn rectangle(rectangle: &RectangleTable, texts: &Texts) -> Result<DAffine3, Impo
     let height = u.length().max(v.length());
     let normal = u.normalize().cross(v.normalize()).normalize() * height;
     let axes = DMat3::from_cols(u, normal, -v) * 0.5;
-    Ok(DAffine3::from_mat3_translation(
-        axes,
-        rectangle.center.get_ref().0,
-    ))
+    Ok(DAffine3::from_mat3_translation(axes, rectangle.center.0))
 }
 
 fn cuboid(cuboid: &BoxTable, texts: &Texts) -> Result<DAffine3, ImportError> {
-    let (min, max) = (cuboid.min.0, cuboid.max.get_ref().0);
+    let (min, max) = (cuboid.min.0, cuboid.max.0);
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         if max[axis] <= min[axis] {
             let why = format!("{name} of `max` is not greater than {name} of `min`");
@@ -228,13 +225,13 @@ fn cylinder(
         top: 1.0,
         capped: cylinder.open != Some(true),
     };
-    let (from, to) = (cylinder.from.0, cylinder.to.get_ref().0);
+    let (from, to) = (cylinder.from.0, cylinder.to.0);
     let axes = around(from, to, cylinder.radius.0, cylinder.to.span(), texts)?;
     Ok((canonical, DAffine3::from_mat3_translation(axes, from)))
 }
 
 fn cone(cone: &ConeTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), ImportError> {
-    let [bottom, top] = [cone.from_radius.get_ref().0, or(cone.to_radius, 0.0)];
+    let [bottom, top] = [cone.from_radius.0, or(cone.to_radius, 0.0)];
     let wide = bottom.max(top);
     if wide < f64::from(f32::MIN_POSITIVE) {
         let why = "both radii of the cone are 0".to_owned();
@@ -246,13 +243,13 @@ fn cone(cone: &ConeTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), I
         top: top / wide,
         capped: cone.open != Some(true),
     };
-    let (from, to) = (cone.from.0, cone.to.get_ref().0);
+    let (from, to) = (cone.from.0, cone.to.0);
     let axes = around(from, to, wide, cone.to.span(), texts)?;
     Ok((canonical, DAffine3::from_mat3_translation(axes, from)))
 }
 
 fn torus(torus: &TorusTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), ImportError> {
-    let (major, minor) = (torus.major_radius.0, torus.minor_radius.get_ref().0);
+    let (major, minor) = (torus.major_radius.0, torus.minor_radius.0);
     if minor > major {
         let why = format!("`minor_radius` is greater than `major_radius`, which is {major}");
         let todo = "Make the tube thinner";

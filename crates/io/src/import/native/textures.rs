@@ -3,8 +3,8 @@
 use super::Texts;
 use super::file::{
     BackgroundTable, ColorOrBackground, ColorOrTexture, DataMapTable, HeightMapTable,
-    NamedBackground, NoiseTable, NumberTable, PairTable, PatternTables, PictureOrFile, SceneFile,
-    SkyTable, SpaceName, Spanned, WrapModes, in_order,
+    NamedBackground, NoiseTable, NumberTable, PairTable, PictureOrFile, SceneFile, SkyTable,
+    SpaceName, Spanned, TextureTable, WrapModes, in_order,
 };
 use super::values::or;
 use crate::import::error::ImportError;
@@ -47,7 +47,7 @@ impl<'a> Textures<'a> {
             spans: BTreeMap::new(),
         };
         for (name, table) in in_order(&file.textures) {
-            let index = textures.texture(&table.get_ref().pattern(), table.span())?;
+            let index = textures.texture(&table.pattern(), Role::Color, table.span())?;
             textures.names.insert(name.clone(), index);
         }
         Ok(textures)
@@ -71,7 +71,8 @@ impl<'a> Textures<'a> {
             ColorOrTexture::Color(color) => return Ok((color.0, None)),
             ColorOrTexture::Table(table) => table,
         };
-        let index = self.named_or_own(&table.texture, &table.pattern(), color.span())?;
+        let index =
+            self.named_or_own(&table.texture, &table.pattern(), Role::Color, color.span())?;
         let factor = or(table.color, Vec3::ONE);
         if !(factor * largest(&self.textures[index].pattern)).is_finite() {
             let why =
@@ -85,17 +86,18 @@ impl<'a> Textures<'a> {
     fn named_or_own(
         &mut self,
         name: &Option<Spanned<String>>,
-        pattern: &PatternTables,
+        pattern: &TextureTable,
+        role: Role,
         span: Range<usize>,
     ) -> Result<usize, ImportError> {
         match name {
-            Some(name) if pattern.count() == 0 && !pattern.has_placement() => self.named(name),
+            Some(name) if count(pattern) == 0 && !has_placement(pattern) => self.named(name),
             Some(name) => {
                 let todo = "Put them under [textures], or leave out `texture`";
                 let why = "a named texture has its own pattern and transform";
                 Err(self.refuse(name.span(), why, todo))
             }
-            None => self.texture(pattern, span),
+            None => self.texture(pattern, role, span),
         }
     }
 
@@ -105,11 +107,7 @@ impl<'a> Textures<'a> {
         table: &NumberTable,
         span: Range<usize>,
     ) -> Result<usize, ImportError> {
-        let pattern = PatternTables {
-            role: Role::Data,
-            ..table.pattern()
-        };
-        self.named_or_own(&table.texture, &pattern, span)
+        self.named_or_own(&table.texture, &table.pattern(), Role::Data, span)
     }
 
     /// Whether a texture has an alpha.
@@ -129,7 +127,7 @@ impl<'a> Textures<'a> {
     pub fn data_map(&mut self, map: &Spanned<DataMapTable>) -> Result<usize, ImportError> {
         let table = map.get_ref();
         self.check_flat(table.space, map.span())?;
-        let index = self.named_or_own(&table.texture, &table.pattern(), map.span())?;
+        let index = self.named_or_own(&table.texture, &table.pattern(), Role::Data, map.span())?;
         match self.has_alpha(index) {
             true => Ok(index),
             false => {
@@ -141,8 +139,12 @@ impl<'a> Textures<'a> {
 
     /// The normal map that a height map becomes.
     pub fn height_map(&mut self, map: &Spanned<HeightMapTable>) -> Result<usize, ImportError> {
-        self.check_flat(map.get_ref().space, map.span())?;
-        self.texture(&map.get_ref().pattern(), map.span())
+        self.check_flat(map.space, map.span())?;
+        let role = match map.height() < 0.0 {
+            true => Role::Depth,
+            false => Role::Height,
+        };
+        self.texture(&map.pattern(), role, map.span())
     }
 
     fn check_flat(&self, space: Option<SpaceName>, span: Range<usize>) -> Result<(), ImportError> {
@@ -250,12 +252,13 @@ impl<'a> Textures<'a> {
 
     fn texture(
         &mut self,
-        tables: &PatternTables,
+        tables: &TextureTable,
+        role: Role,
         span: Range<usize>,
     ) -> Result<usize, ImportError> {
         let pair = |a, b| (or(a, Vec3::ONE), or(b, Vec3::ZERO));
-        let colors = |table: &PairTable| pair(table.a, table.b);
-        let pattern = if tables.count() > 1 {
+        let colors = |table: PairTable| pair(table.a, table.b);
+        let pattern = if count(tables) > 1 {
             None
         } else if let Some((a, b)) = tables.checker.map(colors) {
             Some(Pattern::Checker { a, b })
@@ -267,8 +270,8 @@ impl<'a> Textures<'a> {
             let (a, b) = pair(noise.a, noise.b);
             let octaves = or(noise.octaves, NoiseTable::OCTAVES);
             Some(Pattern::Noise { a, b, octaves })
-        } else if let Some(picture) = tables.picture {
-            Some(self.sampled(picture, tables.role)?)
+        } else if let Some(picture) = &tables.picture {
+            Some(self.sampled(picture, role)?)
         } else {
             None
         };
@@ -279,7 +282,7 @@ impl<'a> Textures<'a> {
         };
         let space = or(
             tables.space,
-            tables.picture.map_or(Space::World, |_| Space::Uv),
+            tables.picture.as_ref().map_or(Space::World, |_| Space::Uv),
         );
         let space_from_pattern = Transform {
             scale: or(tables.scale, DVec3::ONE),
@@ -288,7 +291,7 @@ impl<'a> Textures<'a> {
         }
         .affine();
         let pattern_from_space = match tables.pattern_from_space {
-            Some(_) if tables.is_placed() => {
+            Some(_) if is_placed(tables) => {
                 let why = "`pattern_from_space` replaces `scale`, `rotate_deg` and `translate`";
                 return Err(self.refuse(span, why, "Leave out the others"));
             }
@@ -364,29 +367,26 @@ impl<'a> Textures<'a> {
     }
 }
 
-impl PatternTables<'_> {
-    /// Number of patterns.
-    fn count(&self) -> usize {
-        let given = [
-            self.checker.is_some(),
-            self.stripes.is_some(),
-            self.gradient.is_some(),
-            self.noise.is_some(),
-            self.picture.is_some(),
-        ];
-        given.into_iter().filter(|&given| given).count()
-    }
+/// Number of patterns.
+fn count(table: &TextureTable) -> usize {
+    let given = [
+        table.checker.is_some(),
+        table.stripes.is_some(),
+        table.gradient.is_some(),
+        table.noise.is_some(),
+        table.picture.is_some(),
+    ];
+    given.into_iter().filter(|&given| given).count()
+}
 
-    /// Whether it has a scale, angles or a translation.
-    fn is_placed(&self) -> bool {
-        let moved = self.rotate_deg.or(self.translate).is_some();
-        moved || self.scale.is_some()
-    }
+/// Whether it has a scale, angles or a translation.
+fn is_placed(table: &TextureTable) -> bool {
+    table.rotate_deg.or(table.translate).is_some() || table.scale.is_some()
+}
 
-    /// Whether it has a transform or coordinates for the pattern.
-    fn has_placement(&self) -> bool {
-        self.is_placed() || self.space.is_some() || self.pattern_from_space.is_some()
-    }
+/// Whether it has a transform or coordinates for the pattern.
+fn has_placement(table: &TextureTable) -> bool {
+    is_placed(table) || table.space.is_some() || table.pattern_from_space.is_some()
 }
 
 /// The largest value of each channel of a pattern.

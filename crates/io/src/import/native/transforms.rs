@@ -9,7 +9,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 /// Refuses a transform that specifies something twice.
 pub(super) fn check(transform: &Spanned<TransformTable>, texts: &Texts) -> Result<(), ImportError> {
-    if !transform.get_ref().is_double() {
+    if !transform.is_double() {
         return Ok(());
     }
     let why = "`matrix` replaces all others, and `rotation` replaces `rotate_deg`";

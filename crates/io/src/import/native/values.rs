@@ -1,11 +1,13 @@
 //! The value types of a native scene. Each checks itself when it is read, so that errors have a position,
 //! and describes itself for the JSON Schema.
 
+mod either;
 mod names;
 mod spanned;
 mod written;
 
 pub(crate) use backdrop::BackdropValue;
+pub(crate) use either::either;
 pub(crate) use layers::{BodyIndex, Dispersion, FilmIndex, Thicknesses};
 pub(crate) use moving::{
     Copies, Duration, FrameRate, GridCount, Pace, Quaternion, ScaleRange, Seed, Share,
@@ -20,7 +22,7 @@ pub(crate) use places::{
     AxisRadians, ConeAngle, ConeRadians, Length, Matrix, Upwards, ViewRadians,
 };
 pub(crate) use spanned::Spanned;
-pub(crate) use written::{Written, differing, or};
+pub(crate) use written::{Written, differing, or, short};
 
 use crate::import::number::in_range;
 use crate::import::picture::linear_from_srgb;
@@ -32,6 +34,7 @@ use serde::ser::{Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
+use std::ops::RangeInclusive;
 use toml::Value;
 use written::color;
 
@@ -157,7 +160,31 @@ macro_rules! value {
     };
 }
 
-// Below the macro, because they use it.
+/// Defines a number from its docs, its type, its least and its greatest value, and what it is in errors.
+macro_rules! number {
+    ($(#[doc = $doc:literal])* $name:ident($inner:ty), $least:expr, $most:expr, $wanted:literal) => {
+        value! {
+            $(#[doc = $doc])*
+            $name($inner),
+            { "type": "number", "minimum": $least, "maximum": $most },
+            |d| number(d, |x| ($least..=$most).contains(&x), $wanted).map(|x| x as $inner)
+        }
+    };
+}
+
+/// Defines a whole number from its docs, its type, and its least and its greatest value.
+macro_rules! whole {
+    ($(#[doc = $doc:literal])* $name:ident($inner:ty), $least:literal, $most:literal) => {
+        value! {
+            $(#[doc = $doc])*
+            $name($inner),
+            { "type": "integer", "minimum": $least, "maximum": $most },
+            |d| read_whole(d, $least..=$most).map(|x| x as $inner)
+        }
+    };
+}
+
+// Below the macros, because they use them.
 mod backdrop;
 mod layers;
 mod moving;
@@ -166,6 +193,7 @@ mod places;
 /// One element for each corner of a triangle.
 #[derive(Clone, Debug, serde::Serialize, JsonSchema)]
 #[serde(transparent)]
+#[schemars(inline)]
 pub(crate) struct Triple<T>(pub [T; 3]);
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Triple<T> {
@@ -188,6 +216,23 @@ fn number<'de, D: Deserializer<'de>>(
             shown(value)
         ))),
     }
+}
+
+/// Reads a whole number in `range`.
+fn read_whole<'de, D: Deserializer<'de>>(
+    deserializer: D,
+    range: RangeInclusive<i64>,
+) -> Result<i64, D::Error> {
+    let value = Number::deserialize(deserializer)?.0;
+    if value.fract() == 0.0 && range.contains(&(value as i64)) {
+        return Ok(value as i64);
+    }
+    let (least, most) = range.into_inner();
+    let wanted = format!("a whole number from {least} to {most}");
+    Err(de::Error::custom(format!(
+        "{} is not {wanted}",
+        shown(value)
+    )))
 }
 
 /// Whether a squared length is 1 within f64's rounding of a normalised vector.
@@ -228,28 +273,19 @@ value! {
     |d| number(d, |x| x >= 0.0, "0 or more")
 }
 
-value! {
+number! {
     /// A number of pixels.
-    Radius(f32),
-    { "type": "number", "minimum": 0.01, "maximum": 16 },
-    |d| number(d, |x| (0.01..=16.0).contains(&x), "between 0.01 and 16").map(|x| x as f32)
+    Radius(f32), 0.01, 16.0, "between 0.01 and 16"
 }
 
-value! {
+number! {
     /// A factor on a number of samples.
-    Factor(f32),
-    { "type": "number", "minimum": 0.001, "maximum": 1000 },
-    |d| number(d, |x| (1e-3..=1e3).contains(&x), "between 0.001 and 1000").map(|x| x as f32)
+    Factor(f32), 0.001, 1000.0, "between 0.001 and 1000"
 }
 
-value! {
+whole! {
     /// A number of corners.
-    Corners(u32),
-    { "type": "integer", "minimum": 3, "maximum": 64 },
-    |d| {
-        let holds = |x: f64| x.fract() == 0.0 && (3.0..=64.0).contains(&x);
-        number(d, holds, "a whole number from 3 to 64").map(|x| x as u32)
-    }
+    Corners(u32), 3, 64
 }
 
 value! {
@@ -273,28 +309,19 @@ value! {
     |d| number(d, |x| x >= 0.0, "0 or more").map(|x| x as f32)
 }
 
-value! {
+number! {
     /// A fraction, 0 to 1.
-    Fraction(f32),
-    { "type": "number", "minimum": 0, "maximum": 1 },
-    |d| number(d, |x| (0.0..=1.0).contains(&x), "between 0 and 1").map(|x| x as f32)
+    Fraction(f32), 0.0, 1.0, "between 0 and 1"
 }
 
-value! {
+number! {
     /// An error threshold, above 0.
-    Noise(f32),
-    { "type": "number", "minimum": 1e-6, "maximum": 1 },
-    |d| number(d, |x| (1e-6..=1.0).contains(&x), "between 1e-6 and 1").map(|x| x as f32)
+    Noise(f32), 1e-6, 1.0, "between 1e-6 and 1"
 }
 
-value! {
+number! {
     /// An index of refraction.
-    RefractiveIndex(f32),
-    { "type": "number", "minimum": 0.01, "maximum": 100 },
-    |d| {
-        let wanted = "an index of refraction between 0.01 and 100";
-        number(d, |x| (0.01..=100.0).contains(&x), wanted).map(|x| x as f32)
-    }
+    RefractiveIndex(f32), 0.01, 100.0, "an index of refraction between 0.01 and 100"
 }
 
 value! {
@@ -310,21 +337,14 @@ value! {
     }
 }
 
-value! {
+whole! {
     /// A priority, a whole number from -100 to 100.
-    Priority(i32),
-    { "type": "integer", "minimum": -100, "maximum": 100 },
-    |d| {
-        let holds = |x: f64| x.fract() == 0.0 && (-100.0..=100.0).contains(&x);
-        number(d, holds, "a whole number from -100 to 100").map(|x| x as i32)
-    }
+    Priority(i32), -100, 100
 }
 
-value! {
+number! {
     /// A number of photographic stops.
-    Stops(f32),
-    { "type": "number", "minimum": -32, "maximum": 32 },
-    |d| number(d, |x| x.abs() <= 32.0, "between -32 and 32").map(|x| x as f32)
+    Stops(f32), -32.0, 32.0, "between -32 and 32"
 }
 
 value! {
@@ -334,11 +354,9 @@ value! {
     |d| number(d, |x| (1e-3..=179.999).contains(&x), "an angle between 0.001 and 179.999 degrees")
 }
 
-value! {
+number! {
     /// An angle from an axis in degrees.
-    AxisAngle(f64),
-    { "type": "number", "minimum": 0, "maximum": 90 },
-    |d| number(d, |x| (0.0..=90.0).contains(&x), "an angle between 0 and 90 degrees")
+    AxisAngle(f64), 0.0, 90.0, "an angle between 0 and 90 degrees"
 }
 
 value! {
@@ -348,14 +366,9 @@ value! {
     |d| number(d, |_| true, "an angle")
 }
 
-value! {
+whole! {
     /// A whole number from 1 to 16.
-    Octaves(u32),
-    { "type": "integer", "minimum": 1, "maximum": 16 },
-    |d| {
-        let holds = |x: f64| x.fract() == 0.0 && (1.0..=16.0).contains(&x);
-        number(d, holds, "a whole number from 1 to 16").map(|x| x as u32)
-    }
+    Octaves(u32), 1, 16
 }
 
 value! {
@@ -387,7 +400,7 @@ value! {
         { "type": "array", "items": { "type": "number", "not": { "const": 0 } }, "minItems": 3, "maxItems": 3 }
     ] },
     |d| {
-        let scale = d.deserialize_any(NumberOrVector)?;
+        let scale = DVec3::from(NumberOrVector::deserialize(d)?);
         let is_flat = scale.abs().min_element() < f64::from(f32::MIN_POSITIVE);
         if is_flat { Err(de::Error::custom("a scale cannot be 0")) } else { Ok(scale) }
     },
@@ -415,46 +428,29 @@ value! {
     |d| elements::<Count, 2, D>(d, "two numbers [width, height]").map(|size| size.map(|count| count.0))
 }
 
-value! {
+whole! {
     /// A whole number from 0 to 1000.
-    Bounces(u32),
-    { "type": "integer", "minimum": 0, "maximum": 1000 },
-    |d| {
-        let holds = |x: f64| x.fract() == 0.0 && (0.0..=1000.0).contains(&x);
-        number(d, holds, "a whole number from 0 to 1000").map(|x| x as u32)
-    }
+    Bounces(u32), 0, 1000
 }
 
-value! {
+whole! {
     /// A whole number from 1 to 65536.
-    Count(u32),
-    { "type": "integer", "minimum": 1, "maximum": 65536 },
-    |d| {
-        let holds = |x: f64| x.fract() == 0.0 && (1.0..=65536.0).contains(&x);
-        number(d, holds, "a whole number from 1 to 65536").map(|x| x as u32)
-    }
+    Count(u32), 1, 65536
 }
 
-/// Reads three numbers, or one for all three.
-pub(crate) struct NumberOrVector;
+either! {
+    /// Three numbers, or one for all three.
+    NumberOrVector { Number(Number), Vector(Vector) },
+    "a number or [x, y, z]",
+    number: Number, seq: Vector
+}
 
-impl<'de> Visitor<'de> for NumberOrVector {
-    type Value = DVec3;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a number or [x, y, z]")
-    }
-
-    fn visit_i64<E: de::Error>(self, value: i64) -> Result<DVec3, E> {
-        self.visit_f64(value as f64)
-    }
-
-    fn visit_f64<E: de::Error>(self, value: f64) -> Result<DVec3, E> {
-        Number::deserialize(de::value::F64Deserializer::new(value)).map(|x| DVec3::splat(x.0))
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<DVec3, A::Error> {
-        Vector::deserialize(de::value::SeqAccessDeserializer::new(seq)).map(|vector| vector.0)
+impl From<NumberOrVector> for DVec3 {
+    fn from(value: NumberOrVector) -> Self {
+        match value {
+            NumberOrVector::Number(number) => Self::splat(number.0),
+            NumberOrVector::Vector(vector) => vector.0,
+        }
     }
 }
 

@@ -13,7 +13,7 @@ use crate::import::native::values::{
 use glam::{DQuat, DVec3, DVec4};
 use glimray_scene::{Beyond, Curve, Easing, Values};
 use serde::Deserialize;
-use serde::de::{Deserializer, value};
+use serde::de::value;
 
 const SEE: &str = "See `glimray schema` for what is allowed";
 
@@ -31,7 +31,7 @@ pub(super) fn curve(table: &AnimationTable, texts: &Texts) -> Result<Curve, Impo
     let mut times = Vec::with_capacity(keys.len());
     let mut samples = Vec::with_capacity(keys.len());
     for Key(key) in keys {
-        let time = key.time.get_ref().0;
+        let time = key.time.0;
         if let Some(&last) = times.last()
             && time <= last
         {
@@ -108,7 +108,7 @@ fn easing(
             let todo = "Leave `easing` out, or make the interpolation linear";
             Err(texts.malformed(pace.span(), why, todo))
         }
-        Some(pace) => Ok(pace.get_ref().0),
+        Some(pace) => Ok(pace.0),
     }
 }
 
@@ -146,7 +146,7 @@ fn tangent(property: P, sample: Sample, from: &KeyValue) -> Result<Sample, value
         (P::FovYDeg, _) => Sample::Scalar(Number::deserialize(from)?.0.to_radians()),
         (P::RotateDeg, _) => Sample::Vector(radians(Vector::deserialize(from)?.0)),
         (P::Scale | P::Reflect | P::Transmit, _) => {
-            Sample::Vector(from.deserialize_any(NumberOrVector)?)
+            Sample::Vector(NumberOrVector::deserialize(from)?.into())
         }
         (_, Sample::Scalar(_)) => Sample::Scalar(Number::deserialize(from)?.0),
         (_, Sample::Vector(_)) => Sample::Vector(Vector::deserialize(from)?.0),

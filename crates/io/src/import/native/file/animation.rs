@@ -3,7 +3,10 @@
 use super::Spanned;
 use super::keys::Key;
 use crate::import::native::values::{Pace, words};
-use glimray_scene::{Beyond, Interpolation};
+use PropertyName as P;
+use glimray_scene::{
+    Beyond, CameraProperty, Interpolation, LightProperty, MaterialProperty, NodeProperty,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -122,5 +125,68 @@ words! {
         Repeat,
         /// Alternates between forward and backward.
         PingPong,
+    }
+}
+
+/// Defines the properties of one kind of target, each by one word, or by one in degrees and one in radians, and the
+/// function from a property to its words.
+macro_rules! properties {
+    ($all:ident, $words:ident: $type:ident { $($property:ident: $($word:ident)|+,)* }) => {
+        #[doc = concat!("The words of each [`", stringify!($type), "`].")]
+        pub(crate) const $all: &[(P, $type)] = &[$($((P::$word, $type::$property),)+)*];
+
+        #[doc = concat!("The words of a [`", stringify!($type), "`].")]
+        pub(crate) fn $words(property: $type) -> &'static [P] {
+            match property {
+                $($type::$property => &[$(P::$word),+],)*
+            }
+        }
+    };
+}
+
+properties! {
+    OF_NODES, of_node: NodeProperty {
+        Translation: Translate,
+        Rotation: Rotation,
+        Angles: RotateDeg | Angles,
+        Scale: Scale,
+        Visible: Visible,
+    }
+}
+
+properties! {
+    OF_CAMERAS, of_camera: CameraProperty {
+        LookFrom: LookFrom,
+        LookAt: LookAt,
+        Up: Up,
+        FovY: FovYDeg | FovY,
+        OrthographicHeight: Orthographic,
+        FocusDistance: FocusDistance,
+        LensRadius: LensRadius,
+    }
+}
+
+properties! {
+    OF_LIGHTS, of_light: LightProperty {
+        Position: Position,
+        Direction: Direction,
+        Color: Color,
+        Intensity: Intensity,
+        On: On,
+    }
+}
+
+properties! {
+    OF_MATERIALS, of_material: MaterialProperty {
+        Diffuse: Diffuse,
+        Specular: Specular,
+        Shininess: Shininess,
+        Ambient: Ambient,
+        Emission: Emission,
+        Reflect: Reflect,
+        Transmit: Transmit,
+        Opacity: Opacity,
+        Ior: Ior,
+        Absorption: Absorption,
     }
 }

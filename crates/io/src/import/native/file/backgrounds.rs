@@ -1,8 +1,7 @@
 //! The background of a native scene.
 
 use super::Spanned;
-use super::either::either;
-use crate::import::native::values::{Angle, Color, NonNegative, Number};
+use crate::import::native::values::{Angle, Color, NonNegative, Number, either};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

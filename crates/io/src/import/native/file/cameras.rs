@@ -1,9 +1,8 @@
 //! Cameras in a native scene.
 
 use super::Spanned;
-use super::either::either;
 use crate::import::native::values::{
-    Corners, Distance, Number, Positive, Upwards, Vector, ViewAngle, ViewRadians, or,
+    Corners, Distance, Number, Positive, Upwards, Vector, ViewAngle, ViewRadians, either, or,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 /// Copies of an object or group, arranged by exactly one of grid, ring, scatter and points. Each copy is
 /// first transformed by `transform`, then moved to its place.
-#[derive(Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RepeatTable {
     /// In rows, columns and layers.

@@ -1,11 +1,11 @@
 //! Materials in a native scene.
 
 use super::Spanned;
-use super::either::either;
 use super::physical::PbrTable;
 use super::textures::{ColorOrTexture, DataMapTable, HeightMapTable};
 use crate::import::native::values::{
-    Absorption, Fraction, FresnelName, MixingName, NonNegative, Positive, Priority, RefractiveIndex,
+    Absorption, Fraction, FresnelName, MixingName, NonNegative, Positive, Priority,
+    RefractiveIndex, either,
 };
 use glimray_scene::Phong;
 use schemars::JsonSchema;

@@ -1,7 +1,7 @@
 //! Meshes in a native scene.
 
 use super::Spanned;
-use super::either::either;
+use crate::import::native::values::either;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -66,7 +66,7 @@ pub(crate) struct SphereTable {
 }
 
 /// An ellipsoid aligned with the axes, before its transform.
-#[derive(Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct EllipsoidTable {
     /// Its centre; default the origin.

@@ -1,11 +1,10 @@
 //! The metallic-roughness model in a native scene.
 
 use super::Spanned;
-use super::either::either;
 use super::textures::{ColorOrTexture, DataMapTable, NumberTable};
 use crate::import::native::values::{
     Angle, BodyIndex, Color, Dispersion, FilmIndex, Fraction, NonNegative, Positive, Priority,
-    Thicknesses,
+    Thicknesses, either,
 };
 use glam::Vec3;
 use glimray_scene::MetallicRoughness;

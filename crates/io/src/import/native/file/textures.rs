@@ -1,11 +1,9 @@
 //! Textures in a native scene.
 
 use super::Spanned;
-use super::either::either;
 use crate::import::native::values::{
-    Color, Fraction, Matrix, NonNegative, Number, Octaves, Scale, Vector, words,
+    Color, Fraction, Matrix, NonNegative, Number, Octaves, Scale, Vector, either, words,
 };
-use crate::import::picture::Role;
 use glimray_scene::{Minify, Space, Wrap};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -45,19 +43,18 @@ macro_rules! with_pattern {
 
         impl $name {
             /// The pattern and its transform.
-            pub(in crate::import::native) fn pattern(&self) -> PatternTables<'_> {
-                PatternTables {
-                    checker: self.checker.as_ref(),
-                    stripes: self.stripes.as_ref(),
-                    gradient: self.gradient.as_ref(),
-                    noise: self.noise.as_ref(),
-                    picture: self.picture.as_ref(),
+            pub fn pattern(&self) -> TextureTable {
+                TextureTable {
+                    checker: self.checker,
+                    stripes: self.stripes,
+                    gradient: self.gradient,
+                    noise: self.noise,
+                    picture: self.picture.clone(),
                     space: self.space,
                     scale: self.scale,
                     rotate_deg: self.rotate_deg,
                     translate: self.translate,
                     pattern_from_space: self.pattern_from_space,
-                    role: Role::Color,
                 }
             }
         }
@@ -90,21 +87,6 @@ with_pattern! {
         /// Factor on the texture; default 1.
         pub value: Option<Fraction>,
     }
-}
-
-/// The pattern of a table, and its transform.
-pub(in crate::import::native) struct PatternTables<'a> {
-    pub checker: Option<&'a PairTable>,
-    pub stripes: Option<&'a PairTable>,
-    pub gradient: Option<&'a PairTable>,
-    pub noise: Option<&'a NoiseTable>,
-    pub picture: Option<&'a Spanned<PictureOrFile>>,
-    pub space: Option<SpaceName>,
-    pub scale: Option<Scale>,
-    pub rotate_deg: Option<Vector>,
-    pub translate: Option<Vector>,
-    pub pattern_from_space: Option<Matrix>,
-    pub role: Role,
 }
 
 /// A map of numbers, for surfaces with u and v: the image is not read as sRGB. In a normal map red, green and blue
@@ -159,47 +141,36 @@ impl HeightMapTable {
     }
 
     /// The image and its transform.
-    pub(in crate::import::native) fn pattern(&self) -> PatternTables<'_> {
-        PatternTables {
-            checker: None,
-            stripes: None,
-            gradient: None,
-            noise: None,
-            picture: Some(&self.picture),
+    pub fn pattern(&self) -> TextureTable {
+        TextureTable {
+            picture: Some(self.picture.clone()),
             space: self.space,
             scale: self.scale,
             rotate_deg: self.rotate_deg,
             translate: self.translate,
             pattern_from_space: self.pattern_from_space,
-            role: match self.height() < 0.0 {
-                true => Role::Depth,
-                false => Role::Height,
-            },
+            ..TextureTable::default()
         }
     }
 }
 
 impl DataMapTable {
     /// The image and its transform.
-    pub(in crate::import::native) fn pattern(&self) -> PatternTables<'_> {
-        PatternTables {
-            checker: None,
-            stripes: None,
-            gradient: None,
-            noise: None,
-            picture: self.picture.as_ref(),
+    pub fn pattern(&self) -> TextureTable {
+        TextureTable {
+            picture: self.picture.clone(),
             space: self.space,
             scale: self.scale,
             rotate_deg: self.rotate_deg,
             translate: self.translate,
             pattern_from_space: self.pattern_from_space,
-            role: Role::Data,
+            ..TextureTable::default()
         }
     }
 }
 
 /// Two colours.
-#[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PairTable {
     /// First colour; default white.
@@ -209,7 +180,7 @@ pub(crate) struct PairTable {
 }
 
 /// Noise.
-#[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NoiseTable {
     /// First colour; default white.

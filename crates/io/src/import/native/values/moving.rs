@@ -1,28 +1,15 @@
 //! Value types for repetition and animation.
 
-use super::Written;
-use super::{Color, Fraction, Number, Positive, color, elements, is_unit, number};
-use crate::import::source::quote;
-use glam::{DQuat, Vec3};
+use super::*;
+use glam::DQuat;
 use glimray_scene::Easing;
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{self, Deserialize, Deserializer, IntoDeserializer, SeqAccess, Visitor};
-use serde::ser::{Serialize, Serializer};
-use std::borrow::Cow;
-use std::fmt;
-use toml::Value;
 
 /// Limit of the shutter's times, in frames from the frame's own time.
 const MAX_FRAMES: f64 = 1000.0;
 
-value! {
+whole! {
     /// A number of copies, a whole number of 1 or more.
-    Copies(u64),
-    { "type": "integer", "minimum": 1, "maximum": 1_000_000_000 },
-    |d| {
-        let holds = |x: f64| x.fract() == 0.0 && (1.0..=1e9).contains(&x);
-        number(d, holds, "a whole number from 1 to 1000000000").map(|x| x as u64)
-    }
+    Copies(u64), 1, 1_000_000_000
 }
 
 value! {
@@ -32,14 +19,9 @@ value! {
     |d| elements::<Copies, 3, D>(d, "three counts [x, y, z]").map(|count| count.map(|copies| copies.0))
 }
 
-value! {
+whole! {
     /// A whole number from 0 to 4294967295.
-    Seed(u64),
-    { "type": "integer", "minimum": 0, "maximum": 4_294_967_295_u32 },
-    |d| {
-        let holds = |x: f64| x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&x);
-        number(d, holds, "a whole number from 0 to 4294967295").map(|x| x as u64)
-    }
+    Seed(u64), 0, 4_294_967_295_i64
 }
 
 value! {
@@ -55,25 +37,19 @@ value! {
     }
 }
 
-value! {
+number! {
     /// A time in seconds.
-    Time(f64),
-    { "type": "number", "minimum": -1e9, "maximum": 1e9 },
-    |d| number(d, |x| x.abs() <= 1e9, "a time between -1e9 and 1e9 seconds")
+    Time(f64), -1e9, 1e9, "a time between -1e9 and 1e9 seconds"
 }
 
-value! {
+number! {
     /// A length of time in seconds, above 0.
-    Duration(f64),
-    { "type": "number", "minimum": 1e-6, "maximum": 1e9 },
-    |d| number(d, |x| (1e-6..=1e9).contains(&x), "between 1e-6 and 1e9 seconds")
+    Duration(f64), 1e-6, 1e9, "between 1e-6 and 1e9 seconds"
 }
 
-value! {
+number! {
     /// Frames per second.
-    FrameRate(f64),
-    { "type": "number", "minimum": 0.001, "maximum": 1000 },
-    |d| number(d, |x| (1e-3..=1e3).contains(&x), "between 0.001 and 1000")
+    FrameRate(f64), 0.001, 1000.0, "between 0.001 and 1000"
 }
 
 value! {
@@ -103,7 +79,10 @@ value! {
         { "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": 3, "maxItems": 3 },
         { "type": "string", "pattern": "^#[0-9A-Fa-f]{6}$" }
     ] },
-    |d| d.deserialize_any(ShareVisitor),
+    |d| Ok(match FractionOrColor::deserialize(d)? {
+        FractionOrColor::Fraction(fraction) => Vec3::splat(fraction.0),
+        FractionOrColor::Color(color) => color.0,
+    }),
     color
 }
 
@@ -142,30 +121,11 @@ value! {
     }
 }
 
-struct ShareVisitor;
-
-impl<'de> Visitor<'de> for ShareVisitor {
-    type Value = Vec3;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a fraction between 0 and 1, or a colour")
-    }
-
-    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Vec3, E> {
-        self.visit_f64(value as f64)
-    }
-
-    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Vec3, E> {
-        Fraction::deserialize(value.into_deserializer()).map(|fraction| Vec3::splat(fraction.0))
-    }
-
-    fn visit_str<E: de::Error>(self, text: &str) -> Result<Vec3, E> {
-        Color::deserialize(text.into_deserializer()).map(|color| color.0)
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Vec3, A::Error> {
-        Color::deserialize(de::value::SeqAccessDeserializer::new(seq)).map(|color| color.0)
-    }
+either! {
+    /// A fraction for all channels, or a colour.
+    FractionOrColor { Fraction(Fraction), Color(Color) },
+    "a fraction between 0 and 1, or a colour",
+    number: Fraction, str: Color, seq: Color
 }
 
 struct ShutterVisitor;

@@ -1,13 +1,7 @@
 //! Value types that keep every bit of positions and angles.
 
-use super::Written;
-use super::{Vector, elements, number};
-use glam::{DAffine3, DMat3, DVec3};
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{self, Deserialize, Deserializer};
-use serde::ser::{Serialize, Serializer};
-use std::borrow::Cow;
-use toml::Value;
+use super::*;
+use glam::{DAffine3, DMat3};
 
 value! {
     /// A length, 0 or more.
@@ -26,31 +20,19 @@ value! {
     }
 }
 
-value! {
+number! {
     /// An angle from an axis in radians.
-    AxisRadians(f64),
-    { "type": "number", "minimum": 0, "maximum": std::f64::consts::FRAC_PI_2 },
-    |d| {
-        let holds = |x: f64| (0.0..=std::f64::consts::FRAC_PI_2).contains(&x);
-        number(d, holds, "an angle between 0 and pi/2 radians")
-    }
+    AxisRadians(f64), 0.0, std::f64::consts::FRAC_PI_2, "an angle between 0 and pi/2 radians"
 }
 
-value! {
+number! {
     /// An angle from an axis in degrees, not 0.
-    ConeAngle(f64),
-    { "type": "number", "minimum": 0.05, "maximum": 90 },
-    |d| number(d, |x| (0.05..=90.0).contains(&x), "an angle between 0.05 and 90 degrees")
+    ConeAngle(f64), 0.05, 90.0, "an angle between 0.05 and 90 degrees"
 }
 
-value! {
+number! {
     /// An angle from an axis in radians, not 0.
-    ConeRadians(f64),
-    { "type": "number", "minimum": 0.0005, "maximum": std::f64::consts::FRAC_PI_2 },
-    |d| {
-        let holds = |x: f64| (0.0005..=std::f64::consts::FRAC_PI_2).contains(&x);
-        number(d, holds, "an angle between 0.0005 and pi/2 radians")
-    }
+    ConeRadians(f64), 0.0005, std::f64::consts::FRAC_PI_2, "an angle between 0.0005 and pi/2 radians"
 }
 
 value! {

@@ -21,6 +21,16 @@ pub(crate) fn differing<T, V: From<T> + PartialEq>(value: T, default: T) -> Opti
     (value != V::from(default)).then_some(value)
 }
 
+/// The number with the fewest digits that is read as `value`.
+pub(crate) fn short(value: f32) -> f64 {
+    let short = value.to_string().parse().unwrap_or(f64::NAN);
+    // The importer parses f64 and rounds to f32: the shortest f32 digits may round to a neighbour.
+    match (short as f32).to_bits() == value.to_bits() {
+        true => short,
+        false => f64::from(value),
+    }
+}
+
 impl Written for f64 {
     fn written(&self) -> Value {
         // Zero has a sign, integers do not.
@@ -34,12 +44,7 @@ impl Written for f64 {
 
 impl Written for f32 {
     fn written(&self) -> Value {
-        // The importer parses f64 and rounds to f32: the shortest f32 digits may round to a neighbour.
-        let short = self.to_string().parse().unwrap_or(f64::NAN);
-        match (short as f32).to_bits() == self.to_bits() {
-            true => short.written(),
-            false => f64::from(*self).written(),
-        }
+        short(*self).written()
     }
 }
 
