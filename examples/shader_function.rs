@@ -2,7 +2,7 @@
 //! each angle, by `lib::fresnel`. `cargo run --release --example shader_function`
 //!
 //! The kernel imports the function, `wesl` links both to plain WGSL, and wgpu runs it. The tests of the
-//! library do the same for tables of inputs: see `map` in `tests/suite/support/harness.rs`.
+//! library do the same for tables of inputs, by the package `glimray-shader-test`.
 
 use std::error::Error;
 use wesl::{FileResolver, Router, VirtualResolver, Wesl};

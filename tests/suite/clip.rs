@@ -17,6 +17,7 @@ use glimray::scene::{
     Background, Camera, Coverage, Light, LightKind, Material, Minify, Node, Origin, Pattern, Phong,
     Picture, Scene, Space, Texels, Texture, Wrap,
 };
+use glimray_shader_test::Plain;
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
 use std::sync::Arc;
@@ -111,7 +112,7 @@ fn a_clipped_ray_lies_between_the_planes() {
         ),
     ];
     let inputs: Vec<_> = (rows.iter())
-        .map(|&(_, direction, clip, ..)| (camera, clip, ray(camera.origin, direction)))
+        .map(|&(_, direction, clip, ..)| (Plain(camera), clip, ray(camera.origin, direction)))
         .collect();
     let found: Vec<Ray> = gpu().map("lib::camera::clipped_ray", &inputs);
     let mut verdict = Verdict::on("clipped_ray");
@@ -122,7 +123,10 @@ fn a_clipped_ray_lies_between_the_planes() {
         verdict.near(name, &got.t_max, &length, Tolerance::Relative(1e-6));
         verdict.that(name, got.direction == *direction, || format!("{got:?}"));
     }
-    let ways: Vec<f32> = gpu().map("lib::camera::along_ray", &[(camera, 3.0_f32, slanted)]);
+    let ways: Vec<f32> = gpu().map(
+        "lib::camera::along_ray",
+        &[(Plain(camera), 3.0_f32, slanted)],
+    );
     verdict.near(
         "along a ray at 60°",
         &ways[0],

@@ -14,6 +14,7 @@ const PACKAGES: &[(&str, &[&str])] = &[
     ("scene", &[]),
     ("shaders", &[]),
     ("link", &[]),
+    ("shader-test", &[]),
     ("io", &["scene"]),
     ("render", &["scene", "shaders"]),
     ("app", &["io", "render", "scene"]),
@@ -33,6 +34,7 @@ const MODULES: &[(&str, &str, &[&str])] = &[
     ("scene", "image", &[]),
     ("shaders", "shaders", &[]),
     ("link", "link", &[]),
+    ("shader-test", "shader-test", &[]),
     ("render", "layout", &[]),
     ("render", "gpu", &["bytes", "shaders"]),
     ("scene", "threads", &[]),
@@ -262,7 +264,7 @@ fn modules_use_only_what_they_may() {
         for (package, _) in PACKAGES {
             let (root, package) = match *package {
                 "" => ("crate".to_owned(), own.as_str()),
-                package => (format!("glimray_{package}"), package),
+                package => (format!("glimray_{}", package.replace('-', "_")), package),
             };
             let names = names_after(&code, &root).into_iter();
             uses.extend(names.map(|name| module_named(package, &name)));

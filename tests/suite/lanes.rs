@@ -7,7 +7,10 @@ use crate::path::{emitter_tree, lobes};
 use crate::reference::compare::{assert_none, check_same_bits, fetched, open_gpu, try_render};
 use crate::reference::scenes;
 use crate::render::cut;
-use crate::support::{harness::gpu, random::Random};
+use crate::support::{
+    harness::{gpu, probe},
+    random::Random,
+};
 use glam::dvec3;
 use glimray::image::Image;
 use glimray::import;
@@ -26,6 +29,7 @@ const SIZE: (u32, u32) = (27, 22);
 #[test]
 fn a_value_leaves_a_loop_lane_by_lane() {
     const LEAVE_WITH_A_VALUE: &str = "
+        @group(0) @binding(0) var<storage, read> inputs: array<u32>;
         fn probe(least: u32) -> u32 {
             var i = 0u;
             var found: u32;
@@ -37,7 +41,10 @@ fn a_value_leaves_a_loop_lane_by_lane() {
             return found;
         }";
     let inputs: Vec<u32> = (0..64).collect();
-    let found: Vec<u32> = gpu().map_source(LEAVE_WITH_A_VALUE, &inputs);
+    let found: Vec<u32> = gpu().map_shader(
+        &probe(LEAVE_WITH_A_VALUE).buffer("inputs", &inputs),
+        &inputs,
+    );
     let expected: Vec<u32> = inputs.iter().map(|least| least.div_ceil(3) * 3).collect();
     assert_eq!(found, expected);
 }

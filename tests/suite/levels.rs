@@ -11,6 +11,7 @@ use glimray::layout::{PackedTone, VIEW_DEPTH, VIEW_HEAT, VIEW_NORMALS};
 use glimray::render::{Antialias, Integrator, Levels, Quantity, RenderSettings, Renderer, Tone};
 use glimray::scene::{Background, Camera, Geometry, Material, Scene, Shape};
 use glimray_app::legend;
+use glimray_shader_test::Plain;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -174,16 +175,16 @@ fn a_picture_without_hits_has_no_range_of_distances_and_is_black() {
     assert!(shown.iter().all(|value| *value == 0.0));
 }
 
-fn tone(view: u32, range: Option<[f32; 2]>, exposure_scale: f32) -> PackedTone {
+fn tone(view: u32, range: Option<[f32; 2]>, exposure_scale: f32) -> Plain<PackedTone> {
     let [least, most] = range.unwrap_or_default();
-    PackedTone {
+    Plain(PackedTone {
         view,
         range: [least, most],
         has_range: range.is_some().into(),
         exposure_scale,
         transfer: glimray::layout::TRANSFER_LINEAR,
         ..PackedTone::default()
-    }
+    })
 }
 
 #[test]

@@ -15,6 +15,7 @@ use glimray::scene::{
     Background, Beyond, Camera, CameraProperty, Curve, Easing, Interpolation, Lens, Material, Node,
     Phong, Scene, Target, Track, Values,
 };
+use glimray_shader_test::Plain;
 use std::f64::consts::PI;
 use std::fs;
 use std::process::Command;
@@ -176,7 +177,7 @@ fn parallel_rays_start_in_the_points_of_the_plane() {
             [2.0, 2.0, 3.0],
         ),
     ];
-    let inputs = rows.map(|(_, position, _)| (camera, position, size));
+    let inputs = rows.map(|(_, position, _)| (Plain(camera), position, size));
     let rays: Vec<Ray> = gpu().map("lib::camera::parallel_ray", &inputs);
     let mut verdict = Verdict::on("parallel_ray");
     for ((name, _, origin), got) in rows.iter().zip(&rays) {
@@ -202,7 +203,7 @@ fn rays_through_a_lens_meet_where_it_is_sharp_and_are_parallel_on_the_mean() {
     for i in 0..16 {
         for j in 0..16 {
             let u = [(i as f32 + 0.5) / 16.0, (j as f32 + 0.5) / 16.0];
-            inputs.push((camera, [1.5f32, 0.5], size, u));
+            inputs.push((Plain(camera), [1.5f32, 0.5], size, u));
         }
     }
     let rays: Vec<Ray> = gpu().map("lib::camera::parallel_lens_ray", &inputs);

@@ -12,12 +12,13 @@ use glimray::layout::{
     ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, LIGHT_DISC, LIGHT_RECTANGLE, LIGHT_SPHERE,
     PackedLight,
 };
+use glimray_shader_test::Plain;
 
 const COLOR: [f32; 3] = [8.0, 4.0, 1.0];
 
 /// Size 1 at the origin, emitting downwards.
-fn light(kind: u32) -> PackedLight {
-    PackedLight {
+fn light(kind: u32) -> Plain<PackedLight> {
+    Plain(PackedLight {
         kind,
         direction: [0.0, -1.0, 0.0],
         edge_u: [1.0, 0.0, 0.0],
@@ -27,10 +28,10 @@ fn light(kind: u32) -> PackedLight {
         color: COLOR,
         sample_count: 1,
         ..Default::default()
-    }
+    })
 }
 
-fn arriving(rows: &[(PackedLight, [f32; 3], [f32; 2])]) -> Vec<Incident> {
+fn arriving(rows: &[(Plain<PackedLight>, [f32; 3], [f32; 2])]) -> Vec<Incident> {
     gpu().map("lib::area_light::area_incident", rows)
 }
 
@@ -192,10 +193,10 @@ fn without_attenuation_every_point_shines_alike_on_all_sides() {
     let mut random = Random::new(4);
     let mut verdict = Verdict::on("area_incident");
     for kind in [LIGHT_RECTANGLE, LIGHT_DISC, LIGHT_SPHERE] {
-        let classical = PackedLight {
+        let classical = Plain(PackedLight {
             attenuation: ATTENUATION_NONE,
-            ..light(kind)
-        };
+            ..*light(kind)
+        });
         let rows: Vec<_> = square_points(500, 5)
             .into_iter()
             .map(|u| (classical, (random.in_cube() * 20.0).as_vec3().to_array(), u))
@@ -213,7 +214,7 @@ fn without_attenuation_every_point_shines_alike_on_all_sides() {
 }
 
 /// The mean of strength times the cosine with `n` over a lattice of sample points.
-fn irradiance(light: PackedLight, p: [f32; 3], n: DVec3) -> f64 {
+fn irradiance(light: Plain<PackedLight>, p: [f32; 3], n: DVec3) -> f64 {
     const SIDE: u32 = 128;
     let middle = |i: u32| (i as f32 + 0.5) / SIDE as f32;
     let rows: Vec<_> = (0..SIDE * SIDE)
@@ -271,13 +272,13 @@ fn points_on_a_light_and_lights_without_size_give_defined_values() {
                         [0.75, 0.5],
                         [0.99999994, 0.99999994],
                     ] {
-                        let light = PackedLight {
+                        let light = Plain(PackedLight {
                             attenuation,
                             edge_u: [size, 0.0, 0.0],
                             edge_v: [0.0, 0.0, size],
                             radius: size,
-                            ..light(kind)
-                        };
+                            ..*light(kind)
+                        });
                         rows.push((light, p, u));
                     }
                 }

@@ -8,10 +8,11 @@ use crate::support::{
 };
 use glam::DVec3;
 use glimray::layout::PackedCamera;
+use glimray_shader_test::Plain;
 
 /// A camera that looks along -z with +y up and a vertical field of view of 60°: half the height of the picture
 /// is tan 30° = 1/√3 at distance 1.
-fn course_camera(aspect: f64) -> PackedCamera {
+fn course_camera(aspect: f64) -> Plain<PackedCamera> {
     looking([0.0; 3], DVec3::NEG_Z, DVec3::Y, 1.0 / 3f64.sqrt(), aspect)
 }
 
@@ -21,14 +22,14 @@ fn looking(
     up: DVec3,
     half_height: f64,
     aspect: f64,
-) -> PackedCamera {
-    PackedCamera {
+) -> Plain<PackedCamera> {
+    Plain(PackedCamera {
         origin,
         forward: forward.as_vec3().into(),
         right: (forward.cross(up) * half_height * aspect).as_vec3().into(),
         up: (up * half_height).as_vec3().into(),
         ..Default::default()
-    }
+    })
 }
 
 /// Rounding error of the camera's vectors, the point on the image plane and its normalisation.

@@ -13,6 +13,7 @@ use glimray::layout::{
 };
 use glimray::pack;
 use glimray::scene::{CanonicalShape, Geometry, Scene, Shape};
+use glimray_shader_test::Plain;
 use std::f64::consts::{PI, TAU};
 
 /// Half an f32 step at 1.
@@ -655,7 +656,7 @@ fn u_and_v_have_no_jumps_but_at_seams() {
 }
 
 /// A shape as the renderer packs it, with the render origin at the origin.
-fn packed(canonical: CanonicalShape, world_from_canonical: DAffine3) -> PackedShape {
+fn packed(canonical: CanonicalShape, world_from_canonical: DAffine3) -> Plain<PackedShape> {
     let geometry = Geometry::Placed {
         canonical,
         world_from_canonical,
@@ -670,7 +671,7 @@ fn packed(canonical: CanonicalShape, world_from_canonical: DAffine3) -> PackedSh
         }],
         ..Scene::default()
     };
-    pack::scene(&scene).expect("a scene").shapes[0]
+    Plain(pack::scene(&scene).expect("a scene").shapes[0])
 }
 
 /// A canonical shape at a random position, of any size, rotated, scaled non-uniformly and possibly mirrored.

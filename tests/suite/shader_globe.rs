@@ -17,6 +17,7 @@ use glimray::{
     pack,
     scene::{Attenuation, Light, LightKind, Scene},
 };
+use glimray_shader_test::Plain;
 
 /// Half a step of f32 at 1.
 const ROUNDING: f64 = f32::EPSILON as f64 / 2.0;
@@ -37,10 +38,9 @@ fn ground(radius: f64, height: f64, up: DVec3) -> Scene {
     scene
 }
 
-fn packed(scene: &Scene) -> PackedShape {
-    pack::scene(scene)
-        .expect("a scene that can be packed")
-        .shapes[0]
+fn packed(scene: &Scene) -> Plain<PackedShape> {
+    let packed = pack::scene(scene).expect("a scene that can be packed");
+    Plain(packed.shapes[0])
 }
 
 /// The distance to the sphere from `height` above its top; `cosine` is that of the angle between the ray and

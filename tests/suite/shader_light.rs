@@ -9,19 +9,20 @@ use glimray::layout::{
     ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT,
     PackedLight,
 };
+use glimray_shader_test::Plain;
 
 const TOLERANCE: Tolerance = Tolerance::Relative(4e-7);
 
-fn light(kind: u32, position: [f32; 3], attenuation: u32) -> PackedLight {
+fn light(kind: u32, position: [f32; 3], attenuation: u32) -> Plain<PackedLight> {
     let direction = [0.0, -1.0, 0.0];
-    PackedLight {
+    Plain(PackedLight {
         kind,
         position,
         direction,
         attenuation,
         color: [8.0, 4.0, 1.0],
         ..Default::default()
-    }
+    })
 }
 
 #[test]
@@ -30,14 +31,18 @@ fn lights_arrive_with_direction_distance_and_strength() {
     let fading = |position| light(LIGHT_POINT, position, ATTENUATION_INVERSE_SQUARE);
     let sun = light(LIGHT_DIRECTIONAL, [5.0, 5.0, 5.0], ATTENUATION_NONE);
     // Full only on its axis, zero where the cosine is below 0.6.
-    let spot = |position| PackedLight {
-        cos_inner: 1.0,
-        cos_outer: 0.6,
-        ..light(LIGHT_SPOT, position, ATTENUATION_NONE)
+    let spot = |position| {
+        Plain(PackedLight {
+            cos_inner: 1.0,
+            cos_outer: 0.6,
+            ..*light(LIGHT_SPOT, position, ATTENUATION_NONE)
+        })
     };
-    let fading_spot = |position| PackedLight {
-        attenuation: ATTENUATION_INVERSE_SQUARE,
-        ..spot(position)
+    let fading_spot = |position| {
+        Plain(PackedLight {
+            attenuation: ATTENUATION_INVERSE_SQUARE,
+            ..*spot(position)
+        })
     };
     let (up, far) = ([0.0, 1.0, 0.0], f64::from(T_FAR));
     let rgb = |strength: f64| [8.0, 4.0, 1.0].map(|c: f64| c * strength);

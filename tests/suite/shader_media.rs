@@ -47,9 +47,9 @@ fn media_are_entered_and_left_in_order() {
             if let Some(last) = left.iter().rposition(|&m| m == material) {
                 left.remove(last);
             }
-            rows.push((packed(&list), material, 1));
+            rows.push((packed(&list), material, 1u32));
             expected.push(packed(&entered));
-            rows.push((packed(&list), material, 0));
+            rows.push((packed(&list), material, 0u32));
             expected.push(packed(&left));
         }
     }

@@ -11,6 +11,7 @@ use glimray::layout::{
     ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, LIGHT_DISC, LIGHT_SPOT, PackedCamera, PackedKey,
     PackedLight,
 };
+use glimray_shader_test::Plain;
 
 const SPACE: &str = "lib::motion::space_between";
 
@@ -31,15 +32,15 @@ fn quaternion(random: &mut Random) -> DQuat {
     DQuat::from_axis_angle(random.direction(), random.between(-3.1, 3.1))
 }
 
-fn key(translation: DVec3, rotation: DQuat, stretch: DMat3) -> PackedKey {
+fn key(translation: DVec3, rotation: DQuat, stretch: DMat3) -> Plain<PackedKey> {
     let [x, y, z] = [stretch.x_axis, stretch.y_axis, stretch.z_axis];
-    PackedKey {
+    Plain(PackedKey {
         translation: translation.as_vec3().into(),
         rotation: rotation.as_quat().into(),
         stretch: DVec3::new(x.x, y.y, z.z).as_vec3().into(),
         shear: DVec3::new(y.z, x.z, x.y).as_vec3().into(),
         ..PackedKey::default()
-    }
+    })
 }
 
 /// The symmetric matrix of a key.
@@ -229,12 +230,14 @@ fn every_member_of_a_camera_is_interpolated() {
     let mut camera = |blades| {
         let mut words = different(&mut random, 16);
         words[15] = f32::from_bits(blades);
-        *bytemuck::from_bytes::<PackedCamera>(bytemuck::cast_slice(&words))
+        Plain(*bytemuck::from_bytes::<PackedCamera>(bytemuck::cast_slice(
+            &words,
+        )))
     };
     let inputs: Vec<_> = [0.0, 0.25, 0.7, 1.0_f32]
         .map(|fraction| (camera(5), camera(5), fraction))
         .into();
-    let cameras: Vec<PackedCamera> = gpu().map("lib::motion::camera_between", &inputs);
+    let cameras: Vec<Plain<PackedCamera>> = gpu().map("lib::motion::camera_between", &inputs);
     let mut verdict = Verdict::on("camera_between");
     for ((a, b, fraction), got) in inputs.iter().zip(&cameras) {
         verdict.near("blades", &got.blade_count, &5, Tolerance::Exact);
@@ -259,13 +262,13 @@ fn every_member_of_a_light_is_interpolated_and_its_direction_has_unit_length() {
     let mut random = Random::new(35);
     let mut light = |kind, attenuation, direction: DVec3| {
         let words = different(&mut random, 24);
-        PackedLight {
+        Plain(PackedLight {
             kind,
             attenuation,
             direction: direction.as_vec3().into(),
             sample_count: 7,
             ..*bytemuck::from_bytes::<PackedLight>(bytemuck::cast_slice(&words))
-        }
+        })
     };
     let mut inputs = Vec::new();
     for fraction in [0.0, 0.3, 0.5, 1.0_f32] {
@@ -280,7 +283,7 @@ fn every_member_of_a_light_is_interpolated_and_its_direction_has_unit_length() {
             ));
         }
     }
-    let lights: Vec<PackedLight> = gpu().map("lib::motion::light_between", &inputs);
+    let lights: Vec<Plain<PackedLight>> = gpu().map("lib::motion::light_between", &inputs);
     let mut verdict = Verdict::on("light_between");
     for ((a, b, fraction), got) in inputs.iter().zip(&lights) {
         let s = f64::from(*fraction);
@@ -328,12 +331,14 @@ fn every_member_of_a_light_is_interpolated_and_its_direction_has_unit_length() {
 
 #[test]
 fn a_light_that_turns_right_round_keeps_a_direction() {
-    let light = |direction: DVec3| PackedLight {
-        direction: direction.as_vec3().into(),
-        ..PackedLight::default()
+    let light = |direction: DVec3| {
+        Plain(PackedLight {
+            direction: direction.as_vec3().into(),
+            ..PackedLight::default()
+        })
     };
     let inputs = [(light(DVec3::Y), light(DVec3::NEG_Y), 0.5_f32)];
-    let lights: Vec<PackedLight> = gpu().map("lib::motion::light_between", &inputs);
+    let lights: Vec<Plain<PackedLight>> = gpu().map("lib::motion::light_between", &inputs);
     assert_eq!(lights[0].direction, [0.0, 1.0, 0.0]);
 }
 

@@ -189,7 +189,7 @@ fn every_power_of_two_of_a_pixels_samples_is_stratified() {
         .collect();
     let inputs: Vec<_> = keys
         .iter()
-        .flat_map(|&key| (0..1024).map(move |index| (index, key)))
+        .flat_map(|&key| (0..1024u32).map(move |index| (index, key)))
         .collect();
     let samples: Vec<[f32; 2]> = gpu().map("lib::sampling::stratified_2d", &inputs);
     let mut verdict = Verdict::on("stratified_2d");

@@ -36,7 +36,7 @@ fn quotients_and_remainders_are_exact() {
 fn strides_without_common_factor_visit_every_workgroup_once() {
     let mut verdict = Verdict::on("permuted_group");
     for (count, stride) in [
-        (1, 1),
+        (1, 1u32),
         (2, 1),
         (64, 27),
         (4800, 2969),

@@ -8,14 +8,15 @@ use glimray::layout::{
     PackedTone, TONE_ACES, TONE_AGX, TONE_NEUTRAL, TONE_NONE, TONE_REINHARD, TRANSFER_LINEAR,
     TRANSFER_SRGB,
 };
+use glimray_shader_test::Plain;
 
-fn tone(exposure_scale: f32, curve: u32, transfer: u32) -> PackedTone {
-    PackedTone {
+fn tone(exposure_scale: f32, curve: u32, transfer: u32) -> Plain<PackedTone> {
+    Plain(PackedTone {
         exposure_scale,
         curve,
         transfer,
         ..Default::default()
-    }
+    })
 }
 
 /// The inverse of IEC 61966-2-1: the light of a display level.

@@ -1,7 +1,7 @@
 //! Level 2: the three triangle tests on the same inputs, and the properties of the watertight one.
 
 use crate::support::{
-    harness::gpu,
+    harness::{gpu, probe},
     random::Random,
     types::{Candidate, Ray, ray},
     verdict::{Tolerance, Verdict},
@@ -48,6 +48,7 @@ fn intersect(call: &str, rows: &[(Ray, Triangle)]) -> Vec<Candidate> {
 fn count_hits(call: &str, mesh: &[Triangle], rays: &[Ray]) -> Vec<u32> {
     let source = format!(
         "{IMPORTS}
+        @group(0) @binding(0) var<storage, read> table: array<f32>;
         fn corner(i: u32) -> vec3f {{ return vec3f(table[3u * i], table[3u * i + 1u], table[3u * i + 2u]); }}
         fn probe(ray: Ray) -> u32 {{
             var hits = 0u;
@@ -62,7 +63,7 @@ fn count_hits(call: &str, mesh: &[Triangle], rays: &[Ray]) -> Vec<u32> {
         3 * mesh.len(),
     );
     let table: Vec<f32> = mesh.iter().flatten().flatten().copied().collect();
-    gpu().map_table(&source, &table, rays)
+    gpu().map_shader(&probe(&source).buffer("table", &table), rays)
 }
 
 /// Rows for all methods: (name, ray, triangle, t and weights of the second and third corner).

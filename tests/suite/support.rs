@@ -12,7 +12,6 @@ pub mod skip;
 pub mod statistics;
 pub mod types;
 pub mod verdict;
-pub mod words;
 
 /// Time limit for waiting. It is not used for measuring: it turns a hang into a failure, even on a loaded
 /// machine.

@@ -1,8 +1,14 @@
 //! `scene/bsdf.wesl`, which chooses among the lobes of a surface: its directions follow the density that it states.
 
 use super::check::{bin_of, direction, pooled};
-use crate::support::{harness::gpu, random::Random, statistics::check_counts, verdict::Verdict};
+use crate::support::{
+    harness::{gpu, probe},
+    random::Random,
+    statistics::check_counts,
+    verdict::Verdict,
+};
 use glam::DVec3;
+use glimray_shader_test::Shader;
 use std::f64::consts::TAU;
 
 const SAMPLES: usize = 60_000;
@@ -59,9 +65,9 @@ const SURFACES: [Surface; 5] = [
 ];
 
 impl Surface {
-    /// A function `probe` of these parameters, as WESL.
-    fn probe(&self, parameters: &str, result: &str, body: &str) -> String {
-        format!(
+    /// A function `probe` of these parameters, with all lobes switched on.
+    fn probe(&self, parameters: &str, result: &str, body: &str) -> Shader {
+        let source = format!(
             "import package::scene::bsdf::{{bsdf_eval, bsdf_sample}};
             import package::scene::lobes::Bsdf;
             import package::types::MATERIAL_FRESNEL;
@@ -87,7 +93,9 @@ impl Surface {
             }}
             fn probe({parameters}) -> {result} {{ {body} }}",
             self.lobes
-        )
+        );
+        let shader = probe(&source).set("HAS_COATINGS", 1.0);
+        shader.set("HAS_ROUGH_GLASS", 1.0)
     }
 
     /// Directions that are drawn for `wo`; `None` for those that scatter nothing.
@@ -100,7 +108,7 @@ impl Surface {
         let rows: Vec<_> = (0..SAMPLES)
             .map(|_| (wo.as_vec3().to_array(), [number(), number(), number()]))
             .collect();
-        let found: Vec<[f32; 4]> = gpu().map_flagged(&FLAGS, &source, &rows);
+        let found: Vec<[f32; 4]> = gpu().map_shader(&source, &rows);
         let direction = |[x, y, z, is_kept]: [f32; 4]| {
             (is_kept > 0.0).then(|| DVec3::from([x, y, z].map(f64::from)))
         };
@@ -125,7 +133,7 @@ impl Surface {
                 areas.push(2.0 * root * step(BINS[0]) * TAU * step(BINS[1]));
             }
         }
-        let found: Vec<f32> = gpu().map_flagged(&FLAGS, &source, &rows);
+        let found: Vec<f32> = gpu().map_shader(&source, &rows);
         let weighted: Vec<_> = (found.iter().zip(areas))
             .map(|(density, area)| f64::from(*density) * area)
             .collect();
@@ -135,9 +143,6 @@ impl Surface {
             .collect()
     }
 }
-
-/// The overrides that switch all lobes on.
-const FLAGS: [&str; 2] = ["HAS_COATINGS", "HAS_ROUGH_GLASS"];
 
 /// Side, row and column of every bin.
 fn bins() -> impl Iterator<Item = (f64, usize, usize)> {
