@@ -1,4 +1,15 @@
-//! A GPU ray tracer: it loads scenes and writes images. Compute shaders trace all rays.
+//! A GPU ray tracer: it loads scenes and writes images. Compute shaders trace all rays. One call renders a picture:
+//!
+//! ```
+//! use glimray::{PictureOptions, output, render_file};
+//!
+//! let options = PictureOptions { size: Some((64, 48)), ..PictureOptions::default() };
+//! let picture = render_file("assets/scenes/spheres_and_triangles.scene", &options)?;
+//! let folder = tempfile::tempdir()?;
+//! output::save(folder.path().join("spheres.png"), &picture)?;
+//! # assert_eq!((picture.width, picture.height), (64, 48));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
 //! A scene file becomes an image through one pipeline. Each arrow is one function, each noun is a value
 //! that can be printed and tested on its own, and no arrow points back:
@@ -9,7 +20,7 @@
 //!
 //! For an animation the pipeline is repeated from [`scene::Scene::frame`] for each frame, or from
 //! [`scene::Scene::motion_samples`] if the shutter is open for some time: [`render::Renderer::set_frame`]
-//! accepts the next [`pack::PackedView`].
+//! accepts the next [`pack::PackedView`]. [`render_file`] takes these steps:
 //!
 //! ```
 //! use glimray::gpu::{AdapterChoice, Gpu};
@@ -102,6 +113,12 @@
 //!
 //! `glimray-shaders` has the kernels. `ARCHITECTURE.md` in the repository says which package uses which, and where to
 //! find things.
+
+mod picture;
+
+#[cfg(not(target_arch = "wasm32"))]
+pub use picture::render_file;
+pub use picture::{PictureError, PictureOptions, render_from};
 
 #[cfg(not(target_arch = "wasm32"))]
 #[doc(inline)]

@@ -1,14 +1,15 @@
 //! The renderer embedded in another program: it waits only on request, and the device stays with the program.
 
-use crate::reference::compare::{check_same_bits, sized};
+use crate::explain::{finish, project_scenes};
+use crate::reference::compare::{assert_none, check_same_bits, open_gpu, sized};
 use crate::reference::scenes;
 use eframe::wgpu;
 use glimray::gpu::{AdapterChoice, Gpu, GpuError};
 use glimray::image::Image;
 use glimray::pack::{self, PackedScene, PackedView};
 use glimray::render::{
-    Antialias, ExecutionPolicy, RenderError, RenderSettings, Renderer, Slicing, Status, Storage,
-    Tone,
+    Antialias, ExecutionPolicy, QueryRay, RayQuery, RenderError, RenderSettings, Renderer, Slicing,
+    Status, Storage, Tone,
 };
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -115,6 +116,84 @@ fn a_picture_can_be_had_and_begun_again_while_the_gpu_works() {
         let name = format!("host copy {host_copy}");
         check_same_bits(&name, &expected, &picture).expect("the same picture");
     }
+}
+
+/// A device as every browser with WebGPU gives it: the limits that the specification guarantees, and no optional feature.
+fn guaranteed() -> Gpu {
+    let (instance, adapter, device, queue) = device(wgpu::Limits::default());
+    let has = device.limits();
+    // https://www.w3.org/TR/webgpu/#limit-default
+    for (name, has, guaranteed) in [
+        ("bind groups", has.max_bind_groups, 4),
+        ("storage buffers", has.max_storage_buffers_per_shader_stage, 8),
+        ("storage textures", has.max_storage_textures_per_shader_stage, 4),
+        ("sampled textures", has.max_sampled_textures_per_shader_stage, 16),
+        ("side of a texture", has.max_texture_dimension_2d, 8192),
+        ("layers of a texture", has.max_texture_array_layers, 256),
+        ("bytes of workgroup memory", has.max_compute_workgroup_storage_size, 16 << 10),
+        ("invocations", has.max_compute_invocations_per_workgroup, 256),
+        ("invocations along x", has.max_compute_workgroup_size_x, 256),
+        ("workgroups along a side", has.max_compute_workgroups_per_dimension, 65_535),
+    ] {
+        assert_eq!(has, guaranteed, "{name}");
+    }
+    assert_eq!(has.max_uniform_buffer_binding_size, 64 << 10);
+    assert_eq!(has.max_storage_buffer_binding_size, 128 << 20);
+    assert_eq!(has.max_buffer_size, 256 << 20);
+    assert!(device.features().is_empty(), "{:?}", device.features());
+    Gpu::from_wgpu(instance, adapter, device, queue)
+}
+
+#[test]
+fn the_limits_that_webgpu_guarantees_suffice_for_every_scene() {
+    let least = guaranteed();
+    let scenes = project_scenes(&["toml", "scene", "nff", "obj", "glb"]);
+    assert_none(scenes.into_iter().map(|(name, scene)| {
+        let packed = Arc::new(pack::scene(&scene).expect("packed"));
+        let view = packed.frame(&scene.frame(0.0)).expect("a view");
+        let settings = RenderSettings {
+            size: (32, 24),
+            samples: scene.output.samples.min(2),
+            ..RenderSettings::from(&scene.output)
+        };
+        let [expected, actual] = [open_gpu(), least.clone()].map(|gpu| {
+            let policy = ExecutionPolicy::default();
+            let renderer = Renderer::new(gpu, packed.clone(), &view, settings.clone(), policy);
+            let mut renderer = renderer.unwrap_or_else(|error| panic!("{name}: {error}"));
+            finish(&mut renderer);
+            (renderer.develop(&Tone::from(&scene.output))).expect("a picture")
+        });
+        check_same_bits(&name, &expected, &actual)
+    }));
+}
+
+#[test]
+fn the_limits_that_webgpu_guarantees_suffice_for_layers_screens_ray_trees_and_queries() {
+    let gpu = guaranteed();
+    let (packed, view) = everything();
+    let settings = RenderSettings {
+        features: true,
+        ..settings()
+    };
+    let of_all = ExecutionPolicy::default();
+    let mut renderer =
+        Renderer::new(gpu.clone(), packed.clone(), &view, settings, of_all).expect("a renderer");
+    finish(&mut renderer);
+    let screen = renderer.new_screen().expect("a screen");
+    for denoise in [false, true] {
+        let tone = Tone {
+            denoise,
+            ..Tone::LINEAR
+        };
+        renderer.show(&tone, &screen).expect("shown");
+        let shown = screen.read(&gpu).expect("pixels");
+        assert!(shown.pixels.iter().any(|pixel| pixel[0] > 0));
+    }
+    let tree = renderer.explain([24, 18], 0..1).expect("a ray tree");
+    assert!(!tree.samples[0].rays.is_empty());
+    let query = RayQuery::new(gpu, packed, &view, of_all).expect("a query");
+    let ray = QueryRay::new(glam::DVec3::ZERO, glam::Vec3::NEG_Z);
+    query.closest_hits(&[ray]).expect("hits");
 }
 
 /// A device opened outside of glimray, with at most these limits.

@@ -67,6 +67,7 @@ const MODULES: &[(&str, &str, &[&str])] = &[
     ("viewer", "viewer", ABOVE_APP),
     ("", "main", &["*"]),
     ("", "lib", &["*"]),
+    ("", "picture", &["*"]),
 ];
 
 /// Modules that the command line and the window may use: everything but each other.

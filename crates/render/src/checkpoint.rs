@@ -32,13 +32,13 @@ const VERSION: u32 = 2;
 pub struct Checkpoint<'a>(&'a Renderer);
 
 impl Renderer {
-    /// The state of the render, with all samples taken so far. Waits for submitted work.
+    /// The state of the render, with all samples taken so far, also of submitted work.
     ///
     /// # Errors
     /// The device failed. Between two [`Renderer::step`]s, also failed ones, that is impossible if the policy keeps
     /// host copies ([`super::ExecutionPolicy::host_copy`]).
-    pub fn checkpoint(&mut self) -> Result<Checkpoint<'_>, RenderError> {
-        self.fetch_film()?;
+    pub async fn checkpoint_async(&mut self) -> Result<Checkpoint<'_>, RenderError> {
+        self.fetch_film().await?;
         Ok(Checkpoint(self))
     }
 

@@ -36,7 +36,11 @@ pub struct Denoised {
 /// # Errors
 /// The device failed, or a side exceeds the adapter's textures. With the features of a picture of another size it is
 /// returned as it is.
-pub fn denoise(image: &Image, gpu: &Gpu, features: &Features) -> Result<Denoised, RenderError> {
+pub async fn denoise_async(
+    image: &Image,
+    gpu: &Gpu,
+    features: &Features,
+) -> Result<Denoised, RenderError> {
     let (width, height) = (image.width, image.height);
     let is_same = features.pixels.len() == image.pixels.len() && features.width == width;
     if !is_same || image.pixels.is_empty() {
@@ -59,7 +63,7 @@ pub fn denoise(image: &Image, gpu: &Gpu, features: &Features) -> Result<Denoised
         colors,
         covers,
         pass_seconds,
-    } = denoiser.filter(gpu)?;
+    } = denoiser.filter(gpu).await?;
     let color = |at: usize| {
         let [r, g, b, _] = colors[at];
         let opacity = (covers.as_ref()).map_or(image.pixels[at][3], |covers| covers[at][0]);
@@ -308,25 +312,28 @@ impl Denoiser {
     }
 
     /// Runs all steps.
-    fn filter(&self, gpu: &Gpu) -> Result<Filtered, GpuError> {
+    async fn filter(&self, gpu: &Gpu) -> Result<Filtered, GpuError> {
         let timer = gpu.timer()?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.add_steps(gpu, Some(&timer), &mut encoder)?;
-        let (colors, pass_seconds) = read(gpu, encoder, &self.signal, &timer)?;
-        let cover = |[first, _]: &[TextureView; 2]| {
-            let encoder = gpu.device.create_command_encoder(&Default::default());
-            Ok(read(gpu, encoder, first, &timer)?.0)
+        let (colors, pass_seconds) = read(gpu, encoder, &self.signal, &timer).await?;
+        let covers = match &self.covers {
+            Some([first, _]) => {
+                let encoder = gpu.device.create_command_encoder(&Default::default());
+                Some(read(gpu, encoder, first, &timer).await?.0)
+            }
+            None => None,
         };
         Ok(Filtered {
             colors,
-            covers: self.covers.as_ref().map(cover).transpose()?,
+            covers,
             pass_seconds,
         })
     }
 }
 
 /// Submits the work and reads back a signal, and the time that was measured.
-fn read(
+async fn read(
     gpu: &Gpu,
     mut encoder: wgpu::CommandEncoder,
     image: &wgpu::TextureView,
@@ -370,4 +377,5 @@ fn read(
         }
         (texels, seconds)
     })
+    .await
 }

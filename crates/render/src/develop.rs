@@ -3,7 +3,7 @@
 use super::{
     Fetch, Integrator, Quantity, RenderError, RenderSettings, Renderer, Slicing, Tone,
     bindings::Buffers,
-    denoise,
+    denoise_async,
     film_pass::{PIXEL_BYTES, add_film_pass, check_memory},
     film_tile::{FilmTile, GroupOrder, rectangles},
     layouts::{Layouts, group},
@@ -28,7 +28,7 @@ impl Tone {
     ///
     /// # Errors
     /// The device failed, or the picture exceeds [`crate::gpu::MEMORY_LIMIT_BYTES`].
-    pub fn develop(&self, gpu: &Gpu, image: &Image) -> Result<Image, RenderError> {
+    pub async fn develop_async(&self, gpu: &Gpu, image: &Image) -> Result<Image, RenderError> {
         let (width, height) = (image.width, image.height);
         check_memory(width, height, PIXEL_BYTES)?;
         let region = [0, 0, width, height];
@@ -37,7 +37,7 @@ impl Tone {
         let tone = self
             .exposed(|| sums.iter())
             .packed(Integrator::Whitted, None, 1);
-        let mut developed = develop_sums(gpu, region, &sums, &tone)?;
+        let mut developed = develop_sums(gpu, region, &sums, &tone).await?;
         for (developed, pixel) in developed.pixels.iter_mut().zip(pixels) {
             developed[3] = pixel[3];
         }
@@ -119,29 +119,29 @@ impl<'a> Context<'a> {
 impl Renderer {
     /// Develops the samples so far to a picture, also before the render is done. Changing the tone requires no
     /// new rays.
-    pub fn develop(&mut self, tone: &Tone) -> Result<Image, RenderError> {
+    pub async fn develop_async(&mut self, tone: &Tone) -> Result<Image, RenderError> {
         let start = Instant::now();
-        let image = self.developed(tone)?;
+        let image = self.developed(tone).await?;
         self.stats.develop_seconds += start.elapsed().as_secs_f64();
         Ok(image)
     }
 
-    fn developed(&mut self, tone: &Tone) -> Result<Image, RenderError> {
+    async fn developed(&mut self, tone: &Tone) -> Result<Image, RenderError> {
         if self.denoises(tone) {
-            let features = self.features()?;
-            let image = denoise(&features.picture(), self.gpu(), &features)?.image;
-            return tone.develop(self.gpu(), &image);
+            let features = self.features_async().await?;
+            let image = denoise_async(&features.picture(), self.gpu(), &features).await?.image;
+            return tone.develop_async(self.gpu(), &image).await;
         }
-        if let Some(image) = self.transparent_picture()? {
-            return tone.develop(self.gpu(), &image);
+        if let Some(image) = self.transparent_picture().await? {
+            return tone.develop_async(self.gpu(), &image).await;
         }
         let is_direct = self.develops_directly();
         match is_direct {
-            true => self.wait()?,
-            false => self.fetch_film()?,
+            true => self.finish_work().await?,
+            false => self.fetch_film().await?,
         }
-        let tone = &self.exposed(tone)?;
-        let range = self.range_of(tone)?;
+        let tone = &self.exposed(tone).await?;
+        let range = self.range_of(tone).await?;
         let region = self.settings.region();
         if self.settings.integrator.quantity() == Some(Quantity::Samples) {
             return Ok(sample_count_image(
@@ -156,36 +156,40 @@ impl Renderer {
         if is_direct {
             let tile = self.tiles.list[0].blank();
             let tone = tone.packed(self.settings.integrator, range, tile.rows_per_pixel());
-            self.surviving_losses(|renderer| {
-                renderer.load_first_tile()?;
-                renderer.develop_tile(&tile, &tone, &mut image)
-            })?;
+            while let Err(error) = self.develop_tile(&tile, None, &tone, &mut image).await {
+                self.recover_from(error)?;
+            }
             return Ok(image);
         }
         for (tile, rows) in self.tiles.developable(self.policy.slicing.tile_side) {
             let tone = tone.packed(self.settings.integrator, range, tile.rows_per_pixel());
-            self.surviving_losses(|renderer| {
-                renderer.device.load_film(None, &rows)?;
-                renderer.develop_tile(&tile, &tone, &mut image)
-            })?;
+            let rows = Some(&rows[..]);
+            while let Err(error) = self.develop_tile(&tile, rows, &tone, &mut image).await {
+                self.recover_from(error)?;
+            }
         }
         Ok(image)
     }
 
-    /// Develops the film tile that is in the film buffer to its part of a picture.
-    fn develop_tile(
+    /// Develops a film tile with these rows, or the only one, to its part of a picture.
+    async fn develop_tile(
         &mut self,
         tile: &FilmTile,
+        rows: Option<&[[f32; 4]]>,
         tone: &PackedTone,
         image: &mut Image,
     ) -> Result<(), GpuError> {
+        match rows {
+            Some(rows) => self.device.load_film(None, rows)?,
+            None => self.load_first_tile()?,
+        }
         let device = &mut self.device;
         let context = Context::new(&device.gpu, &device.layouts, &device.buffers);
         let developer = match &mut device.developer {
             Some(developer) => developer,
             empty => empty.insert(Developer::new(context, self.tiles.largest())?),
         };
-        developer.develop(context, tile, &self.settings, tone, image)
+        (developer.develop(context, tile, &self.settings, tone, image)).await
     }
 }
 
@@ -206,9 +210,9 @@ impl Developer {
     }
 
     /// Develops the film tile in the film buffer to its part of a picture.
-    pub fn develop(
+    pub async fn develop(
         &self,
-        context: Context,
+        context: Context<'_>,
         tile: &FilmTile,
         settings: &RenderSettings,
         tone: &PackedTone,
@@ -240,11 +244,12 @@ impl Developer {
         gpu.submit_and_read(encoder, &[source], context.staging, |bytes| {
             image.put(cast_slice(bytes), tile.width, [tile.x - x, tile.y - y]);
         })
+        .await
     }
 }
 
 /// Develops weighted sums without a renderer: one row for each pixel of a region (x, y, width, height), row by row.
-pub fn develop_sums(
+pub async fn develop_sums(
     gpu: &Gpu,
     region: [u32; 4],
     sums: &[[f32; 4]],
@@ -289,7 +294,7 @@ pub fn develop_sums(
     let sum = |[px, py]: [u32; 2]| sums[(py - y) as usize * width as usize + (px - x) as usize];
     for tile in tiles {
         gpu.write(&film, 0, cast_slice(&tile.rows_of(sum)))?;
-        developer.develop(context, &tile, &settings, tone, &mut image)?;
+        (developer.develop(context, &tile, &settings, tone, &mut image)).await?;
     }
     Ok(image)
 }

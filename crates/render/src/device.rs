@@ -14,7 +14,7 @@ use super::{
     task::Task,
 };
 use crate::{
-    gpu::{AdapterChoice, Compiled, Gpu, GpuError, Reading, Source},
+    gpu::{AdapterChoice, Compiled, Gpu, GpuError, Reading, Source, Submitted},
     layout::{PackedCounters, PackedDispatch},
 };
 use bytemuck::{bytes_of, cast_slice, pod_read_unaligned};
@@ -39,6 +39,8 @@ pub struct Device {
     pub denoiser: Option<Denoiser>,
     /// Consecutive samples per lane.
     pub lane_samples: u32,
+    /// Work without results that ends before the next slice is submitted, whose time is measured.
+    pub other_work: Option<OtherWork>,
     /// Index of the film tile whose sums are in the film buffer.
     pub loaded_tile: Option<usize>,
     /// Whether the film buffer still has its first zeros.
@@ -54,7 +56,8 @@ impl Device {
         let uploads = &mut stats.uploads;
         let buffers = Buffers::new(&gpu, &layouts, fetch, shown, task.film_rows, uploads)?;
         stats.upload_seconds += start.elapsed().as_secs_f64();
-        let (pipeline, lane_samples) = compile(&gpu, fetch, &layouts, &buffers, task, stats)?;
+        let (pipeline, lane_samples, first_run) =
+            compile(&gpu, fetch, &layouts, &buffers, task, stats)?;
         Ok(Self {
             gpu,
             fetch,
@@ -65,6 +68,7 @@ impl Device {
             shown_tone: None,
             denoiser: None,
             lane_samples,
+            other_work: first_run,
             loaded_tile: None,
             is_film_clear: true,
         })
@@ -83,8 +87,10 @@ impl Device {
         (self.buffers).set(gpu, layouts, shown, spare, &mut stats.uploads)?;
         stats.upload_seconds += start.elapsed().as_secs_f64();
         self.loaded_tile = None;
-        let compiled = compile(gpu, self.fetch, layouts, &self.buffers, task, stats)?;
-        (self.pipeline, self.lane_samples) = compiled;
+        let first_run;
+        (self.pipeline, self.lane_samples, first_run) =
+            compile(gpu, self.fetch, layouts, &self.buffers, task, stats)?;
+        self.other_work = first_run.or(self.other_work.take());
         Ok(())
     }
 
@@ -98,7 +104,7 @@ impl Device {
     }
 
     /// Reads back the sums of the film tile on the device.
-    pub fn fetch_film(&self, tile: &mut FilmTile) -> Result<(), GpuError> {
+    pub async fn fetch_film(&self, tile: &mut FilmTile) -> Result<(), GpuError> {
         let encoder = self.gpu.device.create_command_encoder(&Default::default());
         let rows = Source {
             buffer: &self.buffers.film,
@@ -110,6 +116,7 @@ impl Device {
             .submit_and_read(encoder, &[rows], staging, |bytes| {
                 tile.replace_rows(0, cast_slice(bytes));
             })
+            .await
     }
 
     /// Submits one slice of the film tile with this index, without waiting for it. [`Device::finish`] collects
@@ -153,7 +160,7 @@ impl Device {
         Ok(reading)
     }
 
-    /// Waits for a launched slice and returns its counters. The sums that were read back are stored in the tile
+    /// Takes the results of a launched slice that is done, and returns its counters. The sums that were read back are stored in the tile
     /// if the slice is complete.
     pub fn finish(
         &self,
@@ -163,7 +170,7 @@ impl Device {
         back: Readback,
     ) -> Result<PackedCounters, GpuError> {
         let rows = back.rows(slice, tile);
-        self.gpu.read(reading, |bytes| {
+        self.gpu.take(reading, |bytes| {
             let (counters, sums) = bytes.split_at(size_of::<PackedCounters>());
             let counters = pod_read_unaligned(counters);
             if slice.is_complete(&counters, self.lane_samples) {
@@ -172,6 +179,13 @@ impl Device {
             counters
         })
     }
+}
+
+/// Work without results.
+pub struct OtherWork {
+    pub submitted: Submitted,
+    /// Whether it is the first run of a pipeline, in which some drivers compile it.
+    pub compiles: bool,
 }
 
 /// Which part of the film is read back with a slice.
@@ -207,7 +221,7 @@ pub fn reopen(
     stats: &mut Stats,
 ) -> Result<Device, GpuError> {
     let needs = bindings::needs(task.scene, task.view, fetch, task.film_rows);
-    Device::new(Gpu::open(choice, needs)?, fetch, task, stats)
+    Device::new(Gpu::reopened(choice, needs)?, fetch, task, stats)
 }
 
 /// The counters in a buffer of dispatch parameters, to be read back.
@@ -220,7 +234,7 @@ pub fn counters(dispatch: &wgpu::Buffer) -> Source<'_> {
 }
 
 /// The pipeline of the integrator, and the samples that its lanes should take. A new one is dispatched once without work,
-/// because some drivers only compile then.
+/// because some drivers only compile then: the third value.
 fn compile(
     gpu: &Gpu,
     fetch: Fetch,
@@ -228,10 +242,11 @@ fn compile(
     buffers: &Buffers,
     task: Task,
     stats: &mut Stats,
-) -> Result<(wgpu::ComputePipeline, u32), GpuError> {
+) -> Result<(wgpu::ComputePipeline, u32, Option<OtherWork>), GpuError> {
     let start = Instant::now();
     let (compiled, lane_samples) = pipelines::rendering(gpu, fetch, layouts, task)?;
     let Compiled { pipeline, is_new } = compiled;
+    let mut first_run = None;
     if is_new {
         let idle = PackedDispatch {
             group_count: 1,
@@ -243,10 +258,13 @@ fn compile(
         gpu.write(&buffers.dispatch, 0, bytes_of(&idle))?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         dispatch(&mut encoder, &pipeline, buffers, (1, 1));
-        gpu.submit(encoder.finish())?;
         stats.compile_seconds += start.elapsed().as_secs_f64();
+        first_run = Some(OtherWork {
+            submitted: gpu.submit(encoder.finish())?,
+            compiles: true,
+        });
     }
-    Ok((pipeline, lane_samples))
+    Ok((pipeline, lane_samples, first_run))
 }
 
 fn dispatch(

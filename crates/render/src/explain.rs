@@ -62,21 +62,21 @@ impl Renderer {
     ///
     /// # Errors
     /// The device failed, or the driver ends the loops of a shader early even for one sample.
-    pub fn explain(
+    pub async fn explain_async(
         &mut self,
         pixel: [u32; 2],
         samples: Range<u32>,
     ) -> Result<RayTree, RenderError> {
         let wanted = samples.map(|sample| (pixel, sample)).collect();
-        let samples = self.explain_samples(wanted)?;
+        let samples = self.explain_samples(wanted).await?;
         Ok(RayTree::new(pixel, self.explained(), samples))
     }
 
-    /// Like [`Self::explain`] for several pixels, with fewer submissions.
+    /// Like [`Self::explain_async`] for several pixels, with fewer submissions.
     ///
     /// # Errors
-    /// As [`Self::explain`].
-    pub fn explain_pixels(
+    /// As [`Self::explain_async`].
+    pub async fn explain_pixels_async(
         &mut self,
         pixels: &[([u32; 2], Range<u32>)],
     ) -> Result<Vec<RayTree>, RenderError> {
@@ -84,7 +84,7 @@ impl Renderer {
             let of = |sample| (*pixel, sample);
             samples.clone().map(of)
         });
-        let mut traced = self.explain_samples(places.collect())?.into_iter();
+        let mut traced = self.explain_samples(places.collect()).await?.into_iter();
         let integrator = self.explained();
         let tree = |(pixel, samples): &([u32; 2], Range<u32>)| {
             let own = traced.by_ref().take(samples.len()).collect();
@@ -112,7 +112,7 @@ impl Renderer {
         }
     }
 
-    fn explain_samples(
+    async fn explain_samples(
         &mut self,
         wanted: Vec<([u32; 2], u32)>,
     ) -> Result<Vec<SampleTree>, RenderError> {
@@ -128,7 +128,7 @@ impl Renderer {
                 })
                 .collect();
             // First only count the rays, to allocate exactly enough room.
-            let counted = self.record(&probes, 0)?.probes;
+            let counted = self.record(&probes, 0).await?.probes;
             for (probe, counted) in probes.iter_mut().zip(&counted) {
                 let place = Some([probe.pixel_x, probe.pixel_y]);
                 if pixel != place {
@@ -141,7 +141,7 @@ impl Renderer {
             while !rest.is_empty() {
                 let (now, later) = rest.split_at_mut(probes_that_fit(rest));
                 let record_count = assign_rows(now);
-                let records = self.record(now, record_count)?;
+                let records = self.record(now, record_count).await?;
                 let reader = Reader::new(&self.scene, &self.view, self.explained());
                 let mut rays = &records.rays[..];
                 for probe in &records.probes {
@@ -156,13 +156,17 @@ impl Renderer {
     }
 
     /// Traces the probes, one per lane, with room for `record_count` rays after them.
-    fn record(
+    async fn record(
         &mut self,
         probes: &[PackedProbe],
         record_count: u32,
     ) -> Result<Records, RenderError> {
-        let records =
-            self.surviving_losses(|renderer| renderer.dispatch_probes(probes, record_count))?;
+        let records = loop {
+            match self.dispatch_probes(probes, record_count).await {
+                Ok(records) => break records,
+                Err(error) => self.recover_from(error)?,
+            }
+        };
         match records.counters.cut_off {
             0 => Ok(records),
             _ => Err(self.path_too_long()),
@@ -209,7 +213,7 @@ impl Renderer {
         Ok(compiled.pipeline)
     }
 
-    fn dispatch_probes(
+    async fn dispatch_probes(
         &self,
         probes: &[PackedProbe],
         record_count: u32,
@@ -252,7 +256,8 @@ impl Renderer {
             offset: 0,
             bytes,
         };
-        let records = gpu.submit_and_read(encoder, &[counters, written], &staging, |bytes| {
+        let sources = [counters, written];
+        let records = gpu.submit_and_read(encoder, &sources, &staging, |bytes| {
             let (counters, written) = bytes.split_at(counter_bytes);
             let (written_probes, rays) = written.split_at(probe_bytes as usize);
             let mut traced: Vec<PackedProbe> = read_all(written_probes);
@@ -262,7 +267,8 @@ impl Renderer {
                 probes: traced,
                 rays: read_all(rays),
             }
-        })?;
+        });
+        let records = records.await?;
         // A driver that stops a dispatch of a thousand samples is treated as lost.
         match records.counters.finished_groups() == groups {
             true => Ok(records),

@@ -40,9 +40,9 @@ impl Tone {
 
 impl Renderer {
     /// The tone with a fixed exposure, for the samples so far.
-    pub(super) fn exposed(&mut self, tone: &Tone) -> Result<Tone, RenderError> {
+    pub(super) async fn exposed(&mut self, tone: &Tone) -> Result<Tone, RenderError> {
         match tone.auto_exposure {
-            true => Ok(tone.fixed(self.exposure()?)),
+            true => Ok(tone.fixed(self.exposure_async().await?)),
             false => Ok(*tone),
         }
     }
@@ -53,8 +53,8 @@ impl Renderer {
     ///
     /// # Errors
     /// The device failed during readback of the film.
-    pub fn exposure(&mut self) -> Result<f32, RenderError> {
-        self.fetch_film()?;
+    pub async fn exposure_async(&mut self) -> Result<f32, RenderError> {
+        self.fetch_film().await?;
         let tiles = self.tiles.developable(self.policy.slicing.tile_side);
         let rows =
             (tiles.iter()).flat_map(|(tile, rows)| rows.iter().step_by(tile.rows_per_pixel()));

@@ -190,8 +190,8 @@ impl Renderer {
     ///
     /// # Errors
     /// The device failed.
-    pub fn features(&mut self) -> Result<Features, RenderError> {
-        self.fetch_film()?;
+    pub async fn features_async(&mut self) -> Result<Features, RenderError> {
+        self.fetch_film().await?;
         let layers = layers::of_pictures(&self.settings);
         let Some(places) = Places::new(layers) else {
             return Ok(Features::default());

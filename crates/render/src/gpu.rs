@@ -1,15 +1,19 @@
 //! The GPU device: choosing an adapter, opening the device, detecting its loss. Every failure becomes a
 //! [`GpuError`].
 //!
-//! wgpu reports the loss of a device through a callback, and `poll` panics after it; see `Gpu::wait`.
-//! Allocation and pipeline creation run inside error scopes.
+//! wgpu reports the loss of a device through a callback, and `poll` panics after it; see `guard.rs`.
+//! Allocation and pipeline creation run inside error scopes. Nothing waits for the device but `blocking.rs`, which browsers
+//! do without.
 
 mod adapter;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod blocking;
 mod buffer;
 mod early;
 mod error;
 mod fault;
 mod guard;
+#[cfg(not(target_arch = "wasm32"))]
 mod lanes;
 mod limits;
 mod patience;
@@ -18,23 +22,28 @@ mod shader;
 mod timer;
 mod trusted;
 
-pub use adapter::{AdapterChoice, AdapterReport, Backend, adapter_identity, adapters};
+pub use adapter::{AdapterChoice, AdapterReport, Backend, adapter_identity, adapters_async};
+#[cfg(not(target_arch = "wasm32"))]
+pub use blocking::adapters;
 pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
 pub use early::EarlyModule;
 pub use error::GpuError;
 pub use glimray_shaders::{Kernel, Variant, bound_loops, inline_functions};
 pub use guard::{is_guarded, surviving_loss};
-pub(crate) use readback::{Reading, Source};
+pub(crate) use readback::{Reading, Source, Submitted};
 pub(crate) use shader::Compiled;
 pub use shader::Overrides;
 pub(crate) use timer::Timer;
 pub use trusted::runtime_checks;
 
 use limits::limits_for;
-use patience::WAIT;
-use std::sync::{
-    Arc, Mutex,
-    atomic::{AtomicBool, Ordering},
+use std::{
+    pin::pin,
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, Ordering},
+    },
+    task::{Context, Poll, Waker},
 };
 
 /// Workgroup memory of packet kernels, for the stacks of their ray trees.
@@ -56,11 +65,12 @@ pub struct Gpu {
     is_own: bool,
     lost: Arc<AtomicBool>,
     /// The first error outside of any error scope.
-    stray_error: Arc<Mutex<Option<String>>>,
+    stray_error: Arc<Mutex<Option<GpuError>>>,
     /// Compiled pipelines, kept because the next renderer on this device may need the same ones.
     pipelines: Arc<Mutex<shader::Pipelines>>,
     early: Arc<Mutex<Option<EarlyModule>>>,
     /// Whether its lanes have been tried: see `lanes.rs`.
+    #[cfg_attr(target_arch = "wasm32", expect(dead_code, reason = "browsers keep no kernels of others"))]
     lanes_proved: Arc<AtomicBool>,
     /// Called before a pipeline is compiled.
     on_compilation: Option<Arc<dyn Fn() + Send + Sync>>,
@@ -80,22 +90,37 @@ pub struct Needs {
 
 impl Gpu {
     /// Opens the adapter that `choice` names, or the fastest kind available. The device requires only the default limits of
-    /// WebGPU, and a fifth storage image where the adapter has it. It has subgroups where [`Gpu::traces_packets`].
-    pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
-        Self::open(choice, Needs::default())
+    /// WebGPU, and a fifth storage image where the adapter has it. It has subgroups where [`Gpu::traces_packets`]. In a browser it
+    /// is that of [`Gpu::open_with_all_limits`].
+    ///
+    /// # Errors
+    /// There is no such adapter, or it cannot be opened.
+    pub async fn open(choice: &AdapterChoice) -> Result<Self, GpuError> {
+        match cfg!(target_arch = "wasm32") {
+            true => Self::open_with_all_limits(choice).await,
+            false => Self::open_for(choice, Needs::default()).await,
+        }
     }
 
     /// Opens an adapter with limits that meet `needs`.
-    pub(crate) fn open(choice: &AdapterChoice, needs: Needs) -> Result<Self, GpuError> {
-        let found = adapter::choose(choice)?;
+    async fn open_for(choice: &AdapterChoice, needs: Needs) -> Result<Self, GpuError> {
+        let found = adapter::choose(choice).await?;
         let required_limits = limits_for(needs, &found.adapter.limits())?;
-        Self::request(found, choice, required_limits)
+        Self::request(found, choice, required_limits).await
+    }
+
+    /// Another device on the adapter that `choice` names, for one that [`Self::can_be_replaced`].
+    pub(crate) fn reopened(choice: &AdapterChoice, needs: Needs) -> Result<Self, GpuError> {
+        now(Self::open_for(choice, needs)).unwrap_or(Err(GpuError::Lost))
     }
 
     /// Opens an adapter with its maximum buffer and texture limits, for a device that is shared with other code
-    /// and therefore cannot be replaced by one with higher limits.
-    pub fn with_all_limits(choice: &AdapterChoice) -> Result<Self, GpuError> {
-        let found = adapter::choose(choice)?;
+    /// and for browsers: neither can be replaced by one with higher limits.
+    ///
+    /// # Errors
+    /// As [`Gpu::open`].
+    pub async fn open_with_all_limits(choice: &AdapterChoice) -> Result<Self, GpuError> {
+        let found = adapter::choose(choice).await?;
         let most = found.adapter.limits();
         let required_limits = wgpu::Limits {
             max_storage_buffer_binding_size: most.max_storage_buffer_binding_size,
@@ -103,10 +128,10 @@ impl Gpu {
             max_texture_dimension_2d: most.max_texture_dimension_2d,
             ..limits_for(Needs::default(), &most)?
         };
-        Self::request(found, choice, required_limits)
+        Self::request(found, choice, required_limits).await
     }
 
-    fn request(
+    async fn request(
         found: adapter::Found,
         choice: &AdapterChoice,
         required_limits: wgpu::Limits,
@@ -131,7 +156,8 @@ impl Gpu {
             },
             ..Default::default()
         };
-        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+        let opened = adapter.request_device(&descriptor).await;
+        let (device, queue) = opened
             .map_err(|error| error::no_device(&report.name, &error.to_string()))?;
         let lost = Arc::new(AtomicBool::new(false));
         let on_loss = lost.clone();
@@ -141,7 +167,7 @@ impl Gpu {
         let slot = stray_error.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
             if let Ok(mut slot) = slot.lock() {
-                slot.get_or_insert(error.to_string());
+                slot.get_or_insert(error::stray(&error));
             }
         }));
         Ok(Self {
@@ -194,13 +220,19 @@ impl Gpu {
         self.is_own
     }
 
+    /// Whether a renderer may open another device in its place: not for one of another program, and not in a browser, which
+    /// opens them later.
+    pub(crate) fn can_be_replaced(&self) -> bool {
+        self.is_own && !cfg!(target_arch = "wasm32")
+    }
+
     /// This device if it meets `needs`, otherwise a new one on the same adapter with higher limits.
     pub(crate) fn with_limits_for(self, needs: Needs) -> Result<Self, GpuError> {
         if self.meets(needs) {
             return Ok(self);
         }
         self.check_limits(needs)?;
-        let opened = Self::open(&self.choice, needs)?;
+        let opened = Self::reopened(&self.choice, needs)?;
         Ok(Self {
             early: self.early,
             on_compilation: self.on_compilation,
@@ -208,9 +240,9 @@ impl Gpu {
         })
     }
 
-    /// Checks that a device on this adapter can meet `needs`. The device of another program has fixed limits.
+    /// Checks that a device on this adapter can meet `needs`. One that cannot be replaced has fixed limits.
     pub(crate) fn check_limits(&self, needs: Needs) -> Result<(), GpuError> {
-        if self.is_own {
+        if self.can_be_replaced() {
             return limits_for(needs, &self.adapter.limits()).map(drop);
         }
         let has = self.device.limits();
@@ -305,13 +337,6 @@ impl Gpu {
         columns - u32::from(fault::should_fail(fault::Site::Dispatch))
     }
 
-    /// Submits and waits for completion. A device that is lost, or does not respond within half a minute, gives
-    /// [`GpuError::Lost`].
-    pub(crate) fn submit(&self, commands: wgpu::CommandBuffer) -> Result<(), GpuError> {
-        let index = self.enqueue(commands)?;
-        self.wait(index)
-    }
-
     /// Submits without waiting.
     pub(crate) fn enqueue(
         &self,
@@ -321,23 +346,6 @@ impl Gpu {
             self.lose();
         }
         guard::catch(|| self.queue.submit([commands])).map_err(|()| GpuError::Lost)
-    }
-
-    fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), GpuError> {
-        for _ in 0..self.report.steps_of_patience(WAIT) {
-            let poll = wgpu::PollType::Wait {
-                submission_index: Some(index.clone()),
-                timeout: Some(WAIT),
-            };
-            let polled = guard::catch(|| self.device.poll(poll)).map_err(|_| GpuError::Lost)?;
-            self.check()?;
-            match polled {
-                Ok(_) => return Ok(()),
-                Err(wgpu::PollError::Timeout) => {}
-                Err(_) => return Err(GpuError::Lost),
-            }
-        }
-        Err(GpuError::Lost)
     }
 
     /// Returns any error that was not reported where it occurred.
@@ -351,7 +359,7 @@ impl Gpu {
             .ok()
             .and_then(|mut slot| slot.take())
         {
-            Some(what) => Err(GpuError::Internal { what }),
+            Some(error) => Err(error),
             None => Ok(()),
         }
     }
@@ -372,18 +380,22 @@ impl Gpu {
             });
             self.queue.write_buffer(&buffer, 0, &[0; 4]);
         });
-        let is_lost = pollster::block_on(scope.pop()).is_some() || tried.is_err();
+        let is_lost = now(scope.pop()).flatten().is_some() || tried.is_err();
         self.lost.fetch_or(is_lost, Ordering::AcqRel);
         is_lost
     }
 
-    /// Runs `make` inside error scopes and converts caught errors.
+    /// Runs `make` inside error scopes and converts caught errors. A browser tells errors later: there the device reports
+    /// them, and [`Self::check`].
     fn scoped<T>(&self, what: &str, make: impl FnOnce() -> T) -> Result<T, GpuError> {
+        if cfg!(target_arch = "wasm32") {
+            return Ok(make());
+        }
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let made = guard::catch(make);
-        let invalid = pollster::block_on(validation.pop());
-        let exhausted = pollster::block_on(memory.pop());
+        let invalid = now(validation.pop()).flatten();
+        let exhausted = now(memory.pop()).flatten();
         if self.is_lost() {
             return Err(GpuError::Lost);
         }
@@ -399,5 +411,13 @@ impl Gpu {
             });
         }
         made.map_err(|_| GpuError::Lost)
+    }
+}
+
+/// The output of a future that has it at once, as those of wgpu have everywhere but in browsers.
+fn now<T>(future: impl Future<Output = T>) -> Option<T> {
+    match pin!(future).poll(&mut Context::from_waker(Waker::noop())) {
+        Poll::Ready(output) => Some(output),
+        Poll::Pending => None,
     }
 }

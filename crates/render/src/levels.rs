@@ -64,14 +64,14 @@ impl Renderer {
     ///
     /// # Errors
     /// The device failed during readback of the film.
-    pub fn range(&mut self) -> Result<Option<[f32; 2]>, RenderError> {
+    pub async fn range_async(&mut self) -> Result<Option<[f32; 2]>, RenderError> {
         let Some(quantity) = self.settings.integrator.quantity() else {
             return Ok(None);
         };
         if quantity == Quantity::Samples {
             return Ok(extent(self.counts(), quantity));
         }
-        self.fetch_film()?;
+        self.fetch_film().await?;
         let tiles = self.tiles.developable(self.policy.slicing.tile_side);
         let rows = tiles
             .iter()
@@ -89,10 +89,10 @@ impl Renderer {
     }
 
     /// The range for a tone.
-    pub(super) fn range_of(&mut self, tone: &Tone) -> Result<Option<[f32; 2]>, RenderError> {
+    pub(super) async fn range_of(&mut self, tone: &Tone) -> Result<Option<[f32; 2]>, RenderError> {
         match tone.levels {
             Levels::Raw => Ok(None),
-            Levels::Found => self.range(),
+            Levels::Found => self.range_async().await,
             Levels::Fixed(range) => Ok((self.settings.integrator.quantity()).map(|_| range)),
         }
     }

@@ -5,6 +5,8 @@ mod adaptive;
 mod arrays;
 mod binary;
 mod bindings;
+#[cfg(not(target_arch = "wasm32"))]
+mod blocking;
 pub mod bvh;
 mod checkpoint;
 mod denoise;
@@ -45,7 +47,9 @@ mod tone;
 mod work;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
-pub use denoise::{Denoised, denoise};
+#[cfg(not(target_arch = "wasm32"))]
+pub use blocking::denoise;
+pub use denoise::{Denoised, denoise_async};
 pub use effort::LongPath;
 pub use error::RenderError;
 pub use explain::{
@@ -182,7 +186,7 @@ impl Renderer {
             film_rows: tiles.largest(),
         };
         let gpu = gpu.with_limits_for(bindings::needs(&scene, &view, fetch, task.film_rows))?;
-        let (choice, is_own) = (gpu.choice().clone(), gpu.is_own());
+        let (choice, can_be_replaced) = (gpu.choice().clone(), gpu.can_be_replaced());
         let device = threads::join(
             || Device::new(gpu, fetch, task, &mut stats),
             || {
@@ -194,7 +198,7 @@ impl Renderer {
         );
         let device = match device {
             // Other code draws with this device and cannot switch to another one.
-            Err(GpuError::Lost) if !policy.host_copy || !is_own => {
+            Err(GpuError::Lost) if !policy.host_copy || !can_be_replaced => {
                 return Err(GpuError::Lost.into());
             }
             device => or_replacement(device, &mut stats, 0, |stats| {
@@ -311,14 +315,14 @@ impl Renderer {
     ///
     /// # Errors
     /// As [`Renderer::new`]; the renderer can be restarted afterwards.
-    pub fn replace_scene(
+    pub async fn replace_scene_async(
         &mut self,
         scene: Arc<PackedScene>,
         view: &PackedView,
         policy: ExecutionPolicy,
     ) -> Result<(), RenderError> {
         let view = view.with_aspect(self.settings.size.0, self.settings.size.1);
-        self.fetch_film()?;
+        self.fetch_film().await?;
         let fetch = bindings::choose_fetch(&policy, &self.device.gpu, &scene, &view);
         let shown = (&*scene, &view, fetch);
         let bytes = planned_bytes(shown, &self.settings, &policy, &self.tiles)?;

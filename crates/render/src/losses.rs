@@ -15,20 +15,28 @@ impl Renderer {
     ) -> Result<T, RenderError> {
         loop {
             match attempt(self) {
-                Err(GpuError::Lost) if self.survives_losses() => self.recover()?,
-                other => return Ok(other?),
+                Ok(done) => return Ok(done),
+                Err(error) => self.recover_from(error)?,
             }
         }
     }
 
+    /// Continues on another device after a loss that it survives. Any other error is returned.
+    pub(super) fn recover_from(&mut self, error: GpuError) -> Result<(), RenderError> {
+        match error {
+            GpuError::Lost if self.survives_losses() => self.recover(),
+            error => Err(error.into()),
+        }
+    }
+
     /// Whether a loss can be recovered from: the host has the sums of all finished slices, and the device
-    /// belongs to the renderer. Otherwise the caller gets the error.
-    pub(super) fn survives_losses(&self) -> bool {
-        self.policy.host_copy && self.device.gpu.is_own()
+    /// can be replaced. Otherwise the caller gets the error.
+    fn survives_losses(&self) -> bool {
+        self.policy.host_copy && self.device.gpu.can_be_replaced()
     }
 
     /// Continues on another device after a loss.
-    pub(super) fn recover(&mut self) -> Result<(), RenderError> {
+    fn recover(&mut self) -> Result<(), RenderError> {
         self.stats.count_loss(self.earlier_losses)?;
         self.replace_device(self.device.fetch)
     }

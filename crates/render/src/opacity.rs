@@ -102,12 +102,12 @@ impl Renderer {
     ///
     /// # Errors
     /// The device failed.
-    pub fn catcher_light(&mut self) -> Result<CatcherLight, RenderError> {
+    pub async fn catcher_light_async(&mut self) -> Result<CatcherLight, RenderError> {
         let mut light = CatcherLight::default();
         if !(self.settings.has_opacity() && self.scene.features.shadow_catchers) {
             return Ok(light);
         }
-        self.fetch_film()?;
+        self.fetch_film().await?;
         let layers = layers::of_pictures(&self.settings);
         let Some(place) = layers::row_of(layers, &layers::OPACITY) else {
             return Ok(light);
@@ -125,11 +125,11 @@ impl Renderer {
     }
 
     /// The picture so far in linear radiance, if it has opacity.
-    pub(super) fn transparent_picture(&mut self) -> Result<Option<Image>, RenderError> {
+    pub(super) async fn transparent_picture(&mut self) -> Result<Option<Image>, RenderError> {
         if !self.settings.has_opacity() {
             return Ok(None);
         }
-        self.fetch_film()?;
+        self.fetch_film().await?;
         let layers = layers::of_pictures(&self.settings);
         let sums = self.tiles.sums(layers);
         Ok(picture(self.settings.region(), layers, sums))

@@ -126,33 +126,33 @@ impl RayQuery {
     ///
     /// # Errors
     /// The device failed, or the driver ends the traversal of a ray early.
-    pub fn closest_hits(&self, rays: &[QueryRay]) -> Result<Vec<Option<QueryHit>>, RenderError> {
-        self.closest_hits_of(&self.batch(rays)?)
+    pub async fn closest_hits_async(&self, rays: &[QueryRay]) -> Result<Vec<Option<QueryHit>>, RenderError> {
+        self.closest_hits_of_async(&self.batch(rays)?).await
     }
 
     /// For each ray whether there is a surface between its origin and its `t_max`.
     ///
     /// # Errors
-    /// As [`Self::closest_hits`].
-    pub fn occluded(&self, rays: &[QueryRay]) -> Result<Vec<bool>, RenderError> {
-        self.occluded_of(&self.batch(rays)?)
+    /// As [`Self::closest_hits_async`].
+    pub async fn occluded_async(&self, rays: &[QueryRay]) -> Result<Vec<bool>, RenderError> {
+        self.occluded_of_async(&self.batch(rays)?).await
     }
 
-    /// [`Self::closest_hits`] of rays on the device.
+    /// [`Self::closest_hits_async`] of rays on the device.
     ///
     /// # Errors
-    /// As [`Self::closest_hits`].
-    pub fn closest_hits_of(&self, batch: &RayBatch) -> Result<Vec<Option<QueryHit>>, RenderError> {
-        let rows = self.rows(batch, RayTest::Closest)?;
+    /// As [`Self::closest_hits_async`].
+    pub async fn closest_hits_of_async(&self, batch: &RayBatch) -> Result<Vec<Option<QueryHit>>, RenderError> {
+        let rows = self.rows(batch, RayTest::Closest).await?;
         Ok(rows.into_iter().map(QueryHit::of).collect())
     }
 
-    /// [`Self::occluded`] of rays on the device.
+    /// [`Self::occluded_async`] of rays on the device.
     ///
     /// # Errors
-    /// As [`Self::closest_hits`].
-    pub fn occluded_of(&self, batch: &RayBatch) -> Result<Vec<bool>, RenderError> {
-        let rows = self.rows(batch, RayTest::Any)?;
+    /// As [`Self::closest_hits_async`].
+    pub async fn occluded_of_async(&self, batch: &RayBatch) -> Result<Vec<bool>, RenderError> {
+        let rows = self.rows(batch, RayTest::Any).await?;
         let is_hit = |[_, primitive, ..]: [u32; 4]| primitive != NONE;
         Ok(rows.into_iter().map(is_hit).collect())
     }
@@ -161,9 +161,9 @@ impl RayQuery {
     /// adapter's speed, so they show whether a tree or a traversal has become better or worse.
     ///
     /// # Errors
-    /// As [`Self::closest_hits`].
-    pub fn steps(&self, batch: &RayBatch, test: RayTest) -> Result<Vec<RaySteps>, RenderError> {
-        self.counted(batch, test, pipelines::portable(self.fetch))
+    /// As [`Self::closest_hits_async`].
+    pub async fn steps_async(&self, batch: &RayBatch, test: RayTest) -> Result<Vec<RaySteps>, RenderError> {
+        (self.counted(batch, test, pipelines::portable(self.fetch))).await
     }
 
     /// For each ray the traversal steps of its packet if all rays are traced in packets of [`Self::packet_rays`], in their
@@ -171,8 +171,8 @@ impl RayQuery {
     /// its way. `None` if this query traces no packets, or one exceeds its stack.
     ///
     /// # Errors
-    /// As [`Self::closest_hits`].
-    pub fn packet_steps(
+    /// As [`Self::closest_hits_async`].
+    pub async fn packet_steps_async(
         &self,
         batch: &RayBatch,
         test: RayTest,
@@ -180,7 +180,7 @@ impl RayQuery {
         if self.packet_rays().is_none() {
             return Ok(None);
         }
-        match self.counted(batch, test, Variant::Packet) {
+        match self.counted(batch, test, Variant::Packet).await {
             Err(RenderError::PathTooLong(_)) => Ok(None),
             steps => steps.map(Some),
         }
@@ -198,20 +198,22 @@ impl RayQuery {
     /// test may include its compilation.
     ///
     /// # Errors
-    /// As [`Self::closest_hits`].
-    pub fn seconds(
+    /// As [`Self::closest_hits_async`].
+    pub async fn seconds_async(
         &self,
         batch: &RayBatch,
         test: RayTest,
         passes: u32,
     ) -> Result<f64, RenderError> {
         let passes = passes.max(1);
-        let seconds = self.with_pipeline(batch, test, |pipeline| {
-            let chunks = batch.chunks.iter();
-            let seconds = chunks.map(|chunk| self.dispatch(chunk, pipeline, passes, None));
-            seconds.sum::<Result<f64, _>>()
-        })?;
-        Ok(seconds / f64::from(passes))
+        let seconds = self.with_pipeline(batch, test, async |pipeline| {
+            let mut seconds = 0.0;
+            for chunk in &batch.chunks {
+                seconds += self.dispatch(chunk, pipeline, passes, None).await?;
+            }
+            Ok(seconds)
+        });
+        Ok(seconds.await? / f64::from(passes))
     }
 
     /// Uploads rays.
@@ -245,29 +247,33 @@ impl RayQuery {
     }
 
     /// The results of all rays, as `scene/query.wesl` stores them.
-    fn rows(&self, batch: &RayBatch, test: RayTest) -> Result<Vec<[u32; 4]>, RenderError> {
-        self.with_pipeline(batch, test, |pipeline| self.rows_of(batch, pipeline))
+    async fn rows(&self, batch: &RayBatch, test: RayTest) -> Result<Vec<[u32; 4]>, RenderError> {
+        let rows = self.with_pipeline(batch, test, async |pipeline| {
+            self.rows_of(batch, pipeline).await
+        });
+        rows.await
     }
 
-    fn counted(
+    async fn counted(
         &self,
         batch: &RayBatch,
         test: RayTest,
         variant: Variant,
     ) -> Result<Vec<RaySteps>, RenderError> {
-        let rows = self.rows_of(batch, &self.pipeline(test, true, variant, Stack::Deepest)?)?;
+        let pipeline = self.pipeline(test, true, variant, Stack::Deepest)?;
+        let rows = self.rows_of(batch, &pipeline).await?;
         let steps = |[_, _, nodes, primitives]: [u32; 4]| RaySteps { nodes, primitives };
         Ok(rows.into_iter().map(steps).collect())
     }
 
-    fn rows_of(
+    async fn rows_of(
         &self,
         batch: &RayBatch,
         pipeline: &wgpu::ComputePipeline,
     ) -> Result<Vec<[u32; 4]>, RenderError> {
         let mut all = Vec::new();
         for chunk in &batch.chunks {
-            self.dispatch(chunk, pipeline, 1, Some(&mut all))?;
+            (self.dispatch(chunk, pipeline, 1, Some(&mut all))).await?;
         }
         Ok(all)
     }
@@ -282,17 +288,17 @@ impl RayQuery {
 
     /// Calls `trace` with a pipeline, and again with that of the portable kernel and the largest stack if a ray or a packet
     /// exceeds its stack, or a packet the loop limit of the driver.
-    fn with_pipeline<T>(
+    async fn with_pipeline<T>(
         &self,
         batch: &RayBatch,
         test: RayTest,
-        mut trace: impl FnMut(&wgpu::ComputePipeline) -> Result<T, RenderError>,
+        mut trace: impl AsyncFnMut(&wgpu::ComputePipeline) -> Result<T, RenderError>,
     ) -> Result<T, RenderError> {
         let variant = self.variant(batch.coherence);
-        match trace(&self.pipeline(test, false, variant, Stack::Usual)?) {
+        match trace(&self.pipeline(test, false, variant, Stack::Usual)?).await {
             Err(RenderError::PathTooLong(_)) => {
                 let portable = pipelines::portable(self.fetch);
-                trace(&self.pipeline(test, false, portable, Stack::Deepest)?)
+                trace(&self.pipeline(test, false, portable, Stack::Deepest)?).await
             }
             traced => traced,
         }
@@ -319,7 +325,7 @@ impl RayQuery {
     }
 
     /// Traces the rays `passes` times, appends the results to `all`, and returns the seconds that it took.
-    fn dispatch(
+    async fn dispatch(
         &self,
         chunk: &Chunk,
         pipeline: &wgpu::ComputePipeline,
@@ -355,7 +361,7 @@ impl RayQuery {
         }
         let started = Instant::now();
         let reading = gpu.submit_reading(encoder, &sources, &buffers.staging)?;
-        let (counters, seconds) = gpu.read(reading, |bytes| {
+        let read = gpu.read(reading, |bytes| {
             let (counters, bytes) = bytes.split_at(size_of::<PackedCounters>());
             let waited = started.elapsed().as_secs_f64();
             let (seconds, rows) = timer.split(bytes);
@@ -366,7 +372,8 @@ impl RayQuery {
                 pod_read_unaligned::<PackedCounters>(counters),
                 seconds.unwrap_or(waited),
             )
-        })?;
+        });
+        let (counters, seconds) = read.await?;
         // A driver that stops a dispatch is treated as lost.
         if counters.finished_groups() != groups * passes {
             return Err(GpuError::Lost.into());

@@ -3,6 +3,7 @@
 use super::{
     Levels, Quantity, RenderError, Renderer, Tone,
     denoise::Denoiser,
+    device::OtherWork,
     film_pass::add_film_pass,
     layouts::{SCREEN_FORMAT, target},
     overrides, pipelines,
@@ -94,9 +95,9 @@ impl Screen {
     ///
     /// # Errors
     /// The device failed.
-    pub fn read(&self, gpu: &Gpu) -> Result<ScreenImage, RenderError> {
+    pub async fn read_async(&self, gpu: &Gpu) -> Result<ScreenImage, RenderError> {
         let (width, height) = self.size();
-        let pixels = self.read_part(gpu, [0, 0, width, height])?;
+        let pixels = self.read_part(gpu, [0, 0, width, height]).await?;
         Ok(ScreenImage {
             width,
             height,
@@ -105,7 +106,7 @@ impl Screen {
     }
 
     /// The pixels of a rectangle (x, y, width, height), row by row.
-    fn read_part(
+    async fn read_part(
         &self,
         gpu: &Gpu,
         [x, y, width, height]: [u32; 4],
@@ -146,6 +147,7 @@ impl Screen {
             let rows = rows.flat_map(|row| row[..4 * width as usize].as_chunks::<4>().0);
             rows.copied().collect()
         })
+        .await
     }
 }
 
@@ -164,8 +166,12 @@ impl Renderer {
     ///
     /// # Errors
     /// The device failed.
-    pub fn read_pixel(&self, screen: &Screen, [x, y]: [u32; 2]) -> Result<[u8; 4], RenderError> {
-        let pixels = screen.read_part(&self.device.gpu, [x, y, 1, 1])?;
+    pub async fn read_pixel_async(
+        &self,
+        screen: &Screen,
+        [x, y]: [u32; 2],
+    ) -> Result<[u8; 4], RenderError> {
+        let pixels = screen.read_part(&self.device.gpu, [x, y, 1, 1]).await?;
         Ok(pixels.first().copied().unwrap_or_default())
     }
 
@@ -200,10 +206,17 @@ impl Renderer {
     /// of [`Self::develop`], rounded to 8 bits; denoised ones within one of these levels. Returns the range over
     /// which a quantity is shown. If it [`Self::shows_directly`] and needs neither a range nor an exposure, and
     /// does not denoise, it does not wait for the GPU.
-    pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
-        let range = self.range_of(tone)?;
+    ///
+    /// # Errors
+    /// The device failed.
+    pub async fn show_async(
+        &mut self,
+        tone: &Tone,
+        screen: &Screen,
+    ) -> Result<Option<[f32; 2]>, RenderError> {
+        let range = self.range_of(tone).await?;
         if self.shows_directly(tone) {
-            let packed = self.exposed(tone)?.packed(
+            let packed = self.exposed(tone).await?.packed(
                 self.settings.integrator,
                 range,
                 self.tiles.list[0].rows_per_pixel(),
@@ -216,7 +229,7 @@ impl Renderer {
             levels: range.map_or(Levels::Raw, Levels::Fixed),
             ..*tone
         };
-        let image = self.develop(tone)?;
+        let image = self.develop_async(tone).await?;
         screen.write(&self.device.gpu, &ScreenImage::from(&image))?;
         Ok(range)
     }
@@ -274,10 +287,16 @@ impl Renderer {
         let groups = [&buffers.frame_group, &buffers.film_group, &group];
         add_film_pass(&mut encoder, &pipeline, groups, grid);
         match is_denoised {
-            // The next slice is timed from its submission, without these passes.
-            true => gpu.submit(encoder.finish()),
-            false => gpu.enqueue(encoder.finish()).map(drop),
+            // They take long, and the time of the next slice is measured.
+            true => {
+                device.other_work = Some(OtherWork {
+                    submitted: gpu.submit(encoder.finish())?,
+                    compiles: false,
+                });
+            }
+            false => drop(gpu.enqueue(encoder.finish())?),
         }
+        Ok(())
     }
 
     /// Writes the sums of the only film tile to the film buffer unless they are there.

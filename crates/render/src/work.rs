@@ -10,7 +10,7 @@ use super::{
     sums::SAMPLE_BLOCK,
 };
 use crate::{
-    gpu::{GpuError, Reading},
+    gpu::{GpuError, Reading, Submitted},
     layout::{CUT_OFF_STACK, PackedCounters},
 };
 use glimray_scene::clock::Instant;
@@ -66,20 +66,19 @@ struct Running {
 }
 
 impl Renderer {
-    /// Adds samples for about [`super::Slicing::target_seconds`] and waits for them. Does nothing if the render
-    /// is done.
+    /// Adds samples for about [`super::Slicing::target_seconds`]. Does nothing if the render is done.
     ///
     /// # Errors
     /// The device failed or cannot render the scene.
-    pub fn step(&mut self) -> Result<(), RenderError> {
-        self.submit()?;
-        while self.work.is_some() {
-            self.wait()?;
-            if self.work.is_some() {
-                self.submit()?;
+    pub async fn step_async(&mut self) -> Result<(), RenderError> {
+        loop {
+            self.submit()?;
+            let was_running = self.is_running();
+            self.finish_work().await?;
+            if self.work.is_none() && (was_running || self.is_done()) {
+                return Ok(());
             }
         }
-        Ok(())
     }
 
     /// Submits the next work unless the GPU is busy or the render is done. Does not wait: [`Self::poll`]
@@ -88,7 +87,7 @@ impl Renderer {
     /// # Errors
     /// The device failed.
     pub fn submit(&mut self) -> Result<(), RenderError> {
-        if self.is_done() || self.is_running() {
+        if self.is_done() || self.submitted().is_some() {
             return Ok(());
         }
         let mut work = match self.work.take() {
@@ -108,22 +107,37 @@ impl Renderer {
     }
 
     /// Collects finished work without waiting for the GPU. If the device is lost and belongs to the renderer,
-    /// it is replaced first, which takes a moment.
+    /// it is replaced first, which takes a moment; in a browser that is an error.
     ///
     /// # Errors
     /// The device failed or cannot render the scene.
     pub fn poll(&mut self) -> Result<Status, RenderError> {
-        if let Some(running) = self.work.as_ref().and_then(|work| work.running.as_ref()) {
-            match self.device.gpu.is_readable(&running.reading) {
+        while let Some(submitted) = self.submitted() {
+            match self.device.gpu.is_done(submitted) {
                 Ok(false) => return Ok(Status::Working),
-                Ok(true) => self.wait()?,
-                Err(error) => self.handle_error(error)?,
+                done => self.collect(done.map(drop))?,
             }
         }
         match self.is_done() {
             true => Ok(Status::Done),
             false => Ok(Status::Ready),
         }
+    }
+
+    /// Ends when all submitted work has been collected.
+    pub(super) async fn finish_work(&mut self) -> Result<(), RenderError> {
+        while let Some(submitted) = self.submitted() {
+            let outcome = self.device.gpu.done(submitted).await;
+            self.collect(outcome)?;
+        }
+        Ok(())
+    }
+
+    /// The work that the GPU is busy with.
+    fn submitted(&self) -> Option<&Submitted> {
+        let other = self.device.other_work.as_ref();
+        let running = self.work.as_ref().and_then(|work| work.running.as_ref());
+        (other.map(|other| &other.submitted)).or(running.map(|running| &running.reading.work))
     }
 
     fn is_running(&self) -> bool {
@@ -181,10 +195,18 @@ impl Renderer {
         })
     }
 
-    /// Waits for submitted work, if any, and collects its results.
-    pub(super) fn wait(&mut self) -> Result<(), RenderError> {
-        let Some(running) = self.work.as_mut().and_then(|work| work.running.take()) else {
+    /// Collects the results of [`Self::submitted`] work that ended so. After a device loss the work is repeated.
+    fn collect(&mut self, outcome: Result<(), GpuError>) -> Result<(), RenderError> {
+        let other = self.device.other_work.take();
+        if let (Some(other), Ok(())) = (other, &outcome) {
+            if other.compiles {
+                self.stats.compile_seconds += other.submitted.seconds();
+            }
             return Ok(());
+        }
+        let running = self.work.as_mut().and_then(|work| work.running.take());
+        let Some(running) = running else {
+            return outcome.or_else(|error| self.recover_from(error));
         };
         let Running {
             part,
@@ -193,23 +215,13 @@ impl Renderer {
             started,
         } = running;
         let tile = &mut self.tiles.list[self.cursor.tile];
-        match self.device.finish(reading, &part, tile, back) {
+        let device = &self.device;
+        match outcome.and_then(|()| device.finish(reading, &part, tile, back)) {
             Ok(counters) => self.finish_part(part, &counters, started.elapsed().as_secs_f64()),
             Err(error) => {
                 self.submit_again(part);
-                self.handle_error(error)
+                self.recover_from(error)
             }
-        }
-    }
-
-    /// Handles an error of submitted work: after a device loss the work is repeated.
-    fn handle_error(&mut self, error: GpuError) -> Result<(), RenderError> {
-        if let Some(running) = self.work.as_mut().and_then(|work| work.running.take()) {
-            self.submit_again(running.part);
-        }
-        match error {
-            GpuError::Lost if self.survives_losses() => self.recover(),
-            error => Err(error.into()),
         }
     }
 
@@ -336,12 +348,12 @@ impl Renderer {
     }
 
     /// Reads back sums that are only on the device, after submitted work has finished.
-    pub(super) fn fetch_film(&mut self) -> Result<(), RenderError> {
-        self.wait()?;
+    pub(super) async fn fetch_film(&mut self) -> Result<(), RenderError> {
+        self.finish_work().await?;
         let index = self.cursor.tile;
         let is_there = self.policy.host_copy || self.device.loaded_tile != Some(index);
         match self.tiles.list.get_mut(index) {
-            Some(tile) if !is_there => Ok(self.device.fetch_film(tile)?),
+            Some(tile) if !is_there => Ok(self.device.fetch_film(tile).await?),
             _ => Ok(()),
         }
     }

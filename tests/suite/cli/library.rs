@@ -4,7 +4,7 @@ use crate::explain::{finish, renderer};
 use crate::reference::compare::{assert_none, check_same_bits, open_gpu};
 use crate::support::program::Workspace;
 use glimray::gpu::AdapterChoice;
-use glimray::import;
+use glimray::{PictureOptions, import, output, render_file};
 use glimray::render::{Antialias, ExecutionPolicy, Film, Integrator, RenderSettings, Tone};
 use std::path::Path;
 
@@ -59,4 +59,44 @@ fn pictures_of_the_program_are_those_of_the_library() {
         let actual = film.develop(&open_gpu(), &Tone::LINEAR).expect("a picture");
         check_same_bits(&format!("{name}, {integrator:?}"), &expected, &actual)
     }));
+}
+
+#[test]
+fn one_call_gives_the_picture_of_the_program() {
+    let workspace = Workspace::new();
+    workspace.write("model.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0.5\nf 1 2 3\n");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
+    let given = |size, samples, time| PictureOptions {
+        size,
+        samples,
+        time,
+        ..PictureOptions::default()
+    };
+    let rows = [
+        (workspace.path("a.scene"), given(None, None, 0.0), ""),
+        (
+            folder.join("showcase.toml"),
+            given(Some((48, 36)), Some(4), 0.0),
+            "--size 48x36 --samples 4",
+        ),
+        (
+            folder.join("carousel.toml"),
+            given(Some((48, 27)), Some(2), 0.5),
+            "--size 48x27 --samples 2 --time 0.5",
+        ),
+        // Traced by paths, and denoised.
+        (
+            workspace.path("model.obj"),
+            given(Some((48, 36)), None, 0.0),
+            "--size 48x36",
+        ),
+    ];
+    for (path, options, flags) in rows {
+        let picture = render_file(&path, &options).unwrap_or_else(|error| panic!("{error}"));
+        output::save(workspace.path("library.png"), &picture).expect("written");
+        let line = format!("render {} {flags} --quiet -o program.png", path.display());
+        workspace.run(&line).expect(0);
+        let is_same = workspace.read("library.png") == workspace.read("program.png");
+        assert!(is_same, "{}", path.display());
+    }
 }

@@ -18,7 +18,7 @@ impl Film {
     ///
     /// # Errors
     /// The device failed, or the picture exceeds [`crate::gpu::MEMORY_LIMIT_BYTES`].
-    pub fn develop(&self, gpu: &Gpu, tone: &Tone) -> Result<Image, RenderError> {
+    pub async fn develop_async(&self, gpu: &Gpu, tone: &Tone) -> Result<Image, RenderError> {
         let region = self.region();
         check_memory(region[2], region[3], PIXEL_BYTES)?;
         let range = self.range_of(tone);
@@ -37,7 +37,7 @@ impl Film {
         let patches = self.coverage.patches().zip(&self.sums);
         let patches = patches.map(|((region, _), sums)| (region, sums));
         if let Some(image) = opacity::picture(region, layers, patches) {
-            return tone.develop(gpu, &image);
+            return tone.develop_async(gpu, &image).await;
         }
         let sums = self.layer(LayerKind::Weighted);
         let tone = tone.exposed(|| sums.iter());
@@ -47,6 +47,7 @@ impl Film {
             &sums,
             &tone.packed(self.header.integrator, range, 1),
         )
+        .await
     }
 
     /// The minimum and maximum, without [`Quantity::outliers`]; see [`crate::Renderer::range`].

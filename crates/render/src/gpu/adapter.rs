@@ -97,10 +97,10 @@ pub(super) struct Found {
     pub report: AdapterReport,
 }
 
-/// All adapters that can run compute shaders, in the order of their indices.
-pub fn adapters(choice: &AdapterChoice) -> Vec<AdapterReport> {
-    enumerate(allowed_backends(choice))
-        .1
+/// All adapters that can run compute shaders, in the order of their indices. A browser tells one.
+pub async fn adapters_async(choice: &AdapterChoice) -> Vec<AdapterReport> {
+    let (_, adapters) = enumerate(allowed_backends(choice)).await;
+    adapters
         .iter()
         .enumerate()
         .map(|(index, adapter)| report(index, adapter))
@@ -109,17 +109,17 @@ pub fn adapters(choice: &AdapterChoice) -> Vec<AdapterReport> {
 
 /// The requested adapter, otherwise the first of the best kind: discrete, integrated, virtual, software; among
 /// equals a modern API before GL.
-pub(super) fn choose(choice: &AdapterChoice) -> Result<Found, GpuError> {
+pub(super) async fn choose(choice: &AdapterChoice) -> Result<Found, GpuError> {
     if let Some((backend, why)) = choice.backend.and_then(|b| Some((b.name(), b.absence()?))) {
         return Err(GpuError::NoBackend { backend, why });
     }
     // Enumerating GL devices takes as long as rendering a small picture, so it happens only if necessary.
     let mut enumerated = match (choice.backend, &choice.adapter) {
-        (None, None) => enumerate(wgpu::Backends::PRIMARY),
+        (None, None) => enumerate(wgpu::Backends::PRIMARY).await,
         _ => (None, Vec::new()),
     };
     if enumerated.1.is_empty() {
-        enumerated = enumerate(allowed_backends(choice));
+        enumerated = enumerate(allowed_backends(choice)).await;
     }
     let (instance, mut found) = enumerated;
     let reports: Vec<_> = found
@@ -194,7 +194,7 @@ fn allowed_backends(choice: &AdapterChoice) -> wgpu::Backends {
 }
 
 /// The adapters that can run compute shaders, and their instance.
-fn enumerate(backends: wgpu::Backends) -> (Option<wgpu::Instance>, Vec<wgpu::Adapter>) {
+async fn enumerate(backends: wgpu::Backends) -> (Option<wgpu::Instance>, Vec<wgpu::Adapter>) {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = backends;
     // There are no indirect dispatches, so validating them would only cost start-up time.
@@ -207,10 +207,13 @@ fn enumerate(backends: wgpu::Backends) -> (Option<wgpu::Instance>, Vec<wgpu::Ada
     };
     let found = guard::catch(|| {
         let instance = wgpu::Instance::new(descriptor);
-        let adapters = pollster::block_on(instance.enumerate_adapters(backends));
-        (Some(instance), adapters)
+        let adapters = instance.enumerate_adapters(backends);
+        (instance, adapters)
     });
-    let (instance, found) = found.unwrap_or_default();
+    let (instance, found) = match found {
+        Ok((instance, adapters)) => (Some(instance), adapters.await),
+        Err(()) => (None, Vec::new()),
+    };
     let has_compute = |adapter: &wgpu::Adapter| {
         let flags = adapter.get_downlevel_capabilities().flags;
         flags.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS)

@@ -117,6 +117,18 @@ fn amounts(in_bytes: bool, amounts: [u64; 2]) -> [String; 2] {
     }
 }
 
+/// An error outside of error scopes.
+pub fn stray(error: &wgpu::Error) -> GpuError {
+    match error {
+        wgpu::Error::OutOfMemory { .. } => GpuError::OutOfMemory {
+            what: "a buffer or texture".into(),
+        },
+        error => GpuError::Internal {
+            what: error.to_string(),
+        },
+    }
+}
+
 /// The error of a driver that fails to open the adapter. wgpu reports a lack of memory only in the text.
 pub fn no_device(adapter: &str, why: &str) -> GpuError {
     match why.contains("Not enough memory") {

@@ -4,7 +4,7 @@
 //! to kernels of 16, whose pictures are then wrong. The cache of the program has a folder for each width, but
 //! other programs that use the library may not.
 
-use super::{Gpu, GpuError, Source};
+use super::{Gpu, GpuError, Source, blocking::wait};
 use bytemuck::{cast_slice, pod_collect_to_vec};
 use std::sync::atomic::Ordering;
 
@@ -22,9 +22,9 @@ const KERNEL: &str = "
     }";
 
 impl Gpu {
-    /// Tries the lanes of a software adapter, once for each device. A browser cannot wait for them, and has its own cache.
+    /// Tries the lanes of a software adapter, once for each device. Waits for it. A browser has a cache of its own.
     pub(super) fn prove_lanes(&self) -> Result<(), GpuError> {
-        let can_try = !cfg!(target_arch = "wasm32") && self.is_cpu() && self.reads_images();
+        let can_try = self.is_cpu() && self.reads_images();
         if !can_try || self.lanes_proved.load(Ordering::Acquire) {
             return Ok(());
         }
@@ -104,7 +104,7 @@ impl Gpu {
             offset: 0,
             bytes,
         };
-        self.submit_and_read(encoder, &[source], &staging, pod_collect_to_vec)
+        wait(self.submit_and_read(encoder, &[source], &staging, pod_collect_to_vec))
     }
 }
 

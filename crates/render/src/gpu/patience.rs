@@ -3,9 +3,6 @@
 use super::AdapterReport;
 use std::time::Duration;
 
-/// Time limit of one wait for the device.
-pub(super) const WAIT: Duration = Duration::from_secs(10);
-
 /// Drivers of GPUs reset one that hangs for seconds, but not all of them report it.
 const OF_A_GPU: Duration = Duration::from_secs(30);
 
@@ -25,10 +22,5 @@ impl AdapterReport {
     /// Whether the adapter is a software renderer.
     pub fn is_cpu(&self) -> bool {
         self.device_type == "cpu"
-    }
-
-    /// The number of steps of this length until the patience ends.
-    pub(super) fn steps_of_patience(&self, step: Duration) -> u128 {
-        self.patience().as_nanos() / step.as_nanos()
     }
 }

@@ -1,12 +1,15 @@
-//! Readback from the GPU; all of it happens here.
+//! Submitted work, and readback from the GPU. Nothing here waits: callbacks report when work is done, in a browser by
+//! themselves and elsewhere while the device is polled.
 
+#[cfg(not(target_arch = "wasm32"))]
+use super::blocking;
 use super::{Gpu, GpuError, guard};
-use glimray_scene::bytes::sizes;
-use std::sync::{Arc, Condvar, Mutex};
-use std::time::Duration;
-
-/// Time between two looks whether the device is lost while another thread reports.
-const LOOK: Duration = Duration::from_millis(100);
+use glimray_scene::{bytes::sizes, clock::Instant};
+use std::{
+    future::poll_fn,
+    sync::{Arc, Mutex, PoisonError},
+    task::{Poll, Waker},
+};
 
 /// A range of a buffer to read back.
 pub(crate) struct Source<'a> {
@@ -15,45 +18,54 @@ pub(crate) struct Source<'a> {
     pub bytes: u64,
 }
 
+/// Submitted work.
+pub(crate) struct Submitted {
+    #[cfg_attr(target_arch = "wasm32", expect(dead_code, reason = "no thread waits"))]
+    index: wgpu::SubmissionIndex,
+    at: Instant,
+    report: Report,
+}
+
+impl Submitted {
+    /// The seconds since it was submitted.
+    pub(crate) fn seconds(&self) -> f64 {
+        self.at.elapsed().as_secs_f64()
+    }
+}
+
+/// What a callback reports about submitted work.
+#[derive(Clone, Default)]
+struct Report(Arc<Mutex<Reported>>);
+
+#[derive(Default)]
+struct Reported {
+    /// Whether it ended well.
+    outcome: Option<bool>,
+    waker: Option<Waker>,
+}
+
+impl Report {
+    fn change<T>(&self, change: impl FnOnce(&mut Reported) -> T) -> T {
+        change(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn set(&self, outcome: bool) {
+        let waker = self.change(|reported| {
+            reported.outcome = Some(outcome);
+            reported.waker.take()
+        });
+        if let Some(waker) = waker {
+            waker.wake();
+        }
+    }
+}
+
 /// Submitted work whose results will be read back. Dropping it discards the results; the work itself still
 /// runs.
 pub(crate) struct Reading {
     staging: wgpu::Buffer,
     bytes: u64,
-    submission: wgpu::SubmissionIndex,
-    mapped: Arc<Mapped>,
-}
-
-/// The outcome of mapping a staging buffer. The thread that polls the device reports it.
-#[derive(Default)]
-struct Mapped {
-    outcome: Mutex<Option<Result<(), wgpu::BufferAsyncError>>>,
-    reported: Condvar,
-}
-
-impl Mapped {
-    fn report(&self, outcome: Result<(), wgpu::BufferAsyncError>) {
-        if let Ok(mut slot) = self.outcome.lock() {
-            *slot = Some(outcome);
-        }
-        self.reported.notify_all();
-    }
-
-    /// Returns once it is reported, or after [`LOOK`].
-    fn wait(&self) {
-        if let Ok(slot) = self.outcome.lock() {
-            let _ = (self.reported).wait_timeout_while(slot, LOOK, |slot| slot.is_none());
-        }
-    }
-}
-
-impl Reading {
-    /// The result of the mapping, once it has completed.
-    fn outcome(&self) -> Option<Result<(), GpuError>> {
-        let mapped = self.mapped.outcome.lock().ok()?;
-        let outcome = mapped.as_ref()?;
-        Some(outcome.as_ref().map_err(|_| GpuError::Lost).copied())
-    }
+    pub work: Submitted,
 }
 
 impl Drop for Reading {
@@ -64,6 +76,14 @@ impl Drop for Reading {
 }
 
 impl Gpu {
+    /// Submits work without results. Does not wait.
+    pub(crate) fn submit(&self, commands: wgpu::CommandBuffer) -> Result<Submitted, GpuError> {
+        let index = self.enqueue(commands)?;
+        self.watched(index, |report| {
+            self.queue.on_submitted_work_done(move || report.set(true));
+        })
+    }
+
     /// Submits `encoder`, followed by copies of `sources`, one after the other, to `staging`, and requests its
     /// mapping. Does not wait. `staging` must be mappable for reading, large enough, and not used by another
     /// reading.
@@ -91,67 +111,97 @@ impl Gpu {
             bytes += source.bytes;
         }
         let commands = guard::catch(|| encoder.finish()).map_err(|()| GpuError::Lost)?;
-        let submission = self.enqueue(commands)?;
-        let mapped = Arc::new(Mapped::default());
-        let on_mapped = mapped.clone();
-        guard::catch(|| {
+        let index = self.enqueue(commands)?;
+        let work = self.watched(index, |report| {
             staging.map_async(wgpu::MapMode::Read, 0..bytes, move |outcome| {
-                on_mapped.report(outcome);
+                report.set(outcome.is_ok());
             });
-        })
-        .map_err(|()| GpuError::Lost)?;
+        })?;
         Ok(Reading {
             staging: staging.clone(),
             bytes,
-            submission,
-            mapped,
+            work,
         })
     }
 
-    /// Whether the results can be read. Does not wait.
-    pub(crate) fn is_readable(&self, reading: &Reading) -> Result<bool, GpuError> {
+    /// Work whose end the callback that `watch` sets will report.
+    fn watched(
+        &self,
+        index: wgpu::SubmissionIndex,
+        watch: impl FnOnce(Report),
+    ) -> Result<Submitted, GpuError> {
+        let (at, report) = (Instant::now(), Report::default());
+        guard::catch(|| watch(report.clone())).map_err(|()| GpuError::Lost)?;
+        Ok(Submitted { index, at, report })
+    }
+
+    /// Whether the work is done. Does not wait. Work that takes longer than the adapter's patience is lost with the device.
+    pub(crate) fn is_done(&self, work: &Submitted) -> Result<bool, GpuError> {
         let polled = guard::catch(|| self.device.poll(wgpu::PollType::Poll));
         polled
             .map_err(|()| GpuError::Lost)?
             .map_err(|_| GpuError::Lost)?;
         self.check()?;
-        reading
-            .outcome()
-            .map_or(Ok(false), |read| read.map(|()| true))
+        match work.report.change(|reported| reported.outcome) {
+            Some(true) => Ok(true),
+            Some(false) => Err(GpuError::Lost),
+            None if work.at.elapsed() > self.adapter().patience() => Err(GpuError::Lost),
+            None => Ok(false),
+        }
     }
 
-    /// Waits for completion and passes the results to `read`.
-    pub(crate) fn read<T>(
+    /// Ends when the work is done.
+    pub(crate) async fn done(&self, work: &Submitted) -> Result<(), GpuError> {
+        poll_fn(|context| {
+            let waker = context.waker().clone();
+            work.report.change(|reported| reported.waker = Some(waker));
+            match self.is_done(work) {
+                Ok(false) => {
+                    // Without a browser nothing reports unless somebody polls: this asks to be polled again.
+                    #[cfg(not(target_arch = "wasm32"))]
+                    {
+                        blocking::note(&self.device, &work.index);
+                        context.waker().wake_by_ref();
+                    }
+                    Poll::Pending
+                }
+                done => Poll::Ready(done.map(drop)),
+            }
+        })
+        .await
+    }
+
+    /// Passes the results of work that is done to `read`.
+    pub(crate) fn take<T>(
         &self,
         reading: Reading,
         read: impl FnOnce(&[u8]) -> T,
     ) -> Result<T, GpuError> {
-        self.wait(reading.submission.clone())?;
-        // The driver may have finished before wgpu reports it, and another thread may be about to report what it polled.
-        let mut looks = self.adapter().steps_of_patience(LOOK);
-        while !self.is_readable(&reading)? {
-            // A browser's thread cannot wait.
-            if cfg!(target_arch = "wasm32") || looks == 0 {
-                return Err(GpuError::Lost);
-            }
-            looks -= 1;
-            reading.mapped.wait();
-        }
         let slice = reading.staging.slice(0..reading.bytes);
         (slice.get_mapped_range())
             .map(|view| read(&view))
             .map_err(|_| GpuError::Lost)
     }
 
-    /// Submits, waits and reads.
-    pub(crate) fn submit_and_read<T>(
+    /// Passes the results to `read` once the work is done.
+    pub(crate) async fn read<T>(
+        &self,
+        reading: Reading,
+        read: impl FnOnce(&[u8]) -> T,
+    ) -> Result<T, GpuError> {
+        self.done(&reading.work).await?;
+        self.take(reading, read)
+    }
+
+    /// Submits, and reads once the work is done.
+    pub(crate) async fn submit_and_read<T>(
         &self,
         encoder: wgpu::CommandEncoder,
-        sources: &[Source],
+        sources: &[Source<'_>],
         staging: &wgpu::Buffer,
         read: impl FnOnce(&[u8]) -> T,
     ) -> Result<T, GpuError> {
         let reading = self.submit_reading(encoder, sources, staging)?;
-        self.read(reading, read)
+        self.read(reading, read).await
     }
 }

@@ -98,6 +98,7 @@ impl Gpu {
         let refused = |what: String| GpuError::Internal {
             what: with_dump(name, &kernel.source(variant).unwrap_or_default(), &what),
         };
+        #[cfg(not(target_arch = "wasm32"))]
         if variant != Variant::Buffer {
             self.prove_lanes()?;
         }
