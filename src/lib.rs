@@ -81,8 +81,9 @@
 //! # Features
 //!
 //! All are on by default. Without any the library is the renderer: it opens no window, needs no C or C++
-//! compiler, knows no command line, and compiles for `wasm32-unknown-unknown`, where [`output`] and the
-//! functions of [`import`] that read folders are left out.
+//! compiler, knows no command line, and compiles for `wasm32-unknown-unknown`, where [`output`], the
+//! functions of [`import`] that read folders and those that wait for the device are left out. Each of the last is beside one
+//! whose name ends in `_async`; [`gpu::Gpu::open`] and [`render_from`] do not wait either.
 //!
 //! | feature | adds |
 //! |---|---|

@@ -125,15 +125,39 @@ fn guaranteed() -> Gpu {
     // https://www.w3.org/TR/webgpu/#limit-default
     for (name, has, guaranteed) in [
         ("bind groups", has.max_bind_groups, 4),
-        ("storage buffers", has.max_storage_buffers_per_shader_stage, 8),
-        ("storage textures", has.max_storage_textures_per_shader_stage, 4),
-        ("sampled textures", has.max_sampled_textures_per_shader_stage, 16),
+        (
+            "storage buffers",
+            has.max_storage_buffers_per_shader_stage,
+            8,
+        ),
+        (
+            "storage textures",
+            has.max_storage_textures_per_shader_stage,
+            4,
+        ),
+        (
+            "sampled textures",
+            has.max_sampled_textures_per_shader_stage,
+            16,
+        ),
         ("side of a texture", has.max_texture_dimension_2d, 8192),
         ("layers of a texture", has.max_texture_array_layers, 256),
-        ("bytes of workgroup memory", has.max_compute_workgroup_storage_size, 16 << 10),
-        ("invocations", has.max_compute_invocations_per_workgroup, 256),
+        (
+            "bytes of workgroup memory",
+            has.max_compute_workgroup_storage_size,
+            16 << 10,
+        ),
+        (
+            "invocations",
+            has.max_compute_invocations_per_workgroup,
+            256,
+        ),
         ("invocations along x", has.max_compute_workgroup_size_x, 256),
-        ("workgroups along a side", has.max_compute_workgroups_per_dimension, 65_535),
+        (
+            "workgroups along a side",
+            has.max_compute_workgroups_per_dimension,
+            65_535,
+        ),
     ] {
         assert_eq!(has, guaranteed, "{name}");
     }

@@ -36,7 +36,7 @@ const MODULES: &[(&str, &str, &[&str])] = &[
     ("link", "link", &[]),
     ("shader-test", "shader-test", &[]),
     ("render", "layout", &[]),
-    ("render", "gpu", &["bytes", "shaders"]),
+    ("render", "gpu", &["bytes", "clock", "shaders"]),
     ("scene", "threads", &[]),
     ("render", "bvh", &["threads"]),
     (
@@ -346,22 +346,55 @@ fn only_a_few_files_of_the_library_need_more_than_a_browser_has() {
     const WORDS: &[&str] = &[
         "std::fs",
         "fs::{",
-        "std::thread",
+        "thread::",
         "std::time::Instant",
         "std::time::SystemTime",
         "tempfile",
     ];
-    // A browser has the clock of these, and the one file that asks first.
+    // A browser has the clock of these, and the files that ask first.
     const PARTS: &[&str] = &["app", "cli", "link", "main", "viewer", "output", "clock"];
     const FILES: &[&str] = &[
         "crates/io/src/import/folder.rs",
+        "crates/render/src/gpu/blocking.rs",
+        "crates/render/src/gpu/early.rs",
         "crates/render/src/gpu/shader.rs",
+        "crates/scene/src/threads.rs",
         "shaders/src/files.rs",
     ];
     let mut verdict = Verdict::on("sources for browsers");
     for (path, text) in rust_files() {
         let is_allowed = PARTS.contains(&&*module_of(&path));
         if is_allowed || FILES.iter().any(|file| path == Path::new(file)) {
+            continue;
+        }
+        let code = code(&text);
+        let word = WORDS.iter().find(|word| code.contains(**word));
+        verdict.that(path.display(), word.is_none(), || format!("has {word:?}"));
+    }
+    verdict.close();
+}
+
+/// A browser has one thread, which may not wait for the device.
+#[test]
+fn only_a_few_files_of_the_library_wait_for_the_device() {
+    const WORDS: &[&str] = &[
+        "PollType::Wait",
+        "PollType::wait",
+        "block_on",
+        "Condvar",
+        "wait(",
+    ];
+    const FILES: &[&str] = &[
+        "crates/render/src/blocking.rs",
+        "crates/render/src/gpu/blocking.rs",
+        // A browser does without it.
+        "crates/render/src/gpu/lanes.rs",
+        "src/picture.rs",
+    ];
+    let mut verdict = Verdict::on("sources of the library");
+    for (path, text) in rust_files() {
+        let is_of_program = ["app", "cli", "link", "main", "viewer"].contains(&&*module_of(&path));
+        if is_of_program || FILES.iter().any(|file| path == Path::new(file)) {
             continue;
         }
         let code = code(&text);

@@ -30,11 +30,7 @@ impl Renderer {
     }
 
     /// Awaits [`Self::show_async`].
-    pub fn show(
-        &mut self,
-        tone: &Tone,
-        screen: &Screen,
-    ) -> Result<Option<[f32; 2]>, RenderError> {
+    pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
         wait(self.show_async(tone, screen))
     }
 

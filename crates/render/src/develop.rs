@@ -129,7 +129,9 @@ impl Renderer {
     async fn developed(&mut self, tone: &Tone) -> Result<Image, RenderError> {
         if self.denoises(tone) {
             let features = self.features_async().await?;
-            let image = denoise_async(&features.picture(), self.gpu(), &features).await?.image;
+            let image = denoise_async(&features.picture(), self.gpu(), &features)
+                .await?
+                .image;
             return tone.develop_async(self.gpu(), &image).await;
         }
         if let Some(image) = self.transparent_picture().await? {

@@ -70,7 +70,10 @@ pub struct Gpu {
     pipelines: Arc<Mutex<shader::Pipelines>>,
     early: Arc<Mutex<Option<EarlyModule>>>,
     /// Whether its lanes have been tried: see `lanes.rs`.
-    #[cfg_attr(target_arch = "wasm32", expect(dead_code, reason = "browsers keep no kernels of others"))]
+    #[cfg_attr(
+        target_arch = "wasm32",
+        expect(dead_code, reason = "browsers keep no kernels of others")
+    )]
     lanes_proved: Arc<AtomicBool>,
     /// Called before a pipeline is compiled.
     on_compilation: Option<Arc<dyn Fn() + Send + Sync>>,
@@ -157,8 +160,8 @@ impl Gpu {
             ..Default::default()
         };
         let opened = adapter.request_device(&descriptor).await;
-        let (device, queue) = opened
-            .map_err(|error| error::no_device(&report.name, &error.to_string()))?;
+        let (device, queue) =
+            opened.map_err(|error| error::no_device(&report.name, &error.to_string()))?;
         let lost = Arc::new(AtomicBool::new(false));
         let on_loss = lost.clone();
         // The callback may run while locks are held, so it only sets a flag.

@@ -46,9 +46,9 @@ mod task;
 mod tone;
 mod work;
 
-pub use checkpoint::{Checkpoint, CheckpointError};
 #[cfg(not(target_arch = "wasm32"))]
 pub use blocking::denoise;
+pub use checkpoint::{Checkpoint, CheckpointError};
 pub use denoise::{Denoised, denoise_async};
 pub use effort::LongPath;
 pub use error::RenderError;

@@ -126,7 +126,10 @@ impl RayQuery {
     ///
     /// # Errors
     /// The device failed, or the driver ends the traversal of a ray early.
-    pub async fn closest_hits_async(&self, rays: &[QueryRay]) -> Result<Vec<Option<QueryHit>>, RenderError> {
+    pub async fn closest_hits_async(
+        &self,
+        rays: &[QueryRay],
+    ) -> Result<Vec<Option<QueryHit>>, RenderError> {
         self.closest_hits_of_async(&self.batch(rays)?).await
     }
 
@@ -142,7 +145,10 @@ impl RayQuery {
     ///
     /// # Errors
     /// As [`Self::closest_hits_async`].
-    pub async fn closest_hits_of_async(&self, batch: &RayBatch) -> Result<Vec<Option<QueryHit>>, RenderError> {
+    pub async fn closest_hits_of_async(
+        &self,
+        batch: &RayBatch,
+    ) -> Result<Vec<Option<QueryHit>>, RenderError> {
         let rows = self.rows(batch, RayTest::Closest).await?;
         Ok(rows.into_iter().map(QueryHit::of).collect())
     }
@@ -162,7 +168,11 @@ impl RayQuery {
     ///
     /// # Errors
     /// As [`Self::closest_hits_async`].
-    pub async fn steps_async(&self, batch: &RayBatch, test: RayTest) -> Result<Vec<RaySteps>, RenderError> {
+    pub async fn steps_async(
+        &self,
+        batch: &RayBatch,
+        test: RayTest,
+    ) -> Result<Vec<RaySteps>, RenderError> {
         (self.counted(batch, test, pipelines::portable(self.fetch))).await
     }
 

@@ -286,16 +286,14 @@ impl Renderer {
         let pipeline = pipelines::developing(gpu, layouts, Kernel::SHOW, &layout, overrides)?;
         let groups = [&buffers.frame_group, &buffers.film_group, &group];
         add_film_pass(&mut encoder, &pipeline, groups, grid);
-        match is_denoised {
-            // They take long, and the time of the next slice is measured.
-            true => {
-                device.other_work = Some(OtherWork {
-                    submitted: gpu.submit(encoder.finish())?,
-                    compiles: false,
-                });
-            }
-            false => drop(gpu.enqueue(encoder.finish())?),
+        if !is_denoised {
+            return gpu.enqueue(encoder.finish()).map(|_| ());
         }
+        // These passes take long, and the time of the next slice is measured.
+        device.other_work = Some(OtherWork {
+            submitted: gpu.submit(encoder.finish())?,
+            compiles: false,
+        });
         Ok(())
     }
 

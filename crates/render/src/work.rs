@@ -214,10 +214,11 @@ impl Renderer {
             reading,
             started,
         } = running;
+        let seconds = reading.work.seconds_since(started);
         let tile = &mut self.tiles.list[self.cursor.tile];
         let device = &self.device;
         match outcome.and_then(|()| device.finish(reading, &part, tile, back)) {
-            Ok(counters) => self.finish_part(part, &counters, started.elapsed().as_secs_f64()),
+            Ok(counters) => self.finish_part(part, &counters, seconds),
             Err(error) => {
                 self.submit_again(part);
                 self.recover_from(error)

@@ -4,8 +4,9 @@ use crate::explain::{finish, renderer};
 use crate::reference::compare::{assert_none, check_same_bits, open_gpu};
 use crate::support::program::Workspace;
 use glimray::gpu::AdapterChoice;
-use glimray::{PictureOptions, import, output, render_file};
+use glimray::import::Folder;
 use glimray::render::{Antialias, ExecutionPolicy, Film, Integrator, RenderSettings, Tone};
+use glimray::{PictureOptions, import, output, render_file, render_from};
 use std::path::Path;
 
 /// A switch of the device or its kernels that the program sets and tests do not would have to be here.
@@ -93,6 +94,12 @@ fn one_call_gives_the_picture_of_the_program() {
     ];
     for (path, options, flags) in rows {
         let picture = render_file(&path, &options).unwrap_or_else(|error| panic!("{error}"));
+        // The same scene from a folder of the caller's, without waiting.
+        let folder = Folder::of(&path).expect("a folder");
+        let name = path.file_name().expect("a name").to_string_lossy();
+        let awaited = pollster::block_on(render_from(&folder, &name, &options));
+        let awaited = awaited.unwrap_or_else(|error| panic!("{error}"));
+        check_same_bits(&name, &picture, &awaited).expect("the same picture");
         output::save(workspace.path("library.png"), &picture).expect("written");
         let line = format!("render {} {flags} --quiet -o program.png", path.display());
         workspace.run(&line).expect(0);

@@ -27,9 +27,16 @@ pub(crate) struct Submitted {
 }
 
 impl Submitted {
-    /// The seconds since it was submitted.
+    /// The seconds from its submission to its end, or until now.
     pub(crate) fn seconds(&self) -> f64 {
-        self.at.elapsed().as_secs_f64()
+        self.seconds_since(self.at)
+    }
+
+    /// The seconds from a moment to its end, or until now.
+    pub(crate) fn seconds_since(&self, start: Instant) -> f64 {
+        let end = self.report.change(|reported| reported.end);
+        let end = end.unwrap_or_else(Instant::now);
+        end.saturating_duration_since(start).as_secs_f64()
     }
 }
 
@@ -41,6 +48,8 @@ struct Report(Arc<Mutex<Reported>>);
 struct Reported {
     /// Whether it ended well.
     outcome: Option<bool>,
+    /// When it was reported: a browser may ask much later, once for each frame.
+    end: Option<Instant>,
     waker: Option<Waker>,
 }
 
@@ -52,6 +61,7 @@ impl Report {
     fn set(&self, outcome: bool) {
         let waker = self.change(|reported| {
             reported.outcome = Some(outcome);
+            reported.end = Some(Instant::now());
             reported.waker.take()
         });
         if let Some(waker) = waker {
