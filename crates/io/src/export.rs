@@ -1,6 +1,6 @@
 //! Exports a [`Scene`] as a native scene file that reads like one written by hand: sections in a fixed
 //! order, names for everything that is referred to, and only values that differ from the defaults. The scene
-//! becomes a [`SceneFile`], which importers read too, and [`text`] lays it out.
+//! becomes a `SceneFile`, which the importer reads too, and `text.rs` lays it out.
 //!
 //! Nothing is lost: [`crate::import`] turns the text and its companion files into a scene that is packed
 //! to the same bytes, and exporting that scene gives the same text. Numbers are written in the fewest

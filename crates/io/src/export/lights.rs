@@ -9,7 +9,7 @@ use crate::import::native::file::{
 use crate::import::native::values::{
     AxisAngle, AxisRadians, ConeAngle, ConeRadians, Vector, differing,
 };
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use glimray_scene::{Attenuation, Light, LightKind};
 
 impl Writer<'_> {
@@ -64,20 +64,11 @@ fn table(light: &Light, may_split: bool) -> LightTable {
             inner,
             outer,
         } => {
-            let is_read = |degrees: &f64| (0.0..=90.0).contains(degrees);
-            let (inner_deg, inner) = angle(inner, is_read);
-            let (outer_deg, outer) = angle(outer, is_read);
             let spot = SpotTable {
-                position: position.into(),
-                look_at: None,
-                direction: Some(direction.into()),
-                inner_deg: inner_deg.map(|it| AxisAngle(it).into()),
-                outer_deg: outer_deg.map(ConeAngle),
-                inner: inner.map(|it| AxisRadians(it).into()),
-                outer: outer.map(|it| ConeRadians(it).into()),
                 color,
                 intensity,
                 attenuation,
+                ..spot(position, direction, [inner, outer])
             };
             table.spot = Some(spot.into());
         }
@@ -114,4 +105,23 @@ fn table(light: &Light, may_split: bool) -> LightTable {
         }
     }
     table
+}
+
+/// A spot light's place and cone.
+fn spot(position: DVec3, direction: DVec3, [inner, outer]: [f64; 2]) -> SpotTable {
+    let is_read = |degrees: &f64| (0.0..=90.0).contains(degrees);
+    let (inner_deg, inner) = angle(inner, is_read);
+    let (outer_deg, outer) = angle(outer, is_read);
+    SpotTable {
+        position: position.into(),
+        look_at: None,
+        direction: Some(direction.into()),
+        inner_deg: inner_deg.map(|it| AxisAngle(it).into()),
+        outer_deg: outer_deg.map(ConeAngle),
+        inner: inner.map(|it| AxisRadians(it).into()),
+        outer: outer.map(|it| ConeRadians(it).into()),
+        color: None,
+        intensity: None,
+        attenuation: None,
+    }
 }

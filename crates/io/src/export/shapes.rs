@@ -8,8 +8,11 @@ use crate::import::native::file::{
     BoxTable, ConeTable, CylinderTable, DiscTable, EllipsoidTable, MaterialRef, ObjectTable,
     PlaneTable, RectangleTable, Spanned, SphereTable, TorusTable,
 };
+use crate::import::native::shapes::{
+    box_place, cone_place, disc_place, rectangle_place, torus_place,
+};
 use crate::import::native::values::{Length, Positive, Vector, differing};
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DAffine3, DQuat, DVec3};
 use glimray_scene::{CanonicalShape, Geometry, Shape};
 
 /// An object with the table of its surface.
@@ -250,14 +253,10 @@ fn cuboid(place: DAffine3) -> Option<ObjectTable> {
         place.matrix3.y_axis.y,
         place.matrix3.z_axis.z,
     );
-    let of = |n: [f64; 6]| {
-        let (min, max) = (three(&n), three(&n[3..]));
-        let (size, middle) = ((max - min) / 2.0, (max + min) / 2.0);
-        DAffine3::from_scale_rotation_translation(size, DQuat::IDENTITY, middle)
-    };
     let near = six(place.translation - half, place.translation + half);
     let found = shortest(near, |n| {
-        three(&n).cmplt(three(&n[3..])).all() && is_same(of(n), place)
+        let (min, max) = (three(&n), three(&n[3..]));
+        min.cmplt(max).all() && is_same(box_place(min, max), place)
     })?;
     Some(box_table(three(&found), three(&found[3..])))
 }
@@ -279,12 +278,7 @@ fn ellipsoid(place: DAffine3) -> Option<ObjectTable> {
 }
 
 fn rectangle(place: DAffine3) -> Option<ObjectTable> {
-    let of = |n: [f64; 6]| {
-        let (u, v) = (three(&n), three(&n[3..]));
-        let height = u.length().max(v.length());
-        let normal = u.normalize().cross(v.normalize()).normalize() * height;
-        DAffine3::from_mat3_translation(DMat3::from_cols(u, normal, -v) * 0.5, place.translation)
-    };
+    let of = |n: [f64; 6]| rectangle_place(place.translation, three(&n), three(&n[3..]));
     let near = six(2.0 * place.matrix3.x_axis, -2.0 * place.matrix3.z_axis);
     let found = shortest(near, |n| is_same(of(n), place))?;
     // Zeros without a sign.
@@ -297,13 +291,8 @@ fn disc(hole: f64, place: DAffine3) -> Option<ObjectTable> {
     let radius = place.matrix3.y_axis.length();
     let normal = place.matrix3.y_axis / radius;
     let of = |n: [f64; 5]| {
-        let given = DVec3::new(n[0], n[1], n[2]);
-        let (normal, radius) = (unit(given)?, n[3]);
-        let (u, v) = Geometry::plane_axes(normal);
-        let axes = DMat3::from_cols(radius * u, radius * normal, -radius * v);
-        let inner = n[4] / radius;
-        (inner.to_bits() == hole.to_bits())
-            .then(|| DAffine3::from_mat3_translation(axes, place.translation))
+        let made = disc_place(place.translation, unit(three(&n))?, n[3]);
+        ((n[4] / n[3]).to_bits() == hole.to_bits()).then_some(made)
     };
     let near = [normal.x, normal.y, normal.z, radius, hole * radius];
     let found = shortest(near, |n| of(n).is_some_and(|made| is_same(made, place)))?;
@@ -315,10 +304,8 @@ fn torus(minor: f64, place: DAffine3) -> Option<ObjectTable> {
     let major = place.matrix3.y_axis.length();
     let axis = place.matrix3.y_axis / major;
     let of = |n: [f64; 5]| {
-        let axis = unit(three(&n))?;
-        let axes = DMat3::from_quat(DQuat::from_rotation_arc(DVec3::Y, axis)) * n[3];
-        ((n[4] / n[3]).to_bits() == minor.to_bits())
-            .then(|| DAffine3::from_mat3_translation(axes, place.translation))
+        let made = torus_place(place.translation, unit(three(&n))?, n[3]);
+        ((n[4] / n[3]).to_bits() == minor.to_bits()).then_some(made)
     };
     let near = [axis.x, axis.y, axis.z, major, minor * major];
     let found = shortest(near, |n| of(n).is_some_and(|made| is_same(made, place)))?;
@@ -330,13 +317,10 @@ fn cone([bottom, top]: [f64; 2], capped: bool, place: DAffine3) -> Option<Object
     let from = place.translation;
     let wide = place.matrix3.x_axis.length();
     let of = |n: [f64; 5]| {
-        let axis = three(&n) - from;
         let greater = n[3].max(n[4]);
-        let turned = DMat3::from_quat(DQuat::from_rotation_arc(DVec3::Y, axis.try_normalize()?));
-        let axes = DMat3::from_cols(greater * turned.x_axis, axis, greater * turned.z_axis);
+        let made = cone_place(from, three(&n), greater)?;
         let radii = [n[3] / greater, n[4] / greater].map(f64::to_bits);
-        (radii == [bottom, top].map(f64::to_bits))
-            .then(|| DAffine3::from_mat3_translation(axes, from))
+        (radii == [bottom, top].map(f64::to_bits)).then_some(made)
     };
     let to = from + place.matrix3.y_axis;
     let near = [to.x, to.y, to.z, bottom * wide, top * wide];

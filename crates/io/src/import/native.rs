@@ -15,7 +15,7 @@ mod objects;
 mod physical;
 mod repeat;
 mod set;
-mod shapes;
+pub(crate) mod shapes;
 mod textures;
 mod transforms;
 pub(crate) mod values;

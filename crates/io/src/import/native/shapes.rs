@@ -3,14 +3,13 @@
 use super::Texts;
 use super::file::{
     BoxTable, ConeTable, CylinderTable, DiscTable, EllipsoidTable, ObjectTable, PlaneTable,
-    RectangleTable, SphereTable, TorusTable,
+    RectangleTable, Spanned, SphereTable, TorusTable,
 };
 use super::transforms::{chain, normal_matrix};
-use super::values::{Extent, or};
+use super::values::{Extent, Vector, or};
 use crate::import::error::ImportError;
 use glam::{DAffine3, DMat3, DVec3};
 use glimray_scene::{CanonicalShape, Geometry};
-use std::ops::Range;
 
 /// Edges are parallel if the sine of the angle between them is at most this.
 const PARALLEL: f64 = 1e-9;
@@ -140,10 +139,15 @@ fn disc(disc: &DiscTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), I
         None => 0.0,
     };
     let normal = or(disc.normal, DVec3::Y);
+    let place = disc_place(disc.center.0, normal, radius);
+    Ok((CanonicalShape::Disc { hole }, place))
+}
+
+/// The transform of a disc that faces the unit vector `normal`.
+pub(crate) fn disc_place(center: DVec3, normal: DVec3, radius: f64) -> DAffine3 {
     let (u, v) = Geometry::plane_axes(normal);
     let axes = DMat3::from_cols(radius * u, radius * normal, -radius * v);
-    let object_from_canonical = DAffine3::from_mat3_translation(axes, disc.center.0);
-    Ok((CanonicalShape::Disc { hole }, object_from_canonical))
+    DAffine3::from_mat3_translation(axes, center)
 }
 
 fn rectangle(rectangle: &RectangleTable, texts: &Texts) -> Result<DAffine3, ImportError> {
@@ -193,11 +197,15 @@ fn rectangle(rectangle: &RectangleTable, texts: &Texts) -> Result<DAffine3, Impo
             return Err(texts.malformed(place.unwrap_or(rectangle.center.span()), why, todo));
         }
     };
+    Ok(rectangle_place(rectangle.center.0, u, v))
+}
+
+/// The transform of a rectangle with these whole edges.
+pub(crate) fn rectangle_place(center: DVec3, u: DVec3, v: DVec3) -> DAffine3 {
     // The height equals the width, so that the matrix is well conditioned.
     let height = u.length().max(v.length());
     let normal = u.normalize().cross(v.normalize()).normalize() * height;
-    let axes = DMat3::from_cols(u, normal, -v) * 0.5;
-    Ok(DAffine3::from_mat3_translation(axes, rectangle.center.0))
+    DAffine3::from_mat3_translation(DMat3::from_cols(u, normal, -v) * 0.5, center)
 }
 
 fn cuboid(cuboid: &BoxTable, texts: &Texts) -> Result<DAffine3, ImportError> {
@@ -209,11 +217,13 @@ fn cuboid(cuboid: &BoxTable, texts: &Texts) -> Result<DAffine3, ImportError> {
             return Err(texts.malformed(cuboid.max.span(), why, todo));
         }
     }
-    Ok(DAffine3::from_scale_rotation_translation(
-        (max - min) / 2.0,
-        Default::default(),
-        (max + min) / 2.0,
-    ))
+    Ok(box_place(min, max))
+}
+
+/// The transform of a box with these corners.
+pub(crate) fn box_place(min: DVec3, max: DVec3) -> DAffine3 {
+    let (size, middle) = ((max - min) / 2.0, (max + min) / 2.0);
+    DAffine3::from_scale_rotation_translation(size, Default::default(), middle)
 }
 
 fn cylinder(
@@ -225,9 +235,9 @@ fn cylinder(
         top: 1.0,
         capped: cylinder.open != Some(true),
     };
-    let (from, to) = (cylinder.from.0, cylinder.to.0);
-    let axes = around(from, to, cylinder.radius.0, cylinder.to.span(), texts)?;
-    Ok((canonical, DAffine3::from_mat3_translation(axes, from)))
+    let radius = cylinder.radius.0;
+    let place = around(cylinder.from.0, &cylinder.to, radius, texts)?;
+    Ok((canonical, place))
 }
 
 fn cone(cone: &ConeTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), ImportError> {
@@ -243,9 +253,8 @@ fn cone(cone: &ConeTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), I
         top: top / wide,
         capped: cone.open != Some(true),
     };
-    let (from, to) = (cone.from.0, cone.to.0);
-    let axes = around(from, to, wide, cone.to.span(), texts)?;
-    Ok((canonical, DAffine3::from_mat3_translation(axes, from)))
+    let place = around(cone.from.0, &cone.to, wide, texts)?;
+    Ok((canonical, place))
 }
 
 fn torus(torus: &TorusTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), ImportError> {
@@ -258,32 +267,33 @@ fn torus(torus: &TorusTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3)
     let canonical = CanonicalShape::Torus {
         minor: minor / major,
     };
-    let axes = turned_to(or(torus.axis, DVec3::Y)) * major;
-    Ok((
-        canonical,
-        DAffine3::from_mat3_translation(axes, torus.center.0),
-    ))
+    let place = torus_place(torus.center.0, or(torus.axis, DVec3::Y), major);
+    Ok((canonical, place))
 }
 
-/// Axes of a canonical shape of radius 1 whose y axis maps to the vector from `from` to `to`.
+/// The transform of a torus about the unit vector `axis`.
+pub(crate) fn torus_place(center: DVec3, axis: DVec3, major: f64) -> DAffine3 {
+    DAffine3::from_mat3_translation(turned_to(axis) * major, center)
+}
+
+/// The transform of a cone or cylinder whose wider end has this radius, unless both ends are at one point.
+pub(crate) fn cone_place(from: DVec3, to: DVec3, radius: f64) -> Option<DAffine3> {
+    let axis = to - from;
+    let turned = turned_to(axis.try_normalize()?);
+    let axes = DMat3::from_cols(radius * turned.x_axis, axis, radius * turned.z_axis);
+    Some(DAffine3::from_mat3_translation(axes, from))
+}
+
 fn around(
     from: DVec3,
-    to: DVec3,
+    to: &Spanned<Vector>,
     radius: f64,
-    span: Range<usize>,
     texts: &Texts,
-) -> Result<DMat3, ImportError> {
-    let axis = to - from;
-    let Some(direction) = axis.try_normalize() else {
+) -> Result<DAffine3, ImportError> {
+    cone_place(from, to.0, radius).ok_or_else(|| {
         let why = "`to` is the same point as `from`".to_owned();
-        return Err(texts.malformed(span, why, "Move one of them"));
-    };
-    let turned = turned_to(direction);
-    Ok(DMat3::from_cols(
-        radius * turned.x_axis,
-        axis,
-        radius * turned.z_axis,
-    ))
+        texts.malformed(to.span(), why, "Move one of them")
+    })
 }
 
 /// The shortest rotation from +y to `axis`, which has unit length.
