@@ -47,14 +47,14 @@ impl Backend {
 pub struct AdapterChoice {
     /// The backend to use; all if `None`.
     pub backend: Option<Backend>,
-    /// An index into [`adapters`], or part of a name, case-insensitive.
+    /// An index into [`adapters_async`], or part of a name, case-insensitive.
     pub adapter: Option<String>,
 }
 
 /// An adapter and its capabilities.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdapterReport {
-    /// Index in [`adapters`].
+    /// Index in [`adapters_async`].
     pub index: usize,
     /// The name that the driver reports.
     pub name: String,

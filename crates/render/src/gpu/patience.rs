@@ -11,9 +11,9 @@ const OF_A_CPU: Duration = Duration::from_secs(3600);
 
 impl AdapterReport {
     /// Time that submitted work may take on this adapter before the device counts as lost: half a minute, and an hour on
-    /// software adapters.
+    /// software adapters and in browsers, which do not tell these from others but report every loss.
     pub fn patience(&self) -> Duration {
-        match self.is_cpu() {
+        match self.is_cpu() || cfg!(target_arch = "wasm32") {
             true => OF_A_CPU,
             false => OF_A_GPU,
         }
