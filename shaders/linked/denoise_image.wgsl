@@ -200,11 +200,11 @@ var bindings__covers: texture_2d<f32>;
 @group(3) @binding(15)
 var bindings__covers_out: texture_storage_2d<rgba32float, write>;
 
+override bindings__HAS_OPACITY: bool = false;
+
 override bindings__FIRST_PASS: bool = false;
 
 override bindings__MODULATES: bool = false;
-
-override bindings__HAS_OPACITY: bool = false;
 
 const guide__NORMAL_FALL: f32 = 16.0;
 

@@ -73,11 +73,11 @@ var bindings__surfaces_out: texture_storage_2d<rgba32float, write>;
 
 override bindings__ADAPTIVE: bool = false;
 
-override bindings__FILM_ROWS: u32 = 1u;
+override bindings__FILM_ROWS: u32 = 0u;
 
-override bindings__SQUARES_ROW: u32 = 1u;
+override bindings__SQUARES_ROW: u32 = 0u;
 
-override bindings__FEATURES_ROW: u32 = 2u;
+override bindings__FEATURES_ROW: u32 = 0u;
 
 const tile__GROUP_SIDE: u32 = 8u;
 

@@ -180,33 +180,33 @@ var<storage, read_write> bindings__dispatch: types__PackedDispatch;
 @group(2) @binding(0)
 var<storage, read_write> bindings__hits: array<vec4u>;
 
-override bindings__TRIANGLE_TEST: u32 = types__TRIANGLE_TEST_WATERTIGHT;
+override bindings__TRIANGLE_TEST: u32 = 0u;
 
-override bindings__HAS_TRIANGLES: bool = true;
+override bindings__HAS_TRIANGLES: bool = false;
 
 override bindings__TRIANGLES_APART: u32 = 0u;
 
 override bindings__SHAPES_APART: bool = false;
 
-override bindings__HAS_SHAPES: bool = true;
+override bindings__HAS_SHAPES: bool = false;
 
-override bindings__HAS_PLANES: bool = true;
+override bindings__HAS_PLANES: bool = false;
 
 override bindings__MOSTLY_SHAPES: bool = false;
 
-override bindings__PACKET_LANES: u32 = 8u;
+override bindings__SHAPE_KINDS: u32 = 0u;
+
+override bindings__HAS_INSTANCES: bool = false;
+
+override bindings__HAS_MOTION: bool = false;
+
+override bindings__HAS_CONTACT: bool = false;
 
 override bindings__COUNT_STEPS: bool = false;
 
 override bindings__ANY_HIT: bool = false;
 
-override bindings__SHAPE_KINDS: u32 = 4294967295u;
-
-override bindings__HAS_CONTACT: bool = true;
-
-override bindings__HAS_INSTANCES: bool = true;
-
-override bindings__HAS_MOTION: bool = true;
+override bindings__PACKET_LANES: u32 = 0u;
 
 const types__NONE: u32 = 4294967295u;
 
@@ -259,8 +259,6 @@ const types__MATERIAL_ROWS: u32 = 20u;
 const types__TRIANGLE_TEST_PLANE: u32 = 0u;
 
 const types__TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
-
-const types__TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
 
 struct types__PackedTriangle {
 	v0: vec3f,

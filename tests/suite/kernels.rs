@@ -1,6 +1,7 @@
 //! Every kernel is valid WGSL within the minimum limits of WebGPU.
 
 use crate::support::{harness::gpu, verdict::Verdict};
+use glimray::{layout::MIXED_LIGHTS, render::KERNEL_OVERRIDES};
 use glimray_link as link;
 use glimray_shaders::{Kernel, Variant, inline_functions};
 use naga::{
@@ -94,8 +95,8 @@ fn workgroups_are_rows_of_a_multiple_of_eight() {
     verdict.close();
 }
 
-/// Random values for every override of `bindings.wesl`, from a seed.
-fn random_overrides(seed: u64) -> Vec<(String, f64)> {
+/// Random values for every override, from a seed.
+fn random_overrides(seed: u64) -> Vec<(&'static str, f64)> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut next = || {
         state ^= state << 13;
@@ -103,20 +104,23 @@ fn random_overrides(seed: u64) -> Vec<(String, f64)> {
         state ^= state << 17;
         state >> 33
     };
-    let bindings = fs::read_to_string("shaders/bindings.wesl").expect("shaders/bindings.wesl");
-    let declared = bindings
-        .lines()
-        .filter_map(|line| line.strip_prefix("override ")?.split_once(':'));
-    declared
-        .map(|(name, rest)| {
-            let value = if rest.starts_with(" bool") {
-                (next() % 2) as f64
-            } else {
-                (next() % 4) as f64
-            };
-            (name.to_owned(), value)
-        })
-        .collect()
+    let most = |ty: &str| if ty == "bool" { 2 } else { 4 };
+    let value = |&(name, ty): &(&'static str, &str)| (name, (next() % most(ty)) as f64);
+    let own = KERNEL_OVERRIDES.iter().map(value);
+    let own: Vec<_> = own.collect();
+    [&own[..], &[("EXTREMES_BY_SELECT", (next() % 2) as f64)]].concat()
+}
+
+/// Overrides that switch everything on but some.
+fn everything_but(off: &[&str]) -> Vec<(&'static str, f64)> {
+    let all = KERNEL_OVERRIDES.iter().map(|(name, _)| *name);
+    let flags = all.filter(|name| name.starts_with("HAS_") && !off.contains(name));
+    let kinds = [
+        ("SHAPE_KINDS", f64::from(u32::MAX)),
+        ("LIGHT_KIND", f64::from(MIXED_LIGHTS)),
+        ("LIGHT_ATTENUATION", f64::from(MIXED_LIGHTS)),
+    ];
+    flags.map(|name| (name, 1.0)).chain(kinds).collect()
 }
 
 /// The blocks inside a statement.
@@ -166,7 +170,8 @@ fn loops_of_specialised_kernels_end_with_their_bodies() {
     let mut verdict = Verdict::on("loops");
     for kernel in Kernel::ALL {
         for variant in kernel.variants() {
-            let module = kernel.specialized(variant, &[]).expect("WGSL");
+            let module = kernel.specialized(variant, &everything_but(&[]));
+            let module = module.expect("WGSL");
             let count = |function: &naga::Function| continuing_loops(&function.body);
             let continuing: usize = functions(&module).map(count).sum();
             let name = format!("{} ({variant:?})", kernel.name);
@@ -194,7 +199,6 @@ fn specialised_kernels_are_valid_and_branch_on_no_constant() {
         let variants: Vec<_> = kernel.variants().collect();
         for (seed, variant) in (0..12).zip(variants.iter().cycle()) {
             let overrides = random_overrides(seed);
-            let overrides: Vec<_> = overrides.iter().map(|(name, v)| (&**name, *v)).collect();
             let mut module = kernel
                 .specialized(*variant, &overrides)
                 .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
@@ -245,9 +249,9 @@ fn a_feature_that_is_off_leaves_no_function_behind() {
             "metallic_roughness",
         ),
     ] {
-        let all = functions(kernel, &[]);
+        let all = functions(kernel, &everything_but(&["HAS_COATINGS"]));
         verdict.that(feature, all.contains(name), || format!("not in {all}"));
-        let without = functions(kernel, &[(feature, 0.0)]);
+        let without = functions(kernel, &everything_but(&[feature, "HAS_COATINGS"]));
         verdict.that(feature, !without.contains(name), || without.clone());
     }
     verdict.close();
@@ -291,7 +295,8 @@ fn extremes_of_floats_can_be_selected() {
     for kernel in Kernel::ALL {
         for variant in kernel.variants() {
             let count = |by_select| {
-                let overrides = [("EXTREMES_BY_SELECT", by_select)];
+                let by_select = [("EXTREMES_BY_SELECT", by_select)];
+                let overrides = [&everything_but(&[])[..], &by_select].concat();
                 let module = kernel.specialized(variant, &overrides).expect("WGSL");
                 extremes(&module, variant)
             };
@@ -389,18 +394,22 @@ fn inlined(module: &naga::Module) -> HashMap<String, usize> {
 /// Each copy of a long function takes time to compile, on lavapipe to run, and GPUs the space for other code.
 #[test]
 fn long_functions_of_the_path_tracer_are_not_inlined_again_and_again() {
-    let glass = [
-        ("HAS_REFLECTION", 1.0),
-        ("HAS_REFRACTION", 1.0),
-        ("HAS_COVERAGE", 1.0),
-        ("HAS_TREES", 1.0),
-        ("FILTERED_SHADOWS", 1.0),
-        ("HAS_LAYERS", 1.0),
-        ("HAS_GLOSS", 1.0),
-        ("HAS_TRIANGLES", 1.0),
-        ("HAS_ENVIRONMENT", 1.0),
-        ("HAS_LIGHTS", 1.0),
-    ];
+    let glass = everything_but(&[
+        "HAS_ANISOTROPY",
+        "HAS_CATCHERS",
+        "HAS_COATED_EMISSION",
+        "HAS_COATINGS",
+        "HAS_COAT_NORMALS",
+        "HAS_DISPERSION",
+        "HAS_EMISSIVE_SHAPES",
+        "HAS_EMITTERS",
+        "HAS_EMITTER_GLOWS",
+        "HAS_FEATURES",
+        "HAS_LIGHT_TREE",
+        "HAS_OPACITY",
+        "HAS_ROUGH_GLASS",
+    ]);
+    let glass = [&glass[..], &[("FILTERED_SHADOWS", 1.0)]].concat();
     let count_of = |overrides: &[(&str, f64)]| {
         let module = Kernel::PATH_TRACE.specialized(Variant::Image, overrides);
         inlined(&module.expect("WGSL"))

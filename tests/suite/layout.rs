@@ -4,6 +4,7 @@ use crate::support::verdict::Verdict;
 use glimray::{
     gpu::Kernel,
     layout::{self, PACKED_STRUCTS},
+    render::KERNEL_OVERRIDES,
 };
 use naga::{AddressSpace, ArraySize, ImageClass, Module, StorageAccess, StorageFormat, TypeInner};
 use std::{collections::BTreeSet, fs};
@@ -350,21 +351,27 @@ fn no_kernel_needs_more_storage_buffers_than_webgpu_guarantees() {
     verdict.close();
 }
 
-/// Specialisation rejects unknown overrides; this is the other direction.
+/// Begins the declarations that the table of the host has.
+const TABLE: &str = "\n// The others, with their meaning: crates/render/src/overrides.rs. \
+    UPDATE=1 cargo test --profile ci --test suite layout\n";
+
 #[test]
-fn the_host_sets_every_override() {
-    let mut verdict = Verdict::on("overrides");
-    let host: String = ["crates/render/src/gpu", "crates/render/src", "shaders/src"]
-        .iter()
-        .flat_map(|folder| fs::read_dir(folder).expect("a folder"))
-        .filter_map(|entry| fs::read_to_string(entry.expect("an entry").path()).ok())
-        .collect();
-    let source = fs::read_to_string("shaders/bindings.wesl").expect("shaders/bindings.wesl");
-    let declared = source
-        .lines()
-        .filter_map(|line| line.strip_prefix("override "));
-    for name in declared.filter_map(|rest| rest.split(':').next()) {
-        verdict.that(name, host.contains(&format!("\"{name}\"")), || "never set");
+fn bindings_declare_the_overrides_that_the_host_sets() {
+    const PATH: &str = "shaders/bindings.wesl";
+    let declarations = KERNEL_OVERRIDES.iter().map(|(name, ty)| {
+        let off = match *ty {
+            "bool" => "false",
+            "u32" => "0u",
+            _ => "0.0",
+        };
+        format!("override {name}: {ty} = {off};\n")
+    });
+    let expected: String = declarations.collect();
+    let source = fs::read_to_string(PATH).expect(PATH);
+    let (before, found) = source.split_once(TABLE).expect("the table");
+    if std::env::var_os("UPDATE").is_some() {
+        fs::write(PATH, format!("{before}{TABLE}{expected}")).expect(PATH);
+        return;
     }
-    verdict.close();
+    assert_eq!(found, expected, "UPDATE=1 writes it");
 }

@@ -239,7 +239,7 @@ impl Denoiser {
             (13, View(&self.surfaces)),
         ];
         let (layout, group) = target(gpu, Variant::Buffer, &resources);
-        let overrides = overrides::of_features(settings);
+        let overrides = overrides::film_rows(settings);
         let pipeline =
             pipelines::developing(gpu, layouts, Kernel::FILM_FEATURES, &layout, overrides)?;
         let groups = [&buffers.frame_group, &buffers.film_group, &group];
@@ -269,7 +269,7 @@ impl Denoiser {
         resources.extend(covers.map(|[first, _]| (14, View(first))));
         let (layout, group) = target(gpu, Variant::Buffer, &resources);
         let kernel = (Kernel::DEMODULATE, Variant::Buffer);
-        let overrides = overrides::of_demodulation(covers.is_some());
+        let overrides = overrides::HAS_OPACITY(covers.is_some());
         let pipeline = pipelines::denoising(gpu, kernel, &layout, overrides)?;
         let mut steps = vec![(pipeline, group)];
         let variant = self.variant;
@@ -290,7 +290,12 @@ impl Denoiser {
                 std::mem::swap(from, to);
             }
             let (layout, group) = target(gpu, variant, &resources);
-            let overrides = overrides::of_filter(pass == 0, modulates, covers.is_some());
+            let overrides = [
+                overrides::HAS_OPACITY(covers.is_some()),
+                overrides::FIRST_PASS(pass == 0),
+                overrides::MODULATES(modulates),
+            ];
+            let overrides = overrides.concat();
             let kernel = (Kernel::DENOISE, variant);
             let pipeline = pipelines::denoising(gpu, kernel, &layout, overrides)?;
             steps.push((pipeline, group));

@@ -64,6 +64,7 @@ pub use integrator::{Integrator, IntegratorEntry, Shows, TABLE as INTEGRATORS};
 pub use layers::{Layer, LayerKind};
 pub use levels::{Levels, Quantity};
 pub use opacity::CatcherLight;
+pub use overrides::KERNEL_OVERRIDES;
 pub use pipelines::early_module;
 pub use policy::{ExecutionPolicy, Fetch, Slicing, Stack, Storage};
 pub use query::{Coherence, QueryHit, QueryRay, RayBatch, RayQuery, RaySteps, RayTest};

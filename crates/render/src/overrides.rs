@@ -19,6 +19,232 @@ use crate::{
 };
 use glimray_scene::{Antialias, Backdrop, Filter};
 
+/// Declares overrides, a row for each: its name, its WGSL type and its value. Functions return those that are set together;
+/// one that is set alone has a function of its name. A test writes the declarations to `bindings.wesl`, where all are off:
+/// `false` or 0.
+macro_rules! overrides {
+    (
+        $(
+            $(#[$note:meta])*
+            fn $function:ident($($parameter:ident: $parameter_type:ty),*) { $($prelude:tt)* }
+            gives { $($name:ident: $type:ident = $value:expr;)* }
+        )*
+        alone { $($other:ident: $other_type:ident;)* }
+    ) => {
+        /// The overrides that the renderer sets, and their WGSL types.
+        #[doc(hidden)]
+        pub const KERNEL_OVERRIDES: &[(&str, &str)] = &[
+            $($((stringify!($name), stringify!($type)),)*)*
+            $((stringify!($other), stringify!($other_type)),)*
+        ];
+        $(
+            $(#[$note])*
+            pub fn $function($($parameter: $parameter_type),*) -> Overrides {
+                $($prelude)*
+                vec![$((stringify!($name), <f64 as From<$type>>::from($value))),*]
+            }
+        )*
+        $(pub const $other: fn($other_type) -> Overrides =
+            |value| vec![(stringify!($other), f64::from(value))];)*
+    };
+}
+
+overrides! {
+    /// Features of the scene, the frame and the settings, for all kernels that trace pictures.
+    fn tracing(task: Task) {
+        let Task { scene, view, settings, policy, .. } = task;
+        let integrator = settings.integrator.entry();
+        let features = scene.features;
+        let is_path = settings.integrator == Integrator::Path;
+        let bounces = settings.max_depth > 0;
+        let layers = layers::of_sampling(settings);
+        let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
+    } gives {
+        // Whether the corners of some triangle differ in material, so that coefficients must be interpolated.
+        MIXED_MATERIALS: bool = features.mixed_materials;
+        BRUTE_FORCE: bool = settings.brute_force;
+        // How far rays start off the surface that they leave, in the scene's units; 0 for the error bound.
+        FIXED_OFFSET: f32 = match settings.offset {
+            RayOffset::Bound => 0.0,
+            RayOffset::Fixed(distance) => distance,
+        };
+        STRATIFIED: bool = settings.antialias != Antialias::None;
+        COUNT_RAYS: bool = policy.count_rays;
+        HAS_REFLECTION: bool = features.reflection && bounces;
+        HAS_REFRACTION: bool = features.refraction && bounces;
+        // Whether transparent materials differ in priority.
+        HAS_PRIORITIES: bool = features.priorities;
+        // Whether transparent surfaces filter shadow rays instead of blocking them.
+        FILTERED_SHADOWS: bool = match is_path {
+            true => features.thin_walls || settings.transparent_shadows,
+            false => features.filtered_shadows,
+        };
+        // Whether only smooth thin walls do so, as in the path tracer, which finds the light behind other glass by its paths.
+        SOLID_GLASS: bool = is_path && !settings.transparent_shadows;
+        HAS_LENS: bool = cameras.any(|camera| camera.lens_radius > 0.0);
+        HAS_CLIP: bool = view.frame.clip != [0.0; 2];
+        FILTER: u32 = match settings.filter {
+            Filter::Box => FILTER_BOX,
+            Filter::Tent => FILTER_TENT,
+            Filter::Gaussian => FILTER_GAUSSIAN,
+            Filter::BlackmanHarris => FILTER_BLACKMAN_HARRIS,
+            Filter::Mitchell => FILTER_MITCHELL,
+        };
+        // In pixels.
+        FILTER_RADIUS: f32 = settings.filter_radius;
+        HAS_TEXTURES: bool = features.textures || integrator.needs_uvs;
+        // Whether some texture is noise or a picture, and whether some is of reflection, transmission or emission.
+        HAS_NOISE: bool = features.noise;
+        HAS_PICTURES: bool = features.pictures;
+        HAS_OPTICS_TEXTURES: bool = features.optics_textures;
+        // Whether some picture is filtered over the footprint of a ray, so that rays have a width.
+        HAS_FOOTPRINTS: bool = features.footprints;
+        // Whether some surface has holes.
+        HAS_COVERAGE: bool = features.coverage;
+        // Whether surfaces send rays on.
+        HAS_TREES: bool = effort::has_trees(scene, settings);
+        HAS_NORMAL_MAPS: bool = features.normal_maps;
+        // Whether some clear coat differs in its normal from what lies below it.
+        HAS_COAT_NORMALS: bool = is_path && features.coat_normals;
+        HAS_OCCLUSION: bool = features.occlusion_maps;
+        // Whether some picture has texels of 8 bits per channel, and whether some has half floats.
+        HAS_BYTE_TEXELS: bool = features.byte_texels;
+        HAS_HALF_TEXELS: bool = features.half_texels;
+        HAS_EMISSION: bool = features.emission;
+        // Whether materials are seen by their layers, as in the path tracer, instead of by Phong's coefficients.
+        HAS_LAYERS: bool = is_path;
+        // The most that a path may gain from indirect light at once, per channel; 0 for no limit.
+        CLAMP_INDIRECT: f32 = settings.clamp_indirect.unwrap_or_default();
+        // Whether some material has highlights, and whether some is described by metal and roughness.
+        HAS_GLOSS: bool = features.gloss;
+        HAS_METALLIC_ROUGHNESS: bool = is_path && features.metallic_roughness;
+        // Whether some material has a clear coat, sheen, a thin film or diffuse transmission.
+        HAS_COATINGS: bool = is_path && features.coatings;
+        // Whether some emissive material has a clear coat.
+        HAS_COATED_EMISSION: bool = is_path && features.coated_emission;
+        // Whether some transparent material is rough, and whether some disperses light.
+        HAS_ROUGH_GLASS: bool = is_path && features.rough_glass;
+        HAS_DISPERSION: bool = is_path && features.dispersion;
+        // Whether layers scatter by the glTF specification to the letter: separable shadowing, no energy compensation.
+        BSDF_SPEC: bool = is_path && settings.bsdf == BsdfModel::Spec;
+        // Whether paths choose lamps and emitters from a tree.
+        HAS_LIGHT_TREE: bool = is_path && view.has_light_tree();
+        // Whether paths sample emissive triangles.
+        HAS_EMITTERS: bool = is_path && !view.emitters.is_empty();
+        // Whether some of these are shapes.
+        HAS_EMISSIVE_SHAPES: bool = is_path && view.has_emissive_shapes();
+        // Whether a texture is brighter on some emitters than on others.
+        HAS_EMITTER_GLOWS: bool = is_path && !view.emitter_glows.is_empty();
+        // Whether paths sample a picture in the background.
+        HAS_ENVIRONMENT: bool = is_path && view.frame.environment_share > 0.0;
+        // Whether the film tile is a list of pixels. Row SQUARES_ROW then holds the sum of squared luminance in x, the
+        // pixel position in yz, and 1 in w.
+        ADAPTIVE: bool = settings.is_adaptive();
+        // Whether the camera or lights move while the shutter is open.
+        CAMERA_MOTION: bool = !view.cameras.is_empty();
+        LIGHT_MOTION: bool = view.frame.light_key_count > 1;
+        ORTHOGRAPHIC: bool = view.orthographic;
+        // Whether vertices have texture coordinates, and a second set of them; colours; tangents.
+        HAS_UVS: bool = !scene.uvs.is_empty();
+        HAS_SECOND_UVS: bool = features.second_uvs;
+        HAS_COLORS: bool = !scene.colors.is_empty();
+        HAS_TANGENTS: bool = !scene.tangents.is_empty();
+        // Whether some material reflects more along its tangents than across them, in the path tracer.
+        HAS_ANISOTROPY: bool = is_path && features.anisotropy;
+        // Whether the film has features besides radiance, in seven rows from FEATURES_ROW on, and the sum of squared luminance.
+        HAS_FEATURES: bool = settings.has_features();
+        OPACITY_ROW: u32 = layers::row_of(layers, &layers::OPACITY).unwrap_or_default() as u32;
+        // Whether some material catches shadows, and the film has opacity.
+        HAS_CATCHERS: bool = settings.has_opacity() && features.shadow_catchers;
+        // The backdrop of camera paths that hit nothing.
+        BACKDROP: u32 = match settings.backdrop {
+            Backdrop::Background => BACKDROP_BACKGROUND,
+            Backdrop::Color(_) => BACKDROP_COLOR,
+            Backdrop::Transparent => BACKDROP_TRANSPARENT,
+        };
+    }
+
+    /// The rows of a pixel.
+    fn film_rows(settings: &RenderSettings) {
+        let layers = layers::of_sampling(settings);
+        let row_of = |layer| layers::row_of(layers, layer).unwrap_or_default() as u32;
+    } gives {
+        FILM_ROWS: u32 = layers::rows(layers) as u32;
+        SQUARES_ROW: u32 = row_of(&layers::SQUARES);
+        FEATURES_ROW: u32 = row_of(&layers::ALBEDO);
+    }
+
+    /// The contents of the trees, and walks through them.
+    fn walk(scene: &PackedScene, view: &PackedView, stack: Stack, test: u32, contact: bool, counts_steps: bool) {
+        let features = scene.features;
+    } gives {
+        TRIANGLE_TEST: u32 = test;
+        HAS_TRIANGLES: bool = !scene.triangles.is_empty();
+        // The number of triangles if they are in no BVH, otherwise 0: rays are tested against them before they walk. A constant,
+        // so that drivers unroll the loop.
+        TRIANGLES_APART: u32 = match features.apart {
+            Apart::Triangles => scene.triangles.len() as u32,
+            _ => 0,
+        };
+        // Whether the bounded shapes are in no BVH.
+        SHAPES_APART: bool = features.apart == Apart::Shapes;
+        HAS_SHAPES: bool = scene.bounded_shape_count() > 0;
+        HAS_PLANES: bool = scene.plane_count > 0;
+        // Whether there are more shapes than triangles in BVHs.
+        MOSTLY_SHAPES: bool = has_mostly_shapes(scene);
+        // Bit k is set if the BVH contains a shape of kind k.
+        SHAPE_KINDS: u32 = features.shape_kinds;
+        HAS_INSTANCES: bool = features.instances;
+        // The number of registers of the stack of the walk through a tree, 0 to 8; 0 for an array.
+        STACK_REGISTERS: u32 = stack_registers(scene, view, stack);
+        // Whether SHORT_STACK_SIZE entries are enough for the stack of the walk through a tree.
+        SHORT_STACK: bool = has_short_stack(scene, view);
+        // Whether instances move while the shutter is open, and whether a mesh deforms.
+        HAS_MOTION: bool = view.has_moving_instances();
+        HAS_DEFORMATION: bool = view.deforms();
+        // Whether dielectric volumes may touch or overlap.
+        HAS_CONTACT: bool = contact;
+        // Whether traversal steps are counted.
+        COUNT_STEPS: bool = counts_steps;
+    }
+
+    /// The lights and the background of integrators that shade.
+    fn lights(view: &PackedView) {} gives {
+        HAS_LIGHTS: bool = view.has_lights;
+        HAS_AREA_LIGHTS: bool = view.has_area_lights;
+        // The kind and the attenuation of all lights, if they have one in common; else MIXED_LIGHTS.
+        LIGHT_KIND: u32 = common(view, |light| light.kind);
+        LIGHT_ATTENUATION: u32 = common(view, |light| light.attenuation);
+        BACKGROUND: u32 = view.background;
+    }
+
+    /// How a film is developed.
+    fn curves(tone: &PackedTone) {} gives {
+        TONE_CURVE: u32 = tone.curve;
+        TONE_TRANSFER: u32 = tone.transfer;
+    }
+
+    alone {
+        VIEW: u32;
+        // Whether a denoised picture has opacity, or the film has it in two rows from OPACITY_ROW on, and two more if it is
+        // ADAPTIVE.
+        HAS_OPACITY: bool;
+        // Whether a ray query ends at any hit instead of the closest.
+        ANY_HIT: bool;
+        // Whether a lane whose ray tree ends starts the next without waiting for others.
+        REFILLS_LANES: bool;
+        // The number of lanes of a packet: 8 or 16, the size of subgroups.
+        PACKET_LANES: u32;
+        // Whether the stack is in workgroup memory, where scenes are in buffers.
+        SHARED_STACK: bool;
+        // Whether the picture for display is a denoised one, instead of the mean of the film.
+        SHOWS_DENOISED: bool;
+        // Whether a pass of the denoiser's filter is the first, and whether it multiplies its result by the albedo.
+        FIRST_PASS: bool;
+        MODULATES: bool;
+    }
+}
+
 /// Whether there are more shapes than triangles in BVHs.
 pub fn has_mostly_shapes(scene: &PackedScene) -> bool {
     match scene.features.apart {
@@ -38,156 +264,25 @@ pub fn of(task: Task) -> Overrides {
         ..
     } = task;
     let integrator = settings.integrator.entry();
-    let triangle_test = match settings.triangle_test {
+    let test = match settings.triangle_test {
         TriangleTest::Plane => TRIANGLE_TEST_PLANE,
         TriangleTest::MollerTrumbore => TRIANGLE_TEST_MOLLER_TRUMBORE,
         TriangleTest::Watertight => TRIANGLE_TEST_WATERTIGHT,
     };
-    let fixed_offset = match settings.offset {
-        RayOffset::Bound => 0.0,
-        RayOffset::Fixed(distance) => distance,
+    let contact = scene.features.contact && settings.max_depth > 0;
+    let subject = match integrator.is_lit {
+        true => lights(view),
+        false => VIEW(integrator.view),
     };
-    let filter = match settings.filter {
-        Filter::Box => FILTER_BOX,
-        Filter::Tent => FILTER_TENT,
-        Filter::Gaussian => FILTER_GAUSSIAN,
-        Filter::BlackmanHarris => FILTER_BLACKMAN_HARRIS,
-        Filter::Mitchell => FILTER_MITCHELL,
-    };
-    let features = scene.features;
-    let is_path = settings.integrator == Integrator::Path;
-    let filters_shadows = match is_path {
-        true => features.thin_walls || settings.transparent_shadows,
-        false => features.filtered_shadows,
-    };
-    let layers = layers::of_sampling(settings);
-    let opacity_row = layers::row_of(layers, &layers::OPACITY).unwrap_or_default();
-    let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
-    let mut overrides = vec![
-        ("TRIANGLE_TEST", f64::from(triangle_test)),
-        ("MIXED_MATERIALS", flag(scene.features.mixed_materials)),
-        ("BRUTE_FORCE", flag(settings.brute_force)),
-        ("FIXED_OFFSET", f64::from(fixed_offset)),
-        ("STRATIFIED", flag(settings.antialias != Antialias::None)),
-        ("COUNT_RAYS", flag(policy.count_rays)),
-        ("COUNT_STEPS", flag(integrator.counts_steps)),
-        (
-            "HAS_REFLECTION",
-            flag(features.reflection && settings.max_depth > 0),
-        ),
-        (
-            "HAS_REFRACTION",
-            flag(features.refraction && settings.max_depth > 0),
-        ),
-        (
-            "HAS_CONTACT",
-            flag(features.contact && settings.max_depth > 0),
-        ),
-        ("HAS_PRIORITIES", flag(features.priorities)),
-        ("FILTERED_SHADOWS", flag(filters_shadows)),
-        (
-            "SOLID_GLASS",
-            flag(is_path && !settings.transparent_shadows),
-        ),
-        (
-            "HAS_LENS",
-            flag(cameras.any(|camera| camera.lens_radius > 0.0)),
-        ),
-        ("HAS_CLIP", flag(view.frame.clip != [0.0; 2])),
-        ("FILTER", f64::from(filter)),
-        ("FILTER_RADIUS", f64::from(settings.filter_radius)),
-        (
-            "HAS_TEXTURES",
-            flag(features.textures || integrator.needs_uvs),
-        ),
-        ("HAS_NOISE", flag(features.noise)),
-        ("HAS_PICTURES", flag(features.pictures)),
-        ("HAS_FOOTPRINTS", flag(features.footprints)),
-        ("HAS_COVERAGE", flag(features.coverage)),
-        ("HAS_TREES", flag(effort::has_trees(scene, settings))),
-        ("HAS_NORMAL_MAPS", flag(features.normal_maps)),
-        ("HAS_COAT_NORMALS", flag(is_path && features.coat_normals)),
-        ("HAS_OCCLUSION", flag(features.occlusion_maps)),
-        ("HAS_BYTE_TEXELS", flag(features.byte_texels)),
-        ("HAS_HALF_TEXELS", flag(features.half_texels)),
-        ("HAS_OPTICS_TEXTURES", flag(features.optics_textures)),
-        ("HAS_EMISSION", flag(features.emission)),
-        ("HAS_LAYERS", flag(is_path)),
-        (
-            "CLAMP_INDIRECT",
-            f64::from(settings.clamp_indirect.unwrap_or_default()),
-        ),
-        ("HAS_GLOSS", flag(features.gloss)),
-        (
-            "HAS_METALLIC_ROUGHNESS",
-            flag(is_path && features.metallic_roughness),
-        ),
-        ("HAS_COATINGS", flag(is_path && features.coatings)),
-        (
-            "HAS_COATED_EMISSION",
-            flag(is_path && features.coated_emission),
-        ),
-        ("HAS_ROUGH_GLASS", flag(is_path && features.rough_glass)),
-        ("HAS_DISPERSION", flag(is_path && features.dispersion)),
-        (
-            "BSDF_SPEC",
-            flag(is_path && settings.bsdf == BsdfModel::Spec),
-        ),
-        ("HAS_LIGHT_TREE", flag(is_path && view.has_light_tree())),
-        ("HAS_EMITTERS", flag(is_path && !view.emitters.is_empty())),
-        (
-            "HAS_EMISSIVE_SHAPES",
-            flag(is_path && view.has_emissive_shapes()),
-        ),
-        (
-            "HAS_EMITTER_GLOWS",
-            flag(is_path && !view.emitter_glows.is_empty()),
-        ),
-        (
-            "HAS_ENVIRONMENT",
-            flag(is_path && view.frame.environment_share > 0.0),
-        ),
-        ("ADAPTIVE", flag(settings.is_adaptive())),
-        ("CAMERA_MOTION", flag(!view.cameras.is_empty())),
-        ("LIGHT_MOTION", flag(view.frame.light_key_count > 1)),
-        ("ORTHOGRAPHIC", flag(view.orthographic)),
-        ("HAS_SECOND_UVS", flag(features.second_uvs)),
-        ("HAS_COLORS", flag(!scene.colors.is_empty())),
-        ("HAS_TANGENTS", flag(!scene.tangents.is_empty())),
-        ("HAS_ANISOTROPY", flag(is_path && features.anisotropy)),
-        ("HAS_UVS", flag(!scene.uvs.is_empty())),
-        ("HAS_FEATURES", flag(settings.has_features())),
-        ("HAS_OPACITY", flag(settings.has_opacity())),
-        ("OPACITY_ROW", opacity_row as f64),
-        (
-            "HAS_CATCHERS",
-            flag(settings.has_opacity() && features.shadow_catchers),
-        ),
-        (
-            "BACKDROP",
-            f64::from(match settings.backdrop {
-                Backdrop::Background => BACKDROP_BACKGROUND,
-                Backdrop::Color(_) => BACKDROP_COLOR,
-                Backdrop::Transparent => BACKDROP_TRANSPARENT,
-            }),
-        ),
-    ];
-    overrides.extend(rows_of_film(settings));
-    overrides.extend(geometry(scene, view, policy.stack));
-    match integrator.is_lit {
-        true => overrides.extend([
-            ("HAS_LIGHTS", flag(view.has_lights)),
-            ("HAS_AREA_LIGHTS", flag(view.has_area_lights)),
-            ("LIGHT_KIND", f64::from(common(view, |light| light.kind))),
-            (
-                "LIGHT_ATTENUATION",
-                f64::from(common(view, |light| light.attenuation)),
-            ),
-            ("BACKGROUND", f64::from(view.background)),
-        ]),
-        false => overrides.push(("VIEW", f64::from(integrator.view))),
-    }
-    overrides
+    let counts_steps = integrator.counts_steps;
+    [
+        tracing(task),
+        HAS_OPACITY(settings.has_opacity()),
+        film_rows(settings),
+        walk(scene, view, policy.stack, test, contact, counts_steps),
+        subject,
+    ]
+    .concat()
 }
 
 /// The overrides of a ray query.
@@ -198,86 +293,15 @@ pub fn of_query(
     counts_steps: bool,
     stack: Stack,
 ) -> Overrides {
-    let mut overrides = vec![
-        ("TRIANGLE_TEST", f64::from(TRIANGLE_TEST_WATERTIGHT)),
-        ("HAS_CONTACT", flag(false)),
-        ("ANY_HIT", flag(is_any)),
-        ("COUNT_STEPS", flag(counts_steps)),
-    ];
-    overrides.extend(geometry(scene, view, stack));
-    overrides
+    let test = TRIANGLE_TEST_WATERTIGHT;
+    let walk = walk(scene, view, stack, test, false, counts_steps);
+    [ANY_HIT(is_any), walk].concat()
 }
 
-/// The overrides of the kernels that develop a film.
+/// The overrides of the kernels that develop a film of one row for each pixel.
 pub fn of_tone(tone: &PackedTone) -> Overrides {
-    vec![
-        ("TONE_CURVE", f64::from(tone.curve)),
-        ("TONE_TRANSFER", f64::from(tone.transfer)),
-        ("VIEW", f64::from(tone.view)),
-    ]
-}
-
-/// The overrides of the kernel that develops a film, or its denoised picture, for display.
-pub fn of_screen(tone: &PackedTone, is_denoised: bool) -> Overrides {
-    let mut overrides = of_tone(tone);
-    overrides.push(("SHOWS_DENOISED", flag(is_denoised)));
-    overrides
-}
-
-/// The overrides of the kernel that reads features from a film.
-pub fn of_features(settings: &RenderSettings) -> Overrides {
-    rows_of_film(settings).into()
-}
-
-/// The overrides of the first step of the denoiser.
-pub fn of_demodulation(has_opacity: bool) -> Overrides {
-    vec![("HAS_OPACITY", flag(has_opacity))]
-}
-
-/// The overrides of a pass of the denoiser's filter.
-pub fn of_filter(is_first: bool, modulates: bool, has_opacity: bool) -> Overrides {
-    vec![
-        ("HAS_OPACITY", flag(has_opacity)),
-        ("FIRST_PASS", flag(is_first)),
-        ("MODULATES", flag(modulates)),
-    ]
-}
-
-/// The overrides for the rows of a pixel.
-fn rows_of_film(settings: &RenderSettings) -> [(&'static str, f64); 3] {
-    let layers = layers::of_sampling(settings);
-    let row_of = |layer| layers::row_of(layers, layer).unwrap_or_default() as f64;
-    [
-        ("FILM_ROWS", layers::rows(layers) as f64),
-        ("SQUARES_ROW", row_of(&layers::SQUARES)),
-        ("FEATURES_ROW", row_of(&layers::ALBEDO)),
-    ]
-}
-
-/// The overrides for the contents of the trees.
-fn geometry(scene: &PackedScene, view: &PackedView, stack: Stack) -> [(&'static str, f64); 12] {
-    let features = scene.features;
-    let triangles_apart = match features.apart {
-        Apart::Triangles => scene.triangles.len(),
-        _ => 0,
-    };
-    [
-        ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
-        ("TRIANGLES_APART", triangles_apart as f64),
-        ("SHAPES_APART", flag(features.apart == Apart::Shapes)),
-        ("HAS_SHAPES", flag(scene.bounded_shape_count() > 0)),
-        ("HAS_PLANES", flag(scene.plane_count > 0)),
-        ("MOSTLY_SHAPES", flag(has_mostly_shapes(scene))),
-        ("SHAPE_KINDS", f64::from(features.shape_kinds)),
-        ("HAS_INSTANCES", flag(features.instances)),
-        (
-            "STACK_REGISTERS",
-            f64::from(stack_registers(scene, view, stack)),
-        ),
-        ("SHORT_STACK", flag(has_short_stack(scene, view))),
-        ("HAS_MOTION", flag(view.has_moving_instances())),
-        ("HAS_DEFORMATION", flag(view.deforms())),
-    ]
+    let rows = vec![("FILM_ROWS", 1.0)];
+    [curves(tone), VIEW(tone.view), rows].concat()
 }
 
 /// The registers, of four entries each, that hold the stack of the portable walk on software adapters; 0 if so many are
@@ -320,8 +344,4 @@ fn common(view: &PackedView, of: fn(&PackedLight) -> u32) -> u32 {
         true => first,
         false => MIXED_LIGHTS,
     }
-}
-
-fn flag(on: bool) -> f64 {
-    f64::from(u8::from(on))
 }

@@ -55,7 +55,7 @@ impl TaskKernel {
         // Lanes of a vector wait for the largest of their trees, unless each has several. GPUs have not been measured.
         let refills = variant == Variant::Image && effort::has_uneven_trees(task);
         let mut overrides = overrides::of(task);
-        overrides.push(("REFILLS_LANES", f64::from(u8::from(refills))));
+        overrides.extend(overrides::REFILLS_LANES(refills));
         Self {
             kernel,
             variant,
@@ -119,7 +119,7 @@ pub fn tracing(
 ) -> Result<Compiled, GpuError> {
     let mut overrides = with_stack(overrides, (kernel, stack), gpu.is_cpu());
     if let (Variant::Packet, Some(lanes)) = (variant, gpu.packet_lanes()) {
-        overrides.push(("PACKET_LANES", f64::from(lanes)));
+        overrides.extend(overrides::PACKET_LANES(lanes));
     }
     let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
     gpu.pipeline(&kernel, variant, &groups, overrides)
@@ -135,7 +135,7 @@ fn with_stack(
 ) -> Overrides {
     let is_faster = is_cpu || kernel.name != Kernel::TRACE_RAYS.name;
     let is_shared = stack == Stack::Usual && is_faster;
-    overrides.push(("SHARED_STACK", f64::from(u8::from(is_shared))));
+    overrides.extend(overrides::SHARED_STACK(is_shared));
     overrides
 }
 

@@ -282,7 +282,8 @@ impl Renderer {
             resources.push((4, BindingResource::TextureView(denoiser.result())));
         }
         let (layout, group) = target(gpu, Variant::Buffer, &resources);
-        let overrides = overrides::of_screen(tone, is_denoised);
+        let screen = overrides::SHOWS_DENOISED(is_denoised);
+        let overrides = [overrides::of_tone(tone), screen].concat();
         let pipeline = pipelines::developing(gpu, layouts, Kernel::SHOW, &layout, overrides)?;
         let groups = [&buffers.frame_group, &buffers.film_group, &group];
         add_film_pass(&mut encoder, &pipeline, groups, grid);

@@ -94,8 +94,14 @@ impl Surface {
             fn probe({parameters}) -> {result} {{ {body} }}",
             self.lobes
         );
-        let shader = probe(&source).set("HAS_COATINGS", 1.0);
-        shader.set("HAS_ROUGH_GLASS", 1.0)
+        let flags = [
+            "HAS_COATINGS",
+            "HAS_GLOSS",
+            "HAS_REFRACTION",
+            "HAS_ROUGH_GLASS",
+        ];
+        let set = |shader: Shader, flag: &&str| shader.set(flag, 1.0);
+        flags.iter().fold(probe(&source), set)
     }
 
     /// Directions that are drawn for `wo`; `None` for those that scatter nothing.
