@@ -94,7 +94,7 @@ fn one_call_gives_the_picture_of_the_program() {
     ];
     for (path, options, flags) in rows {
         let picture = render_file(&path, &options).unwrap_or_else(|error| panic!("{error}"));
-        // The same scene from a folder of the caller's, without waiting.
+        // Without waiting, from a folder of the caller's.
         let folder = Folder::of(&path).expect("a folder");
         let name = path.file_name().expect("a name").to_string_lossy();
         let awaited = pollster::block_on(render_from(&folder, &name, &options));

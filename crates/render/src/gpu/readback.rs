@@ -40,7 +40,7 @@ impl Submitted {
     }
 }
 
-/// What a callback reports about submitted work.
+/// The report of a callback about submitted work.
 #[derive(Clone, Default)]
 struct Report(Arc<Mutex<Reported>>);
 
