@@ -15,7 +15,7 @@ pub const TEXT: &str = "shader_test_text";
 pub struct Linked {
     /// The text.
     pub wgsl: String,
-    /// Its syntax, with places in the sources.
+    /// The syntax of the text, with places in the sources.
     pub syntax: TranslationUnit,
     /// Sources, and where declarations of the text are in them.
     pub map: BasicSourceMap,
@@ -60,7 +60,7 @@ impl Linked {
 pub fn of_wesl(error: wesl::Error, function: &str) -> Error {
     let Diagnostic { error, detail } = Diagnostic::from(error);
     let message = match *error {
-        // Its list of all tokens that could follow fills the screen.
+        // The list of all tokens that could follow fills the screen.
         wesl::Error::ParseError(error) => {
             let text = error.error.to_string();
             text.split(", expected").next().unwrap_or(&text).to_owned()

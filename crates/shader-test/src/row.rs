@@ -105,7 +105,7 @@ tuple!(A B C D E F G H);
 
 /// A struct in the layout of WGSL buffers, padding included: the structs that programs upload.
 ///
-/// The struct has `#[repr(C)]` and bytemuck's `Pod`. Its size must be that of the WGSL struct.
+/// The struct has `#[repr(C)]`, bytemuck's `Pod`, and the size of the WGSL struct.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plain<T>(pub T);
 

@@ -10,7 +10,7 @@ struct Leaf {
     /// WGSL that reads it, such as `result.direction[1]`.
     path: String,
     scalar: Scalar,
-    /// Its word in the row.
+    /// The index of the word in the row.
     word: usize,
 }
 
@@ -24,7 +24,7 @@ struct Values<'a> {
 
 /// WGSL around a function.
 pub struct Signature {
-    /// Its arguments, from the array `shader_test_in` at `shader_test_from`.
+    /// The arguments, from the array `shader_test_in` at `shader_test_from`.
     pub arguments: String,
     /// Writes `shader_test_result` to the array `shader_test_out` at `shader_test_to`.
     pub stores: String,
