@@ -568,55 +568,50 @@ fn fetch__load_starts() {
 	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
-fn fetch__load_node(index: u32, inv: vec3f) -> tracing__Node {
-	let row = types__NODE_ROWS * index;
-	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u), inv);
-}
-
 fn fetch__load_moving_node(reference: u32, moment: motion__Moment, inv: vec3f) -> tracing__Node {
 	let moves = (reference & types__MOVING) != 0u;
 	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
 	let second = first + select(0u, 1u, moves);
-	return node__node_between(fetch__load_node(first, inv), fetch__load_node(second, inv), moment.fraction);
+	return node__node_between(steps__load_node(first, inv), steps__load_node(second, inv), moment.fraction);
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
 	let row = fetch__instance_row + types__INSTANCE_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
-	let r6 = fetch__node_row(row + 6u);
-	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
+	let r6 = rows__node_row(row + 6u);
+	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(rows__node_row(row + 7u)), bitcast<vec4f>(rows__node_row(row + 8u)), bitcast<vec4f>(rows__node_row(row + 9u)));
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
 	let row = fetch__key_row + types__KEY_ROWS * index;
-	return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
+	return types__PackedKey(bitcast<vec3f>(rows__node_row(row).xyz), 0u, bitcast<vec4f>(rows__node_row(row + 1u)), bitcast<vec3f>(rows__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(rows__node_row(row + 3u).xyz), 0u);
 }
 
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
 	let row = fetch__light_row + types__LIGHT_ROWS * bindings__frame.light_count * bindings__frame.light_key_count + types__CAMERA_ROWS * key;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
 	return types__PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
 }
 
 fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
 	let row = 3u * index;
-	let r0 = fetch__triangle_row(row);
-	let r1 = fetch__triangle_row(row + 1u);
-	let r2 = fetch__triangle_row(row + 2u);
+	let r0 = rows__triangle_row(row);
+	let r1 = rows__triangle_row(row + 1u);
+	let r2 = rows__triangle_row(row + 2u);
 	return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
 fn fetch__load_shape(index: u32) -> types__PackedShape {
 	let row = fetch__shape_row + types__SHAPE_ROWS * index;
-	return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
+	return fetch__shape_of(rows__triangle_row(row), rows__triangle_row(row + 1u), rows__triangle_row(row + 2u), rows__triangle_row(row + 3u), rows__triangle_row(row + 4u));
 }
 
 fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
@@ -624,65 +619,30 @@ fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> typ
 }
 
 fn fetch__load_vertex(index: u32) -> types__PackedVertex {
-	let r0 = fetch__vertex_row(index);
+	let r0 = rows__vertex_row(index);
 	return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
 }
 
 fn fetch__load_uvs(index: u32) -> vec4f {
-	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(fetch__uv_row + index));
 }
 
 fn fetch__load_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(2u * fetch__uv_row + index));
+	return fetch__tangent_of(rows__vertex_row(2u * fetch__uv_row + index));
 }
 
 fn fetch__load_key_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(index + 1u));
+	return fetch__tangent_of(rows__vertex_row(index + 1u));
 }
 
 fn fetch__load_color(index: u32) -> vec4f {
 	let parts = 1u + select(0u, 1u, bindings__HAS_UVS) + select(0u, 1u, bindings__HAS_TANGENTS);
-	return bitcast<vec4f>(fetch__vertex_row(parts * fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(parts * fetch__uv_row + index));
 }
 
 fn fetch__tangent_of(r0: vec4u) -> types__PackedTangent {
 	return types__PackedTangent(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w));
 }
-
-fn fetch__texel(row: u32) -> vec2u {
-	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
-}
-
-fn fetch__node_row(row: u32) -> vec4u {
-	return textureLoad(bindings__nodes, fetch__texel(row));
-}
-
-fn fetch__triangle_row(row: u32) -> vec4u {
-	return textureLoad(bindings__triangles, fetch__texel(row));
-}
-
-fn fetch__vertex_row(row: u32) -> vec4u {
-	return textureLoad(bindings__vertices, fetch__texel(row));
-}
-
-fn fetch__material_row(row: u32) -> vec4u {
-	return textureLoad(bindings__materials, fetch__texel(row));
-}
-
-@group(0) @binding(0)
-var bindings__nodes: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(1)
-var bindings__triangles: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(2)
-var bindings__vertices: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(3)
-var bindings__materials: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(4)
-var bindings__texels: texture_storage_2d_array<r32uint, read>;
 
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
@@ -785,8 +745,6 @@ override bindings__VIEW: u32 = 0u;
 
 var<private> albedo__albedo_first: u32;
 
-const stack__EMPTY: u32 = 4294967295u;
-
 var<private> stack__top: u32;
 
 var<private> stack__entries: array<u32, types__STACK_SIZE>;
@@ -811,48 +769,36 @@ fn stack__take_stack(lane: u32) {
 
 }
 
-fn stack__entry_at(index: u32) -> u32 {
-	return stack__entries[index];
-}
-
-fn stack__put_entry(index: u32, reference: u32) {
-	stack__entries[index] = reference;
-}
-
 fn stack__start_stack() {
 	if (bindings__STACK_REGISTERS > 0u) {
-		stack__s0 = vec4u(stack__EMPTY);
-		stack__s1 = vec4u(stack__EMPTY);
-		stack__s2 = vec4u(stack__EMPTY);
-		stack__s3 = vec4u(stack__EMPTY);
-		stack__s4 = vec4u(stack__EMPTY);
-		stack__s5 = vec4u(stack__EMPTY);
-		stack__s6 = vec4u(stack__EMPTY);
-		stack__s7 = vec4u(stack__EMPTY);
+		stack__s0 = vec4u(traverse__EMPTY);
+		stack__s1 = vec4u(traverse__EMPTY);
+		stack__s2 = vec4u(traverse__EMPTY);
+		stack__s3 = vec4u(traverse__EMPTY);
+		stack__s4 = vec4u(traverse__EMPTY);
+		stack__s5 = vec4u(traverse__EMPTY);
+		stack__s6 = vec4u(traverse__EMPTY);
+		stack__s7 = vec4u(traverse__EMPTY);
 		return;
 	}
 	stack__top = 0u;
-	stack__put_entry(0u, stack__EMPTY);
+	stack__entries[0] = traverse__EMPTY;
 }
 
 fn stack__top_of_stack() -> u32 {
 	if (bindings__STACK_REGISTERS > 0u) {
 		return stack__s0.x;
 	}
-	return stack__entry_at(stack__top);
+	return stack__entries[stack__top];
 }
 
 fn stack__push(reference: u32) {
-	{
-		stack__move_stack(vec3u(reference, stack__EMPTY, stack__EMPTY), 1);
-	}
+	stack__move_stack(vec3u(reference, traverse__EMPTY, traverse__EMPTY), 1);
 }
 
 fn stack__popped() -> u32 {
 	let reference = stack__top_of_stack();
-	{
-		stack__move_stack(vec3u(stack__EMPTY), -1);
-	}
+	stack__move_stack(vec3u(traverse__EMPTY), -1);
 	return reference;
 }
 
@@ -862,30 +808,30 @@ fn stack__move_stack(references: vec3u, count: i32) {
 		return;
 	}
 	if (count < 0) {
-		if (stack__entry_at(stack__top) != stack__EMPTY) {
+		if (stack__entries[stack__top] != traverse__EMPTY) {
 			stack__top -= 1u;
 		}
 		return;
 	}
 	if (count >= 3) {
 		stack__top += 1u;
-		stack__put_entry(stack__top, references.z);
+		stack__entries[stack__top] = references.z;
 	}
 	if (count >= 2) {
 		stack__top += 1u;
-		stack__put_entry(stack__top, references.y);
+		stack__entries[stack__top] = references.y;
 	}
 	if (count >= 1) {
 		stack__top += 1u;
-		stack__put_entry(stack__top, references.x);
+		stack__entries[stack__top] = references.x;
 	}
 }
 
 fn stack__move_registers(references: vec3u, count: i32) {
-	let above = vec4u(stack__EMPTY, references.x, select(references.y, references.x, count == 2), select(select(references.z, references.y, count == 2), references.x, count == 1));
+	let above = vec4u(traverse__EMPTY, references.x, select(references.y, references.x, count == 2), select(select(references.z, references.y, count == 2), references.x, count == 1));
 	let last = stack__last_register();
 	let deepest = select(select(last.y, last.z, count == 2), last.w, count == 1);
-	loops__is_stack_full |= (count > 0) & (deepest != stack__EMPTY);
+	loops__is_stack_full |= (count > 0) & (deepest != traverse__EMPTY);
 	let m0 = stack__moved(above, stack__s0, stack__s1, count);
 	var m1: vec4u;
 	if (bindings__STACK_REGISTERS > 1u) {
@@ -913,7 +859,7 @@ fn stack__move_registers(references: vec3u, count: i32) {
 	}
 	var m7: vec4u;
 	if (bindings__STACK_REGISTERS > 7u) {
-		m7 = stack__moved(stack__s6, stack__s7, vec4u(stack__EMPTY), count);
+		m7 = stack__moved(stack__s6, stack__s7, vec4u(traverse__EMPTY), count);
 	}
 	stack__s0 = m0;
 	if (bindings__STACK_REGISTERS > 1u) {
@@ -1139,6 +1085,8 @@ var<private> loops__is_stack_full: bool;
 
 var<private> loops__nonfinite_samples: u32;
 
+const traverse__EMPTY: u32 = 4294967295u;
+
 const traverse__RETURN: u32 = 4294967294u;
 
 const traverse__CONTACT_RANGE: f32 = 0.0001;
@@ -1170,7 +1118,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 		primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	}
 	let shear = triangle_watertight__shear_of(ray.direction);
-	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), traverse__EMPTY);
 	if (bindings__HAS_PLANES) {
 		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
@@ -1193,7 +1141,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 }
 
 fn traverse__is_walking(walk: traverse__Walk) -> bool {
-	return walk.current != stack__EMPTY;
+	return walk.current != traverse__EMPTY;
 }
 
 fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
@@ -1206,40 +1154,12 @@ fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
 			}
 			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
 			if (is_node) {
-				loop {
-					let node = traverse__load_current_node(walk.current, walk.at);
-					let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
-					let is_hit = keys < vec4u(node__MISS);
-					let top = stack__top_of_stack();
-					let next = vec3u(node.children[keys.y & 3u], node.children[keys.z & 3u], node.children[keys.w & 3u]);
-					stack__move_stack(next, traverse__hit_count(keys) - 1);
-					walk.current = select(top, node.children[keys.x & 3u], keys.x < node__MISS);
-					if (bindings__COUNT_STEPS) {
-						loops__nodes_visited += 1u;
-					}
-					continuing {
-					
-						break if (walk.current & types__LEAF) != 0u;
-					}
-				}
+				walk = steps__through_nodes(walk);
 				loops__cut_off |= (walk.current & types__LEAF) == 0u;
 			}
-			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
+			let is_leaf = walk.current != traverse__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
 			if (is_leaf) {
-				loop {
-					walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
-					let is_last = (walk.current & types__LEAF_COUNT_MASK) == 0u;
-					walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__top_of_stack(), is_last);
-					stack__move_stack(vec3u(stack__EMPTY), select(0, -1, is_last));
-					walk.current = select(walk.current, stack__EMPTY, walk.any & (walk.hit.primitive != types__NONE));
-					if (bindings__COUNT_STEPS) {
-						loops__primitives_tested += 1u;
-					}
-					continuing {
-					
-						break if ((walk.current & types__LEAF) == 0u) | (walk.current >= types__INSTANCE);
-					}
-				}
+				walk = steps__through_leaves(walk);
 			}
 			round += 1u;
 			continuing {
@@ -1258,7 +1178,7 @@ fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
 		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
 		walk.current = stack__popped();
 	}
-	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
+	if ((walk.current >= types__INSTANCE) & (walk.current != traverse__EMPTY)) {
 		let index = walk.current & types__LEAF_FIRST_MASK;
 		let instance = fetch__load_instance(index);
 		let local = instance__object_ray(walk.ray, instance__space_of(instance));
@@ -1269,16 +1189,11 @@ fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
 	return walk;
 }
 
-fn traverse__hit_count(keys: vec4u) -> i32 {
-	let hits = select(vec4i(0), vec4i(1), keys < vec4u(node__MISS));
-	return hits.x + hits.y + hits.z + hits.w;
-}
-
 fn traverse__load_current_node(reference: u32, at: primitive__TraversalRay) -> tracing__Node {
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
 		return deforming__node_now(reference, at.keys, at.inv);
 	}
-	return fetch__load_node(reference, at.inv);
+	return steps__load_node(reference, at.inv);
 }
 
 struct triangle_watertight__Shear {
@@ -1490,6 +1405,45 @@ fn numeric__max_component(v: vec3f) -> f32 {
 	return max_f32(v.x, max_f32(v.y, v.z));
 }
 
+@group(0) @binding(0)
+var rows__nodes: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(1)
+var rows__triangles: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(2)
+var rows__vertices: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(3)
+var rows__materials: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(4)
+var rows__texels: texture_storage_2d_array<r32uint, read>;
+
+fn rows__node_row(row: u32) -> vec4u {
+	return textureLoad(rows__nodes, rows__texel(row));
+}
+
+fn rows__triangle_row(row: u32) -> vec4u {
+	return textureLoad(rows__triangles, rows__texel(row));
+}
+
+fn rows__vertex_row(row: u32) -> vec4u {
+	return textureLoad(rows__vertices, rows__texel(row));
+}
+
+fn rows__material_row(row: u32) -> vec4u {
+	return textureLoad(rows__materials, rows__texel(row));
+}
+
+fn rows__texel_word(place: vec2u, layer: u32) -> u32 {
+	return textureLoad(rows__texels, place, layer).x;
+}
+
+fn rows__texel(row: u32) -> vec2u {
+	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
+}
+
 fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
 	if (bindings__HAS_MOTION) {
 		if (instance.key_count > 1u) {
@@ -1578,6 +1532,55 @@ fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
 		return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
 	}
 	return still;
+}
+
+fn steps__load_node(index: u32, inv: vec3f) -> tracing__Node {
+	let row = types__NODE_ROWS * index;
+	return node__decode_node(rows__node_row(row), rows__node_row(row + 1u), rows__node_row(row + 2u), rows__node_row(row + 3u), inv);
+}
+
+fn steps__through_nodes(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	loop {
+		let node = traverse__load_current_node(walk.current, walk.at);
+		let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
+		let top = stack__top_of_stack();
+		let next = vec3u(node.children[keys.y & 3u], node.children[keys.z & 3u], node.children[keys.w & 3u]);
+		stack__move_stack(next, steps__hit_count(keys) - 1);
+		walk.current = select(top, node.children[keys.x & 3u], keys.x < node__MISS);
+		if (bindings__COUNT_STEPS) {
+			loops__nodes_visited += 1u;
+		}
+		continuing {
+		
+			break if (walk.current & types__LEAF) != 0u;
+		}
+	}
+	return walk;
+}
+
+fn steps__hit_count(keys: vec4u) -> i32 {
+	let hits = select(vec4i(0), vec4i(1), keys < vec4u(node__MISS));
+	return hits.x + hits.y + hits.z + hits.w;
+}
+
+fn steps__through_leaves(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	loop {
+		walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
+		let is_last = (walk.current & types__LEAF_COUNT_MASK) == 0u;
+		walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__top_of_stack(), is_last);
+		stack__move_stack(vec3u(traverse__EMPTY), select(0, -1, is_last));
+		walk.current = select(walk.current, traverse__EMPTY, walk.any & (walk.hit.primitive != types__NONE));
+		if (bindings__COUNT_STEPS) {
+			loops__primitives_tested += 1u;
+		}
+		continuing {
+		
+			break if ((walk.current & types__LEAF) == 0u) | (walk.current >= types__INSTANCE);
+		}
+	}
+	return walk;
 }
 
 const node__MISS: u32 = 4294967292u;
@@ -2506,44 +2509,44 @@ struct material__PhongMaterial {
 
 fn material__load_material(index: u32) -> material__PhongMaterial {
 	let row = types__MATERIAL_ROWS * index;
-	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
+	let r0 = rows__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = rows__material_row(row + 1u);
+	let r2 = rows__material_row(row + 2u);
 	var reflect = vec3f(0.0);
 	if (bindings__HAS_REFLECTION) {
-		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
+		reflect = bitcast<vec3f>(rows__material_row(row + 3u).xyz);
 	}
 	let phong = shading__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
 	return material__PhongMaterial(phong, r1.w);
 }
 
 fn material__load_texture_indices(index: u32) -> vec4u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+	return rows__material_row(types__MATERIAL_ROWS * index + 7u);
 }
 
 fn material__load_normal_scale(index: u32) -> f32 {
-	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+	return bitcast<f32>(rows__material_row(types__MATERIAL_ROWS * index + 6u).w);
 }
 
 fn material__load_texture(index: u32) -> types__PackedTexture {
 	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r5 = fetch__material_row(row + 5u);
-	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r5 = rows__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(rows__material_row(row + 2u)), bitcast<vec4f>(rows__material_row(row + 3u)), bitcast<vec4f>(rows__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
 }
 
 fn material__load_layers(index: u32) -> types__PackedLayers {
 	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
-	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
-	let r6 = fetch__material_row(row + 6u);
-	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(rows__material_row(row + 2u));
+	let r3 = rows__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(rows__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(rows__material_row(row + 5u));
+	let r6 = rows__material_row(row + 6u);
+	let r7 = rows__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), rows__material_row(row + 8u), rows__material_row(row + 9u), rows__material_row(row + 10u));
 }
 
 fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
@@ -2823,7 +2826,7 @@ fn picture__texel_at(picture: u32, index: u32) -> vec4f {
 fn picture__load_texel_word(index: u32) -> u32 {
 	let row = index >> types__IMAGE_WIDTH_LOG2;
 	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
-	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2).x;
+	return rows__texel_word(place, row >> types__LAYER_ROWS_LOG2);
 }
 
 struct picture__Neighbours {

@@ -17,9 +17,6 @@ var bindings__denoised: texture_storage_2d<rgba32float, write>;
 @group(3) @binding(7)
 var bindings__noisy: texture_2d<f32>;
 
-@group(3) @binding(8)
-var bindings__albedos: texture_2d<f32>;
-
 @group(3) @binding(9)
 var bindings__surfaces: texture_2d<f32>;
 
@@ -48,7 +45,7 @@ fn demodulation__signal_at(p: vec2i) -> vec4f {
 	if (!numeric__is_finite(pixel.xyz) || !numeric__is_finite(pixel.www)) {
 		return vec4f(0.0, 0.0, 0.0, -1.0);
 	}
-	let divisor = demodulation__divisor_of(textureLoad(bindings__albedos, p, 0).xyz);
+	let divisor = demodulation__divisor_of(rows__load_albedo(p).xyz);
 	let luminance = dot(divisor, tone__LUMINANCE_REC709);
 	let color = clamp_vec3f(pixel.xyz / divisor, vec3f(0.0), vec3f(demodulation__MOST_SIGNAL));
 	let variance = clamp_f32(pixel.w / (luminance * luminance), 0.0, demodulation__MOST_VARIANCE);
@@ -59,7 +56,7 @@ fn demodulation__packed_guide_at(p: vec2i, last: vec2i) -> vec4u {
 	let surface = textureLoad(bindings__surfaces, p, 0);
 	let slope = max_f32(demodulation__least_step(surface.w, p, last, vec2i(1, 0)), demodulation__least_step(surface.w, p, last, vec2i(0, 1)));
 	let normal = vec3u(clamp_vec3f(0.5 + 0.5 * surface.xyz, vec3f(0.0), vec3f(1.0)) * 1023.0 + 0.5);
-	let albedo = vec3u(clamp_vec3f(textureLoad(bindings__albedos, p, 0).xyz, vec3f(0.0), vec3f(1.0)) * vec3f(31.0, 63.0, 31.0) + 0.5);
+	let albedo = vec3u(clamp_vec3f(rows__load_albedo(p).xyz, vec3f(0.0), vec3f(1.0)) * vec3f(31.0, 63.0, 31.0) + 0.5);
 	return vec4u(normal.x | (normal.y << 10u) | (normal.z << 20u), (bitcast<u32>(slope) & 4294901760u) | albedo.x | (albedo.y << 5u) | (albedo.z << 11u), pack4x8unorm(demodulation__means_at(p, last)), bitcast<u32>(surface.w));
 }
 
@@ -71,7 +68,7 @@ fn demodulation__means_at(p: vec2i, last: vec2i) -> vec4f {
 	loop {
 		let offset = vec2i(k % 3, k / 3) - 1;
 		let q = clamp(p + offset, vec2i(0), last);
-		let albedo = textureLoad(bindings__albedos, q, 0).xyz;
+		let albedo = rows__load_albedo(q).xyz;
 		let presence = cover__presence_at(q, albedo);
 		sum += presence * albedo;
 		total += presence;
@@ -95,6 +92,13 @@ fn demodulation__least_step(depth: f32, p: vec2i, last: vec2i, axis: vec2i) -> f
 fn numeric__is_finite(v: vec3f) -> bool {
 	let exponents = bitcast<vec3u>(v) & vec3u(2139095040u);
 	return all(exponents != vec3u(2139095040u));
+}
+
+@group(3) @binding(8)
+var rows__albedos: texture_2d<f32>;
+
+fn rows__load_albedo(p: vec2i) -> vec4f {
+	return textureLoad(rows__albedos, p, 0);
 }
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);

@@ -8,10 +8,6 @@ const LEAST_LIKENESS: f32 = 0.05;
 
 const LUMINANCE_SHARE: f32 = 0.002;
 
-fn load_signal(p: vec2i) -> vec4f {
-	return textureLoad(bindings__signal, p, 0);
-}
-
 struct Filtered {
 	signal: vec4f,
 	cover: vec4f
@@ -19,7 +15,7 @@ struct Filtered {
 
 @compute @workgroup_size(64, 1, 1)
 fn denoise(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-	let size = vec2i(textureDimensions(bindings__signal));
+	let size = vec2i(textureDimensions(rows__signal));
 	let last = size - 1;
 	let step = i32(bindings__stride);
 	let own = 8 * vec2i(group.xy) + vec2i(i32(lane % 8u), i32(lane / 8u));
@@ -52,7 +48,7 @@ fn luminance_of(signal: vec4f, opacity: f32) -> f32 {
 }
 
 fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
-	let own = load_signal(p);
+	let own = rows__load_signal(p);
 	let guide = guide__guide_at(p);
 	let own_weight = cover__cover_at(p).x;
 	let luminance = luminance_of(own, own_weight);
@@ -65,7 +61,7 @@ fn without_outlier(p: vec2i, last: vec2i) -> vec4f {
 	loop {
 		let offset = vec2i(k % 3, k / 3) - 1;
 		let q = p + offset;
-		let other = load_signal(clamp(q, vec2i(0), last));
+		let other = rows__load_signal(clamp(q, vec2i(0), last));
 		let is_usable = k != 4 && all(q == clamp(q, vec2i(0), last)) && other.w >= 0.0;
 		let opacity = cover__cover_at(clamp(q, vec2i(0), last)).x;
 		let alike = guide__likeness(guide, guide__guide_at(clamp(q, vec2i(0), last)), 1.0);
@@ -103,7 +99,7 @@ fn fall_of(pilot: f32, variance: f32) -> f32 {
 }
 
 fn averaged(p: vec2i, last: vec2i, step: i32) -> Filtered {
-	let own = load_signal(p);
+	let own = rows__load_signal(p);
 	let guide = guide__guide_at(p);
 	let pilot = cover__unpacked(own.w).pilot;
 	let own_cover = cover__cover_at(p);
@@ -122,7 +118,7 @@ fn averaged(p: vec2i, last: vec2i, step: i32) -> Filtered {
 		let offset = vec2i(k % 3, k / 3) - 1;
 		let q = p + step * offset;
 		let inside = clamp(q, vec2i(0), last);
-		let other = load_signal(inside);
+		let other = rows__load_signal(inside);
 		let estimate = cover__unpacked(other.w);
 		let is_usable = all(q == inside) && other.w >= 0.0;
 		var apart = fall * (estimate.pilot - pilot);
@@ -166,7 +162,7 @@ fn smooth_variances(p: vec2i, last: vec2i) -> vec2f {
 	loop {
 		let offset = vec2i(k % 3, k / 3) - 1;
 		let q = clamp(p + offset, vec2i(0), last);
-		let w = load_signal(q).w;
+		let w = rows__load_signal(q).w;
 		sum.x += select(0.0, guide__tent(offset) * cover__unpacked(w).variance, w >= 0.0);
 		if (bindings__HAS_OPACITY) {
 			sum.y += guide__tent(offset) * cover__unpacked(cover__cover_at(q).w).variance;
@@ -179,20 +175,32 @@ fn smooth_variances(p: vec2i, last: vec2i) -> vec2f {
 	return sum / 16.0;
 }
 
+@group(3) @binding(4)
+var rows__signal: texture_2d<f32>;
+
+@group(3) @binding(5)
+var rows__guides: texture_2d<u32>;
+
+@group(3) @binding(8)
+var rows__albedos: texture_2d<f32>;
+
+fn rows__load_signal(p: vec2i) -> vec4f {
+	return textureLoad(rows__signal, p, 0);
+}
+
+fn rows__load_guide(p: vec2i) -> vec4u {
+	return textureLoad(rows__guides, p, 0);
+}
+
+fn rows__load_albedo(p: vec2i) -> vec4f {
+	return textureLoad(rows__albedos, p, 0);
+}
+
 @group(3) @binding(3)
 var<storage, read> bindings__stride: u32;
 
-@group(3) @binding(4)
-var bindings__signal: texture_2d<f32>;
-
-@group(3) @binding(5)
-var bindings__guides: texture_2d<u32>;
-
 @group(3) @binding(6)
 var bindings__denoised: texture_storage_2d<rgba32float, write>;
-
-@group(3) @binding(8)
-var bindings__albedos: texture_2d<f32>;
 
 @group(3) @binding(14)
 var bindings__covers: texture_2d<f32>;
@@ -225,12 +233,8 @@ struct guide__Guide {
 	slope: f32
 }
 
-fn guide__load_guide(p: vec2i) -> vec4u {
-	return textureLoad(bindings__guides, p, 0);
-}
-
 fn guide__guide_at(p: vec2i) -> guide__Guide {
-	let packed = guide__load_guide(p);
+	let packed = rows__load_guide(p);
 	let normal = vec3f((vec3u(packed.x) >> vec3u(0u, 10u, 20u)) & vec3u(1023u)) * (2.0 / 1023.0) - 1.0;
 	let albedo = vec3f((vec3u(packed.y) >> vec3u(0u, 5u, 11u)) & vec3u(31u, 63u, 31u)) / vec3f(31.0, 63.0, 31.0);
 	let slope = bitcast<f32>(packed.y & 4294901760u);
@@ -323,12 +327,8 @@ const modulation__MEAN_NOISE: f32 = 4e-6;
 
 const modulation__PIXEL_NOISE: f32 = 1e-12;
 
-fn modulation__load_albedo(p: vec2i) -> vec4f {
-	return textureLoad(bindings__albedos, p, 0);
-}
-
 fn modulation__modulator_at(p: vec2i, last: vec2i) -> vec3f {
-	let own = modulation__load_albedo(p);
+	let own = rows__load_albedo(p);
 	let mean = guide__guide_at(p).mean_albedo;
 	let is_covered = cover__presence_at(p, own.xyz) > 0.0;
 	var total = 0.0;
@@ -337,7 +337,7 @@ fn modulation__modulator_at(p: vec2i, last: vec2i) -> vec3f {
 	loop {
 		let offset = vec2i(k % 3, k / 3) - 1;
 		let q = clamp(p + offset, vec2i(0), last);
-		let other = modulation__load_albedo(q);
+		let other = rows__load_albedo(q);
 		let noise = min_f32(own.w, other.w);
 		let means = modulation__far(guide__guide_at(q).mean_albedo - mean, modulation__MEAN_DEVIATIONS * modulation__MEAN_DEVIATIONS * noise + modulation__MEAN_NOISE);
 		let pixels = modulation__far(other.xyz - own.xyz, modulation__PIXEL_DEVIATIONS * modulation__PIXEL_DEVIATIONS * noise + modulation__PIXEL_NOISE);

@@ -17,7 +17,6 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 				path = path_vertex__traced(batch, path, hit);
 			}
 			record__close_ray();
-			record__sender = record__traced_index;
 			continuing {
 			
 				break if !path__is_going(path);
@@ -32,21 +31,6 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 	}
 	dispatch__add_counts(group, lane);
 }
-
-@group(0) @binding(0)
-var<storage, read> bindings__nodes: array<vec4u>;
-
-@group(0) @binding(1)
-var<storage, read> bindings__triangles: array<vec4u>;
-
-@group(0) @binding(2)
-var<storage, read> bindings__vertices: array<vec4u>;
-
-@group(0) @binding(3)
-var<storage, read> bindings__materials: array<vec4u>;
-
-@group(0) @binding(4)
-var bindings__texels: texture_2d_array<u32>;
 
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
@@ -755,13 +739,13 @@ struct types__PackedRay {
 	step: u32
 }
 
+const record__RECORDS: bool = true;
+
 var<private> record__traced: types__PackedRay;
 
 var<private> record__traced_index: u32;
 
 var<private> record__sender: u32;
-
-var<private> record__seen: tracing__Hit;
 
 var<private> record__ray_count: u32;
 
@@ -822,33 +806,27 @@ fn record__open_ray(ray: tracing__Ray, hit: tracing__Hit, kind: u32, throughput:
 	record__ray_count += 1u;
 }
 
-fn record__record_surface(surface: shading__Surface) {
-	record__traced.primitive = record__seen.primitive;
-	record__traced.instance = record__seen.instance;
+fn record__record_surface(surface: shading__Surface, hit: tracing__Hit, arriving: vec3f) {
+	record__traced.primitive = hit.primitive;
+	record__traced.instance = hit.instance;
 	record__traced.p = surface.p;
 	record__traced.n = surface.n;
 	record__traced.ng = surface.ng;
 	record__traced.material = surface.material;
 	record__traced.flags |= select(0u, types__RAY_OUTSIDE, surface.outside);
+	record__traced.arriving = arriving;
 }
 
-fn record__record_media(medium: u32, medium_behind: u32, transparent: bool) {
-	record__traced.medium = medium;
-	record__traced.medium_behind = select(types__NONE, medium_behind, transparent);
-	record__traced.flags |= select(0u, types__RAY_TRANSPARENT, transparent);
-}
-
-fn record__record_scatter(reflect: vec3f, transmit: vec3f, boundary: fresnel__Boundary, iors: vec2f, is_boundary: bool) {
+fn record__record_interface(met: interface__Interface, boundary: fresnel__Boundary, reflect: vec3f, transmit: vec3f) {
+	record__traced.medium = met.here;
+	record__traced.medium_behind = select(types__NONE, medium__dominant(met.media), met.is_transparent);
+	record__traced.flags |= select(0u, types__RAY_TRANSPARENT, met.is_transparent);
 	record__traced.reflect = reflect;
 	record__traced.transmit = transmit;
-	record__traced.reflectance = select(0.0, boundary.reflectance, is_boundary);
-	record__traced.ior = iors.x;
-	record__traced.ior_behind = iors.y;
-	record__traced.flags |= select(0u, types__RAY_BOUNDARY, is_boundary) | select(0u, types__RAY_TOTAL, is_boundary & boundary.total);
-}
-
-fn record__record_arriving(arriving: vec3f) {
-	record__traced.arriving = arriving;
+	record__traced.reflectance = select(0.0, boundary.reflectance, met.is_boundary);
+	record__traced.ior = met.ior;
+	record__traced.ior_behind = met.ior_behind;
+	record__traced.flags |= select(0u, types__RAY_BOUNDARY, met.is_boundary) | select(0u, types__RAY_TOTAL, met.is_boundary & boundary.total);
 }
 
 fn record__open_shadow(t_max: f32) {
@@ -867,6 +845,7 @@ fn record__record_met(hit: tracing__Hit, rest: f32) {
 
 fn record__close_ray() {
 	record__store_ray(record__traced_index, record__traced);
+	record__sender = record__traced_index;
 }
 
 fn record__store_ray(index: u32, ray: types__PackedRay) {
@@ -1017,7 +996,7 @@ fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
 }
 
 fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
-	if (bindings__COUNT_RAYS) {
+	if (bindings__COUNT_RAYS && hit.t >= 0.0) {
 		let hits = select(0u, 1u, hit.primitive != types__NONE);
 		if (kind == ray_states__KIND_PRIMARY) {
 			dispatch__counts.primary += 1u;
@@ -1112,90 +1091,83 @@ fn fetch__load_starts() {
 	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
-fn fetch__load_node(index: u32, inv: vec3f) -> tracing__Node {
-	let row = types__FLOAT_NODE_ROWS * index;
-	let near = select(vec3u(0u), vec3u(1u), inv < vec3f(0.0));
-	let far = vec3u(1u) - near;
-	return node__float_node(fetch__node_row(row + near.x), fetch__node_row(row + far.x), fetch__node_row(row + 2u + near.y), fetch__node_row(row + 2u + far.y), fetch__node_row(row + 4u + near.z), fetch__node_row(row + 4u + far.z), fetch__node_row(row + 6u));
-}
-
 fn fetch__load_moving_node(reference: u32, moment: motion__Moment, inv: vec3f) -> tracing__Node {
 	let moves = (reference & types__MOVING) != 0u;
 	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
 	let second = first + select(0u, 1u, moves);
-	return node__node_between(fetch__load_node(first, inv), fetch__load_node(second, inv), moment.fraction);
+	return node__node_between(steps__load_node(first, inv), steps__load_node(second, inv), moment.fraction);
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
 	let row = fetch__instance_row + types__INSTANCE_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
-	let r6 = fetch__node_row(row + 6u);
-	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
+	let r6 = rows__node_row(row + 6u);
+	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(rows__node_row(row + 7u)), bitcast<vec4f>(rows__node_row(row + 8u)), bitcast<vec4f>(rows__node_row(row + 9u)));
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
 	let row = fetch__key_row + types__KEY_ROWS * index;
-	return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
+	return types__PackedKey(bitcast<vec3f>(rows__node_row(row).xyz), 0u, bitcast<vec4f>(rows__node_row(row + 1u)), bitcast<vec3f>(rows__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(rows__node_row(row + 3u).xyz), 0u);
 }
 
 fn fetch__load_light(index: u32) -> types__PackedLight {
 	let row = fetch__light_row + types__LIGHT_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
 	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), r5.x, bitcast<f32>(r5.y), r5.z, r5.w);
 }
 
 fn fetch__load_light_end(index: u32) -> f32 {
-	let r5 = fetch__node_row(fetch__light_row + types__LIGHT_ROWS * index + 5u);
+	let r5 = rows__node_row(fetch__light_row + types__LIGHT_ROWS * index + 5u);
 	return bitcast<f32>(r5.y) + bitcast<f32>(r5.z);
 }
 
 fn fetch__load_emitter(index: u32) -> types__PackedEmitter {
-	let r0 = fetch__node_row(bindings__frame.emitter_row + index);
+	let r0 = rows__node_row(bindings__frame.emitter_row + index);
 	return types__PackedEmitter(r0.x, r0.y, bitcast<f32>(r0.z), r0.w);
 }
 
 fn fetch__load_emitter_glow(index: u32) -> f32 {
-	let row = fetch__node_row(bindings__frame.emitter_row + bindings__frame.emitter_count + index / 4u);
+	let row = rows__node_row(bindings__frame.emitter_row + bindings__frame.emitter_count + index / 4u);
 	return bitcast<f32>(row[index % 4u]);
 }
 
 fn fetch__load_cluster(index: u32) -> types__PackedCluster {
 	let row = bindings__frame.cluster_row + types__CLUSTER_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
 	return types__PackedCluster(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<f32>(r1.x), r1.y, r1.z, r1.w);
 }
 
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
 	let row = fetch__light_row + types__LIGHT_ROWS * bindings__frame.light_count * bindings__frame.light_key_count + types__CAMERA_ROWS * key;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
 	return types__PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
 }
 
 fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
 	let row = 3u * index;
-	let r0 = fetch__triangle_row(row);
-	let r1 = fetch__triangle_row(row + 1u);
-	let r2 = fetch__triangle_row(row + 2u);
+	let r0 = rows__triangle_row(row);
+	let r1 = rows__triangle_row(row + 1u);
+	let r2 = rows__triangle_row(row + 2u);
 	return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
 fn fetch__load_shape(index: u32) -> types__PackedShape {
 	let row = fetch__shape_row + types__SHAPE_ROWS * index;
-	return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
+	return fetch__shape_of(rows__triangle_row(row), rows__triangle_row(row + 1u), rows__triangle_row(row + 2u), rows__triangle_row(row + 3u), rows__triangle_row(row + 4u));
 }
 
 fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
@@ -1203,45 +1175,29 @@ fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> typ
 }
 
 fn fetch__load_vertex(index: u32) -> types__PackedVertex {
-	let r0 = fetch__vertex_row(index);
+	let r0 = rows__vertex_row(index);
 	return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
 }
 
 fn fetch__load_uvs(index: u32) -> vec4f {
-	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(fetch__uv_row + index));
 }
 
 fn fetch__load_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(2u * fetch__uv_row + index));
+	return fetch__tangent_of(rows__vertex_row(2u * fetch__uv_row + index));
 }
 
 fn fetch__load_key_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(index + 1u));
+	return fetch__tangent_of(rows__vertex_row(index + 1u));
 }
 
 fn fetch__load_color(index: u32) -> vec4f {
 	let parts = 1u + select(0u, 1u, bindings__HAS_UVS) + select(0u, 1u, bindings__HAS_TANGENTS);
-	return bitcast<vec4f>(fetch__vertex_row(parts * fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(parts * fetch__uv_row + index));
 }
 
 fn fetch__tangent_of(r0: vec4u) -> types__PackedTangent {
 	return types__PackedTangent(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w));
-}
-
-fn fetch__node_row(row: u32) -> vec4u {
-	return bindings__nodes[row];
-}
-
-fn fetch__triangle_row(row: u32) -> vec4u {
-	return bindings__triangles[row];
-}
-
-fn fetch__vertex_row(row: u32) -> vec4u {
-	return bindings__vertices[row];
-}
-
-fn fetch__material_row(row: u32) -> vec4u {
-	return bindings__materials[row];
 }
 
 var<private> albedo__albedo_first: u32;
@@ -1330,7 +1286,7 @@ fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, pixel: vec2u, sam
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
 	let eye = ray.origin - dispatch__way_to_near(batch, ray.direction) * ray.direction;
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, eye, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(rays__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, eye, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(ray_states__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
 }
 
 fn path__is_going(path: path__Path) -> bool {
@@ -1346,6 +1302,7 @@ fn path__next_walk(path: path__Path) -> traverse__Walk {
 	var any = false;
 	if (path__is_to_lamp(path)) {
 		ray = path.lamp.ray;
+		any = !(record__RECORDS || bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS));
 	}
 	return traverse__walk_of(ray, any);
 }
@@ -1392,7 +1349,7 @@ fn path__is_caught(path: path__Path) -> bool {
 
 fn path__ended(path: path__Path) -> path__Path {
 	var last = path;
-	last.ray = rays__DEAD;
+	last.ray = ray_states__DEAD;
 	return last;
 }
 
@@ -1477,7 +1434,7 @@ fn shadow__may_pass(hit: tracing__Hit) -> bool {
 
 fn shadow__arrived(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
 	var passage = before;
-	passage.ray = rays__DEAD;
+	passage.ray = ray_states__DEAD;
 	if (hit.primitive != types__NONE) {
 		record__record_met(hit, before.ray.t_max);
 		passage.through = vec3f(0.0);
@@ -1490,8 +1447,8 @@ fn shadow__arrived(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passag
 
 fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit, contact: contact__Contact, coverage: f32) -> shadow__Passage {
 	var passage = before;
-	passage.ray = rays__DEAD;
-	record__record_met(record__seen, before.ray.t_max);
+	passage.ray = ray_states__DEAD;
+	record__record_met(contact.hit, before.ray.t_max);
 	let surface = contact.surface;
 	var through = vec3f(0.0);
 	if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
@@ -1519,7 +1476,7 @@ fn shadow__rest_of(ray: tracing__Ray, distance: f32, surface: shading__Surface) 
 	let way = ray.direction - shift / rest;
 	let is_ahead = dot(way, ray.direction) > 0.0;
 	next.direction = numeric__normalize_or(way, ray.direction);
-	next.t_max = select(rays__DEAD.t_max, rest * length(way), is_ahead);
+	next.t_max = select(ray_states__DEAD.t_max, rest * length(way), is_ahead);
 	return next;
 }
 
@@ -1831,13 +1788,48 @@ fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction:
 	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.place, a.visible);
 }
 
+@group(0) @binding(0)
+var<storage, read> rows__nodes: array<vec4u>;
+
+@group(0) @binding(1)
+var<storage, read> rows__triangles: array<vec4u>;
+
+@group(0) @binding(2)
+var<storage, read> rows__vertices: array<vec4u>;
+
+@group(0) @binding(3)
+var<storage, read> rows__materials: array<vec4u>;
+
+@group(0) @binding(4)
+var rows__texels: texture_2d_array<u32>;
+
+fn rows__node_row(row: u32) -> vec4u {
+	return rows__nodes[row];
+}
+
+fn rows__triangle_row(row: u32) -> vec4u {
+	return rows__triangles[row];
+}
+
+fn rows__vertex_row(row: u32) -> vec4u {
+	return rows__vertices[row];
+}
+
+fn rows__material_row(row: u32) -> vec4u {
+	return rows__materials[row];
+}
+
+fn rows__texel_word(place: vec2u, layer: u32) -> u32 {
+	return textureLoad(rows__texels, place, layer, 0).x;
+}
+
 const ray_states__KIND_PRIMARY: u32 = 0u;
 
 const ray_states__KIND_REFLECTED: u32 = 1u;
 
 const ray_states__KIND_REFRACTED: u32 = 2u;
 
-const rays__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
+const ray_states__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
 
 const filter__PI: f32 = 3.14159265;
 
@@ -2024,6 +2016,8 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	return direction.x * x + direction.y * y + direction.z * n;
 }
 
+const traverse__EMPTY: u32 = 4294967295u;
+
 const traverse__RETURN: u32 = 4294967294u;
 
 const traverse__CONTACT_RANGE: f32 = 0.0001;
@@ -2051,7 +2045,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 		primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	}
 	let shear = triangle_watertight__shear_of(ray.direction);
-	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), traverse__EMPTY);
 	if (bindings__HAS_PLANES) {
 		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
@@ -2074,7 +2068,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 }
 
 fn traverse__is_walking(walk: traverse__Walk) -> bool {
-	return walk.current != stack__EMPTY;
+	return walk.current != traverse__EMPTY;
 }
 
 fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
@@ -2087,16 +2081,12 @@ fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
 			}
 			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
 			if (is_node) {
-				{
-					walk = branching__through_nodes(walk);
-				}
+				walk = steps__through_nodes(walk);
 				loops__cut_off |= (walk.current & types__LEAF) == 0u;
 			}
-			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
+			let is_leaf = walk.current != traverse__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
 			if (is_leaf) {
-				{
-					walk = branching__through_leaves(walk);
-				}
+				walk = steps__through_leaves(walk);
 			}
 			round += 1u;
 			continuing {
@@ -2115,7 +2105,7 @@ fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
 		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
 		walk.current = stack__popped();
 	}
-	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
+	if ((walk.current >= types__INSTANCE) & (walk.current != traverse__EMPTY)) {
 		let index = walk.current & types__LEAF_FIRST_MASK;
 		let instance = fetch__load_instance(index);
 		let local = instance__object_ray(walk.ray, instance__space_of(instance));
@@ -2130,7 +2120,7 @@ fn traverse__load_current_node(reference: u32, at: primitive__TraversalRay) -> t
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
 		return deforming__node_now(reference, at.keys, at.inv);
 	}
-	return fetch__load_node(reference, at.inv);
+	return steps__load_node(reference, at.inv);
 }
 
 struct triangle_watertight__Shear {
@@ -2319,7 +2309,29 @@ fn deforming__tangent_at(vertex: u32, is_later: bool) -> vec4f {
 	return vec4f(tangent.direction, tangent.handedness);
 }
 
-const stack__EMPTY: u32 = 4294967295u;
+const numeric__ROUNDING: f32 = 5.9604645e-8;
+
+fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
+	let largest = max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
+	let usable = largest > 1e-30;
+	let shrink = select(1.0, 2.3283064e-10, largest > 1e37);
+	let scaled = select(vec3f(1.0, 0.0, 0.0), (shrink * v) / select(1.0, shrink * largest, usable), usable);
+	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
+}
+
+fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
+	let tiny = abs(d) < vec3f(1e-18);
+	return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
+}
+
+fn numeric__is_finite(v: vec3f) -> bool {
+	let exponents = bitcast<vec3u>(v) & vec3u(2139095040u);
+	return all(exponents != vec3u(2139095040u));
+}
+
+fn numeric__max_component(v: vec3f) -> f32 {
+	return max_f32(v.x, max_f32(v.y, v.z));
+}
 
 const stack__SHARED_ENTRIES: u32 = 24u;
 
@@ -2334,6 +2346,11 @@ var<private> stack__short_entries: array<u32, types__SHORT_STACK_SIZE>;
 var<workgroup> stack__shared_entries: array<u32, stack__LANES * stack__SHARED_ENTRIES>;
 
 var<private> stack__shared_lane: u32;
+
+fn stack__start_stack() {
+	stack__top = 0u;
+	stack__put_entry(0u, traverse__EMPTY);
+}
 
 fn stack__entry_at(index: u32) -> u32 {
 	if (bindings__SHARED_STACK) {
@@ -2357,58 +2374,21 @@ fn stack__put_entry(index: u32, reference: u32) {
 	stack__entries[index] = reference;
 }
 
-fn stack__start_stack() {
-	stack__top = 0u;
-	stack__put_entry(0u, stack__EMPTY);
-}
-
-fn stack__top_of_stack() -> u32 {
-	return stack__entry_at(stack__top);
-}
-
 fn stack__push(reference: u32) {
-	{
-		if (bindings__SHARED_STACK && stack__top + 1u >= stack__SHARED_ENTRIES) {
-			loops__is_stack_full = true;
-			return;
-		}
-		stack__top += 1u;
-		stack__put_entry(stack__top, reference);
+	if (bindings__SHARED_STACK && stack__top + 1u >= stack__SHARED_ENTRIES) {
+		loops__is_stack_full = true;
+		return;
 	}
+	stack__top += 1u;
+	stack__put_entry(stack__top, reference);
 }
 
 fn stack__popped() -> u32 {
-	let reference = stack__top_of_stack();
-	{
-		if (reference != stack__EMPTY) {
-			stack__top -= 1u;
-		}
+	let reference = stack__entry_at(stack__top);
+	if (reference != traverse__EMPTY) {
+		stack__top -= 1u;
 	}
 	return reference;
-}
-
-const numeric__ROUNDING: f32 = 5.9604645e-8;
-
-fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
-	let largest = max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
-	let usable = largest > 1e-30;
-	let shrink = select(1.0, 2.3283064e-10, largest > 1e37);
-	let scaled = select(vec3f(1.0, 0.0, 0.0), (shrink * v) / select(1.0, shrink * largest, usable), usable);
-	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
-}
-
-fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
-	let tiny = abs(d) < vec3f(1e-18);
-	return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
-}
-
-fn numeric__is_finite(v: vec3f) -> bool {
-	let exponents = bitcast<vec3u>(v) & vec3u(2139095040u);
-	return all(exponents != vec3u(2139095040u));
-}
-
-fn numeric__max_component(v: vec3f) -> f32 {
-	return max_f32(v.x, max_f32(v.y, v.z));
 }
 
 fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
@@ -2454,7 +2434,14 @@ var<private> loops__is_stack_full: bool;
 
 var<private> loops__nonfinite_samples: u32;
 
-fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
+fn steps__load_node(index: u32, inv: vec3f) -> tracing__Node {
+	let row = types__FLOAT_NODE_ROWS * index;
+	let near = select(vec3u(0u), vec3u(1u), inv < vec3f(0.0));
+	let far = vec3u(1u) - near;
+	return node__float_node(rows__node_row(row + near.x), rows__node_row(row + far.x), rows__node_row(row + 2u + near.y), rows__node_row(row + 2u + far.y), rows__node_row(row + 4u + near.z), rows__node_row(row + 4u + far.z), rows__node_row(row + 6u));
+}
+
+fn steps__through_nodes(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	loop {
 		let node = traverse__load_current_node(walk.current, walk.at);
@@ -2464,8 +2451,8 @@ fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
 			loops__nodes_visited += 1u;
 		}
 		if (keys.x < node__MISS) {
-			branching__push_farther(node.children, keys);
-			walk.current = branching__child(node.children, keys.x);
+			steps__push_farther(node.children, keys);
+			walk.current = steps__child(node.children, keys.x);
 		}
 		else {
 			walk.current = stack__popped();
@@ -2478,24 +2465,24 @@ fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
 	return walk;
 }
 
-fn branching__push_farther(children: vec4u, keys: vec4u) {
+fn steps__push_farther(children: vec4u, keys: vec4u) {
 	if (keys.y < node__MISS) {
 		if (keys.z < node__MISS) {
 			if (keys.w < node__MISS) {
-				stack__push(branching__child(children, keys.w));
+				stack__push(steps__child(children, keys.w));
 			}
-			stack__push(branching__child(children, keys.z));
+			stack__push(steps__child(children, keys.z));
 		}
-		stack__push(branching__child(children, keys.y));
+		stack__push(steps__child(children, keys.y));
 	}
 }
 
-fn branching__child(children: vec4u, key: u32) -> u32 {
+fn steps__child(children: vec4u, key: u32) -> u32 {
 	let first = select(children.xz, children.yw, vec2<bool>((key & 1u) != 0u));
 	return select(first.x, first.y, (key & 2u) != 0u);
 }
 
-fn branching__through_leaves(before: traverse__Walk) -> traverse__Walk {
+fn steps__through_leaves(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	loop {
 		walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
@@ -2503,7 +2490,7 @@ fn branching__through_leaves(before: traverse__Walk) -> traverse__Walk {
 			loops__primitives_tested += 1u;
 		}
 		if (walk.any && walk.hit.primitive != types__NONE) {
-			walk.current = stack__EMPTY;
+			walk.current = traverse__EMPTY;
 		}
 		else if ((walk.current & types__LEAF_COUNT_MASK) == 0u) {
 			walk.current = stack__popped();
@@ -3182,6 +3169,11 @@ var<private> record_path__sampled: types__PackedRay;
 
 var<private> record_path__is_sampled: bool;
 
+fn record_path__record_ray(path: path__Path, hit: tracing__Hit) {
+	record__open_ray(path.ray, hit, path.kind, path.throughput, path.media);
+	record__traced.own_pdf = path.pdf;
+}
+
 fn record_path__record_gain(light: vec3f) {
 	if (record_path__is_sampled) {
 		record_path__sampled.contribution = light;
@@ -3194,15 +3186,12 @@ fn record_path__record_gain(light: vec3f) {
 	}
 }
 
-fn record_path__record_density(pdf: f32) {
-	record__traced.own_pdf = pdf;
-}
-
 fn record_path__record_light_density(pdf: f32) {
 	record__traced.other_pdf = pdf;
 }
 
-fn record_path__record_found(radiance: vec3f, weight: f32) {
+fn record_path__record_found(radiance: vec3f, weight: f32, pdf: f32) {
+	record__traced.own_pdf = pdf;
 	record__traced.emission = radiance;
 	record__traced.mis_weight = weight;
 }
@@ -3251,11 +3240,10 @@ fn record_path__record_passage(through: vec3f) {
 	record_path__sampled.arriving = record_path__sampled.throughput * through;
 }
 
-fn record_path__record_interface(met_here: interface__Interface, bsdf: lobes__Bsdf) {
-	record__record_media(met_here.here, medium__dominant(met_here.media), met_here.is_transparent);
+fn record_path__record_boundary(met_here: interface__Interface, bsdf: lobes__Bsdf) {
 	let split = bsdf_boundary__boundary_split(bsdf.boundary, bsdf.wo.z);
 	let boundary = fresnel__boundary_at(bsdf.boundary.flags, clamp_f32(bsdf.wo.z, 0.0, 1.0), bsdf.boundary.eta);
-	record__record_scatter(split.reflect, split.transmit, boundary, vec2f(met_here.ior, met_here.ior_behind), met_here.is_boundary);
+	record__record_interface(met_here, boundary, split.reflect, split.transmit);
 }
 
 fn record_path__record_lobe(lobe: u32) {
@@ -3409,12 +3397,12 @@ struct material__PhongMaterial {
 
 fn material__load_material(index: u32) -> material__PhongMaterial {
 	let row = types__MATERIAL_ROWS * index;
-	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
+	let r0 = rows__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = rows__material_row(row + 1u);
+	let r2 = rows__material_row(row + 2u);
 	var reflect = vec3f(0.0);
 	if (bindings__HAS_REFLECTION) {
-		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
+		reflect = bitcast<vec3f>(rows__material_row(row + 3u).xyz);
 	}
 	let phong = shading__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
 	return material__PhongMaterial(phong, r1.w);
@@ -3422,29 +3410,29 @@ fn material__load_material(index: u32) -> material__PhongMaterial {
 
 fn material__load_optics(index: u32) -> shading__Optics {
 	let row = types__MATERIAL_ROWS * index;
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = fetch__material_row(row + 4u);
+	let r1 = rows__material_row(row + 1u);
+	let r2 = rows__material_row(row + 2u);
+	let r3 = rows__material_row(row + 3u);
+	let r4 = rows__material_row(row + 4u);
 	return shading__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
 }
 
 fn material__load_flags(index: u32) -> u32 {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 1u).w;
+	return rows__material_row(types__MATERIAL_ROWS * index + 1u).w;
 }
 
 fn material__load_medium(index: u32) -> shading__Medium {
 	let row = types__MATERIAL_ROWS * index;
-	let r5 = fetch__material_row(row + 5u);
-	return shading__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
+	let r5 = rows__material_row(row + 5u);
+	return shading__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(rows__material_row(row + 3u).w), bitcast<i32>(rows__material_row(row + 4u).w));
 }
 
 fn material__load_emission(index: u32) -> vec3f {
-	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
+	return bitcast<vec3f>(rows__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
 }
 
 fn material__load_texture_indices(index: u32) -> vec4u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+	return rows__material_row(types__MATERIAL_ROWS * index + 7u);
 }
 
 struct material__CoverageMaterial {
@@ -3454,32 +3442,32 @@ struct material__CoverageMaterial {
 
 fn material__load_coverage(index: u32) -> material__CoverageMaterial {
 	let row = types__MATERIAL_ROWS * index;
-	return material__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
+	return material__CoverageMaterial(bitcast<f32>(rows__material_row(row + 5u).w), rows__material_row(row + 1u).w);
 }
 
 fn material__load_normal_scale(index: u32) -> f32 {
-	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+	return bitcast<f32>(rows__material_row(types__MATERIAL_ROWS * index + 6u).w);
 }
 
 fn material__load_texture(index: u32) -> types__PackedTexture {
 	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r5 = fetch__material_row(row + 5u);
-	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r5 = rows__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(rows__material_row(row + 2u)), bitcast<vec4f>(rows__material_row(row + 3u)), bitcast<vec4f>(rows__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
 }
 
 fn material__load_layers(index: u32) -> types__PackedLayers {
 	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
-	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
-	let r6 = fetch__material_row(row + 6u);
-	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(rows__material_row(row + 2u));
+	let r3 = rows__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(rows__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(rows__material_row(row + 5u));
+	let r6 = rows__material_row(row + 6u);
+	let r7 = rows__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), rows__material_row(row + 8u), rows__material_row(row + 9u), rows__material_row(row + 10u));
 }
 
 struct material__Glow {
@@ -3490,9 +3478,9 @@ struct material__Glow {
 
 fn material__load_glow(index: u32) -> material__Glow {
 	let row = types__MATERIAL_ROWS * index;
-	let own = fetch__material_row(row + types__LAYERS_ROW + 7u);
+	let own = rows__material_row(row + types__LAYERS_ROW + 7u);
 	let luminance = bitcast<f32>(own.y) * dot(material__load_emission(index), tone__LUMINANCE_REC709);
-	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
+	return material__Glow(own.x, luminance, rows__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
 }
 
 fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
@@ -3507,8 +3495,7 @@ fn path_vertex__traced(batch: dispatch__Batch, before: path__Path, hit: tracing_
 	let is_shadow = path__is_to_lamp(path) && shadow__may_pass(hit);
 	if (!is_shadow) {
 		dispatch__count_hit(path.kind, hit);
-		record__open_ray(path.ray, hit, path.kind, path.throughput, path.media);
-		record_path__record_density(path.pdf);
+		record_path__record_ray(path, hit);
 	}
 	if (!is_shadow && hit.primitive == types__NONE) {
 		return backdrop__missed(batch, path);
@@ -3531,8 +3518,7 @@ fn path_vertex__traced(batch: dispatch__Batch, before: path__Path, hit: tracing_
 	if (bindings__HAS_REFRACTION) {
 		path.throughput *= medium__transmittance(medium__medium_of(met.here), hit.t);
 	}
-	record__record_surface(surface);
-	record__record_arriving(path.throughput);
+	record__record_surface(surface, contact.hit, path.throughput);
 	if (bindings__HAS_COVERAGE && path.passes < path__MAX_PASSES && path__random_1d(path, dimensions__COVERAGE_CHOICE) >= coverage) {
 		record_path__record_passing();
 		return path__passed(batch, path, surface);
@@ -3548,17 +3534,16 @@ fn path_vertex__traced(batch: dispatch__Batch, before: path__Path, hit: tracing_
 	}
 	let layers = layers__layers_at(surface, optics);
 	let start = light_weight__Sender(path.origin, path.normal, shadow_catcher__density_for_lamps(path));
-	record_path__record_density(start.pdf);
 	let weight = light_weight__emission_weight(batch, surface, contact.hit, start, ray.direction);
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
 	let emission = coat * emitters__emitted(surface, optics, layers.glow);
-	record_path__record_found(emission, weight);
+	record_path__record_found(emission, weight, start.pdf);
 	let found = path.throughput * (weight * emission);
 	shadow_catcher__count_unsampled(path, found);
 	path = path__gained(path, found, path.bounces);
 	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
 	seen__see_surface(path, bsdf, emission);
-	record_path__record_interface(met, bsdf);
+	record_path__record_boundary(met, bsdf);
 	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
 		path = toward_lamp__toward_lamp(batch, path, surface, bsdf, met);
 	}
@@ -3619,7 +3604,7 @@ fn backdrop__radiance_behind(batch: dispatch__Batch, path: path__Path) -> vec3f 
 fn backdrop__missed(batch: dispatch__Batch, path: path__Path) -> path__Path {
 	let weight = environment__background_weight(batch, path.ray.direction, path.pdf);
 	let seen = backdrop__radiance_behind(batch, path);
-	record_path__record_found(seen, weight);
+	record_path__record_found(seen, weight, path.pdf);
 	features__see_albedo(path.throughput * seen, vec3f(0.0));
 	return path__ended(path__gained(path, path.throughput * (weight * seen), path.bounces));
 }
@@ -3792,7 +3777,7 @@ fn picture__texel_at(picture: u32, index: u32) -> vec4f {
 fn picture__load_texel_word(index: u32) -> u32 {
 	let row = index >> types__IMAGE_WIDTH_LOG2;
 	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
-	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
+	return rows__texel_word(place, row >> types__LAYER_ROWS_LOG2);
 }
 
 fn mis__power_heuristic(own: f32, other: f32) -> f32 {
@@ -3819,7 +3804,6 @@ struct contact__Contact {
 
 fn contact__contact_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone) -> contact__Contact {
 	var contact: contact__Contact;
-	record__seen = hit;
 	contact.hit = hit;
 	contact.touching = types__NONE;
 	var current = hit;
@@ -3893,7 +3877,6 @@ fn contact__merge(contact: contact__Contact, second: shading__Surface, is_same_v
 	else if (together) {
 		both.surface = second;
 		both.hit = primitive__runner_up;
-		record__seen = primitive__runner_up;
 	}
 	return both;
 }
@@ -4603,27 +4586,13 @@ fn media__left(media: vec4u, material: u32) -> vec4u {
 	return select(media, vec4u(media.yzw, types__NONE), vec4<bool>(x, y, z, w));
 }
 
-var<private> ray_stack__current_tree: u32;
-
-var<private> ray_stack__trees_cut_off: wide__Words;
+var<private> ray_stack__tree_cut_off: u32;
 
 var<private> ray_stack__cut_off_trees: u32;
 
 fn ray_stack__cut_tree() {
-	ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);
-	ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
-}
-
-alias wide__Words = u32;
-
-fn wide__word_at(all: wide__Words, k: u32) -> u32 {
-	return all;
-}
-
-fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
-	{
-		return value;
-	}
+	ray_stack__cut_off_trees += 1u - ray_stack__tree_cut_off;
+	ray_stack__tree_cut_off = 1u;
 }
 
 const pattern__CELL_SHIFT: f32 = 0.00073;
@@ -6226,7 +6195,7 @@ fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
 
 fn dispersion__load_dispersion(material: u32) -> f32 {
 	let own = select(material, 0u, material == types__NONE);
-	let row = fetch__material_row(types__MATERIAL_ROWS * own + types__LAYERS_ROW + 5u);
+	let row = rows__material_row(types__MATERIAL_ROWS * own + types__LAYERS_ROW + 5u);
 	return select(bitcast<f32>(row.z), 0.0, material == types__NONE);
 }
 

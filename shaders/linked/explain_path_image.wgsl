@@ -17,7 +17,6 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 				path = path_vertex__traced(batch, path, hit);
 			}
 			record__close_ray();
-			record__sender = record__traced_index;
 			continuing {
 			
 				break if !path__is_going(path);
@@ -32,21 +31,6 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 	}
 	dispatch__add_counts(group, lane);
 }
-
-@group(0) @binding(0)
-var bindings__nodes: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(1)
-var bindings__triangles: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(2)
-var bindings__vertices: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(3)
-var bindings__materials: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(4)
-var bindings__texels: texture_storage_2d_array<r32uint, read>;
 
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
@@ -751,13 +735,13 @@ struct types__PackedRay {
 	step: u32
 }
 
+const record__RECORDS: bool = true;
+
 var<private> record__traced: types__PackedRay;
 
 var<private> record__traced_index: u32;
 
 var<private> record__sender: u32;
-
-var<private> record__seen: tracing__Hit;
 
 var<private> record__ray_count: u32;
 
@@ -818,33 +802,27 @@ fn record__open_ray(ray: tracing__Ray, hit: tracing__Hit, kind: u32, throughput:
 	record__ray_count += 1u;
 }
 
-fn record__record_surface(surface: shading__Surface) {
-	record__traced.primitive = record__seen.primitive;
-	record__traced.instance = record__seen.instance;
+fn record__record_surface(surface: shading__Surface, hit: tracing__Hit, arriving: vec3f) {
+	record__traced.primitive = hit.primitive;
+	record__traced.instance = hit.instance;
 	record__traced.p = surface.p;
 	record__traced.n = surface.n;
 	record__traced.ng = surface.ng;
 	record__traced.material = surface.material;
 	record__traced.flags |= select(0u, types__RAY_OUTSIDE, surface.outside);
+	record__traced.arriving = arriving;
 }
 
-fn record__record_media(medium: u32, medium_behind: u32, transparent: bool) {
-	record__traced.medium = medium;
-	record__traced.medium_behind = select(types__NONE, medium_behind, transparent);
-	record__traced.flags |= select(0u, types__RAY_TRANSPARENT, transparent);
-}
-
-fn record__record_scatter(reflect: vec3f, transmit: vec3f, boundary: fresnel__Boundary, iors: vec2f, is_boundary: bool) {
+fn record__record_interface(met: interface__Interface, boundary: fresnel__Boundary, reflect: vec3f, transmit: vec3f) {
+	record__traced.medium = met.here;
+	record__traced.medium_behind = select(types__NONE, medium__dominant(met.media), met.is_transparent);
+	record__traced.flags |= select(0u, types__RAY_TRANSPARENT, met.is_transparent);
 	record__traced.reflect = reflect;
 	record__traced.transmit = transmit;
-	record__traced.reflectance = select(0.0, boundary.reflectance, is_boundary);
-	record__traced.ior = iors.x;
-	record__traced.ior_behind = iors.y;
-	record__traced.flags |= select(0u, types__RAY_BOUNDARY, is_boundary) | select(0u, types__RAY_TOTAL, is_boundary & boundary.total);
-}
-
-fn record__record_arriving(arriving: vec3f) {
-	record__traced.arriving = arriving;
+	record__traced.reflectance = select(0.0, boundary.reflectance, met.is_boundary);
+	record__traced.ior = met.ior;
+	record__traced.ior_behind = met.ior_behind;
+	record__traced.flags |= select(0u, types__RAY_BOUNDARY, met.is_boundary) | select(0u, types__RAY_TOTAL, met.is_boundary & boundary.total);
 }
 
 fn record__open_shadow(t_max: f32) {
@@ -863,6 +841,7 @@ fn record__record_met(hit: tracing__Hit, rest: f32) {
 
 fn record__close_ray() {
 	record__store_ray(record__traced_index, record__traced);
+	record__sender = record__traced_index;
 }
 
 fn record__store_ray(index: u32, ray: types__PackedRay) {
@@ -1013,7 +992,7 @@ fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
 }
 
 fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
-	if (bindings__COUNT_RAYS) {
+	if (bindings__COUNT_RAYS && hit.t >= 0.0) {
 		let hits = select(0u, 1u, hit.primitive != types__NONE);
 		if (kind == ray_states__KIND_PRIMARY) {
 			dispatch__counts.primary += 1u;
@@ -1108,88 +1087,83 @@ fn fetch__load_starts() {
 	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
-fn fetch__load_node(index: u32, inv: vec3f) -> tracing__Node {
-	let row = types__NODE_ROWS * index;
-	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u), inv);
-}
-
 fn fetch__load_moving_node(reference: u32, moment: motion__Moment, inv: vec3f) -> tracing__Node {
 	let moves = (reference & types__MOVING) != 0u;
 	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
 	let second = first + select(0u, 1u, moves);
-	return node__node_between(fetch__load_node(first, inv), fetch__load_node(second, inv), moment.fraction);
+	return node__node_between(steps__load_node(first, inv), steps__load_node(second, inv), moment.fraction);
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
 	let row = fetch__instance_row + types__INSTANCE_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
-	let r6 = fetch__node_row(row + 6u);
-	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
+	let r6 = rows__node_row(row + 6u);
+	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(rows__node_row(row + 7u)), bitcast<vec4f>(rows__node_row(row + 8u)), bitcast<vec4f>(rows__node_row(row + 9u)));
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
 	let row = fetch__key_row + types__KEY_ROWS * index;
-	return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
+	return types__PackedKey(bitcast<vec3f>(rows__node_row(row).xyz), 0u, bitcast<vec4f>(rows__node_row(row + 1u)), bitcast<vec3f>(rows__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(rows__node_row(row + 3u).xyz), 0u);
 }
 
 fn fetch__load_light(index: u32) -> types__PackedLight {
 	let row = fetch__light_row + types__LIGHT_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
 	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), r5.x, bitcast<f32>(r5.y), r5.z, r5.w);
 }
 
 fn fetch__load_light_end(index: u32) -> f32 {
-	let r5 = fetch__node_row(fetch__light_row + types__LIGHT_ROWS * index + 5u);
+	let r5 = rows__node_row(fetch__light_row + types__LIGHT_ROWS * index + 5u);
 	return bitcast<f32>(r5.y) + bitcast<f32>(r5.z);
 }
 
 fn fetch__load_emitter(index: u32) -> types__PackedEmitter {
-	let r0 = fetch__node_row(bindings__frame.emitter_row + index);
+	let r0 = rows__node_row(bindings__frame.emitter_row + index);
 	return types__PackedEmitter(r0.x, r0.y, bitcast<f32>(r0.z), r0.w);
 }
 
 fn fetch__load_emitter_glow(index: u32) -> f32 {
-	let row = fetch__node_row(bindings__frame.emitter_row + bindings__frame.emitter_count + index / 4u);
+	let row = rows__node_row(bindings__frame.emitter_row + bindings__frame.emitter_count + index / 4u);
 	return bitcast<f32>(row[index % 4u]);
 }
 
 fn fetch__load_cluster(index: u32) -> types__PackedCluster {
 	let row = bindings__frame.cluster_row + types__CLUSTER_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
 	return types__PackedCluster(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<f32>(r1.x), r1.y, r1.z, r1.w);
 }
 
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
 	let row = fetch__light_row + types__LIGHT_ROWS * bindings__frame.light_count * bindings__frame.light_key_count + types__CAMERA_ROWS * key;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
 	return types__PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
 }
 
 fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
 	let row = 3u * index;
-	let r0 = fetch__triangle_row(row);
-	let r1 = fetch__triangle_row(row + 1u);
-	let r2 = fetch__triangle_row(row + 2u);
+	let r0 = rows__triangle_row(row);
+	let r1 = rows__triangle_row(row + 1u);
+	let r2 = rows__triangle_row(row + 2u);
 	return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
 fn fetch__load_shape(index: u32) -> types__PackedShape {
 	let row = fetch__shape_row + types__SHAPE_ROWS * index;
-	return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
+	return fetch__shape_of(rows__triangle_row(row), rows__triangle_row(row + 1u), rows__triangle_row(row + 2u), rows__triangle_row(row + 3u), rows__triangle_row(row + 4u));
 }
 
 fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
@@ -1197,49 +1171,29 @@ fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> typ
 }
 
 fn fetch__load_vertex(index: u32) -> types__PackedVertex {
-	let r0 = fetch__vertex_row(index);
+	let r0 = rows__vertex_row(index);
 	return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
 }
 
 fn fetch__load_uvs(index: u32) -> vec4f {
-	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(fetch__uv_row + index));
 }
 
 fn fetch__load_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(2u * fetch__uv_row + index));
+	return fetch__tangent_of(rows__vertex_row(2u * fetch__uv_row + index));
 }
 
 fn fetch__load_key_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(index + 1u));
+	return fetch__tangent_of(rows__vertex_row(index + 1u));
 }
 
 fn fetch__load_color(index: u32) -> vec4f {
 	let parts = 1u + select(0u, 1u, bindings__HAS_UVS) + select(0u, 1u, bindings__HAS_TANGENTS);
-	return bitcast<vec4f>(fetch__vertex_row(parts * fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(parts * fetch__uv_row + index));
 }
 
 fn fetch__tangent_of(r0: vec4u) -> types__PackedTangent {
 	return types__PackedTangent(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w));
-}
-
-fn fetch__texel(row: u32) -> vec2u {
-	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
-}
-
-fn fetch__node_row(row: u32) -> vec4u {
-	return textureLoad(bindings__nodes, fetch__texel(row));
-}
-
-fn fetch__triangle_row(row: u32) -> vec4u {
-	return textureLoad(bindings__triangles, fetch__texel(row));
-}
-
-fn fetch__vertex_row(row: u32) -> vec4u {
-	return textureLoad(bindings__vertices, fetch__texel(row));
-}
-
-fn fetch__material_row(row: u32) -> vec4u {
-	return textureLoad(bindings__materials, fetch__texel(row));
 }
 
 var<private> albedo__albedo_first: u32;
@@ -1328,7 +1282,7 @@ fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, pixel: vec2u, sam
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
 	let eye = ray.origin - dispatch__way_to_near(batch, ray.direction) * ray.direction;
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, eye, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(rays__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, eye, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(ray_states__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
 }
 
 fn path__is_going(path: path__Path) -> bool {
@@ -1344,6 +1298,7 @@ fn path__next_walk(path: path__Path) -> traverse__Walk {
 	var any = false;
 	if (path__is_to_lamp(path)) {
 		ray = path.lamp.ray;
+		any = !(record__RECORDS || bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS));
 	}
 	return traverse__walk_of(ray, any);
 }
@@ -1390,7 +1345,7 @@ fn path__is_caught(path: path__Path) -> bool {
 
 fn path__ended(path: path__Path) -> path__Path {
 	var last = path;
-	last.ray = rays__DEAD;
+	last.ray = ray_states__DEAD;
 	return last;
 }
 
@@ -1475,7 +1430,7 @@ fn shadow__may_pass(hit: tracing__Hit) -> bool {
 
 fn shadow__arrived(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
 	var passage = before;
-	passage.ray = rays__DEAD;
+	passage.ray = ray_states__DEAD;
 	if (hit.primitive != types__NONE) {
 		record__record_met(hit, before.ray.t_max);
 		passage.through = vec3f(0.0);
@@ -1488,8 +1443,8 @@ fn shadow__arrived(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passag
 
 fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit, contact: contact__Contact, coverage: f32) -> shadow__Passage {
 	var passage = before;
-	passage.ray = rays__DEAD;
-	record__record_met(record__seen, before.ray.t_max);
+	passage.ray = ray_states__DEAD;
+	record__record_met(contact.hit, before.ray.t_max);
 	let surface = contact.surface;
 	var through = vec3f(0.0);
 	if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
@@ -1517,7 +1472,7 @@ fn shadow__rest_of(ray: tracing__Ray, distance: f32, surface: shading__Surface) 
 	let way = ray.direction - shift / rest;
 	let is_ahead = dot(way, ray.direction) > 0.0;
 	next.direction = numeric__normalize_or(way, ray.direction);
-	next.t_max = select(rays__DEAD.t_max, rest * length(way), is_ahead);
+	next.t_max = select(ray_states__DEAD.t_max, rest * length(way), is_ahead);
 	return next;
 }
 
@@ -1829,13 +1784,52 @@ fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction:
 	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.place, a.visible);
 }
 
+@group(0) @binding(0)
+var rows__nodes: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(1)
+var rows__triangles: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(2)
+var rows__vertices: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(3)
+var rows__materials: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(4)
+var rows__texels: texture_storage_2d_array<r32uint, read>;
+
+fn rows__node_row(row: u32) -> vec4u {
+	return textureLoad(rows__nodes, rows__texel(row));
+}
+
+fn rows__triangle_row(row: u32) -> vec4u {
+	return textureLoad(rows__triangles, rows__texel(row));
+}
+
+fn rows__vertex_row(row: u32) -> vec4u {
+	return textureLoad(rows__vertices, rows__texel(row));
+}
+
+fn rows__material_row(row: u32) -> vec4u {
+	return textureLoad(rows__materials, rows__texel(row));
+}
+
+fn rows__texel_word(place: vec2u, layer: u32) -> u32 {
+	return textureLoad(rows__texels, place, layer).x;
+}
+
+fn rows__texel(row: u32) -> vec2u {
+	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
+}
+
 const ray_states__KIND_PRIMARY: u32 = 0u;
 
 const ray_states__KIND_REFLECTED: u32 = 1u;
 
 const ray_states__KIND_REFRACTED: u32 = 2u;
 
-const rays__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
+const ray_states__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
 
 const filter__PI: f32 = 3.14159265;
 
@@ -2022,6 +2016,8 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	return direction.x * x + direction.y * y + direction.z * n;
 }
 
+const traverse__EMPTY: u32 = 4294967295u;
+
 const traverse__RETURN: u32 = 4294967294u;
 
 const traverse__CONTACT_RANGE: f32 = 0.0001;
@@ -2049,7 +2045,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 		primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	}
 	let shear = triangle_watertight__shear_of(ray.direction);
-	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), traverse__EMPTY);
 	if (bindings__HAS_PLANES) {
 		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
@@ -2072,7 +2068,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 }
 
 fn traverse__is_walking(walk: traverse__Walk) -> bool {
-	return walk.current != stack__EMPTY;
+	return walk.current != traverse__EMPTY;
 }
 
 fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
@@ -2085,40 +2081,12 @@ fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
 			}
 			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
 			if (is_node) {
-				loop {
-					let node = traverse__load_current_node(walk.current, walk.at);
-					let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
-					let is_hit = keys < vec4u(node__MISS);
-					let top = stack__top_of_stack();
-					let next = vec3u(node.children[keys.y & 3u], node.children[keys.z & 3u], node.children[keys.w & 3u]);
-					stack__move_stack(next, traverse__hit_count(keys) - 1);
-					walk.current = select(top, node.children[keys.x & 3u], keys.x < node__MISS);
-					if (bindings__COUNT_STEPS) {
-						loops__nodes_visited += 1u;
-					}
-					continuing {
-					
-						break if (walk.current & types__LEAF) != 0u;
-					}
-				}
+				walk = steps__through_nodes(walk);
 				loops__cut_off |= (walk.current & types__LEAF) == 0u;
 			}
-			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
+			let is_leaf = walk.current != traverse__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
 			if (is_leaf) {
-				loop {
-					walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
-					let is_last = (walk.current & types__LEAF_COUNT_MASK) == 0u;
-					walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__top_of_stack(), is_last);
-					stack__move_stack(vec3u(stack__EMPTY), select(0, -1, is_last));
-					walk.current = select(walk.current, stack__EMPTY, walk.any & (walk.hit.primitive != types__NONE));
-					if (bindings__COUNT_STEPS) {
-						loops__primitives_tested += 1u;
-					}
-					continuing {
-					
-						break if ((walk.current & types__LEAF) == 0u) | (walk.current >= types__INSTANCE);
-					}
-				}
+				walk = steps__through_leaves(walk);
 			}
 			round += 1u;
 			continuing {
@@ -2137,7 +2105,7 @@ fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
 		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
 		walk.current = stack__popped();
 	}
-	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
+	if ((walk.current >= types__INSTANCE) & (walk.current != traverse__EMPTY)) {
 		let index = walk.current & types__LEAF_FIRST_MASK;
 		let instance = fetch__load_instance(index);
 		let local = instance__object_ray(walk.ray, instance__space_of(instance));
@@ -2148,16 +2116,11 @@ fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
 	return walk;
 }
 
-fn traverse__hit_count(keys: vec4u) -> i32 {
-	let hits = select(vec4i(0), vec4i(1), keys < vec4u(node__MISS));
-	return hits.x + hits.y + hits.z + hits.w;
-}
-
 fn traverse__load_current_node(reference: u32, at: primitive__TraversalRay) -> tracing__Node {
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
 		return deforming__node_now(reference, at.keys, at.inv);
 	}
-	return fetch__load_node(reference, at.inv);
+	return steps__load_node(reference, at.inv);
 }
 
 struct triangle_watertight__Shear {
@@ -2346,7 +2309,29 @@ fn deforming__tangent_at(vertex: u32, is_later: bool) -> vec4f {
 	return vec4f(tangent.direction, tangent.handedness);
 }
 
-const stack__EMPTY: u32 = 4294967295u;
+const numeric__ROUNDING: f32 = 5.9604645e-8;
+
+fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
+	let largest = max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
+	let usable = largest > 1e-30;
+	let shrink = select(1.0, 2.3283064e-10, largest > 1e37);
+	let scaled = select(vec3f(1.0, 0.0, 0.0), (shrink * v) / select(1.0, shrink * largest, usable), usable);
+	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
+}
+
+fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
+	let tiny = abs(d) < vec3f(1e-18);
+	return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
+}
+
+fn numeric__is_finite(v: vec3f) -> bool {
+	let exponents = bitcast<vec3u>(v) & vec3u(2139095040u);
+	return all(exponents != vec3u(2139095040u));
+}
+
+fn numeric__max_component(v: vec3f) -> f32 {
+	return max_f32(v.x, max_f32(v.y, v.z));
+}
 
 var<private> stack__top: u32;
 
@@ -2368,48 +2353,36 @@ var<private> stack__s6: vec4u;
 
 var<private> stack__s7: vec4u;
 
-fn stack__entry_at(index: u32) -> u32 {
-	return stack__entries[index];
-}
-
-fn stack__put_entry(index: u32, reference: u32) {
-	stack__entries[index] = reference;
-}
-
 fn stack__start_stack() {
 	if (bindings__STACK_REGISTERS > 0u) {
-		stack__s0 = vec4u(stack__EMPTY);
-		stack__s1 = vec4u(stack__EMPTY);
-		stack__s2 = vec4u(stack__EMPTY);
-		stack__s3 = vec4u(stack__EMPTY);
-		stack__s4 = vec4u(stack__EMPTY);
-		stack__s5 = vec4u(stack__EMPTY);
-		stack__s6 = vec4u(stack__EMPTY);
-		stack__s7 = vec4u(stack__EMPTY);
+		stack__s0 = vec4u(traverse__EMPTY);
+		stack__s1 = vec4u(traverse__EMPTY);
+		stack__s2 = vec4u(traverse__EMPTY);
+		stack__s3 = vec4u(traverse__EMPTY);
+		stack__s4 = vec4u(traverse__EMPTY);
+		stack__s5 = vec4u(traverse__EMPTY);
+		stack__s6 = vec4u(traverse__EMPTY);
+		stack__s7 = vec4u(traverse__EMPTY);
 		return;
 	}
 	stack__top = 0u;
-	stack__put_entry(0u, stack__EMPTY);
+	stack__entries[0] = traverse__EMPTY;
 }
 
 fn stack__top_of_stack() -> u32 {
 	if (bindings__STACK_REGISTERS > 0u) {
 		return stack__s0.x;
 	}
-	return stack__entry_at(stack__top);
+	return stack__entries[stack__top];
 }
 
 fn stack__push(reference: u32) {
-	{
-		stack__move_stack(vec3u(reference, stack__EMPTY, stack__EMPTY), 1);
-	}
+	stack__move_stack(vec3u(reference, traverse__EMPTY, traverse__EMPTY), 1);
 }
 
 fn stack__popped() -> u32 {
 	let reference = stack__top_of_stack();
-	{
-		stack__move_stack(vec3u(stack__EMPTY), -1);
-	}
+	stack__move_stack(vec3u(traverse__EMPTY), -1);
 	return reference;
 }
 
@@ -2419,30 +2392,30 @@ fn stack__move_stack(references: vec3u, count: i32) {
 		return;
 	}
 	if (count < 0) {
-		if (stack__entry_at(stack__top) != stack__EMPTY) {
+		if (stack__entries[stack__top] != traverse__EMPTY) {
 			stack__top -= 1u;
 		}
 		return;
 	}
 	if (count >= 3) {
 		stack__top += 1u;
-		stack__put_entry(stack__top, references.z);
+		stack__entries[stack__top] = references.z;
 	}
 	if (count >= 2) {
 		stack__top += 1u;
-		stack__put_entry(stack__top, references.y);
+		stack__entries[stack__top] = references.y;
 	}
 	if (count >= 1) {
 		stack__top += 1u;
-		stack__put_entry(stack__top, references.x);
+		stack__entries[stack__top] = references.x;
 	}
 }
 
 fn stack__move_registers(references: vec3u, count: i32) {
-	let above = vec4u(stack__EMPTY, references.x, select(references.y, references.x, count == 2), select(select(references.z, references.y, count == 2), references.x, count == 1));
+	let above = vec4u(traverse__EMPTY, references.x, select(references.y, references.x, count == 2), select(select(references.z, references.y, count == 2), references.x, count == 1));
 	let last = stack__last_register();
 	let deepest = select(select(last.y, last.z, count == 2), last.w, count == 1);
-	loops__is_stack_full |= (count > 0) & (deepest != stack__EMPTY);
+	loops__is_stack_full |= (count > 0) & (deepest != traverse__EMPTY);
 	let m0 = stack__moved(above, stack__s0, stack__s1, count);
 	var m1: vec4u;
 	if (bindings__STACK_REGISTERS > 1u) {
@@ -2470,7 +2443,7 @@ fn stack__move_registers(references: vec3u, count: i32) {
 	}
 	var m7: vec4u;
 	if (bindings__STACK_REGISTERS > 7u) {
-		m7 = stack__moved(stack__s6, stack__s7, vec4u(stack__EMPTY), count);
+		m7 = stack__moved(stack__s6, stack__s7, vec4u(traverse__EMPTY), count);
 	}
 	stack__s0 = m0;
 	if (bindings__STACK_REGISTERS > 1u) {
@@ -2528,30 +2501,6 @@ fn stack__moved(above: vec4u, here: vec4u, below: vec4u, count: i32) -> vec4u {
 	return select(next, vec4u(above.yzw, here.x), count == 3);
 }
 
-const numeric__ROUNDING: f32 = 5.9604645e-8;
-
-fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
-	let largest = max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
-	let usable = largest > 1e-30;
-	let shrink = select(1.0, 2.3283064e-10, largest > 1e37);
-	let scaled = select(vec3f(1.0, 0.0, 0.0), (shrink * v) / select(1.0, shrink * largest, usable), usable);
-	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
-}
-
-fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
-	let tiny = abs(d) < vec3f(1e-18);
-	return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
-}
-
-fn numeric__is_finite(v: vec3f) -> bool {
-	let exponents = bitcast<vec3u>(v) & vec3u(2139095040u);
-	return all(exponents != vec3u(2139095040u));
-}
-
-fn numeric__max_component(v: vec3f) -> f32 {
-	return max_f32(v.x, max_f32(v.y, v.z));
-}
-
 var<private> loops__nodes_visited: u32;
 
 var<private> loops__primitives_tested: u32;
@@ -2593,6 +2542,55 @@ fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
 fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
 	let at = vec4f(q, 1.0);
 	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
+}
+
+fn steps__load_node(index: u32, inv: vec3f) -> tracing__Node {
+	let row = types__NODE_ROWS * index;
+	return node__decode_node(rows__node_row(row), rows__node_row(row + 1u), rows__node_row(row + 2u), rows__node_row(row + 3u), inv);
+}
+
+fn steps__through_nodes(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	loop {
+		let node = traverse__load_current_node(walk.current, walk.at);
+		let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
+		let top = stack__top_of_stack();
+		let next = vec3u(node.children[keys.y & 3u], node.children[keys.z & 3u], node.children[keys.w & 3u]);
+		stack__move_stack(next, steps__hit_count(keys) - 1);
+		walk.current = select(top, node.children[keys.x & 3u], keys.x < node__MISS);
+		if (bindings__COUNT_STEPS) {
+			loops__nodes_visited += 1u;
+		}
+		continuing {
+		
+			break if (walk.current & types__LEAF) != 0u;
+		}
+	}
+	return walk;
+}
+
+fn steps__hit_count(keys: vec4u) -> i32 {
+	let hits = select(vec4i(0), vec4i(1), keys < vec4u(node__MISS));
+	return hits.x + hits.y + hits.z + hits.w;
+}
+
+fn steps__through_leaves(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	loop {
+		walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
+		let is_last = (walk.current & types__LEAF_COUNT_MASK) == 0u;
+		walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__top_of_stack(), is_last);
+		stack__move_stack(vec3u(traverse__EMPTY), select(0, -1, is_last));
+		walk.current = select(walk.current, traverse__EMPTY, walk.any & (walk.hit.primitive != types__NONE));
+		if (bindings__COUNT_STEPS) {
+			loops__primitives_tested += 1u;
+		}
+		continuing {
+		
+			break if ((walk.current & types__LEAF) == 0u) | (walk.current >= types__INSTANCE);
+		}
+	}
+	return walk;
 }
 
 const node__MISS: u32 = 4294967292u;
@@ -3262,6 +3260,11 @@ var<private> record_path__sampled: types__PackedRay;
 
 var<private> record_path__is_sampled: bool;
 
+fn record_path__record_ray(path: path__Path, hit: tracing__Hit) {
+	record__open_ray(path.ray, hit, path.kind, path.throughput, path.media);
+	record__traced.own_pdf = path.pdf;
+}
+
 fn record_path__record_gain(light: vec3f) {
 	if (record_path__is_sampled) {
 		record_path__sampled.contribution = light;
@@ -3274,15 +3277,12 @@ fn record_path__record_gain(light: vec3f) {
 	}
 }
 
-fn record_path__record_density(pdf: f32) {
-	record__traced.own_pdf = pdf;
-}
-
 fn record_path__record_light_density(pdf: f32) {
 	record__traced.other_pdf = pdf;
 }
 
-fn record_path__record_found(radiance: vec3f, weight: f32) {
+fn record_path__record_found(radiance: vec3f, weight: f32, pdf: f32) {
+	record__traced.own_pdf = pdf;
 	record__traced.emission = radiance;
 	record__traced.mis_weight = weight;
 }
@@ -3331,11 +3331,10 @@ fn record_path__record_passage(through: vec3f) {
 	record_path__sampled.arriving = record_path__sampled.throughput * through;
 }
 
-fn record_path__record_interface(met_here: interface__Interface, bsdf: lobes__Bsdf) {
-	record__record_media(met_here.here, medium__dominant(met_here.media), met_here.is_transparent);
+fn record_path__record_boundary(met_here: interface__Interface, bsdf: lobes__Bsdf) {
 	let split = bsdf_boundary__boundary_split(bsdf.boundary, bsdf.wo.z);
 	let boundary = fresnel__boundary_at(bsdf.boundary.flags, clamp_f32(bsdf.wo.z, 0.0, 1.0), bsdf.boundary.eta);
-	record__record_scatter(split.reflect, split.transmit, boundary, vec2f(met_here.ior, met_here.ior_behind), met_here.is_boundary);
+	record__record_interface(met_here, boundary, split.reflect, split.transmit);
 }
 
 fn record_path__record_lobe(lobe: u32) {
@@ -3489,12 +3488,12 @@ struct material__PhongMaterial {
 
 fn material__load_material(index: u32) -> material__PhongMaterial {
 	let row = types__MATERIAL_ROWS * index;
-	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
+	let r0 = rows__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = rows__material_row(row + 1u);
+	let r2 = rows__material_row(row + 2u);
 	var reflect = vec3f(0.0);
 	if (bindings__HAS_REFLECTION) {
-		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
+		reflect = bitcast<vec3f>(rows__material_row(row + 3u).xyz);
 	}
 	let phong = shading__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
 	return material__PhongMaterial(phong, r1.w);
@@ -3502,29 +3501,29 @@ fn material__load_material(index: u32) -> material__PhongMaterial {
 
 fn material__load_optics(index: u32) -> shading__Optics {
 	let row = types__MATERIAL_ROWS * index;
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = fetch__material_row(row + 4u);
+	let r1 = rows__material_row(row + 1u);
+	let r2 = rows__material_row(row + 2u);
+	let r3 = rows__material_row(row + 3u);
+	let r4 = rows__material_row(row + 4u);
 	return shading__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
 }
 
 fn material__load_flags(index: u32) -> u32 {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 1u).w;
+	return rows__material_row(types__MATERIAL_ROWS * index + 1u).w;
 }
 
 fn material__load_medium(index: u32) -> shading__Medium {
 	let row = types__MATERIAL_ROWS * index;
-	let r5 = fetch__material_row(row + 5u);
-	return shading__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
+	let r5 = rows__material_row(row + 5u);
+	return shading__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(rows__material_row(row + 3u).w), bitcast<i32>(rows__material_row(row + 4u).w));
 }
 
 fn material__load_emission(index: u32) -> vec3f {
-	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
+	return bitcast<vec3f>(rows__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
 }
 
 fn material__load_texture_indices(index: u32) -> vec4u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+	return rows__material_row(types__MATERIAL_ROWS * index + 7u);
 }
 
 struct material__CoverageMaterial {
@@ -3534,32 +3533,32 @@ struct material__CoverageMaterial {
 
 fn material__load_coverage(index: u32) -> material__CoverageMaterial {
 	let row = types__MATERIAL_ROWS * index;
-	return material__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
+	return material__CoverageMaterial(bitcast<f32>(rows__material_row(row + 5u).w), rows__material_row(row + 1u).w);
 }
 
 fn material__load_normal_scale(index: u32) -> f32 {
-	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+	return bitcast<f32>(rows__material_row(types__MATERIAL_ROWS * index + 6u).w);
 }
 
 fn material__load_texture(index: u32) -> types__PackedTexture {
 	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r5 = fetch__material_row(row + 5u);
-	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r5 = rows__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(rows__material_row(row + 2u)), bitcast<vec4f>(rows__material_row(row + 3u)), bitcast<vec4f>(rows__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
 }
 
 fn material__load_layers(index: u32) -> types__PackedLayers {
 	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
-	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
-	let r6 = fetch__material_row(row + 6u);
-	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(rows__material_row(row + 2u));
+	let r3 = rows__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(rows__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(rows__material_row(row + 5u));
+	let r6 = rows__material_row(row + 6u);
+	let r7 = rows__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), rows__material_row(row + 8u), rows__material_row(row + 9u), rows__material_row(row + 10u));
 }
 
 struct material__Glow {
@@ -3570,9 +3569,9 @@ struct material__Glow {
 
 fn material__load_glow(index: u32) -> material__Glow {
 	let row = types__MATERIAL_ROWS * index;
-	let own = fetch__material_row(row + types__LAYERS_ROW + 7u);
+	let own = rows__material_row(row + types__LAYERS_ROW + 7u);
 	let luminance = bitcast<f32>(own.y) * dot(material__load_emission(index), tone__LUMINANCE_REC709);
-	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
+	return material__Glow(own.x, luminance, rows__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
 }
 
 fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
@@ -3587,8 +3586,7 @@ fn path_vertex__traced(batch: dispatch__Batch, before: path__Path, hit: tracing_
 	let is_shadow = path__is_to_lamp(path) && shadow__may_pass(hit);
 	if (!is_shadow) {
 		dispatch__count_hit(path.kind, hit);
-		record__open_ray(path.ray, hit, path.kind, path.throughput, path.media);
-		record_path__record_density(path.pdf);
+		record_path__record_ray(path, hit);
 	}
 	if (!is_shadow && hit.primitive == types__NONE) {
 		return backdrop__missed(batch, path);
@@ -3611,8 +3609,7 @@ fn path_vertex__traced(batch: dispatch__Batch, before: path__Path, hit: tracing_
 	if (bindings__HAS_REFRACTION) {
 		path.throughput *= medium__transmittance(medium__medium_of(met.here), hit.t);
 	}
-	record__record_surface(surface);
-	record__record_arriving(path.throughput);
+	record__record_surface(surface, contact.hit, path.throughput);
 	if (bindings__HAS_COVERAGE && path.passes < path__MAX_PASSES && path__random_1d(path, dimensions__COVERAGE_CHOICE) >= coverage) {
 		record_path__record_passing();
 		return path__passed(batch, path, surface);
@@ -3628,17 +3625,16 @@ fn path_vertex__traced(batch: dispatch__Batch, before: path__Path, hit: tracing_
 	}
 	let layers = layers__layers_at(surface, optics);
 	let start = light_weight__Sender(path.origin, path.normal, shadow_catcher__density_for_lamps(path));
-	record_path__record_density(start.pdf);
 	let weight = light_weight__emission_weight(batch, surface, contact.hit, start, ray.direction);
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
 	let emission = coat * emitters__emitted(surface, optics, layers.glow);
-	record_path__record_found(emission, weight);
+	record_path__record_found(emission, weight, start.pdf);
 	let found = path.throughput * (weight * emission);
 	shadow_catcher__count_unsampled(path, found);
 	path = path__gained(path, found, path.bounces);
 	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
 	seen__see_surface(path, bsdf, emission);
-	record_path__record_interface(met, bsdf);
+	record_path__record_boundary(met, bsdf);
 	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
 		path = toward_lamp__toward_lamp(batch, path, surface, bsdf, met);
 	}
@@ -3699,7 +3695,7 @@ fn backdrop__radiance_behind(batch: dispatch__Batch, path: path__Path) -> vec3f 
 fn backdrop__missed(batch: dispatch__Batch, path: path__Path) -> path__Path {
 	let weight = environment__background_weight(batch, path.ray.direction, path.pdf);
 	let seen = backdrop__radiance_behind(batch, path);
-	record_path__record_found(seen, weight);
+	record_path__record_found(seen, weight, path.pdf);
 	features__see_albedo(path.throughput * seen, vec3f(0.0));
 	return path__ended(path__gained(path, path.throughput * (weight * seen), path.bounces));
 }
@@ -3872,7 +3868,7 @@ fn picture__texel_at(picture: u32, index: u32) -> vec4f {
 fn picture__load_texel_word(index: u32) -> u32 {
 	let row = index >> types__IMAGE_WIDTH_LOG2;
 	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
-	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2).x;
+	return rows__texel_word(place, row >> types__LAYER_ROWS_LOG2);
 }
 
 fn mis__power_heuristic(own: f32, other: f32) -> f32 {
@@ -3899,7 +3895,6 @@ struct contact__Contact {
 
 fn contact__contact_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone) -> contact__Contact {
 	var contact: contact__Contact;
-	record__seen = hit;
 	contact.hit = hit;
 	contact.touching = types__NONE;
 	var current = hit;
@@ -3973,7 +3968,6 @@ fn contact__merge(contact: contact__Contact, second: shading__Surface, is_same_v
 	else if (together) {
 		both.surface = second;
 		both.hit = primitive__runner_up;
-		record__seen = primitive__runner_up;
 	}
 	return both;
 }
@@ -4683,27 +4677,13 @@ fn media__left(media: vec4u, material: u32) -> vec4u {
 	return select(media, vec4u(media.yzw, types__NONE), vec4<bool>(x, y, z, w));
 }
 
-var<private> ray_stack__current_tree: u32;
-
-var<private> ray_stack__trees_cut_off: wide__Words;
+var<private> ray_stack__tree_cut_off: u32;
 
 var<private> ray_stack__cut_off_trees: u32;
 
 fn ray_stack__cut_tree() {
-	ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);
-	ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
-}
-
-alias wide__Words = u32;
-
-fn wide__word_at(all: wide__Words, k: u32) -> u32 {
-	return all;
-}
-
-fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
-	{
-		return value;
-	}
+	ray_stack__cut_off_trees += 1u - ray_stack__tree_cut_off;
+	ray_stack__tree_cut_off = 1u;
 }
 
 const pattern__CELL_SHIFT: f32 = 0.00073;
@@ -6306,7 +6286,7 @@ fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
 
 fn dispersion__load_dispersion(material: u32) -> f32 {
 	let own = select(material, 0u, material == types__NONE);
-	let row = fetch__material_row(types__MATERIAL_ROWS * own + types__LAYERS_ROW + 5u);
+	let row = rows__material_row(types__MATERIAL_ROWS * own + types__LAYERS_ROW + 5u);
 	return select(bitcast<f32>(row.z), 0.0, material == types__NONE);
 }
 

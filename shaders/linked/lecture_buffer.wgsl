@@ -584,52 +584,52 @@ fn fetch__load_starts() {
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
 	let row = fetch__instance_row + types__INSTANCE_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
-	let r6 = fetch__node_row(row + 6u);
-	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
+	let r6 = rows__node_row(row + 6u);
+	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(rows__node_row(row + 7u)), bitcast<vec4f>(rows__node_row(row + 8u)), bitcast<vec4f>(rows__node_row(row + 9u)));
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
 	let row = fetch__key_row + types__KEY_ROWS * index;
-	return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
+	return types__PackedKey(bitcast<vec3f>(rows__node_row(row).xyz), 0u, bitcast<vec4f>(rows__node_row(row + 1u)), bitcast<vec3f>(rows__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(rows__node_row(row + 3u).xyz), 0u);
 }
 
 fn fetch__load_light(index: u32) -> types__PackedLight {
 	let row = fetch__light_row + types__LIGHT_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
 	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), r5.x, bitcast<f32>(r5.y), r5.z, r5.w);
 }
 
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
 	let row = fetch__light_row + types__LIGHT_ROWS * bindings__frame.light_count * bindings__frame.light_key_count + types__CAMERA_ROWS * key;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
 	return types__PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
 }
 
 fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
 	let row = 3u * index;
-	let r0 = fetch__triangle_row(row);
-	let r1 = fetch__triangle_row(row + 1u);
-	let r2 = fetch__triangle_row(row + 2u);
+	let r0 = rows__triangle_row(row);
+	let r1 = rows__triangle_row(row + 1u);
+	let r2 = rows__triangle_row(row + 2u);
 	return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
 fn fetch__load_shape(index: u32) -> types__PackedShape {
 	let row = fetch__shape_row + types__SHAPE_ROWS * index;
-	return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
+	return fetch__shape_of(rows__triangle_row(row), rows__triangle_row(row + 1u), rows__triangle_row(row + 2u), rows__triangle_row(row + 3u), rows__triangle_row(row + 4u));
 }
 
 fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
@@ -637,61 +637,30 @@ fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> typ
 }
 
 fn fetch__load_vertex(index: u32) -> types__PackedVertex {
-	let r0 = fetch__vertex_row(index);
+	let r0 = rows__vertex_row(index);
 	return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
 }
 
 fn fetch__load_uvs(index: u32) -> vec4f {
-	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(fetch__uv_row + index));
 }
 
 fn fetch__load_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(2u * fetch__uv_row + index));
+	return fetch__tangent_of(rows__vertex_row(2u * fetch__uv_row + index));
 }
 
 fn fetch__load_key_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(index + 1u));
+	return fetch__tangent_of(rows__vertex_row(index + 1u));
 }
 
 fn fetch__load_color(index: u32) -> vec4f {
 	let parts = 1u + select(0u, 1u, bindings__HAS_UVS) + select(0u, 1u, bindings__HAS_TANGENTS);
-	return bitcast<vec4f>(fetch__vertex_row(parts * fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(parts * fetch__uv_row + index));
 }
 
 fn fetch__tangent_of(r0: vec4u) -> types__PackedTangent {
 	return types__PackedTangent(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w));
 }
-
-fn fetch__node_row(row: u32) -> vec4u {
-	return bindings__nodes[row];
-}
-
-fn fetch__triangle_row(row: u32) -> vec4u {
-	return bindings__triangles[row];
-}
-
-fn fetch__vertex_row(row: u32) -> vec4u {
-	return bindings__vertices[row];
-}
-
-fn fetch__material_row(row: u32) -> vec4u {
-	return bindings__materials[row];
-}
-
-@group(0) @binding(0)
-var<storage, read> bindings__nodes: array<vec4u>;
-
-@group(0) @binding(1)
-var<storage, read> bindings__triangles: array<vec4u>;
-
-@group(0) @binding(2)
-var<storage, read> bindings__vertices: array<vec4u>;
-
-@group(0) @binding(3)
-var<storage, read> bindings__materials: array<vec4u>;
-
-@group(0) @binding(4)
-var bindings__texels: texture_2d_array<u32>;
 
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
@@ -1120,6 +1089,41 @@ fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fracti
 	return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
 }
 
+@group(0) @binding(0)
+var<storage, read> rows__nodes: array<vec4u>;
+
+@group(0) @binding(1)
+var<storage, read> rows__triangles: array<vec4u>;
+
+@group(0) @binding(2)
+var<storage, read> rows__vertices: array<vec4u>;
+
+@group(0) @binding(3)
+var<storage, read> rows__materials: array<vec4u>;
+
+@group(0) @binding(4)
+var rows__texels: texture_2d_array<u32>;
+
+fn rows__node_row(row: u32) -> vec4u {
+	return rows__nodes[row];
+}
+
+fn rows__triangle_row(row: u32) -> vec4u {
+	return rows__triangles[row];
+}
+
+fn rows__vertex_row(row: u32) -> vec4u {
+	return rows__vertices[row];
+}
+
+fn rows__material_row(row: u32) -> vec4u {
+	return rows__materials[row];
+}
+
+fn rows__texel_word(place: vec2u, layer: u32) -> u32 {
+	return textureLoad(rows__texels, place, layer, 0).x;
+}
+
 const camera__T_FAR: f32 = 3e38;
 
 fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> tracing__Ray {
@@ -1411,7 +1415,7 @@ fn picture__texel_at(picture: u32, index: u32) -> vec4f {
 fn picture__load_texel_word(index: u32) -> u32 {
 	let row = index >> types__IMAGE_WIDTH_LOG2;
 	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
-	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
+	return rows__texel_word(place, row >> types__LAYER_ROWS_LOG2);
 }
 
 fn surface__surface_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone) -> shading__Surface {
@@ -1732,44 +1736,44 @@ struct material__PhongMaterial {
 
 fn material__load_material(index: u32) -> material__PhongMaterial {
 	let row = types__MATERIAL_ROWS * index;
-	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
+	let r0 = rows__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = rows__material_row(row + 1u);
+	let r2 = rows__material_row(row + 2u);
 	var reflect = vec3f(0.0);
 	if (bindings__HAS_REFLECTION) {
-		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
+		reflect = bitcast<vec3f>(rows__material_row(row + 3u).xyz);
 	}
 	let phong = shading__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
 	return material__PhongMaterial(phong, r1.w);
 }
 
 fn material__load_texture_indices(index: u32) -> vec4u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+	return rows__material_row(types__MATERIAL_ROWS * index + 7u);
 }
 
 fn material__load_normal_scale(index: u32) -> f32 {
-	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+	return bitcast<f32>(rows__material_row(types__MATERIAL_ROWS * index + 6u).w);
 }
 
 fn material__load_texture(index: u32) -> types__PackedTexture {
 	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r5 = fetch__material_row(row + 5u);
-	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r5 = rows__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(rows__material_row(row + 2u)), bitcast<vec4f>(rows__material_row(row + 3u)), bitcast<vec4f>(rows__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
 }
 
 fn material__load_layers(index: u32) -> types__PackedLayers {
 	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
-	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
-	let r6 = fetch__material_row(row + 6u);
-	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(rows__material_row(row + 2u));
+	let r3 = rows__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(rows__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(rows__material_row(row + 5u));
+	let r6 = rows__material_row(row + 6u);
+	let r7 = rows__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), rows__material_row(row + 8u), rows__material_row(row + 9u), rows__material_row(row + 10u));
 }
 
 fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {

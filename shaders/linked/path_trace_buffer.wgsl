@@ -1,19 +1,17 @@
-const WALK_ROUNDS: u32 = traverse__NO_LIMIT;
-
 const WALKS: u32 = 2u;
 
 @compute @workgroup_size(64, 1, 1)
 fn path_trace(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
 	let batch = dispatch__load_batch();
 	stack__take_stack(lane);
-	var pixels = pixels__load_pixels(batch, block__load_block(group), lane);
+	var pixel = pixels__load_pixel(batch, block__load_block(group), lane);
 	var sample = batch.first_sample;
-	var path = path__camera_path(batch, pixels, sample);
+	var path = path__camera_path(batch, pixel, sample);
 	var walk = path__next_walk(path);
 	loop {
 		var walks = 0u;
 		loop {
-			walk = traverse__walked(walk, WALK_ROUNDS);
+			walk = traverse__walked(walk, steps__WALK_ROUNDS);
 			if (!traverse__is_walking(walk) && path__is_to_lamp(path) && !shadow__may_pass(walk.hit)) {
 				path = path__lit(path, shadow__arrived(path.lamp, walk.hit));
 				walk = path__next_walk(path);
@@ -30,9 +28,9 @@ fn path_trace(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 				path = path_vertex__traced(batch, path, walk.hit);
 			}
 			if (!path__is_going(path)) {
-				pixels = pixels__add_samples(pixels, sample, wide__Vectors(path.radiance.x, path.radiance.y, path.radiance.z));
+				pixel = pixels__with_sample(pixel, sample, path.radiance);
 				sample += 1u;
-				path = path__camera_path(batch, pixels, sample);
+				path = path__camera_path(batch, pixel, sample);
 			}
 			walk = path__next_walk(path);
 		}
@@ -42,7 +40,7 @@ fn path_trace(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 		}
 	}
 	loops__cut_off |= sample < batch.end_sample;
-	pixels__store_pixels(pixels);
+	pixels__store_pixel(pixel);
 	dispatch__add_counts(group, lane);
 }
 
@@ -171,7 +169,7 @@ fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
 }
 
 fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
-	if (bindings__COUNT_RAYS) {
+	if (bindings__COUNT_RAYS && hit.t >= 0.0) {
 		let hits = select(0u, 1u, hit.primitive != types__NONE);
 		if (kind == ray_states__KIND_PRIMARY) {
 			dispatch__counts.primary += 1u;
@@ -460,6 +458,22 @@ const types__TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
 
 const types__TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
 
+const types__LOBE_DIFFUSE: u32 = 0u;
+
+const types__LOBE_GLOSSY: u32 = 1u;
+
+const types__LOBE_COAT: u32 = 2u;
+
+const types__LOBE_SHEEN: u32 = 3u;
+
+const types__LOBE_BOUNDARY: u32 = 4u;
+
+const types__SOURCE_LIGHT: u32 = 0u;
+
+const types__SOURCE_EMITTER: u32 = 1u;
+
+const types__SOURCE_ENVIRONMENT: u32 = 2u;
+
 struct types__PackedTriangle {
 	v0: vec3f,
 	i0: u32,
@@ -731,90 +745,83 @@ fn fetch__load_starts() {
 	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
-fn fetch__load_node(index: u32, inv: vec3f) -> tracing__Node {
-	let row = types__FLOAT_NODE_ROWS * index;
-	let near = select(vec3u(0u), vec3u(1u), inv < vec3f(0.0));
-	let far = vec3u(1u) - near;
-	return node__float_node(fetch__node_row(row + near.x), fetch__node_row(row + far.x), fetch__node_row(row + 2u + near.y), fetch__node_row(row + 2u + far.y), fetch__node_row(row + 4u + near.z), fetch__node_row(row + 4u + far.z), fetch__node_row(row + 6u));
-}
-
 fn fetch__load_moving_node(reference: u32, moment: motion__Moment, inv: vec3f) -> tracing__Node {
 	let moves = (reference & types__MOVING) != 0u;
 	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
 	let second = first + select(0u, 1u, moves);
-	return node__node_between(fetch__load_node(first, inv), fetch__load_node(second, inv), moment.fraction);
+	return node__node_between(steps__load_node(first, inv), steps__load_node(second, inv), moment.fraction);
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
 	let row = fetch__instance_row + types__INSTANCE_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
-	let r6 = fetch__node_row(row + 6u);
-	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
+	let r6 = rows__node_row(row + 6u);
+	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(rows__node_row(row + 7u)), bitcast<vec4f>(rows__node_row(row + 8u)), bitcast<vec4f>(rows__node_row(row + 9u)));
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
 	let row = fetch__key_row + types__KEY_ROWS * index;
-	return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
+	return types__PackedKey(bitcast<vec3f>(rows__node_row(row).xyz), 0u, bitcast<vec4f>(rows__node_row(row + 1u)), bitcast<vec3f>(rows__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(rows__node_row(row + 3u).xyz), 0u);
 }
 
 fn fetch__load_light(index: u32) -> types__PackedLight {
 	let row = fetch__light_row + types__LIGHT_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
 	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), r5.x, bitcast<f32>(r5.y), r5.z, r5.w);
 }
 
 fn fetch__load_light_end(index: u32) -> f32 {
-	let r5 = fetch__node_row(fetch__light_row + types__LIGHT_ROWS * index + 5u);
+	let r5 = rows__node_row(fetch__light_row + types__LIGHT_ROWS * index + 5u);
 	return bitcast<f32>(r5.y) + bitcast<f32>(r5.z);
 }
 
 fn fetch__load_emitter(index: u32) -> types__PackedEmitter {
-	let r0 = fetch__node_row(bindings__frame.emitter_row + index);
+	let r0 = rows__node_row(bindings__frame.emitter_row + index);
 	return types__PackedEmitter(r0.x, r0.y, bitcast<f32>(r0.z), r0.w);
 }
 
 fn fetch__load_emitter_glow(index: u32) -> f32 {
-	let row = fetch__node_row(bindings__frame.emitter_row + bindings__frame.emitter_count + index / 4u);
+	let row = rows__node_row(bindings__frame.emitter_row + bindings__frame.emitter_count + index / 4u);
 	return bitcast<f32>(row[index % 4u]);
 }
 
 fn fetch__load_cluster(index: u32) -> types__PackedCluster {
 	let row = bindings__frame.cluster_row + types__CLUSTER_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
 	return types__PackedCluster(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<f32>(r1.x), r1.y, r1.z, r1.w);
 }
 
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
 	let row = fetch__light_row + types__LIGHT_ROWS * bindings__frame.light_count * bindings__frame.light_key_count + types__CAMERA_ROWS * key;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
 	return types__PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
 }
 
 fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
 	let row = 3u * index;
-	let r0 = fetch__triangle_row(row);
-	let r1 = fetch__triangle_row(row + 1u);
-	let r2 = fetch__triangle_row(row + 2u);
+	let r0 = rows__triangle_row(row);
+	let r1 = rows__triangle_row(row + 1u);
+	let r2 = rows__triangle_row(row + 2u);
 	return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
 fn fetch__load_shape(index: u32) -> types__PackedShape {
 	let row = fetch__shape_row + types__SHAPE_ROWS * index;
-	return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
+	return fetch__shape_of(rows__triangle_row(row), rows__triangle_row(row + 1u), rows__triangle_row(row + 2u), rows__triangle_row(row + 3u), rows__triangle_row(row + 4u));
 }
 
 fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
@@ -822,61 +829,30 @@ fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> typ
 }
 
 fn fetch__load_vertex(index: u32) -> types__PackedVertex {
-	let r0 = fetch__vertex_row(index);
+	let r0 = rows__vertex_row(index);
 	return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
 }
 
 fn fetch__load_uvs(index: u32) -> vec4f {
-	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(fetch__uv_row + index));
 }
 
 fn fetch__load_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(2u * fetch__uv_row + index));
+	return fetch__tangent_of(rows__vertex_row(2u * fetch__uv_row + index));
 }
 
 fn fetch__load_key_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(index + 1u));
+	return fetch__tangent_of(rows__vertex_row(index + 1u));
 }
 
 fn fetch__load_color(index: u32) -> vec4f {
 	let parts = 1u + select(0u, 1u, bindings__HAS_UVS) + select(0u, 1u, bindings__HAS_TANGENTS);
-	return bitcast<vec4f>(fetch__vertex_row(parts * fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(parts * fetch__uv_row + index));
 }
 
 fn fetch__tangent_of(r0: vec4u) -> types__PackedTangent {
 	return types__PackedTangent(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w));
 }
-
-fn fetch__node_row(row: u32) -> vec4u {
-	return bindings__nodes[row];
-}
-
-fn fetch__triangle_row(row: u32) -> vec4u {
-	return bindings__triangles[row];
-}
-
-fn fetch__vertex_row(row: u32) -> vec4u {
-	return bindings__vertices[row];
-}
-
-fn fetch__material_row(row: u32) -> vec4u {
-	return bindings__materials[row];
-}
-
-@group(0) @binding(0)
-var<storage, read> bindings__nodes: array<vec4u>;
-
-@group(0) @binding(1)
-var<storage, read> bindings__triangles: array<vec4u>;
-
-@group(0) @binding(2)
-var<storage, read> bindings__vertices: array<vec4u>;
-
-@group(0) @binding(3)
-var<storage, read> bindings__materials: array<vec4u>;
-
-@group(0) @binding(4)
-var bindings__texels: texture_2d_array<u32>;
 
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
@@ -1070,8 +1046,6 @@ fn albedo__blended(place: albedo__AlbedoLookup) -> vec2f {
 	return albedo__blended_albedo(vec4u(picture__load_texel_word(words.x), picture__load_texel_word(words.y), picture__load_texel_word(words.z), picture__load_texel_word(words.w)), place.weights);
 }
 
-const stack__EMPTY: u32 = 4294967295u;
-
 const stack__SHARED_ENTRIES: u32 = 24u;
 
 const stack__LANES: u32 = 64u;
@@ -1087,9 +1061,12 @@ var<workgroup> stack__shared_entries: array<u32, stack__LANES * stack__SHARED_EN
 var<private> stack__shared_lane: u32;
 
 fn stack__take_stack(lane: u32) {
-	{
-		stack__shared_lane = lane;
-	}
+	stack__shared_lane = lane;
+}
+
+fn stack__start_stack() {
+	stack__top = 0u;
+	stack__put_entry(0u, traverse__EMPTY);
 }
 
 fn stack__entry_at(index: u32) -> u32 {
@@ -1114,150 +1091,74 @@ fn stack__put_entry(index: u32, reference: u32) {
 	stack__entries[index] = reference;
 }
 
-fn stack__start_stack() {
-	stack__top = 0u;
-	stack__put_entry(0u, stack__EMPTY);
-}
-
-fn stack__top_of_stack() -> u32 {
-	return stack__entry_at(stack__top);
-}
-
 fn stack__push(reference: u32) {
-	{
-		if (bindings__SHARED_STACK && stack__top + 1u >= stack__SHARED_ENTRIES) {
-			loops__is_stack_full = true;
-			return;
-		}
-		stack__top += 1u;
-		stack__put_entry(stack__top, reference);
+	if (bindings__SHARED_STACK && stack__top + 1u >= stack__SHARED_ENTRIES) {
+		loops__is_stack_full = true;
+		return;
 	}
+	stack__top += 1u;
+	stack__put_entry(stack__top, reference);
 }
 
 fn stack__popped() -> u32 {
-	let reference = stack__top_of_stack();
-	{
-		if (reference != stack__EMPTY) {
-			stack__top -= 1u;
-		}
+	let reference = stack__entry_at(stack__top);
+	if (reference != traverse__EMPTY) {
+		stack__top -= 1u;
 	}
 	return reference;
 }
 
-struct pixels__Pixels {
-	film_index: wide__Words,
-	x: wide__Words,
-	y: wide__Words,
-	keys: wide__Words,
-	sums: wide__Vectors,
-	weights: wide__Floats,
-	squares: wide__Floats
+struct pixels__Pixel {
+	film_index: u32,
+	position: vec2u,
+	key: u32,
+	sum: film__Sum
 }
 
-fn pixels__load_pixels(batch: dispatch__Batch, block: block__Block, lane: u32) -> pixels__Pixels {
-	var pixels = pixels__Pixels(wide__Words(types__NONE), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__no_vectors(), wide__Floats(0.0), wide__Floats(0.0));
-	var k = 0u;
-	loop {
-		let work = block__work_of(block, block__place_of(lane, k));
-		pixels.x = wide__word_set(pixels.x, k, work.pixel.x);
-		pixels.y = wide__word_set(pixels.y, k, work.pixel.y);
-		pixels.keys = wide__word_set(pixels.keys, k, rng__pixel_key(batch.seed, work.pixel));
-		if (work.inside) {
-			pixels.film_index = wide__word_set(pixels.film_index, k, work.film_index);
-			pixels = pixels__with_sum(pixels, k, film__load_sum(work.film_index, batch.first_sample));
+fn pixels__load_pixel(batch: dispatch__Batch, block: block__Block, place: u32) -> pixels__Pixel {
+	let work = block__work_of(block, place);
+	var pixel = pixels__Pixel(types__NONE, work.pixel, rng__pixel_key(batch.seed, work.pixel), film__Sum(vec4f(0.0), 0.0));
+	if (work.inside) {
+		pixel.film_index = work.film_index;
+		pixel.sum = film__load_sum(work.film_index, batch.first_sample);
+	}
+	return pixel;
+}
+
+fn pixels__store_pixel(pixel: pixels__Pixel) {
+	if (pixel.film_index != types__NONE) {
+		film__store_sum(pixel.film_index, pixel.sum);
+	}
+}
+
+fn pixels__pixel_ray(batch: dispatch__Batch, pixel: pixels__Pixel, sample: u32) -> tracing__Ray {
+	var ray = ray_states__DEAD;
+	if (pixel.film_index != types__NONE) {
+		ray = dispatch__sample_ray(batch, pixel.position, pixel.key, sample);
+	}
+	return ray;
+}
+
+fn pixels__with_sample(before: pixels__Pixel, sample: u32, radiance: vec3f) -> pixels__Pixel {
+	var pixel = before;
+	if (pixel.film_index != types__NONE) {
+		let weight = dispatch__sample_weight(pixel.key, sample);
+		pixel.sum = film__add_sample(before.sum, film__Sample(radiance), weight);
+		let is_kept = pixel.sum.radiance.w != before.sum.radiance.w;
+		if (bindings__HAS_FEATURES && is_kept) {
+			features__add_features(bindings__FILM_ROWS * pixel.film_index, sample, weight);
 		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+		if (bindings__HAS_OPACITY && is_kept) {
+			opacity__add_opacity(bindings__FILM_ROWS * pixel.film_index, weight, radiance);
 		}
 	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	return pixels;
-}
-
-fn pixels__store_pixels(pixels: pixels__Pixels) {
-	var k = 0u;
-	loop {
-		let film_index = wide__word_at(pixels.film_index, k);
-		if (film_index != types__NONE) {
-			film__store_sum(film_index, pixels__sum_at(pixels, k));
-		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-}
-
-fn pixels__sample_rays(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32) -> rays__Rays {
-	var rays = rays__dead_rays();
-	var k = 0u;
-	loop {
-		if (wide__word_at(pixels.film_index, k) != types__NONE) {
-			rays = rays__ray_set(rays, k, dispatch__sample_ray(batch, pixels__pixel_at(pixels, k), wide__word_at(pixels.keys, k), sample));
-		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	return rays;
-}
-
-fn pixels__add_samples(pixels: pixels__Pixels, sample: u32, radiance: wide__Vectors) -> pixels__Pixels {
-	var next = pixels;
-	var k = 0u;
-	loop {
-		if (wide__word_at(pixels.film_index, k) != types__NONE) {
-			let weight = dispatch__sample_weight(wide__word_at(pixels.keys, k), sample);
-			let before = pixels__sum_at(pixels, k);
-			let sum = film__add_sample(before, film__Sample(wide__vector_at(radiance, k)), weight);
-			next = pixels__with_sum(next, k, sum);
-			let is_kept = sum.radiance.w != before.radiance.w;
-			if (bindings__HAS_FEATURES && is_kept) {
-				features__add_features(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), sample, weight);
-			}
-			if (bindings__HAS_OPACITY && is_kept) {
-				opacity__add_opacity(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), weight, wide__vector_at(radiance, k));
-			}
-		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	return next;
-}
-
-fn pixels__pixel_at(pixels: pixels__Pixels, k: u32) -> vec2u {
-	return vec2u(wide__word_at(pixels.x, k), wide__word_at(pixels.y, k));
-}
-
-fn pixels__sum_at(pixels: pixels__Pixels, k: u32) -> film__Sum {
-	return film__Sum(vec4f(wide__vector_at(pixels.sums, k), wide__float_at(pixels.weights, k)), wide__float_at(pixels.squares, k));
-}
-
-fn pixels__with_sum(pixels: pixels__Pixels, k: u32, sum: film__Sum) -> pixels__Pixels {
-	var next = pixels;
-	next.sums = wide__vector_set(pixels.sums, k, sum.radiance.xyz);
-	next.weights = wide__float_set(pixels.weights, k, sum.radiance.w);
-	next.squares = wide__float_set(pixels.squares, k, sum.squares);
-	return next;
+	return pixel;
 }
 
 struct block__Work {
 	inside: bool,
 	film_index: u32,
 	pixel: vec2u
-}
-
-fn block__place_of(lane: u32, k: u32) -> u32 {
-	{
-		return lane;
-	}
 }
 
 struct block__Block {
@@ -1288,93 +1189,6 @@ fn block__work_of(block: block__Block, place: u32) -> block__Work {
 	}
 	let pixel = block.corner + tile__morton_8x8(place);
 	return block__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
-}
-
-const wide__RAYS_PER_LANE: u32 = 1u;
-
-const wide__ONE_RAY: bool = wide__RAYS_PER_LANE == 1u;
-
-alias wide__Floats = f32;
-
-alias wide__Words = u32;
-
-struct wide__Vectors {
-	x: wide__Floats,
-	y: wide__Floats,
-	z: wide__Floats
-}
-
-fn wide__no_vectors() -> wide__Vectors {
-	return wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0));
-}
-
-fn wide__float_at(all: wide__Floats, k: u32) -> f32 {
-	return all;
-}
-
-fn wide__word_at(all: wide__Words, k: u32) -> u32 {
-	return all;
-}
-
-fn wide__vector_at(all: wide__Vectors, k: u32) -> vec3f {
-	return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
-}
-
-fn wide__float_set(all: wide__Floats, k: u32, value: f32) -> wide__Floats {
-	{
-		return value;
-	}
-}
-
-fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
-	{
-		return value;
-	}
-}
-
-fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
-	return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
-}
-
-const tile__GROUP_SIDE: u32 = 8u;
-
-fn tile__divided(dividend: u32, divisor: u32) -> vec2u {
-	let quotient = u32(f32(dividend) / f32(divisor));
-	let rest = bitcast<i32>(dividend - quotient * divisor);
-	let correction = select(0, 1, rest >= i32(divisor)) - select(0, 1, rest < 0);
-	return vec2u(quotient + bitcast<u32>(correction), bitcast<u32>(rest - correction * i32(divisor)));
-}
-
-fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
-	return tile__divided(index * stride, group_count).y;
-}
-
-fn tile__morton_8x8(lane: u32) -> vec2u {
-	let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
-	let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
-	return vec2u(x, y);
-}
-
-fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
-	return tile__GROUP_SIDE * tile__divided(group, group_columns).yx;
-}
-
-fn rng__hash(x: u32) -> u32 {
-	let a = (x ^ (x >> 16u)) * 2146121005u;
-	let b = (a ^ (a >> 15u)) * 2221713035u;
-	return b ^ (b >> 16u);
-}
-
-fn rng__hash_combine(a: u32, b: u32) -> u32 {
-	return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
-}
-
-fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
-	return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
-}
-
-fn rng__unit_float(x: u32) -> f32 {
-	return f32(x >> 8u) * 5.9604645e-8;
 }
 
 struct film__Sample {
@@ -1418,15 +1232,46 @@ fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__
 	return next;
 }
 
-var<private> loops__nodes_visited: u32;
+const tile__GROUP_SIDE: u32 = 8u;
 
-var<private> loops__primitives_tested: u32;
+fn tile__divided(dividend: u32, divisor: u32) -> vec2u {
+	let quotient = u32(f32(dividend) / f32(divisor));
+	let rest = bitcast<i32>(dividend - quotient * divisor);
+	let correction = select(0, 1, rest >= i32(divisor)) - select(0, 1, rest < 0);
+	return vec2u(quotient + bitcast<u32>(correction), bitcast<u32>(rest - correction * i32(divisor)));
+}
 
-var<private> loops__cut_off: bool;
+fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
+	return tile__divided(index * stride, group_count).y;
+}
 
-var<private> loops__is_stack_full: bool;
+fn tile__morton_8x8(lane: u32) -> vec2u {
+	let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
+	let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
+	return vec2u(x, y);
+}
 
-var<private> loops__nonfinite_samples: u32;
+fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
+	return tile__GROUP_SIDE * tile__divided(group, group_columns).yx;
+}
+
+fn rng__hash(x: u32) -> u32 {
+	let a = (x ^ (x >> 16u)) * 2146121005u;
+	let b = (a ^ (a >> 15u)) * 2221713035u;
+	return b ^ (b >> 16u);
+}
+
+fn rng__hash_combine(a: u32, b: u32) -> u32 {
+	return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
+}
+
+fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
+	return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
+}
+
+fn rng__unit_float(x: u32) -> f32 {
+	return f32(x >> 8u) * 5.9604645e-8;
+}
 
 const path__MAX_PASSES: u32 = 64u;
 
@@ -1453,10 +1298,10 @@ struct path__Path {
 
 const path__ALL_CHANNELS: u32 = 3u;
 
-fn path__camera_path(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32) -> path__Path {
+fn path__camera_path(batch: dispatch__Batch, pixel: pixels__Pixel, sample: u32) -> path__Path {
 	features__start_features();
 	opacity__start_opacity();
-	return path__path_along(batch, rays__ray_at(pixels__sample_rays(batch, pixels, sample), 0u), pixels__pixel_at(pixels, 0u), sample);
+	return path__path_along(batch, pixels__pixel_ray(batch, pixel, sample), pixel.position, sample);
 }
 
 fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, pixel: vec2u, sample: u32) -> path__Path {
@@ -1471,7 +1316,7 @@ fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, pixel: vec2u, sam
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
 	let eye = ray.origin - dispatch__way_to_near(batch, ray.direction) * ray.direction;
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, eye, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(rays__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, eye, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(ray_states__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
 }
 
 fn path__is_going(path: path__Path) -> bool {
@@ -1487,7 +1332,7 @@ fn path__next_walk(path: path__Path) -> traverse__Walk {
 	var any = false;
 	if (path__is_to_lamp(path)) {
 		ray = path.lamp.ray;
-		any = !(bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS));
+		any = !(record__RECORDS || bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS));
 	}
 	return traverse__walk_of(ray, any);
 }
@@ -1499,6 +1344,7 @@ fn path__lit(before: path__Path, left: shadow__Passage) -> path__Path {
 		return path;
 	}
 	shadow__count_shadow(path.lamp.through);
+	record_path__record_passage(path.lamp.through);
 	return path__gained(path, path.lamp_light * path.lamp.through, path.lamp_scatterings);
 }
 
@@ -1514,12 +1360,14 @@ fn path__gained(before: path__Path, light: vec3f, scatterings: u32) -> path__Pat
 		dispatch__kept_light += dot(gain, tone__LUMINANCE_REC709);
 	}
 	if (path__is_caught(path)) {
+		record_path__record_gain(vec3f(0.0));
 		let is_direct = scatterings == 1u && path.pdf > 0.0;
 		let luminance = dot(gain, tone__LUMINANCE_REC709);
 		opacity__clearness.light += select(0.0, luminance, is_direct);
 		opacity__clearness.scattered += select(luminance, 0.0, is_direct);
 		return path;
 	}
+	record_path__record_gain(gain);
 	features__see_light(gain, scatterings);
 	path.radiance += gain;
 	return path;
@@ -1531,7 +1379,7 @@ fn path__is_caught(path: path__Path) -> bool {
 
 fn path__ended(path: path__Path) -> path__Path {
 	var last = path;
-	last.ray = rays__DEAD;
+	last.ray = ray_states__DEAD;
 	return last;
 }
 
@@ -1606,6 +1454,7 @@ struct shadow__Passage {
 }
 
 fn shadow__passage_of(ray: tracing__Ray, media: vec4u) -> shadow__Passage {
+	record__open_shadow(ray.t_max);
 	return shadow__Passage(ray, media, vec3f(1.0), 0u);
 }
 
@@ -1615,8 +1464,9 @@ fn shadow__may_pass(hit: tracing__Hit) -> bool {
 
 fn shadow__arrived(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
 	var passage = before;
-	passage.ray = rays__DEAD;
+	passage.ray = ray_states__DEAD;
 	if (hit.primitive != types__NONE) {
+		record__record_met(hit, before.ray.t_max);
 		passage.through = vec3f(0.0);
 	}
 	else if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
@@ -1627,7 +1477,8 @@ fn shadow__arrived(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passag
 
 fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit, contact: contact__Contact, coverage: f32) -> shadow__Passage {
 	var passage = before;
-	passage.ray = rays__DEAD;
+	passage.ray = ray_states__DEAD;
+	record__record_met(contact.hit, before.ray.t_max);
 	let surface = contact.surface;
 	var through = vec3f(0.0);
 	if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
@@ -1655,7 +1506,7 @@ fn shadow__rest_of(ray: tracing__Ray, distance: f32, surface: shading__Surface) 
 	let way = ray.direction - shift / rest;
 	let is_ahead = dot(way, ray.direction) > 0.0;
 	next.direction = numeric__normalize_or(way, ray.direction);
-	next.t_max = select(rays__DEAD.t_max, rest * length(way), is_ahead);
+	next.t_max = select(ray_states__DEAD.t_max, rest * length(way), is_ahead);
 	return next;
 }
 
@@ -2103,33 +1954,48 @@ fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction:
 	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.place, a.visible);
 }
 
+@group(0) @binding(0)
+var<storage, read> rows__nodes: array<vec4u>;
+
+@group(0) @binding(1)
+var<storage, read> rows__triangles: array<vec4u>;
+
+@group(0) @binding(2)
+var<storage, read> rows__vertices: array<vec4u>;
+
+@group(0) @binding(3)
+var<storage, read> rows__materials: array<vec4u>;
+
+@group(0) @binding(4)
+var rows__texels: texture_2d_array<u32>;
+
+fn rows__node_row(row: u32) -> vec4u {
+	return rows__nodes[row];
+}
+
+fn rows__triangle_row(row: u32) -> vec4u {
+	return rows__triangles[row];
+}
+
+fn rows__vertex_row(row: u32) -> vec4u {
+	return rows__vertices[row];
+}
+
+fn rows__material_row(row: u32) -> vec4u {
+	return rows__materials[row];
+}
+
+fn rows__texel_word(place: vec2u, layer: u32) -> u32 {
+	return textureLoad(rows__texels, place, layer, 0).x;
+}
+
 const ray_states__KIND_PRIMARY: u32 = 0u;
 
 const ray_states__KIND_REFLECTED: u32 = 1u;
 
 const ray_states__KIND_REFRACTED: u32 = 2u;
 
-struct rays__Rays {
-	origin: wide__Vectors,
-	direction: wide__Vectors,
-	t_max: wide__Floats,
-	leaving: wide__Words,
-	leaving_instance: wide__Words
-}
-
-const rays__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
-
-fn rays__dead_rays() -> rays__Rays {
-	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
-}
-
-fn rays__ray_at(rays: rays__Rays, k: u32) -> tracing__Ray {
-	return tracing__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
-}
-
-fn rays__ray_set(rays: rays__Rays, k: u32, ray: tracing__Ray) -> rays__Rays {
-	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
-}
+const ray_states__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
 
 const filter__PI: f32 = 3.14159265;
 
@@ -2256,6 +2122,8 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	return direction.x * x + direction.y * y + direction.z * n;
 }
 
+const traverse__EMPTY: u32 = 4294967295u;
+
 const traverse__RETURN: u32 = 4294967294u;
 
 const traverse__CONTACT_RANGE: f32 = 0.0001;
@@ -2283,7 +2151,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 		primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	}
 	let shear = triangle_watertight__shear_of(ray.direction);
-	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), traverse__EMPTY);
 	if (bindings__HAS_PLANES) {
 		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
@@ -2306,7 +2174,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 }
 
 fn traverse__is_walking(walk: traverse__Walk) -> bool {
-	return walk.current != stack__EMPTY;
+	return walk.current != traverse__EMPTY;
 }
 
 fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
@@ -2319,16 +2187,12 @@ fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
 			}
 			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
 			if (is_node) {
-				{
-					walk = branching__through_nodes(walk);
-				}
+				walk = steps__through_nodes(walk);
 				loops__cut_off |= (walk.current & types__LEAF) == 0u;
 			}
-			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
+			let is_leaf = walk.current != traverse__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
 			if (is_leaf) {
-				{
-					walk = branching__through_leaves(walk);
-				}
+				walk = steps__through_leaves(walk);
 			}
 			round += 1u;
 			continuing {
@@ -2347,7 +2211,7 @@ fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
 		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
 		walk.current = stack__popped();
 	}
-	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
+	if ((walk.current >= types__INSTANCE) & (walk.current != traverse__EMPTY)) {
 		let index = walk.current & types__LEAF_FIRST_MASK;
 		let instance = fetch__load_instance(index);
 		let local = instance__object_ray(walk.ray, instance__space_of(instance));
@@ -2362,7 +2226,7 @@ fn traverse__load_current_node(reference: u32, at: primitive__TraversalRay) -> t
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
 		return deforming__node_now(reference, at.keys, at.inv);
 	}
-	return fetch__load_node(reference, at.inv);
+	return steps__load_node(reference, at.inv);
 }
 
 struct triangle_watertight__Shear {
@@ -2551,6 +2415,20 @@ fn deforming__tangent_at(vertex: u32, is_later: bool) -> vec4f {
 	return vec4f(tangent.direction, tangent.handedness);
 }
 
+const record__RECORDS: bool = false;
+
+fn record__record_surface(surface: shading__Surface, hit: tracing__Hit, arriving: vec3f) {
+
+}
+
+fn record__open_shadow(t_max: f32) {
+
+}
+
+fn record__record_met(hit: tracing__Hit, rest: f32) {
+
+}
+
 const numeric__ROUNDING: f32 = 5.9604645e-8;
 
 fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
@@ -2684,6 +2562,16 @@ fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing_
 	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
 	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
+
+var<private> loops__nodes_visited: u32;
+
+var<private> loops__primitives_tested: u32;
+
+var<private> loops__cut_off: bool;
+
+var<private> loops__is_stack_full: bool;
+
+var<private> loops__nonfinite_samples: u32;
 
 fn triangle_plane__intersect_triangle_plane(ray: tracing__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> tracing__Candidate {
 	let e1 = v1 - v0;
@@ -3227,7 +3115,16 @@ fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
 	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
 }
 
-fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
+const steps__WALK_ROUNDS: u32 = traverse__NO_LIMIT;
+
+fn steps__load_node(index: u32, inv: vec3f) -> tracing__Node {
+	let row = types__FLOAT_NODE_ROWS * index;
+	let near = select(vec3u(0u), vec3u(1u), inv < vec3f(0.0));
+	let far = vec3u(1u) - near;
+	return node__float_node(rows__node_row(row + near.x), rows__node_row(row + far.x), rows__node_row(row + 2u + near.y), rows__node_row(row + 2u + far.y), rows__node_row(row + 4u + near.z), rows__node_row(row + 4u + far.z), rows__node_row(row + 6u));
+}
+
+fn steps__through_nodes(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	loop {
 		let node = traverse__load_current_node(walk.current, walk.at);
@@ -3237,8 +3134,8 @@ fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
 			loops__nodes_visited += 1u;
 		}
 		if (keys.x < node__MISS) {
-			branching__push_farther(node.children, keys);
-			walk.current = branching__child(node.children, keys.x);
+			steps__push_farther(node.children, keys);
+			walk.current = steps__child(node.children, keys.x);
 		}
 		else {
 			walk.current = stack__popped();
@@ -3251,24 +3148,24 @@ fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
 	return walk;
 }
 
-fn branching__push_farther(children: vec4u, keys: vec4u) {
+fn steps__push_farther(children: vec4u, keys: vec4u) {
 	if (keys.y < node__MISS) {
 		if (keys.z < node__MISS) {
 			if (keys.w < node__MISS) {
-				stack__push(branching__child(children, keys.w));
+				stack__push(steps__child(children, keys.w));
 			}
-			stack__push(branching__child(children, keys.z));
+			stack__push(steps__child(children, keys.z));
 		}
-		stack__push(branching__child(children, keys.y));
+		stack__push(steps__child(children, keys.y));
 	}
 }
 
-fn branching__child(children: vec4u, key: u32) -> u32 {
+fn steps__child(children: vec4u, key: u32) -> u32 {
 	let first = select(children.xz, children.yw, vec2<bool>((key & 1u) != 0u));
 	return select(first.x, first.y, (key & 2u) != 0u);
 }
 
-fn branching__through_leaves(before: traverse__Walk) -> traverse__Walk {
+fn steps__through_leaves(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	loop {
 		walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
@@ -3276,7 +3173,7 @@ fn branching__through_leaves(before: traverse__Walk) -> traverse__Walk {
 			loops__primitives_tested += 1u;
 		}
 		if (walk.any && walk.hit.primitive != types__NONE) {
-			walk.current = stack__EMPTY;
+			walk.current = traverse__EMPTY;
 		}
 		else if ((walk.current & types__LEAF_COUNT_MASK) == 0u) {
 			walk.current = stack__popped();
@@ -3334,6 +3231,62 @@ fn node__sort4(keys: vec4u) -> vec4u {
 	let middle_high = min(a.z, a.w);
 	let highest = max(a.z, a.w);
 	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
+}
+
+fn record_path__record_ray(path: path__Path, hit: tracing__Hit) {
+
+}
+
+fn record_path__record_gain(light: vec3f) {
+
+}
+
+fn record_path__record_light_density(pdf: f32) {
+
+}
+
+fn record_path__record_found(radiance: vec3f, weight: f32, pdf: f32) {
+
+}
+
+fn record_path__record_source(source: u32, index: u32, chance: f32) {
+
+}
+
+fn record_path__record_light_sample(surface: shading__Surface, ray: tracing__Ray, light: emitters__LightSample, found: bsdf__BsdfValue, weight: f32, unshadowed: vec3f) {
+
+}
+
+fn record_path__record_passage(through: vec3f) {
+
+}
+
+fn record_path__record_boundary(met_here: interface__Interface, bsdf: lobes__Bsdf) {
+
+}
+
+fn record_path__record_lobe(lobe: u32) {
+
+}
+
+fn record_path__record_step(next: bsdf__BsdfSample) {
+
+}
+
+fn record_path__record_passing() {
+
+}
+
+fn record_path__record_limit() {
+
+}
+
+fn record_path__record_roulette(throughput: vec3f, chance: f32, ends: bool) {
+
+}
+
+fn record_path__record_straight(is_straight: bool) {
+
 }
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
@@ -3442,12 +3395,12 @@ struct material__PhongMaterial {
 
 fn material__load_material(index: u32) -> material__PhongMaterial {
 	let row = types__MATERIAL_ROWS * index;
-	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
+	let r0 = rows__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = rows__material_row(row + 1u);
+	let r2 = rows__material_row(row + 2u);
 	var reflect = vec3f(0.0);
 	if (bindings__HAS_REFLECTION) {
-		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
+		reflect = bitcast<vec3f>(rows__material_row(row + 3u).xyz);
 	}
 	let phong = shading__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
 	return material__PhongMaterial(phong, r1.w);
@@ -3455,29 +3408,29 @@ fn material__load_material(index: u32) -> material__PhongMaterial {
 
 fn material__load_optics(index: u32) -> shading__Optics {
 	let row = types__MATERIAL_ROWS * index;
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = fetch__material_row(row + 4u);
+	let r1 = rows__material_row(row + 1u);
+	let r2 = rows__material_row(row + 2u);
+	let r3 = rows__material_row(row + 3u);
+	let r4 = rows__material_row(row + 4u);
 	return shading__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
 }
 
 fn material__load_flags(index: u32) -> u32 {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 1u).w;
+	return rows__material_row(types__MATERIAL_ROWS * index + 1u).w;
 }
 
 fn material__load_medium(index: u32) -> shading__Medium {
 	let row = types__MATERIAL_ROWS * index;
-	let r5 = fetch__material_row(row + 5u);
-	return shading__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
+	let r5 = rows__material_row(row + 5u);
+	return shading__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(rows__material_row(row + 3u).w), bitcast<i32>(rows__material_row(row + 4u).w));
 }
 
 fn material__load_emission(index: u32) -> vec3f {
-	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
+	return bitcast<vec3f>(rows__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
 }
 
 fn material__load_texture_indices(index: u32) -> vec4u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+	return rows__material_row(types__MATERIAL_ROWS * index + 7u);
 }
 
 struct material__CoverageMaterial {
@@ -3487,32 +3440,32 @@ struct material__CoverageMaterial {
 
 fn material__load_coverage(index: u32) -> material__CoverageMaterial {
 	let row = types__MATERIAL_ROWS * index;
-	return material__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
+	return material__CoverageMaterial(bitcast<f32>(rows__material_row(row + 5u).w), rows__material_row(row + 1u).w);
 }
 
 fn material__load_normal_scale(index: u32) -> f32 {
-	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+	return bitcast<f32>(rows__material_row(types__MATERIAL_ROWS * index + 6u).w);
 }
 
 fn material__load_texture(index: u32) -> types__PackedTexture {
 	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r5 = fetch__material_row(row + 5u);
-	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r5 = rows__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(rows__material_row(row + 2u)), bitcast<vec4f>(rows__material_row(row + 3u)), bitcast<vec4f>(rows__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
 }
 
 fn material__load_layers(index: u32) -> types__PackedLayers {
 	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
-	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
-	let r6 = fetch__material_row(row + 6u);
-	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(rows__material_row(row + 2u));
+	let r3 = rows__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(rows__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(rows__material_row(row + 5u));
+	let r6 = rows__material_row(row + 6u);
+	let r7 = rows__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), rows__material_row(row + 8u), rows__material_row(row + 9u), rows__material_row(row + 10u));
 }
 
 struct material__Glow {
@@ -3523,9 +3476,9 @@ struct material__Glow {
 
 fn material__load_glow(index: u32) -> material__Glow {
 	let row = types__MATERIAL_ROWS * index;
-	let own = fetch__material_row(row + types__LAYERS_ROW + 7u);
+	let own = rows__material_row(row + types__LAYERS_ROW + 7u);
 	let luminance = bitcast<f32>(own.y) * dot(material__load_emission(index), tone__LUMINANCE_REC709);
-	return material__Glow(own.x, luminance, fetch__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
+	return material__Glow(own.x, luminance, rows__material_row(row + types__LAYERS_ROW + 9u).w >> 16u);
 }
 
 fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
@@ -3540,6 +3493,7 @@ fn path_vertex__traced(batch: dispatch__Batch, before: path__Path, hit: tracing_
 	let is_shadow = path__is_to_lamp(path) && shadow__may_pass(hit);
 	if (!is_shadow) {
 		dispatch__count_hit(path.kind, hit);
+		record_path__record_ray(path, hit);
 	}
 	if (!is_shadow && hit.primitive == types__NONE) {
 		return backdrop__missed(batch, path);
@@ -3562,7 +3516,9 @@ fn path_vertex__traced(batch: dispatch__Batch, before: path__Path, hit: tracing_
 	if (bindings__HAS_REFRACTION) {
 		path.throughput *= medium__transmittance(medium__medium_of(met.here), hit.t);
 	}
+	record__record_surface(surface, contact.hit, path.throughput);
 	if (bindings__HAS_COVERAGE && path.passes < path__MAX_PASSES && path__random_1d(path, dimensions__COVERAGE_CHOICE) >= coverage) {
+		record_path__record_passing();
 		return path__passed(batch, path, surface);
 	}
 	features__see_first(surface, hit, distance(path.origin, surface.p));
@@ -3579,11 +3535,13 @@ fn path_vertex__traced(batch: dispatch__Batch, before: path__Path, hit: tracing_
 	let weight = light_weight__emission_weight(batch, surface, contact.hit, start, ray.direction);
 	let coat = coating__through_coat(surface, abs(dot(ray.direction, surface.ng)));
 	let emission = coat * emitters__emitted(surface, optics, layers.glow);
+	record_path__record_found(emission, weight, start.pdf);
 	let found = path.throughput * (weight * emission);
 	shadow_catcher__count_unsampled(path, found);
 	path = path__gained(path, found, path.bounces);
 	let bsdf = lobes__bsdf_at(surface, optics, layers, met, ray.direction);
 	seen__see_surface(path, bsdf, emission);
+	record_path__record_boundary(met, bsdf);
 	if ((bindings__HAS_LIGHTS || bindings__HAS_EMITTERS || bindings__HAS_ENVIRONMENT) && path.bounces <= batch.max_depth) {
 		path = toward_lamp__toward_lamp(batch, path, surface, bsdf, met);
 	}
@@ -3594,12 +3552,15 @@ fn path_vertex__scattered(batch: dispatch__Batch, before: path__Path, surface: s
 	var path = before;
 	let next = bsdf__bsdf_sample(bsdf, path__random_1d(path, dimensions__SCATTER_CHOICE), path__random_2d(path, dimensions__SCATTER_DIRECTION));
 	path.throughput *= next.weight;
+	record_path__record_step(next);
 	if (path.bounces > batch.max_depth || path.passes > path__MAX_PASSES) {
 		dispatch__cut_throughput += select(dot(path.throughput, tone__LUMINANCE_REC709), 0.0, path__is_caught(path));
+		record_path__record_limit();
 		return path__ended(path);
 	}
 	let chance = select(1.0, mis__survival_chance(path.throughput), path.bounces >= path_vertex__ROULETTE_START);
 	let ends = path__random_1d(path, dimensions__ROULETTE) >= chance || all(path.throughput <= vec3f(0.0));
+	record_path__record_roulette(path.throughput, chance, ends);
 	if (ends) {
 		return path__ended(path);
 	}
@@ -3607,6 +3568,7 @@ fn path_vertex__scattered(batch: dispatch__Batch, before: path__Path, surface: s
 	seen__see_scattered(bsdf, next.pdf, chance);
 	let crosses = dot(next.direction, bsdf.ng) < 0.0;
 	let is_straight = crosses && next.pdf == 0.0 && !(bindings__SOLID_GLASS && bsdf.encloses);
+	record_path__record_straight(crosses && next.pdf == 0.0 && !bsdf.boundary.bends);
 	path.kind = select(ray_states__KIND_REFLECTED, ray_states__KIND_REFRACTED, crosses);
 	path.media = select(path.media, met.media, vec4<bool>(crosses));
 	path.ray = leaving__leaving_ray(surface, next.direction, camera__T_FAR);
@@ -3640,6 +3602,7 @@ fn backdrop__radiance_behind(batch: dispatch__Batch, path: path__Path) -> vec3f 
 fn backdrop__missed(batch: dispatch__Batch, path: path__Path) -> path__Path {
 	let weight = environment__background_weight(batch, path.ray.direction, path.pdf);
 	let seen = backdrop__radiance_behind(batch, path);
+	record_path__record_found(seen, weight, path.pdf);
 	features__see_albedo(path.throughput * seen, vec3f(0.0));
 	return path__ended(path__gained(path, path.throughput * (weight * seen), path.bounces));
 }
@@ -3703,6 +3666,7 @@ fn environment__background_weight(batch: dispatch__Batch, direction: vec3f, pdf:
 		return 1.0;
 	}
 	let density = batch.environment_share * environment__environment_pdf(batch, direction);
+	record_path__record_light_density(density);
 	return mis__power_heuristic(pdf, density);
 }
 
@@ -3811,7 +3775,7 @@ fn picture__texel_at(picture: u32, index: u32) -> vec4f {
 fn picture__load_texel_word(index: u32) -> u32 {
 	let row = index >> types__IMAGE_WIDTH_LOG2;
 	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
-	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
+	return rows__texel_word(place, row >> types__LAYER_ROWS_LOG2);
 }
 
 fn mis__power_heuristic(own: f32, other: f32) -> f32 {
@@ -4620,15 +4584,13 @@ fn media__left(media: vec4u, material: u32) -> vec4u {
 	return select(media, vec4u(media.yzw, types__NONE), vec4<bool>(x, y, z, w));
 }
 
-var<private> ray_stack__current_tree: u32;
-
-var<private> ray_stack__trees_cut_off: wide__Words;
+var<private> ray_stack__tree_cut_off: u32;
 
 var<private> ray_stack__cut_off_trees: u32;
 
 fn ray_stack__cut_tree() {
-	ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);
-	ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
+	ray_stack__cut_off_trees += 1u - ray_stack__tree_cut_off;
+	ray_stack__tree_cut_off = 1u;
 }
 
 const pattern__CELL_SHIFT: f32 = 0.00073;
@@ -4886,10 +4848,12 @@ fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: s
 			path.lamp_light = share * arriving;
 			path.lamp_scatterings = 1u;
 		}
+		record_path__record_light_sample(surface, path.lamp.ray, light, bsdf__BsdfValue(vec3f(value), value), weight, arriving);
 		unshadowed += arriving;
 	}
 	opacity__clearness.catchers += share;
 	opacity__clearness.unshadowed += share * dot(unshadowed, tone__LUMINANCE_REC709);
+	record_path__record_step(bsdf__BsdfSample(direction, vec3f(share) / max_vec3f(path.throughput, vec3f(1e-30)), pdf));
 	path.is_caught = true;
 	path.throughput = vec3f(share);
 	path.ray = leaving__leaving_ray(surface, direction, camera__T_FAR);
@@ -4933,10 +4897,12 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f3
 	if (bindings__HAS_ENVIRONMENT && (!(bindings__HAS_LIGHTS || bindings__HAS_EMITTERS) || choice >= 1.0 - batch.environment_share)) {
 		let found = environment__sample_environment(batch, u);
 		let pdf = batch.environment_share * found.pdf;
+		record_path__record_source(types__SOURCE_ENVIRONMENT, types__NONE, batch.environment_share);
 		let radiance = background__background(batch, found.direction) / max_f32(pdf, 1e-30);
 		return emitters__LightSample(shading__Incident(found.direction, camera__T_FAR, radiance), pdf);
 	}
 	let source = light_choice__choose_source(batch, p, n, choice);
+	record_path__record_source(select(types__SOURCE_LIGHT, types__SOURCE_EMITTER, source.is_emitter), source.index, source.chance);
 	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || source.is_emitter)) {
 		return emitters__sample_emitter(p, source, u);
 	}
@@ -6022,6 +5988,7 @@ fn light_weight__emission_weight(batch: dispatch__Batch, surface: shading__Surfa
 		chance = (1.0 - batch.environment_share) * select(light_choice__emitter_rate(leaf.chance, leaf.power), leaf.chance, is_lamp);
 	}
 	density = select(0.0, density * chance, counts);
+	record_path__record_light_density(density);
 	return select(0.0, mis__power_heuristic(sender.pdf, density), counts);
 }
 
@@ -6094,9 +6061,139 @@ fn direct__shadow_ray(surface: shading__Surface, arriving: shading__Incident) ->
 	return ray;
 }
 
+struct bsdf__BsdfValue {
+	value: vec3f,
+	pdf: f32
+}
+
+struct bsdf__BsdfSample {
+	direction: vec3f,
+	weight: vec3f,
+	pdf: f32
+}
+
+struct bsdf__Draw {
+	wi: vec3f,
+	is_on_side: bool,
+	is_smooth: bool,
+	fraction: vec3f
+}
+
+fn bsdf__receiving_normal(bsdf: lobes__Bsdf) -> vec3f {
+	let passes = (bindings__HAS_ROUGH_GLASS && bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) || (bindings__HAS_COATINGS && any(bsdf.through > vec3f(0.0)));
+	let normal = select(bsdf.normal, bsdf.ng, bindings__HAS_COAT_NORMALS && bsdf.coating.coat > 0.0);
+	return select(normal, vec3f(0.0), passes);
+}
+
+fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
+	let wi = lobes__to_frame(bsdf, direction);
+	var value = vec3f(0.0);
+	var pdf = 0.0;
+	if (wi.z > 0.0) {
+		let diffuse = bsdf_diffuse__diffuse_eval(wi);
+		let cos_h = dot(bsdf.wo, normalize(bsdf.wo + wi));
+		value = (diffuse * lobes__below_glossy(bsdf, cos_h)) * bsdf.diffuse;
+		pdf = bsdf.chances.x * (1.0 - bsdf__through_share(bsdf)) * diffuse;
+		if (bindings__HAS_GLOSS) {
+			let glossy = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.alpha, bindings__BSDF_SPEC);
+			value += glossy.x * (bsdf.gain * lobes__glossy_fresnel(bsdf, cos_h));
+			pdf += bsdf.chances.y * glossy.y;
+		}
+		if (bindings__HAS_COATINGS) {
+			let sheen = bsdf_sheen__sheen_eval(bsdf.wo, wi, bsdf.coating.sheen_alpha);
+			value += sheen.x * bsdf.coating.sheen;
+			pdf += bsdf.coating_chances.y * sheen.y;
+		}
+	}
+	if (bindings__HAS_ROUGH_GLASS && bsdf__has_rough_boundary(bsdf)) {
+		let boundary = bsdf_boundary__boundary_eval(bsdf.boundary, bsdf.wo, wi, bindings__BSDF_SPEC);
+		value += boundary.value;
+		pdf += bsdf.chances.z * boundary.pdf;
+	}
+	if (bindings__HAS_COATINGS && wi.z < 0.0) {
+		let through = bsdf_diffuse__diffuse_eval(-wi);
+		value += through * bsdf.through;
+		pdf += bsdf.chances.x * bsdf__through_share(bsdf) * through;
+	}
+	let is_outside = dot(direction, bsdf.ng) > 0.0;
+	value = select(vec3f(0.0), value, is_outside == (wi.z > 0.0));
+	if (bindings__HAS_COATINGS) {
+		let coat = coating__coating_eval(bsdf.coating, bsdf.wo, wi);
+		value += select(0.0, coat.x, is_outside);
+		pdf += bsdf.coating_chances.x * coat.y;
+	}
+	return bsdf__BsdfValue(value, pdf);
+}
+
+fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
+	let chances = bsdf.chances;
+	let first = chances.x + chances.y + bsdf.coating_chances.x + bsdf.coating_chances.y;
+	var draw: bsdf__Draw;
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && choice >= first && chances.z > 0.0) {
+		record_path__record_lobe(types__LOBE_BOUNDARY);
+		draw = bsdf__boundary_draw(bsdf, clamp_f32((choice - first) / chances.z, 0.0, 1.0), u);
+	}
+	else {
+		draw = bsdf__lobe_draw(bsdf, choice, u);
+	}
+	let direction = lobes__from_frame(bsdf, draw.wi);
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && draw.is_smooth) {
+		let stays = (dot(direction, bsdf.ng) > 0.0) == draw.is_on_side;
+		return bsdf__BsdfSample(direction, select(vec3f(0.0), draw.fraction / chances.z, stays), 0.0);
+	}
+	let found = bsdf__bsdf_eval(bsdf, direction);
+	let weight = select(vec3f(0.0), found.value / max_f32(found.pdf, 1e-30), draw.is_on_side);
+	return bsdf__BsdfSample(direction, weight, found.pdf);
+}
+
+fn bsdf__boundary_draw(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__Draw {
+	if (!bindings__HAS_ROUGH_GLASS) {
+		let drawn = bsdf_boundary__smooth_boundary_sample(bsdf.boundary, bsdf.wo, choice);
+		return bsdf__Draw(drawn.wi, drawn.reflects, true, drawn.fraction);
+	}
+	let drawn = bsdf_boundary__boundary_sample(bsdf.boundary, bsdf.wo, choice, u, bindings__BSDF_SPEC);
+	let is_on_side = select((drawn.wi.z > 0.0) == drawn.reflects, drawn.reflects, drawn.is_smooth);
+	return bsdf__Draw(drawn.wi, is_on_side, drawn.is_smooth, drawn.fraction);
+}
+
+fn bsdf__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
+	return bsdf.chances.z > 0.0 && bsdf.boundary.alpha.x >= bsdf_ggx__SMOOTH;
+}
+
+fn bsdf__lobe_draw(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__Draw {
+	let chances = bsdf.chances;
+	let is_diffuse = choice < chances.x;
+	let is_glossy = !is_diffuse && choice < chances.x + chances.y;
+	record_path__record_lobe(select(types__LOBE_GLOSSY, types__LOBE_DIFFUSE, is_diffuse));
+	var wi = bsdf_diffuse__diffuse_sample(u);
+	if (bindings__HAS_GLOSS && !is_diffuse) {
+		wi = fresnel__mirrored(-bsdf.wo, bsdf_ggx__ggx_normal(bsdf.wo, bsdf.alpha, u));
+	}
+	var is_on_side = wi.z > 0.0;
+	if (bindings__HAS_COATINGS) {
+		if (!is_diffuse && !is_glossy) {
+			let is_coat = choice < chances.x + chances.y + bsdf.coating_chances.x;
+			record_path__record_lobe(select(types__LOBE_SHEEN, types__LOBE_COAT, is_coat));
+			wi = coating__coating_sample(bsdf.coating, bsdf.wo, u, is_coat);
+			is_on_side = select(wi.z, coating__to_coat(bsdf.coating, wi).z, is_coat) > 0.0;
+		}
+		let passes = is_diffuse && choice < chances.x * bsdf__through_share(bsdf);
+		wi.z = select(wi.z, -wi.z, passes);
+	}
+	return bsdf__Draw(wi, is_on_side, false, vec3f(0.0));
+}
+
+fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
+	if (!bindings__HAS_COATINGS) {
+		return 0.0;
+	}
+	let through = dot(bsdf.through, tone__LUMINANCE_REC709);
+	return through / max_f32(through + dot(bsdf.diffuse, tone__LUMINANCE_REC709), 1e-30);
+}
+
 fn dispersion__load_dispersion(material: u32) -> f32 {
 	let own = select(material, 0u, material == types__NONE);
-	let row = fetch__material_row(types__MATERIAL_ROWS * own + types__LAYERS_ROW + 5u);
+	let row = rows__material_row(types__MATERIAL_ROWS * own + types__LAYERS_ROW + 5u);
 	return select(bitcast<f32>(row.z), 0.0, material == types__NONE);
 }
 
@@ -6531,134 +6628,8 @@ fn toward_lamp__toward_lamp(batch: dispatch__Batch, before: path__Path, surface:
 		path.lamp_light = path.throughput * unshadowed;
 		path.lamp_scatterings = path.bounces + 1u;
 	}
+	record_path__record_light_sample(surface, path.lamp.ray, light, found, weight, unshadowed);
 	return path;
-}
-
-struct bsdf__BsdfValue {
-	value: vec3f,
-	pdf: f32
-}
-
-struct bsdf__BsdfSample {
-	direction: vec3f,
-	weight: vec3f,
-	pdf: f32
-}
-
-struct bsdf__Draw {
-	wi: vec3f,
-	is_on_side: bool,
-	is_smooth: bool,
-	fraction: vec3f
-}
-
-fn bsdf__receiving_normal(bsdf: lobes__Bsdf) -> vec3f {
-	let passes = (bindings__HAS_ROUGH_GLASS && bindings__HAS_REFRACTION && bsdf__has_rough_boundary(bsdf)) || (bindings__HAS_COATINGS && any(bsdf.through > vec3f(0.0)));
-	let normal = select(bsdf.normal, bsdf.ng, bindings__HAS_COAT_NORMALS && bsdf.coating.coat > 0.0);
-	return select(normal, vec3f(0.0), passes);
-}
-
-fn bsdf__bsdf_eval(bsdf: lobes__Bsdf, direction: vec3f) -> bsdf__BsdfValue {
-	let wi = lobes__to_frame(bsdf, direction);
-	var value = vec3f(0.0);
-	var pdf = 0.0;
-	if (wi.z > 0.0) {
-		let diffuse = bsdf_diffuse__diffuse_eval(wi);
-		let cos_h = dot(bsdf.wo, normalize(bsdf.wo + wi));
-		value = (diffuse * lobes__below_glossy(bsdf, cos_h)) * bsdf.diffuse;
-		pdf = bsdf.chances.x * (1.0 - bsdf__through_share(bsdf)) * diffuse;
-		if (bindings__HAS_GLOSS) {
-			let glossy = bsdf_ggx__ggx_eval(bsdf.wo, wi, bsdf.alpha, bindings__BSDF_SPEC);
-			value += glossy.x * (bsdf.gain * lobes__glossy_fresnel(bsdf, cos_h));
-			pdf += bsdf.chances.y * glossy.y;
-		}
-		if (bindings__HAS_COATINGS) {
-			let sheen = bsdf_sheen__sheen_eval(bsdf.wo, wi, bsdf.coating.sheen_alpha);
-			value += sheen.x * bsdf.coating.sheen;
-			pdf += bsdf.coating_chances.y * sheen.y;
-		}
-	}
-	if (bindings__HAS_ROUGH_GLASS && bsdf__has_rough_boundary(bsdf)) {
-		let boundary = bsdf_boundary__boundary_eval(bsdf.boundary, bsdf.wo, wi, bindings__BSDF_SPEC);
-		value += boundary.value;
-		pdf += bsdf.chances.z * boundary.pdf;
-	}
-	if (bindings__HAS_COATINGS && wi.z < 0.0) {
-		let through = bsdf_diffuse__diffuse_eval(-wi);
-		value += through * bsdf.through;
-		pdf += bsdf.chances.x * bsdf__through_share(bsdf) * through;
-	}
-	let is_outside = dot(direction, bsdf.ng) > 0.0;
-	value = select(vec3f(0.0), value, is_outside == (wi.z > 0.0));
-	if (bindings__HAS_COATINGS) {
-		let coat = coating__coating_eval(bsdf.coating, bsdf.wo, wi);
-		value += select(0.0, coat.x, is_outside);
-		pdf += bsdf.coating_chances.x * coat.y;
-	}
-	return bsdf__BsdfValue(value, pdf);
-}
-
-fn bsdf__bsdf_sample(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__BsdfSample {
-	let chances = bsdf.chances;
-	let first = chances.x + chances.y + bsdf.coating_chances.x + bsdf.coating_chances.y;
-	var draw: bsdf__Draw;
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && choice >= first && chances.z > 0.0) {
-		draw = bsdf__boundary_draw(bsdf, clamp_f32((choice - first) / chances.z, 0.0, 1.0), u);
-	}
-	else {
-		draw = bsdf__lobe_draw(bsdf, choice, u);
-	}
-	let direction = lobes__from_frame(bsdf, draw.wi);
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && draw.is_smooth) {
-		let stays = (dot(direction, bsdf.ng) > 0.0) == draw.is_on_side;
-		return bsdf__BsdfSample(direction, select(vec3f(0.0), draw.fraction / chances.z, stays), 0.0);
-	}
-	let found = bsdf__bsdf_eval(bsdf, direction);
-	let weight = select(vec3f(0.0), found.value / max_f32(found.pdf, 1e-30), draw.is_on_side);
-	return bsdf__BsdfSample(direction, weight, found.pdf);
-}
-
-fn bsdf__boundary_draw(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__Draw {
-	if (!bindings__HAS_ROUGH_GLASS) {
-		let drawn = bsdf_boundary__smooth_boundary_sample(bsdf.boundary, bsdf.wo, choice);
-		return bsdf__Draw(drawn.wi, drawn.reflects, true, drawn.fraction);
-	}
-	let drawn = bsdf_boundary__boundary_sample(bsdf.boundary, bsdf.wo, choice, u, bindings__BSDF_SPEC);
-	let is_on_side = select((drawn.wi.z > 0.0) == drawn.reflects, drawn.reflects, drawn.is_smooth);
-	return bsdf__Draw(drawn.wi, is_on_side, drawn.is_smooth, drawn.fraction);
-}
-
-fn bsdf__has_rough_boundary(bsdf: lobes__Bsdf) -> bool {
-	return bsdf.chances.z > 0.0 && bsdf.boundary.alpha.x >= bsdf_ggx__SMOOTH;
-}
-
-fn bsdf__lobe_draw(bsdf: lobes__Bsdf, choice: f32, u: vec2f) -> bsdf__Draw {
-	let chances = bsdf.chances;
-	let is_diffuse = choice < chances.x;
-	let is_glossy = !is_diffuse && choice < chances.x + chances.y;
-	var wi = bsdf_diffuse__diffuse_sample(u);
-	if (bindings__HAS_GLOSS && !is_diffuse) {
-		wi = fresnel__mirrored(-bsdf.wo, bsdf_ggx__ggx_normal(bsdf.wo, bsdf.alpha, u));
-	}
-	var is_on_side = wi.z > 0.0;
-	if (bindings__HAS_COATINGS) {
-		if (!is_diffuse && !is_glossy) {
-			let is_coat = choice < chances.x + chances.y + bsdf.coating_chances.x;
-			wi = coating__coating_sample(bsdf.coating, bsdf.wo, u, is_coat);
-			is_on_side = select(wi.z, coating__to_coat(bsdf.coating, wi).z, is_coat) > 0.0;
-		}
-		let passes = is_diffuse && choice < chances.x * bsdf__through_share(bsdf);
-		wi.z = select(wi.z, -wi.z, passes);
-	}
-	return bsdf__Draw(wi, is_on_side, false, vec3f(0.0));
-}
-
-fn bsdf__through_share(bsdf: lobes__Bsdf) -> f32 {
-	if (!bindings__HAS_COATINGS) {
-		return 0.0;
-	}
-	let through = dot(bsdf.through, tone__LUMINANCE_REC709);
-	return through / max_f32(through + dot(bsdf.diffuse, tone__LUMINANCE_REC709), 1e-30);
 }
 
 fn bsdf_sheen__charlie_distribution(h: vec3f, alpha: f32) -> f32 {

@@ -8,7 +8,7 @@ fn show(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) la
 		let position = work.pixel - corner;
 		var mean = vec3f(0.0);
 		if (bindings__SHOWS_DENOISED) {
-			mean = textureLoad(bindings__signal, position, 0).xyz;
+			mean = rows__load_signal(vec2i(position)).xyz;
 		}
 		else {
 			mean = filter__weighted_mean(sum);
@@ -67,22 +67,19 @@ var<storage, read> bindings__tone: types__PackedTone;
 @group(3) @binding(2)
 var bindings__screen: texture_storage_2d<rgba8unorm, write>;
 
-@group(3) @binding(4)
-var bindings__signal: texture_2d<f32>;
+override bindings__SHOWS_DENOISED: bool = false;
+
+override bindings__VIEW: u32 = types__VIEW_NORMALS;
+
+override bindings__TONE_CURVE: u32 = types__TONE_NONE;
+
+override bindings__TONE_TRANSFER: u32 = types__TRANSFER_SRGB;
 
 override bindings__ADAPTIVE: bool = false;
 
-override bindings__FILM_ROWS: u32 = 0u;
+override bindings__FILM_ROWS: u32 = 1u;
 
-override bindings__SQUARES_ROW: u32 = 0u;
-
-override bindings__TONE_CURVE: u32 = 0u;
-
-override bindings__TONE_TRANSFER: u32 = 0u;
-
-override bindings__VIEW: u32 = 0u;
-
-override bindings__SHOWS_DENOISED: bool = false;
+override bindings__SQUARES_ROW: u32 = 1u;
 
 const tile__GROUP_SIDE: u32 = 8u;
 
@@ -106,6 +103,8 @@ fn tile__morton_8x8(lane: u32) -> vec2u {
 fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
 	return tile__GROUP_SIDE * tile__divided(group, group_columns).yx;
 }
+
+const types__VIEW_NORMALS: u32 = 0u;
 
 const types__VIEW_DEPTH: u32 = 1u;
 
@@ -189,6 +188,13 @@ fn film__load_tone() -> types__PackedTone {
 
 fn film__load_weighted_sum(work: block__Work, tone: types__PackedTone) -> vec4f {
 	return bindings__film[tone.film_rows * work.film_index];
+}
+
+@group(3) @binding(4)
+var rows__signal: texture_2d<f32>;
+
+fn rows__load_signal(p: vec2i) -> vec4f {
+	return textureLoad(rows__signal, p, 0);
 }
 
 fn filter__weighted_mean(sum: vec4f) -> vec3f {

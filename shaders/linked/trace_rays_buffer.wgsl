@@ -1,43 +1,13 @@
 @compute @workgroup_size(64, 1, 1)
 fn trace_rays(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-	answer(group, lane);
-}
-
-fn answer(group: vec3u, lane: u32) {
 	fetch__load_starts();
 	stack__take_stack(lane);
-	let first = 64u * tile__permuted_group(group.x, bindings__dispatch.group_count, bindings__dispatch.group_stride);
-	var rays = rays__dead_rays();
-	var k = 0u;
-	loop {
-		let query = query__load_query_ray(first + block__place_of(lane, k));
-		rays = rays__ray_set(rays, k, query.ray);
-		shutter__shutter_time = query.time;
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	let hits = trace(rays);
-	k = 0u;
-	loop {
-		query__store_hit(first + block__place_of(lane, k), rays__hit_at(hits, k));
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
+	let index = 64u * tile__permuted_group(group.x, bindings__dispatch.group_count, bindings__dispatch.group_stride) + lane;
+	let query = query__load_query_ray(index);
+	shutter__shutter_time = query.time;
+	query__store_hit(index, traverse__walked(traverse__walk_of(query.ray, bindings__ANY_HIT), traverse__NO_LIMIT).hit);
 	dispatch__report_cut_off();
 	groups__count_group(group, lane);
-}
-
-fn trace(rays: rays__Rays) -> rays__Hits {
-	if (bindings__ANY_HIT) {
-		return rays__any_hits(rays);
-	}
-	return rays__closest_hits(rays);
 }
 
 var<private> fetch__root: u32;
@@ -70,70 +40,46 @@ fn fetch__load_starts() {
 	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
-fn fetch__load_node(index: u32, inv: vec3f) -> tracing__Node {
-	let row = types__FLOAT_NODE_ROWS * index;
-	let near = select(vec3u(0u), vec3u(1u), inv < vec3f(0.0));
-	let far = vec3u(1u) - near;
-	return node__float_node(fetch__node_row(row + near.x), fetch__node_row(row + far.x), fetch__node_row(row + 2u + near.y), fetch__node_row(row + 2u + far.y), fetch__node_row(row + 4u + near.z), fetch__node_row(row + 4u + far.z), fetch__node_row(row + 6u));
-}
-
 fn fetch__load_moving_node(reference: u32, moment: motion__Moment, inv: vec3f) -> tracing__Node {
 	let moves = (reference & types__MOVING) != 0u;
 	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
 	let second = first + select(0u, 1u, moves);
-	return node__node_between(fetch__load_node(first, inv), fetch__load_node(second, inv), moment.fraction);
+	return node__node_between(steps__load_node(first, inv), steps__load_node(second, inv), moment.fraction);
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
 	let row = fetch__instance_row + types__INSTANCE_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
-	let r6 = fetch__node_row(row + 6u);
-	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
+	let r6 = rows__node_row(row + 6u);
+	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(rows__node_row(row + 7u)), bitcast<vec4f>(rows__node_row(row + 8u)), bitcast<vec4f>(rows__node_row(row + 9u)));
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
 	let row = fetch__key_row + types__KEY_ROWS * index;
-	return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
+	return types__PackedKey(bitcast<vec3f>(rows__node_row(row).xyz), 0u, bitcast<vec4f>(rows__node_row(row + 1u)), bitcast<vec3f>(rows__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(rows__node_row(row + 3u).xyz), 0u);
 }
 
 fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
 	let row = 3u * index;
-	let r0 = fetch__triangle_row(row);
-	let r1 = fetch__triangle_row(row + 1u);
-	let r2 = fetch__triangle_row(row + 2u);
+	let r0 = rows__triangle_row(row);
+	let r1 = rows__triangle_row(row + 1u);
+	let r2 = rows__triangle_row(row + 2u);
 	return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
 fn fetch__load_shape(index: u32) -> types__PackedShape {
 	let row = fetch__shape_row + types__SHAPE_ROWS * index;
-	return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
+	return fetch__shape_of(rows__triangle_row(row), rows__triangle_row(row + 1u), rows__triangle_row(row + 2u), rows__triangle_row(row + 3u), rows__triangle_row(row + 4u));
 }
 
 fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
 	return types__PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
 }
-
-fn fetch__node_row(row: u32) -> vec4u {
-	return bindings__nodes[row];
-}
-
-fn fetch__triangle_row(row: u32) -> vec4u {
-	return bindings__triangles[row];
-}
-
-@group(0) @binding(0)
-var<storage, read> bindings__nodes: array<vec4u>;
-
-@group(0) @binding(1)
-var<storage, read> bindings__triangles: array<vec4u>;
-
-@group(0) @binding(3)
-var<storage, read> bindings__rays: array<vec4u>;
 
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
@@ -388,8 +334,6 @@ struct types__PackedCounters {
 	groups_done: array<array<atomic<u32>, 16>, 8>
 }
 
-const stack__EMPTY: u32 = 4294967295u;
-
 const stack__SHARED_ENTRIES: u32 = 24u;
 
 const stack__LANES: u32 = 64u;
@@ -405,9 +349,12 @@ var<workgroup> stack__shared_entries: array<u32, stack__LANES * stack__SHARED_EN
 var<private> stack__shared_lane: u32;
 
 fn stack__take_stack(lane: u32) {
-	{
-		stack__shared_lane = lane;
-	}
+	stack__shared_lane = lane;
+}
+
+fn stack__start_stack() {
+	stack__top = 0u;
+	stack__put_entry(0u, traverse__EMPTY);
 }
 
 fn stack__entry_at(index: u32) -> u32 {
@@ -432,32 +379,19 @@ fn stack__put_entry(index: u32, reference: u32) {
 	stack__entries[index] = reference;
 }
 
-fn stack__start_stack() {
-	stack__top = 0u;
-	stack__put_entry(0u, stack__EMPTY);
-}
-
-fn stack__top_of_stack() -> u32 {
-	return stack__entry_at(stack__top);
-}
-
 fn stack__push(reference: u32) {
-	{
-		if (bindings__SHARED_STACK && stack__top + 1u >= stack__SHARED_ENTRIES) {
-			loops__is_stack_full = true;
-			return;
-		}
-		stack__top += 1u;
-		stack__put_entry(stack__top, reference);
+	if (bindings__SHARED_STACK && stack__top + 1u >= stack__SHARED_ENTRIES) {
+		loops__is_stack_full = true;
+		return;
 	}
+	stack__top += 1u;
+	stack__put_entry(stack__top, reference);
 }
 
 fn stack__popped() -> u32 {
-	let reference = stack__top_of_stack();
-	{
-		if (reference != stack__EMPTY) {
-			stack__top -= 1u;
-		}
+	let reference = stack__entry_at(stack__top);
+	if (reference != traverse__EMPTY) {
+		stack__top -= 1u;
 	}
 	return reference;
 }
@@ -473,104 +407,14 @@ fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
 	return tile__divided(index * stride, group_count).y;
 }
 
-struct rays__Rays {
-	origin: wide__Vectors,
-	direction: wide__Vectors,
-	t_max: wide__Floats,
-	leaving: wide__Words,
-	leaving_instance: wide__Words
-}
-
-struct rays__Hits {
-	t: wide__Floats,
-	primitive: wide__Words,
-	b1: wide__Floats,
-	b2: wide__Floats,
-	instance: wide__Words
-}
-
-fn rays__dead_rays() -> rays__Rays {
-	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
-}
-
-fn rays__ray_at(rays: rays__Rays, k: u32) -> tracing__Ray {
-	return tracing__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
-}
-
-fn rays__ray_set(rays: rays__Rays, k: u32, ray: tracing__Ray) -> rays__Rays {
-	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
-}
-
-fn rays__hit_at(hits: rays__Hits, k: u32) -> tracing__Hit {
-	return tracing__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
-}
-
-fn rays__hits_of(hit: tracing__Hit) -> rays__Hits {
-	return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
-}
-
-fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
-	}
-}
-
-fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
-	}
-}
-
-const wide__RAYS_PER_LANE: u32 = 1u;
-
-const wide__ONE_RAY: bool = wide__RAYS_PER_LANE == 1u;
-
-alias wide__Floats = f32;
-
-alias wide__Words = u32;
-
-struct wide__Vectors {
-	x: wide__Floats,
-	y: wide__Floats,
-	z: wide__Floats
-}
-
-fn wide__float_at(all: wide__Floats, k: u32) -> f32 {
-	return all;
-}
-
-fn wide__word_at(all: wide__Words, k: u32) -> u32 {
-	return all;
-}
-
-fn wide__vector_at(all: wide__Vectors, k: u32) -> vec3f {
-	return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
-}
-
-fn wide__float_set(all: wide__Floats, k: u32, value: f32) -> wide__Floats {
-	{
-		return value;
-	}
-}
-
-fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
-	{
-		return value;
-	}
-}
-
-fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
-	return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
-}
-
 struct query__QueryRay {
 	ray: tracing__Ray,
 	time: f32
 }
 
 fn query__load_query_ray(index: u32) -> query__QueryRay {
-	let r0 = query__ray_row(2u * index);
-	let r1 = query__ray_row(2u * index + 1u);
+	let r0 = rows__ray_row(2u * index);
+	let r1 = rows__ray_row(2u * index + 1u);
 	let ray = tracing__Ray(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), types__NONE, types__NO_INSTANCE);
 	return query__QueryRay(ray, bitcast<f32>(r1.w));
 }
@@ -581,10 +425,6 @@ fn query__store_hit(index: u32, hit: tracing__Hit) {
 		rest = vec2u(loops__nodes_visited, loops__primitives_tested);
 	}
 	bindings__hits[index] = vec4u(bitcast<u32>(hit.t), hit.primitive, rest);
-}
-
-fn query__ray_row(row: u32) -> vec4u {
-	return bindings__rays[row];
 }
 
 struct tracing__Ray {
@@ -622,10 +462,25 @@ struct tracing__Node {
 	children: vec4u
 }
 
-fn block__place_of(lane: u32, k: u32) -> u32 {
-	{
-		return lane;
-	}
+@group(0) @binding(0)
+var<storage, read> rows__nodes: array<vec4u>;
+
+@group(0) @binding(1)
+var<storage, read> rows__triangles: array<vec4u>;
+
+@group(0) @binding(3)
+var<storage, read> rows__rays: array<vec4u>;
+
+fn rows__node_row(row: u32) -> vec4u {
+	return rows__nodes[row];
+}
+
+fn rows__triangle_row(row: u32) -> vec4u {
+	return rows__triangles[row];
+}
+
+fn rows__ray_row(row: u32) -> vec4u {
+	return rows__rays[row];
 }
 
 var<private> shutter__shutter_time: f32;
@@ -637,6 +492,8 @@ var<private> loops__primitives_tested: u32;
 var<private> loops__cut_off: bool;
 
 var<private> loops__is_stack_full: bool;
+
+const traverse__EMPTY: u32 = 4294967295u;
 
 const traverse__RETURN: u32 = 4294967294u;
 
@@ -653,14 +510,6 @@ struct traverse__Walk {
 
 const traverse__NO_LIMIT: u32 = 4294967295u;
 
-fn traverse__closest_hit(ray: tracing__Ray) -> tracing__Hit {
-	return traverse__walked(traverse__walk_of(ray, false), traverse__NO_LIMIT).hit;
-}
-
-fn traverse__any_hit(ray: tracing__Ray) -> tracing__Hit {
-	return traverse__walked(traverse__walk_of(ray, true), traverse__NO_LIMIT).hit;
-}
-
 fn traverse__search_limit(ray: tracing__Ray, hit: tracing__Hit) -> f32 {
 	if (bindings__HAS_CONTACT) {
 		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
@@ -673,7 +522,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 		primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	}
 	let shear = triangle_watertight__shear_of(ray.direction);
-	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), traverse__EMPTY);
 	if (bindings__HAS_PLANES) {
 		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
@@ -696,7 +545,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 }
 
 fn traverse__is_walking(walk: traverse__Walk) -> bool {
-	return walk.current != stack__EMPTY;
+	return walk.current != traverse__EMPTY;
 }
 
 fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
@@ -709,16 +558,12 @@ fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
 			}
 			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
 			if (is_node) {
-				{
-					walk = branching__through_nodes(walk);
-				}
+				walk = steps__through_nodes(walk);
 				loops__cut_off |= (walk.current & types__LEAF) == 0u;
 			}
-			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
+			let is_leaf = walk.current != traverse__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
 			if (is_leaf) {
-				{
-					walk = branching__through_leaves(walk);
-				}
+				walk = steps__through_leaves(walk);
 			}
 			round += 1u;
 			continuing {
@@ -737,7 +582,7 @@ fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
 		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
 		walk.current = stack__popped();
 	}
-	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
+	if ((walk.current >= types__INSTANCE) & (walk.current != traverse__EMPTY)) {
 		let index = walk.current & types__LEAF_FIRST_MASK;
 		let instance = fetch__load_instance(index);
 		let local = instance__object_ray(walk.ray, instance__space_of(instance));
@@ -752,7 +597,7 @@ fn traverse__load_current_node(reference: u32, at: primitive__TraversalRay) -> t
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
 		return deforming__node_now(reference, at.keys, at.inv);
 	}
-	return fetch__load_node(reference, at.inv);
+	return steps__load_node(reference, at.inv);
 }
 
 struct triangle_watertight__Shear {
@@ -971,7 +816,14 @@ fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
 	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
 }
 
-fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
+fn steps__load_node(index: u32, inv: vec3f) -> tracing__Node {
+	let row = types__FLOAT_NODE_ROWS * index;
+	let near = select(vec3u(0u), vec3u(1u), inv < vec3f(0.0));
+	let far = vec3u(1u) - near;
+	return node__float_node(rows__node_row(row + near.x), rows__node_row(row + far.x), rows__node_row(row + 2u + near.y), rows__node_row(row + 2u + far.y), rows__node_row(row + 4u + near.z), rows__node_row(row + 4u + far.z), rows__node_row(row + 6u));
+}
+
+fn steps__through_nodes(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	loop {
 		let node = traverse__load_current_node(walk.current, walk.at);
@@ -981,8 +833,8 @@ fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
 			loops__nodes_visited += 1u;
 		}
 		if (keys.x < node__MISS) {
-			branching__push_farther(node.children, keys);
-			walk.current = branching__child(node.children, keys.x);
+			steps__push_farther(node.children, keys);
+			walk.current = steps__child(node.children, keys.x);
 		}
 		else {
 			walk.current = stack__popped();
@@ -995,24 +847,24 @@ fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
 	return walk;
 }
 
-fn branching__push_farther(children: vec4u, keys: vec4u) {
+fn steps__push_farther(children: vec4u, keys: vec4u) {
 	if (keys.y < node__MISS) {
 		if (keys.z < node__MISS) {
 			if (keys.w < node__MISS) {
-				stack__push(branching__child(children, keys.w));
+				stack__push(steps__child(children, keys.w));
 			}
-			stack__push(branching__child(children, keys.z));
+			stack__push(steps__child(children, keys.z));
 		}
-		stack__push(branching__child(children, keys.y));
+		stack__push(steps__child(children, keys.y));
 	}
 }
 
-fn branching__child(children: vec4u, key: u32) -> u32 {
+fn steps__child(children: vec4u, key: u32) -> u32 {
 	let first = select(children.xz, children.yw, vec2<bool>((key & 1u) != 0u));
 	return select(first.x, first.y, (key & 2u) != 0u);
 }
 
-fn branching__through_leaves(before: traverse__Walk) -> traverse__Walk {
+fn steps__through_leaves(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	loop {
 		walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
@@ -1020,7 +872,7 @@ fn branching__through_leaves(before: traverse__Walk) -> traverse__Walk {
 			loops__primitives_tested += 1u;
 		}
 		if (walk.any && walk.hit.primitive != types__NONE) {
-			walk.current = stack__EMPTY;
+			walk.current = traverse__EMPTY;
 		}
 		else if ((walk.current & types__LEAF_COUNT_MASK) == 0u) {
 			walk.current = stack__popped();

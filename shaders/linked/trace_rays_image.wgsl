@@ -1,43 +1,13 @@
 @compute @workgroup_size(64, 1, 1)
 fn trace_rays(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-	answer(group, lane);
-}
-
-fn answer(group: vec3u, lane: u32) {
 	fetch__load_starts();
 	stack__take_stack(lane);
-	let first = 64u * tile__permuted_group(group.x, bindings__dispatch.group_count, bindings__dispatch.group_stride);
-	var rays = rays__dead_rays();
-	var k = 0u;
-	loop {
-		let query = query__load_query_ray(first + block__place_of(lane, k));
-		rays = rays__ray_set(rays, k, query.ray);
-		shutter__shutter_time = query.time;
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	let hits = trace(rays);
-	k = 0u;
-	loop {
-		query__store_hit(first + block__place_of(lane, k), rays__hit_at(hits, k));
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
+	let index = 64u * tile__permuted_group(group.x, bindings__dispatch.group_count, bindings__dispatch.group_stride) + lane;
+	let query = query__load_query_ray(index);
+	shutter__shutter_time = query.time;
+	query__store_hit(index, traverse__walked(traverse__walk_of(query.ray, bindings__ANY_HIT), traverse__NO_LIMIT).hit);
 	dispatch__report_cut_off();
 	groups__count_group(group, lane);
-}
-
-fn trace(rays: rays__Rays) -> rays__Hits {
-	if (bindings__ANY_HIT) {
-		return rays__any_hits(rays);
-	}
-	return rays__closest_hits(rays);
 }
 
 var<private> fetch__root: u32;
@@ -70,72 +40,46 @@ fn fetch__load_starts() {
 	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
-fn fetch__load_node(index: u32, inv: vec3f) -> tracing__Node {
-	let row = types__NODE_ROWS * index;
-	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u), inv);
-}
-
 fn fetch__load_moving_node(reference: u32, moment: motion__Moment, inv: vec3f) -> tracing__Node {
 	let moves = (reference & types__MOVING) != 0u;
 	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
 	let second = first + select(0u, 1u, moves);
-	return node__node_between(fetch__load_node(first, inv), fetch__load_node(second, inv), moment.fraction);
+	return node__node_between(steps__load_node(first, inv), steps__load_node(second, inv), moment.fraction);
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
 	let row = fetch__instance_row + types__INSTANCE_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
-	let r6 = fetch__node_row(row + 6u);
-	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
+	let r6 = rows__node_row(row + 6u);
+	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(rows__node_row(row + 7u)), bitcast<vec4f>(rows__node_row(row + 8u)), bitcast<vec4f>(rows__node_row(row + 9u)));
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
 	let row = fetch__key_row + types__KEY_ROWS * index;
-	return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
+	return types__PackedKey(bitcast<vec3f>(rows__node_row(row).xyz), 0u, bitcast<vec4f>(rows__node_row(row + 1u)), bitcast<vec3f>(rows__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(rows__node_row(row + 3u).xyz), 0u);
 }
 
 fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
 	let row = 3u * index;
-	let r0 = fetch__triangle_row(row);
-	let r1 = fetch__triangle_row(row + 1u);
-	let r2 = fetch__triangle_row(row + 2u);
+	let r0 = rows__triangle_row(row);
+	let r1 = rows__triangle_row(row + 1u);
+	let r2 = rows__triangle_row(row + 2u);
 	return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
 fn fetch__load_shape(index: u32) -> types__PackedShape {
 	let row = fetch__shape_row + types__SHAPE_ROWS * index;
-	return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
+	return fetch__shape_of(rows__triangle_row(row), rows__triangle_row(row + 1u), rows__triangle_row(row + 2u), rows__triangle_row(row + 3u), rows__triangle_row(row + 4u));
 }
 
 fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
 	return types__PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
 }
-
-fn fetch__texel(row: u32) -> vec2u {
-	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
-}
-
-fn fetch__node_row(row: u32) -> vec4u {
-	return textureLoad(bindings__nodes, fetch__texel(row));
-}
-
-fn fetch__triangle_row(row: u32) -> vec4u {
-	return textureLoad(bindings__triangles, fetch__texel(row));
-}
-
-@group(0) @binding(0)
-var bindings__nodes: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(1)
-var bindings__triangles: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(3)
-var bindings__rays: texture_storage_2d<rgba32uint, read>;
 
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
@@ -388,8 +332,6 @@ struct types__PackedCounters {
 	groups_done: array<array<atomic<u32>, 16>, 8>
 }
 
-const stack__EMPTY: u32 = 4294967295u;
-
 var<private> stack__top: u32;
 
 var<private> stack__entries: array<u32, types__STACK_SIZE>;
@@ -414,48 +356,36 @@ fn stack__take_stack(lane: u32) {
 
 }
 
-fn stack__entry_at(index: u32) -> u32 {
-	return stack__entries[index];
-}
-
-fn stack__put_entry(index: u32, reference: u32) {
-	stack__entries[index] = reference;
-}
-
 fn stack__start_stack() {
 	if (bindings__STACK_REGISTERS > 0u) {
-		stack__s0 = vec4u(stack__EMPTY);
-		stack__s1 = vec4u(stack__EMPTY);
-		stack__s2 = vec4u(stack__EMPTY);
-		stack__s3 = vec4u(stack__EMPTY);
-		stack__s4 = vec4u(stack__EMPTY);
-		stack__s5 = vec4u(stack__EMPTY);
-		stack__s6 = vec4u(stack__EMPTY);
-		stack__s7 = vec4u(stack__EMPTY);
+		stack__s0 = vec4u(traverse__EMPTY);
+		stack__s1 = vec4u(traverse__EMPTY);
+		stack__s2 = vec4u(traverse__EMPTY);
+		stack__s3 = vec4u(traverse__EMPTY);
+		stack__s4 = vec4u(traverse__EMPTY);
+		stack__s5 = vec4u(traverse__EMPTY);
+		stack__s6 = vec4u(traverse__EMPTY);
+		stack__s7 = vec4u(traverse__EMPTY);
 		return;
 	}
 	stack__top = 0u;
-	stack__put_entry(0u, stack__EMPTY);
+	stack__entries[0] = traverse__EMPTY;
 }
 
 fn stack__top_of_stack() -> u32 {
 	if (bindings__STACK_REGISTERS > 0u) {
 		return stack__s0.x;
 	}
-	return stack__entry_at(stack__top);
+	return stack__entries[stack__top];
 }
 
 fn stack__push(reference: u32) {
-	{
-		stack__move_stack(vec3u(reference, stack__EMPTY, stack__EMPTY), 1);
-	}
+	stack__move_stack(vec3u(reference, traverse__EMPTY, traverse__EMPTY), 1);
 }
 
 fn stack__popped() -> u32 {
 	let reference = stack__top_of_stack();
-	{
-		stack__move_stack(vec3u(stack__EMPTY), -1);
-	}
+	stack__move_stack(vec3u(traverse__EMPTY), -1);
 	return reference;
 }
 
@@ -465,30 +395,30 @@ fn stack__move_stack(references: vec3u, count: i32) {
 		return;
 	}
 	if (count < 0) {
-		if (stack__entry_at(stack__top) != stack__EMPTY) {
+		if (stack__entries[stack__top] != traverse__EMPTY) {
 			stack__top -= 1u;
 		}
 		return;
 	}
 	if (count >= 3) {
 		stack__top += 1u;
-		stack__put_entry(stack__top, references.z);
+		stack__entries[stack__top] = references.z;
 	}
 	if (count >= 2) {
 		stack__top += 1u;
-		stack__put_entry(stack__top, references.y);
+		stack__entries[stack__top] = references.y;
 	}
 	if (count >= 1) {
 		stack__top += 1u;
-		stack__put_entry(stack__top, references.x);
+		stack__entries[stack__top] = references.x;
 	}
 }
 
 fn stack__move_registers(references: vec3u, count: i32) {
-	let above = vec4u(stack__EMPTY, references.x, select(references.y, references.x, count == 2), select(select(references.z, references.y, count == 2), references.x, count == 1));
+	let above = vec4u(traverse__EMPTY, references.x, select(references.y, references.x, count == 2), select(select(references.z, references.y, count == 2), references.x, count == 1));
 	let last = stack__last_register();
 	let deepest = select(select(last.y, last.z, count == 2), last.w, count == 1);
-	loops__is_stack_full |= (count > 0) & (deepest != stack__EMPTY);
+	loops__is_stack_full |= (count > 0) & (deepest != traverse__EMPTY);
 	let m0 = stack__moved(above, stack__s0, stack__s1, count);
 	var m1: vec4u;
 	if (bindings__STACK_REGISTERS > 1u) {
@@ -516,7 +446,7 @@ fn stack__move_registers(references: vec3u, count: i32) {
 	}
 	var m7: vec4u;
 	if (bindings__STACK_REGISTERS > 7u) {
-		m7 = stack__moved(stack__s6, stack__s7, vec4u(stack__EMPTY), count);
+		m7 = stack__moved(stack__s6, stack__s7, vec4u(traverse__EMPTY), count);
 	}
 	stack__s0 = m0;
 	if (bindings__STACK_REGISTERS > 1u) {
@@ -585,104 +515,14 @@ fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
 	return tile__divided(index * stride, group_count).y;
 }
 
-struct rays__Rays {
-	origin: wide__Vectors,
-	direction: wide__Vectors,
-	t_max: wide__Floats,
-	leaving: wide__Words,
-	leaving_instance: wide__Words
-}
-
-struct rays__Hits {
-	t: wide__Floats,
-	primitive: wide__Words,
-	b1: wide__Floats,
-	b2: wide__Floats,
-	instance: wide__Words
-}
-
-fn rays__dead_rays() -> rays__Rays {
-	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
-}
-
-fn rays__ray_at(rays: rays__Rays, k: u32) -> tracing__Ray {
-	return tracing__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
-}
-
-fn rays__ray_set(rays: rays__Rays, k: u32, ray: tracing__Ray) -> rays__Rays {
-	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
-}
-
-fn rays__hit_at(hits: rays__Hits, k: u32) -> tracing__Hit {
-	return tracing__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
-}
-
-fn rays__hits_of(hit: tracing__Hit) -> rays__Hits {
-	return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
-}
-
-fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
-	}
-}
-
-fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
-	}
-}
-
-const wide__RAYS_PER_LANE: u32 = 1u;
-
-const wide__ONE_RAY: bool = wide__RAYS_PER_LANE == 1u;
-
-alias wide__Floats = f32;
-
-alias wide__Words = u32;
-
-struct wide__Vectors {
-	x: wide__Floats,
-	y: wide__Floats,
-	z: wide__Floats
-}
-
-fn wide__float_at(all: wide__Floats, k: u32) -> f32 {
-	return all;
-}
-
-fn wide__word_at(all: wide__Words, k: u32) -> u32 {
-	return all;
-}
-
-fn wide__vector_at(all: wide__Vectors, k: u32) -> vec3f {
-	return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
-}
-
-fn wide__float_set(all: wide__Floats, k: u32, value: f32) -> wide__Floats {
-	{
-		return value;
-	}
-}
-
-fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
-	{
-		return value;
-	}
-}
-
-fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
-	return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
-}
-
 struct query__QueryRay {
 	ray: tracing__Ray,
 	time: f32
 }
 
 fn query__load_query_ray(index: u32) -> query__QueryRay {
-	let r0 = query__ray_row(2u * index);
-	let r1 = query__ray_row(2u * index + 1u);
+	let r0 = rows__ray_row(2u * index);
+	let r1 = rows__ray_row(2u * index + 1u);
 	let ray = tracing__Ray(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), types__NONE, types__NO_INSTANCE);
 	return query__QueryRay(ray, bitcast<f32>(r1.w));
 }
@@ -693,10 +533,6 @@ fn query__store_hit(index: u32, hit: tracing__Hit) {
 		rest = vec2u(loops__nodes_visited, loops__primitives_tested);
 	}
 	bindings__hits[index] = vec4u(bitcast<u32>(hit.t), hit.primitive, rest);
-}
-
-fn query__ray_row(row: u32) -> vec4u {
-	return textureLoad(bindings__rays, fetch__texel(row));
 }
 
 struct tracing__Ray {
@@ -734,10 +570,29 @@ struct tracing__Node {
 	children: vec4u
 }
 
-fn block__place_of(lane: u32, k: u32) -> u32 {
-	{
-		return lane;
-	}
+@group(0) @binding(0)
+var rows__nodes: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(1)
+var rows__triangles: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(3)
+var rows__rays: texture_storage_2d<rgba32uint, read>;
+
+fn rows__node_row(row: u32) -> vec4u {
+	return textureLoad(rows__nodes, rows__texel(row));
+}
+
+fn rows__triangle_row(row: u32) -> vec4u {
+	return textureLoad(rows__triangles, rows__texel(row));
+}
+
+fn rows__ray_row(row: u32) -> vec4u {
+	return textureLoad(rows__rays, rows__texel(row));
+}
+
+fn rows__texel(row: u32) -> vec2u {
+	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
 }
 
 var<private> shutter__shutter_time: f32;
@@ -749,6 +604,8 @@ var<private> loops__primitives_tested: u32;
 var<private> loops__cut_off: bool;
 
 var<private> loops__is_stack_full: bool;
+
+const traverse__EMPTY: u32 = 4294967295u;
 
 const traverse__RETURN: u32 = 4294967294u;
 
@@ -765,14 +622,6 @@ struct traverse__Walk {
 
 const traverse__NO_LIMIT: u32 = 4294967295u;
 
-fn traverse__closest_hit(ray: tracing__Ray) -> tracing__Hit {
-	return traverse__walked(traverse__walk_of(ray, false), traverse__NO_LIMIT).hit;
-}
-
-fn traverse__any_hit(ray: tracing__Ray) -> tracing__Hit {
-	return traverse__walked(traverse__walk_of(ray, true), traverse__NO_LIMIT).hit;
-}
-
 fn traverse__search_limit(ray: tracing__Ray, hit: tracing__Hit) -> f32 {
 	if (bindings__HAS_CONTACT) {
 		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
@@ -785,7 +634,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 		primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	}
 	let shear = triangle_watertight__shear_of(ray.direction);
-	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), traverse__EMPTY);
 	if (bindings__HAS_PLANES) {
 		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
@@ -808,7 +657,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 }
 
 fn traverse__is_walking(walk: traverse__Walk) -> bool {
-	return walk.current != stack__EMPTY;
+	return walk.current != traverse__EMPTY;
 }
 
 fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
@@ -821,40 +670,12 @@ fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
 			}
 			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
 			if (is_node) {
-				loop {
-					let node = traverse__load_current_node(walk.current, walk.at);
-					let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
-					let is_hit = keys < vec4u(node__MISS);
-					let top = stack__top_of_stack();
-					let next = vec3u(node.children[keys.y & 3u], node.children[keys.z & 3u], node.children[keys.w & 3u]);
-					stack__move_stack(next, traverse__hit_count(keys) - 1);
-					walk.current = select(top, node.children[keys.x & 3u], keys.x < node__MISS);
-					if (bindings__COUNT_STEPS) {
-						loops__nodes_visited += 1u;
-					}
-					continuing {
-					
-						break if (walk.current & types__LEAF) != 0u;
-					}
-				}
+				walk = steps__through_nodes(walk);
 				loops__cut_off |= (walk.current & types__LEAF) == 0u;
 			}
-			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
+			let is_leaf = walk.current != traverse__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
 			if (is_leaf) {
-				loop {
-					walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
-					let is_last = (walk.current & types__LEAF_COUNT_MASK) == 0u;
-					walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__top_of_stack(), is_last);
-					stack__move_stack(vec3u(stack__EMPTY), select(0, -1, is_last));
-					walk.current = select(walk.current, stack__EMPTY, walk.any & (walk.hit.primitive != types__NONE));
-					if (bindings__COUNT_STEPS) {
-						loops__primitives_tested += 1u;
-					}
-					continuing {
-					
-						break if ((walk.current & types__LEAF) == 0u) | (walk.current >= types__INSTANCE);
-					}
-				}
+				walk = steps__through_leaves(walk);
 			}
 			round += 1u;
 			continuing {
@@ -873,7 +694,7 @@ fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
 		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
 		walk.current = stack__popped();
 	}
-	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
+	if ((walk.current >= types__INSTANCE) & (walk.current != traverse__EMPTY)) {
 		let index = walk.current & types__LEAF_FIRST_MASK;
 		let instance = fetch__load_instance(index);
 		let local = instance__object_ray(walk.ray, instance__space_of(instance));
@@ -884,16 +705,11 @@ fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
 	return walk;
 }
 
-fn traverse__hit_count(keys: vec4u) -> i32 {
-	let hits = select(vec4i(0), vec4i(1), keys < vec4u(node__MISS));
-	return hits.x + hits.y + hits.z + hits.w;
-}
-
 fn traverse__load_current_node(reference: u32, at: primitive__TraversalRay) -> tracing__Node {
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
 		return deforming__node_now(reference, at.keys, at.inv);
 	}
-	return fetch__load_node(reference, at.inv);
+	return steps__load_node(reference, at.inv);
 }
 
 struct triangle_watertight__Shear {
@@ -1110,6 +926,55 @@ fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
 	let yz = 2.0 * q.y * q.z;
 	let w = 2.0 * q.w * q.xyz;
 	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
+}
+
+fn steps__load_node(index: u32, inv: vec3f) -> tracing__Node {
+	let row = types__NODE_ROWS * index;
+	return node__decode_node(rows__node_row(row), rows__node_row(row + 1u), rows__node_row(row + 2u), rows__node_row(row + 3u), inv);
+}
+
+fn steps__through_nodes(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	loop {
+		let node = traverse__load_current_node(walk.current, walk.at);
+		let keys = node__sort4(node__child_keys(node, walk.at.ray.origin, walk.at.inv, traverse__search_limit(walk.ray, walk.hit)));
+		let top = stack__top_of_stack();
+		let next = vec3u(node.children[keys.y & 3u], node.children[keys.z & 3u], node.children[keys.w & 3u]);
+		stack__move_stack(next, steps__hit_count(keys) - 1);
+		walk.current = select(top, node.children[keys.x & 3u], keys.x < node__MISS);
+		if (bindings__COUNT_STEPS) {
+			loops__nodes_visited += 1u;
+		}
+		continuing {
+		
+			break if (walk.current & types__LEAF) != 0u;
+		}
+	}
+	return walk;
+}
+
+fn steps__hit_count(keys: vec4u) -> i32 {
+	let hits = select(vec4i(0), vec4i(1), keys < vec4u(node__MISS));
+	return hits.x + hits.y + hits.z + hits.w;
+}
+
+fn steps__through_leaves(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	loop {
+		walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
+		let is_last = (walk.current & types__LEAF_COUNT_MASK) == 0u;
+		walk.current = select(walk.current - types__LEAF_COUNT_ONE + 1u, stack__top_of_stack(), is_last);
+		stack__move_stack(vec3u(traverse__EMPTY), select(0, -1, is_last));
+		walk.current = select(walk.current, traverse__EMPTY, walk.any & (walk.hit.primitive != types__NONE));
+		if (bindings__COUNT_STEPS) {
+			loops__primitives_tested += 1u;
+		}
+		continuing {
+		
+			break if ((walk.current & types__LEAF) == 0u) | (walk.current >= types__INSTANCE);
+		}
+	}
+	return walk;
 }
 
 const node__MISS: u32 = 4294967292u;

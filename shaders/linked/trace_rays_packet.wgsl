@@ -1,43 +1,30 @@
 @compute @workgroup_size(16, 1, 1)
 fn trace_rays(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32, @builtin(subgroup_invocation_id) packet_lane: u32) {
 	lanes__start_packets(packet_lane);
-	answer(group, lane);
-}
-
-fn answer(group: vec3u, lane: u32) {
 	fetch__load_starts();
 	let first = 64u * tile__permuted_group(group.x, bindings__dispatch.group_count, bindings__dispatch.group_stride);
 	var rays = rays__dead_rays();
 	var k = 0u;
 	loop {
-		let query = query__load_query_ray(first + block__place_of(lane, k));
-		rays = rays__ray_set(rays, k, query.ray);
-		shutter__shutter_time = query.time;
+		rays = rays__ray_set(rays, k, query__load_query_ray(first + pixels__place_of(lane, k)).ray);
 		continuing {
 			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+			break if k >= rays__RAYS_PER_LANE;
 		}
 	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	let hits = trace(rays);
+	loops__cut_off |= k < rays__RAYS_PER_LANE;
+	let hits = walk__packet_hits(rays, bindings__ANY_HIT);
 	k = 0u;
 	loop {
-		query__store_hit(first + block__place_of(lane, k), rays__hit_at(hits, k));
+		query__store_hit(first + pixels__place_of(lane, k), rays__hit_at(hits, k));
 		continuing {
 			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+			break if k >= rays__RAYS_PER_LANE;
 		}
 	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
+	loops__cut_off |= k < rays__RAYS_PER_LANE;
 	dispatch__report_cut_off();
 	groups__count_group(group, lane);
-}
-
-fn trace(rays: rays__Rays) -> rays__Hits {
-	if (bindings__ANY_HIT) {
-		return rays__any_hits(rays);
-	}
-	return rays__closest_hits(rays);
 }
 
 var<private> lanes__packet_lane: u32;
@@ -118,58 +105,37 @@ fn fetch__load_starts() {
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
 	let row = fetch__instance_row + types__INSTANCE_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
-	let r6 = fetch__node_row(row + 6u);
-	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
+	let r6 = rows__node_row(row + 6u);
+	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(rows__node_row(row + 7u)), bitcast<vec4f>(rows__node_row(row + 8u)), bitcast<vec4f>(rows__node_row(row + 9u)));
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
 	let row = fetch__key_row + types__KEY_ROWS * index;
-	return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
+	return types__PackedKey(bitcast<vec3f>(rows__node_row(row).xyz), 0u, bitcast<vec4f>(rows__node_row(row + 1u)), bitcast<vec3f>(rows__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(rows__node_row(row + 3u).xyz), 0u);
 }
 
 fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
 	let row = 3u * index;
-	let r0 = fetch__triangle_row(row);
-	let r1 = fetch__triangle_row(row + 1u);
-	let r2 = fetch__triangle_row(row + 2u);
+	let r0 = rows__triangle_row(row);
+	let r1 = rows__triangle_row(row + 1u);
+	let r2 = rows__triangle_row(row + 2u);
 	return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
 fn fetch__load_shape(index: u32) -> types__PackedShape {
 	let row = fetch__shape_row + types__SHAPE_ROWS * index;
-	return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
+	return fetch__shape_of(rows__triangle_row(row), rows__triangle_row(row + 1u), rows__triangle_row(row + 2u), rows__triangle_row(row + 3u), rows__triangle_row(row + 4u));
 }
 
 fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
 	return types__PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
 }
-
-fn fetch__texel(row: u32) -> vec2u {
-	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
-}
-
-fn fetch__node_row(row: u32) -> vec4u {
-	return textureLoad(bindings__nodes, fetch__texel(row));
-}
-
-fn fetch__triangle_row(row: u32) -> vec4u {
-	return textureLoad(bindings__triangles, fetch__texel(row));
-}
-
-@group(0) @binding(0)
-var bindings__nodes: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(1)
-var bindings__triangles: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(3)
-var bindings__rays: texture_storage_2d<rgba32uint, read>;
 
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
@@ -425,28 +391,30 @@ fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
 	return tile__divided(index * stride, group_count).y;
 }
 
+const rays__RAYS_PER_LANE: u32 = 4u;
+
 struct rays__Rays {
 	origin: wide__Vectors,
 	direction: wide__Vectors,
-	t_max: wide__Floats,
-	leaving: wide__Words,
-	leaving_instance: wide__Words
+	t_max: vec4f,
+	leaving: vec4u,
+	leaving_instance: vec4u
 }
 
 struct rays__Hits {
-	t: wide__Floats,
-	primitive: wide__Words,
-	b1: wide__Floats,
-	b2: wide__Floats,
-	instance: wide__Words
+	t: vec4f,
+	primitive: vec4u,
+	b1: vec4f,
+	b2: vec4f,
+	instance: vec4u
 }
 
 fn rays__dead_rays() -> rays__Rays {
-	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
+	return rays__Rays(wide__Vectors(vec4f(0.0), vec4f(0.0), vec4f(0.0)), wide__Vectors(vec4f(0.0), vec4f(0.0), vec4f(1.0)), vec4f(-1.0), vec4u(types__NONE), vec4u(types__NO_INSTANCE));
 }
 
 fn rays__ray_at(rays: rays__Rays, k: u32) -> tracing__Ray {
-	return tracing__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
+	return tracing__Ray(wide__vector_at(rays.origin, k), rays.t_max[k], wide__vector_at(rays.direction, k), rays.leaving[k], rays.leaving_instance[k]);
 }
 
 fn rays__ray_set(rays: rays__Rays, k: u32, ray: tracing__Ray) -> rays__Rays {
@@ -454,85 +422,29 @@ fn rays__ray_set(rays: rays__Rays, k: u32, ray: tracing__Ray) -> rays__Rays {
 }
 
 fn rays__hit_at(hits: rays__Hits, k: u32) -> tracing__Hit {
-	return tracing__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
+	return tracing__Hit(hits.t[k], hits.primitive[k], hits.b1[k], hits.b2[k], hits.instance[k]);
 }
-
-fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return walk__packet_hits(rays, false);
-	}
-}
-
-fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return walk__packet_hits(rays, true);
-	}
-}
-
-const wide__RAYS_PER_LANE: u32 = 4u;
-
-const wide__ONE_RAY: bool = wide__RAYS_PER_LANE == 1u;
-
-alias wide__Floats = vec4f;
-
-alias wide__Words = vec4u;
 
 struct wide__Vectors {
-	x: wide__Floats,
-	y: wide__Floats,
-	z: wide__Floats
-}
-
-fn wide__float_at(all: wide__Floats, k: u32) -> f32 {
-	return all[k];
-}
-
-fn wide__word_at(all: wide__Words, k: u32) -> u32 {
-	return all[k];
+	x: vec4f,
+	y: vec4f,
+	z: vec4f
 }
 
 fn wide__vector_at(all: wide__Vectors, k: u32) -> vec3f {
-	return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
+	return vec3f(all.x[k], all.y[k], all.z[k]);
 }
 
-fn wide__float_set(all: wide__Floats, k: u32, value: f32) -> wide__Floats {
-	{
-		return select(all, vec4f(value), vec4u(0u, 1u, 2u, 3u) == vec4u(k));
-	}
+fn wide__float_set(all: vec4f, k: u32, value: f32) -> vec4f {
+	return select(all, vec4f(value), vec4u(0u, 1u, 2u, 3u) == vec4u(k));
 }
 
-fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
-	{
-		return select(all, vec4u(value), vec4u(0u, 1u, 2u, 3u) == vec4u(k));
-	}
+fn wide__word_set(all: vec4u, k: u32, value: u32) -> vec4u {
+	return select(all, vec4u(value), vec4u(0u, 1u, 2u, 3u) == vec4u(k));
 }
 
 fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
 	return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
-}
-
-struct query__QueryRay {
-	ray: tracing__Ray,
-	time: f32
-}
-
-fn query__load_query_ray(index: u32) -> query__QueryRay {
-	let r0 = query__ray_row(2u * index);
-	let r1 = query__ray_row(2u * index + 1u);
-	let ray = tracing__Ray(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), types__NONE, types__NO_INSTANCE);
-	return query__QueryRay(ray, bitcast<f32>(r1.w));
-}
-
-fn query__store_hit(index: u32, hit: tracing__Hit) {
-	var rest = vec2u(hit.instance, pack2x16unorm(vec2f(hit.b1, hit.b2)));
-	if (bindings__COUNT_STEPS) {
-		rest = vec2u(loops__nodes_visited, loops__primitives_tested);
-	}
-	bindings__hits[index] = vec4u(bitcast<u32>(hit.t), hit.primitive, rest);
-}
-
-fn query__ray_row(row: u32) -> vec4u {
-	return textureLoad(bindings__rays, fetch__texel(row));
 }
 
 struct tracing__Ray {
@@ -558,14 +470,55 @@ struct tracing__Hit {
 	instance: u32
 }
 
-fn block__place_of(lane: u32, k: u32) -> u32 {
-	{
-		let within = lane & (bindings__PACKET_LANES - 1u);
-		return 4u * (lane - within) + bindings__PACKET_LANES * k + within;
-	}
+struct query__QueryRay {
+	ray: tracing__Ray,
+	time: f32
 }
 
-var<private> shutter__shutter_time: f32;
+fn query__load_query_ray(index: u32) -> query__QueryRay {
+	let r0 = rows__ray_row(2u * index);
+	let r1 = rows__ray_row(2u * index + 1u);
+	let ray = tracing__Ray(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), types__NONE, types__NO_INSTANCE);
+	return query__QueryRay(ray, bitcast<f32>(r1.w));
+}
+
+fn query__store_hit(index: u32, hit: tracing__Hit) {
+	var rest = vec2u(hit.instance, pack2x16unorm(vec2f(hit.b1, hit.b2)));
+	if (bindings__COUNT_STEPS) {
+		rest = vec2u(loops__nodes_visited, loops__primitives_tested);
+	}
+	bindings__hits[index] = vec4u(bitcast<u32>(hit.t), hit.primitive, rest);
+}
+
+@group(0) @binding(0)
+var rows__nodes: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(1)
+var rows__triangles: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(3)
+var rows__rays: texture_storage_2d<rgba32uint, read>;
+
+fn rows__node_row(row: u32) -> vec4u {
+	return textureLoad(rows__nodes, rows__texel(row));
+}
+
+fn rows__triangle_row(row: u32) -> vec4u {
+	return textureLoad(rows__triangles, rows__texel(row));
+}
+
+fn rows__ray_row(row: u32) -> vec4u {
+	return textureLoad(rows__rays, rows__texel(row));
+}
+
+fn rows__texel(row: u32) -> vec2u {
+	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
+}
+
+fn pixels__place_of(lane: u32, k: u32) -> u32 {
+	let within = lane & (bindings__PACKET_LANES - 1u);
+	return 4u * (lane - within) + bindings__PACKET_LANES * k + within;
+}
 
 var<private> loops__nodes_visited: u32;
 
@@ -580,7 +533,7 @@ var<private> walk__seconds: lanes__FourHits;
 fn walk__packet_hits(rays: rays__Rays, any: bool) -> rays__Hits {
 	let found = walk__walk(rays__ray_at(rays, 0u), rays__ray_at(rays, 1u), rays__ray_at(rays, 2u), rays__ray_at(rays, 3u), any);
 	walk__seconds = found;
-	return rays__Hits(wide__Floats(found.h0.hit.t, found.h1.hit.t, found.h2.hit.t, found.h3.hit.t), wide__Words(found.h0.hit.primitive, found.h1.hit.primitive, found.h2.hit.primitive, found.h3.hit.primitive), wide__Floats(found.h0.hit.b1, found.h1.hit.b1, found.h2.hit.b1, found.h3.hit.b1), wide__Floats(found.h0.hit.b2, found.h1.hit.b2, found.h2.hit.b2, found.h3.hit.b2), wide__Words(found.h0.hit.instance, found.h1.hit.instance, found.h2.hit.instance, found.h3.hit.instance));
+	return rays__Hits(vec4f(found.h0.hit.t, found.h1.hit.t, found.h2.hit.t, found.h3.hit.t), vec4u(found.h0.hit.primitive, found.h1.hit.primitive, found.h2.hit.primitive, found.h3.hit.primitive), vec4f(found.h0.hit.b1, found.h1.hit.b1, found.h2.hit.b1, found.h3.hit.b1), vec4f(found.h0.hit.b2, found.h1.hit.b2, found.h2.hit.b2, found.h3.hit.b2), vec4u(found.h0.hit.instance, found.h1.hit.instance, found.h2.hit.instance, found.h3.hit.instance));
 }
 
 fn walk__first_hit(at: primitive__TraversalRay) -> lanes__TwoHits {
@@ -610,7 +563,7 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 	if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES)) {
 		return hits;
 	}
-	var stack = stack__Stack(stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY);
+	var stack = shared_stack__Stack(traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY);
 	var current = 0u;
 	if (bindings__HAS_INSTANCES) {
 		current = fetch__root;
@@ -620,10 +573,10 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 			if (bindings__HAS_INSTANCES) {
 				if (current == traverse__RETURN) {
 					rays = lanes__FourRays(walk__world_ray(ray0), walk__world_ray(ray1), walk__world_ray(ray2), walk__world_ray(ray3));
-					current = stack__top_of(stack);
-					stack = stack__popped(stack);
+					current = shared_stack__top_of(stack);
+					stack = shared_stack__popped(stack);
 				}
-				if ((current >= types__INSTANCE) & (current != stack__EMPTY)) {
+				if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
 					let index = current & types__LEAF_FIRST_MASK;
 					let instance = fetch__load_instance(index);
 					let space = instance__space_of(instance);
@@ -632,7 +585,7 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 					let o2 = instance__object_ray(ray2, space);
 					let o3 = instance__object_ray(ray3, space);
 					rays = lanes__FourRays(walk__placed_ray(o0, index), walk__placed_ray(o1, index), walk__placed_ray(o2, index), walk__placed_ray(o3, index));
-					stack = stack__pushed(stack, traverse__RETURN, 1u);
+					stack = shared_stack__pushed(stack, traverse__RETURN, 1u);
 					current = instance.root;
 				}
 			}
@@ -641,8 +594,8 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 				loop {
 					let node = node__load_shared_node(current);
 					let children = node__order_children(node, rays, limits);
-					current = select(stack__top_of(stack), subgroupShuffle(children.reference, 0u), children.count > 0u);
-					stack = stack__pushed(stack, subgroupShuffle(children.reference, (lanes__packet_lane + 1u) & 3u), children.count - 1u);
+					current = select(shared_stack__top_of(stack), subgroupShuffle(children.reference, 0u), children.count > 0u);
+					stack = shared_stack__pushed(stack, subgroupShuffle(children.reference, (lanes__packet_lane + 1u) & 3u), children.count - 1u);
 					if (bindings__COUNT_STEPS) {
 						loops__nodes_visited += 1u;
 					}
@@ -654,13 +607,13 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 			}
 			loop {
 				let is_here = leaf__is_common(current);
-				let next = leaf__after(current, stack__top_of(stack));
+				let next = leaf__after(current, shared_stack__top_of(stack));
 				if (is_here) {
 					hits = leaf__meet_common(rays, hits, current);
-					stack = stack__pushed(stack, stack__EMPTY, select(0u, stack__POP, next.is_last));
+					stack = shared_stack__pushed(stack, traverse__EMPTY, select(0u, shared_stack__POP, next.is_last));
 					current = next.reference;
 					if (any) {
-						current = select(stack__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
+						current = select(traverse__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
 					}
 				}
 				continuing {
@@ -670,26 +623,26 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 			}
 			continuing {
 			
-				break if (current == stack__EMPTY) | leaf__is_rare(current);
+				break if (current == traverse__EMPTY) | leaf__is_rare(current);
 			}
 		}
 		if (bindings__HAS_SHAPES && bindings__HAS_TRIANGLES && bindings__TRIANGLES_APART == 0u && !bindings__SHAPES_APART) {
-			let next = leaf__after(current, stack__top_of(stack));
+			let next = leaf__after(current, shared_stack__top_of(stack));
 			if (leaf__is_rare(current)) {
 				hits = leaf__meet_rare(rays, hits, current);
-				stack = stack__pushed(stack, stack__EMPTY, select(0u, stack__POP, next.is_last));
+				stack = shared_stack__pushed(stack, traverse__EMPTY, select(0u, shared_stack__POP, next.is_last));
 				current = next.reference;
 				if (any) {
-					current = select(stack__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
+					current = select(traverse__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
 				}
 			}
 		}
 		continuing {
 		
-			break if current == stack__EMPTY;
+			break if current == traverse__EMPTY;
 		}
 	}
-	loops__cut_off |= stack__is_full | (current != stack__EMPTY);
+	loops__cut_off |= shared_stack__is_full | (current != traverse__EMPTY);
 	return hits;
 }
 
@@ -1241,11 +1194,11 @@ fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
 	return tracing__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
 }
 
-const stack__POP: u32 = 4294967295u;
+const shared_stack__POP: u32 = 4294967295u;
 
-var<private> stack__is_full: bool;
+var<private> shared_stack__is_full: bool;
 
-struct stack__Stack {
+struct shared_stack__Stack {
 	s0: u32,
 	s1: u32,
 	s2: u32,
@@ -1254,22 +1207,22 @@ struct stack__Stack {
 	s5: u32
 }
 
-fn stack__top_of(stack: stack__Stack) -> u32 {
+fn shared_stack__top_of(stack: shared_stack__Stack) -> u32 {
 	return subgroupShuffle(stack.s0, 0u);
 }
 
-fn stack__pushed(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
+fn shared_stack__pushed(stack: shared_stack__Stack, reference: u32, count: u32) -> shared_stack__Stack {
 	if (bindings__PACKET_LANES == 16u) {
-		return stack__pushed16(stack, reference, count);
+		return shared_stack__pushed16(stack, reference, count);
 	}
-	return stack__pushed8(stack, reference, count);
+	return shared_stack__pushed8(stack, reference, count);
 }
 
-fn stack__pushed16(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
-	let is_pop = count == stack__POP;
+fn shared_stack__pushed16(stack: shared_stack__Stack, reference: u32, count: u32) -> shared_stack__Stack {
+	let is_pop = count == shared_stack__POP;
 	let moves_one = !is_pop & ((count & 1u) != 0u);
 	let moves_two = !is_pop & (count >= 2u);
-	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 16u) & (stack.s2 != stack__EMPTY);
+	shared_stack__is_full |= !is_pop & (lanes__packet_lane + count >= 16u) & (stack.s2 != traverse__EMPTY);
 	let one_up = (lanes__packet_lane - 1u) & 15u;
 	let u0 = subgroupShuffle(stack.s0, one_up);
 	let u1 = subgroupShuffle(stack.s1, one_up);
@@ -1282,35 +1235,35 @@ fn stack__pushed16(stack: stack__Stack, reference: u32, count: u32) -> stack__St
 	let is_last = lanes__packet_lane == 15u;
 	let m0 = select(select(stack.s0, u0, moves_one), select(d0, d1, is_last), is_pop);
 	let m1 = select(select(stack.s1, select(u1, u0, is_first), moves_one), select(d1, d2, is_last), is_pop);
-	let m2 = select(select(stack.s2, select(u2, u1, is_first), moves_one), select(d2, stack__EMPTY, is_last), is_pop);
+	let m2 = select(select(stack.s2, select(u2, u1, is_first), moves_one), select(d2, traverse__EMPTY, is_last), is_pop);
 	let two_up = (lanes__packet_lane - 2u) & 15u;
 	let w0 = subgroupShuffle(m0, two_up);
 	let w1 = subgroupShuffle(m1, two_up);
 	let w2 = subgroupShuffle(m2, two_up);
 	let is_low = lanes__packet_lane < 2u;
-	return stack__Stack(select(select(m0, w0, moves_two), reference, !is_pop & (lanes__packet_lane < count)), select(m1, select(w1, w0, is_low), moves_two), select(m2, select(w2, w1, is_low), moves_two), stack__EMPTY, stack__EMPTY, stack__EMPTY);
+	return shared_stack__Stack(select(select(m0, w0, moves_two), reference, !is_pop & (lanes__packet_lane < count)), select(m1, select(w1, w0, is_low), moves_two), select(m2, select(w2, w1, is_low), moves_two), traverse__EMPTY, traverse__EMPTY, traverse__EMPTY);
 }
 
-fn stack__pushed8(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
+fn shared_stack__pushed8(stack: shared_stack__Stack, reference: u32, count: u32) -> shared_stack__Stack {
 	let source = (lanes__packet_lane - count) & 7u;
-	let is_pop = count == stack__POP;
+	let is_pop = count == shared_stack__POP;
 	let is_new = !is_pop & (lanes__packet_lane < count);
 	let is_last = is_pop & (lanes__packet_lane == 7u);
-	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 8u) & (stack.s5 != stack__EMPTY);
+	shared_stack__is_full |= !is_pop & (lanes__packet_lane + count >= 8u) & (stack.s5 != traverse__EMPTY);
 	let m0 = subgroupShuffle(stack.s0, source);
 	let m1 = subgroupShuffle(stack.s1, source);
 	let m2 = subgroupShuffle(stack.s2, source);
 	let m3 = subgroupShuffle(stack.s3, source);
 	let m4 = subgroupShuffle(stack.s4, source);
 	let m5 = subgroupShuffle(stack.s5, source);
-	return stack__Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), m4, is_last), select(select(m4, m3, is_new), m5, is_last), select(select(m5, m4, is_new), stack__EMPTY, is_last));
+	return shared_stack__Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), m4, is_last), select(select(m4, m3, is_new), m5, is_last), select(select(m5, m4, is_new), traverse__EMPTY, is_last));
 }
 
-fn stack__popped(stack: stack__Stack) -> stack__Stack {
-	return stack__pushed(stack, stack__EMPTY, stack__POP);
+fn shared_stack__popped(stack: shared_stack__Stack) -> shared_stack__Stack {
+	return shared_stack__pushed(stack, traverse__EMPTY, shared_stack__POP);
 }
 
-const stack__EMPTY: u32 = 4294967295u;
+const traverse__EMPTY: u32 = 4294967295u;
 
 const traverse__RETURN: u32 = 4294967294u;
 
@@ -1381,6 +1334,8 @@ fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
 	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
 }
 
+var<private> shutter__shutter_time: f32;
+
 const node__WIDENING: i32 = 8;
 
 const node__MISS: u32 = 2147483644u;
@@ -1395,7 +1350,7 @@ struct node__SharedNode {
 fn node__load_shared_node(index: u32) -> node__SharedNode {
 	let child = lanes__packet_lane & 3u;
 	let is_max = (lanes__packet_lane & 4u) != 0u;
-	let row = fetch__node_row(4u * index + child);
+	let row = rows__node_row(4u * index + child);
 	let words = vec3u(select(subgroupShuffle(row.z, 1u), subgroupShuffle(row.w, 1u), is_max), select(subgroupShuffle(row.x, 2u), subgroupShuffle(row.y, 2u), is_max), select(subgroupShuffle(row.z, 2u), subgroupShuffle(row.w, 2u), is_max));
 	let is_even = (child & 1u) == 0u;
 	let c01 = select(subgroupShuffle(row.y, 3u), subgroupShuffle(row.x, 3u), is_even);
@@ -1510,7 +1465,7 @@ fn leaf__meet_rare(rays: lanes__FourRays, hits: lanes__FourHits, reference: u32)
 fn leaf__meet_triangles(rays: lanes__FourRays, before: lanes__FourHits, reference: u32) -> lanes__FourHits {
 	let count = leaf__tested_triangles(reference);
 	let first = select(reference & types__LEAF_FIRST_MASK, 0u, leaf__has_shapes(reference));
-	var row = fetch__triangle_row(3u * first + lanes__packet_lane);
+	var row = rows__triangle_row(3u * first + lanes__packet_lane);
 	if (bindings__COUNT_STEPS) {
 		loops__primitives_tested += count;
 	}
@@ -1552,7 +1507,7 @@ fn leaf__meet_triangle(rays: lanes__FourRays, before: lanes__FourHits, triangle:
 fn leaf__meet_shape(rays: lanes__FourRays, before: lanes__FourHits, reference: u32) -> lanes__FourHits {
 	let index = select(0u, reference & types__LEAF_FIRST_MASK, leaf__has_shapes(reference));
 	let primitive = types__SHAPE | index;
-	let row = fetch__triangle_row(fetch__shape_row + types__SHAPE_ROWS * index + lanes__packet_lane);
+	let row = rows__triangle_row(fetch__shape_row + types__SHAPE_ROWS * index + lanes__packet_lane);
 	if (bindings__COUNT_STEPS) {
 		loops__primitives_tested += 1u;
 	}

@@ -1,161 +1,63 @@
-@compute @workgroup_size(64, 1, 1)
-fn whitted(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-	render(group, lane);
+struct Tree {
+	state: ray_states__RayState,
+	radiance: vec3f
 }
 
-fn render(group: vec3u, lane: u32) {
+@compute @workgroup_size(64, 1, 1)
+fn whitted(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
 	let batch = dispatch__load_batch();
 	stack__take_stack(lane);
-	var block = block__load_block(group);
-	var pixels = pixels__load_pixels(batch, block, lane);
-	var sample = batch.first_sample;
-	var trees: Trees;
+	var samples = samples__first_sample(batch, group, lane);
+	var tree: Tree;
 	loop {
-		if (!bindings__REFILLS_LANES | !trees.are_unfinished) {
-			trees = start_trees(batch, pixels__sample_rays(batch, pixels, sample));
+		if (samples__starts_tree(ray_states__is_alive(tree.state))) {
+			tree = camera_tree(batch, samples.pixel, samples.index);
 		}
-		trees = followed(batch, trees, pixels.keys, sample);
-		if (!trees.are_unfinished) {
-			pixels = pixels__add_samples(pixels, sample, trees.radiance);
-			sample += 1u;
-			if (bindings__REFILLS_LANES && sample >= batch.end_sample && block__has_next_block(block)) {
-				pixels__store_pixels(pixels);
-				block = block__next_block(block);
-				pixels = pixels__load_pixels(batch, block, lane);
-				sample = batch.first_sample;
+		loop {
+			tree = traced(batch, tree, samples.pixel.key, samples.index);
+			continuing {
+			
+				break if samples__leaves_tree(ray_states__is_alive(tree.state));
 			}
+		}
+		loops__cut_off |= !samples__leaves_tree(ray_states__is_alive(tree.state));
+		if (!ray_states__is_alive(tree.state)) {
+			samples = samples__next_sample(batch, samples, tree.radiance);
 		}
 		continuing {
 		
-			break if sample >= batch.end_sample;
+			break if samples__is_last_done(batch, samples);
 		}
 	}
-	loops__cut_off |= sample < batch.end_sample;
-	pixels__store_pixels(pixels);
+	loops__cut_off |= !samples__is_last_done(batch, samples);
+	pixels__store_pixel(samples.pixel);
 	dispatch__add_counts(group, lane);
 }
 
-struct Trees {
-	states: ray_states__RayStates,
-	radiance: wide__Vectors,
-	are_unfinished: bool
-}
-
-fn start_trees(batch: dispatch__Batch, rays: rays__Rays) -> Trees {
+fn camera_tree(batch: dispatch__Batch, pixel: pixels__Pixel, sample: u32) -> Tree {
 	features__start_features();
-	return Trees(ray_stack__camera_states(batch, rays), wide__no_vectors(), true);
+	return Tree(ray_stack__camera_state(batch, pixels__pixel_ray(batch, pixel, sample)), vec3f(0.0));
 }
 
-fn followed(batch: dispatch__Batch, before: Trees, keys: wide__Words, sample: u32) -> Trees {
-	var trees = before;
-	loop {
-		trees = traced(batch, trees, keys, sample);
-		continuing {
-		
-			break if bindings__REFILLS_LANES | !rays__any_lane(trees.are_unfinished);
-		}
+fn traced(batch: dispatch__Batch, before: Tree, key: u32, sample: u32) -> Tree {
+	var tree = before;
+	let state = before.state;
+	let hit = traverse__closest_hit(state.ray);
+	dispatch__count_hit(state.kind, hit);
+	var vertex: tree_vertex__Vertex;
+	if (hit.primitive == types__NONE) {
+		tree.radiance += tree_vertex__missed(batch, state);
 	}
-	loops__cut_off |= !bindings__REFILLS_LANES & trees.are_unfinished;
-	return trees;
-}
-
-fn traced(batch: dispatch__Batch, trees: Trees, keys: wide__Words, sample: u32) -> Trees {
-	let states = trees.states;
-	var radiance = trees.radiance;
-	let hits = rays__closest_hits(states.rays);
-	var next = states;
-	var receivers = direct__no_receivers();
-	var arriving = wide__no_vectors();
-	var color = wide__no_vectors();
-	var is_first = false;
-	var are_unfinished = false;
-	var rows = rays__rows_where(states.rays.t_max >= wide__Floats(0.0));
-	loop {
-		let k = rays__first_row(rows);
-		ray_stack__current_tree = k;
-		let state = ray_states__state_at(states, k);
-		let hit = rays__hit_at(hits, k);
-		is_first = state.node == 1u;
-		var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_states__no_ray(), ray_states__no_ray());
-		if (state.ray.t_max >= 0.0) {
-			dispatch__count_hit(state.kind, hit);
-			if (hit.primitive == types__NONE) {
-				let seen = escaping_throughput(state) * background__background(batch, state.ray.direction);
-				radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + seen);
-				if (is_first) {
-					features__see_albedo(seen, vec3f(0.0));
-					features__see_light(seen, 0u);
-				}
-			}
-			else {
-				let contact = contact__contact_at(state.ray, hit, state.cone);
-				var surface = contact.surface;
-				if (bindings__HAS_TEXTURES) {
-					surface.phong = texture__textured_phong(surface);
-				}
-				let factors = texture__texture_optics(surface);
-				if (bindings__HAS_TREES) {
-					event = optics__scatter(batch, state, hit.t, contact, factors, coverage__coverage_at(surface));
-					surface.phong.diffuse *= event.diffuse;
-					surface.phong.ambient *= event.diffuse;
-					surface.phong.specular *= event.highlight;
-				}
-				var key = shading__SampleKey(wide__word_at(keys, k), sample, 1.0);
-				if (state.node > 1u) {
-					key.hash = rng__hash_combine(key.hash, state.node);
-					key.weight = numeric__max_component(event.arriving);
-				}
-				receivers = direct__receiver_set(receivers, k, surface, -state.ray.direction, key);
-				arriving = wide__vector_set(arriving, k, event.arriving);
-				let own = own_light(batch, surface, factors[2]);
-				color = wide__vector_set(color, k, own);
-				if (is_first) {
-					features__see_first(surface, hit, dispatch__way_to_near(batch, state.ray.direction) + hit.t);
-					let glow = own - batch.ambient * surface.phong.ambient;
-					features__see_albedo(surface.phong.diffuse + glow, surface.n);
-					features__see_light(event.arriving * glow, 0u);
-				}
-			}
-		}
-		if (bindings__HAS_TREES) {
-			var following = ray_stack__next_ray(event.reflected, event.refracted);
-			if (bindings__HAS_CLIP && following.depth == 0u && ray_states__is_alive(following)) {
-				following.ray.t_max = dispatch__way_to_far(batch, following.ray.origin, following.ray.direction);
-			}
-			next = ray_states__state_set(next, k, following);
-			are_unfinished |= ray_states__is_alive(following);
-		}
-		continuing {
-			rows = rays__later_rows(rows);
-			break if wide__ONE_RAY | (rows == 0u);
-		}
+	else {
+		vertex = tree_vertex__vertex_at(batch, state, hit, key, sample);
 	}
-	loops__cut_off |= rows != 0u;
-	let direct = direct__direct_light(batch, receivers, states.media, sample);
-	if (is_first) {
-		features__see_light(wide__vector_at(arriving, 0u) * wide__vector_at(direct, 0u), 1u);
+	tree.state = ray_stack__next_ray(batch, vertex.reflected, vertex.refracted);
+	if (hit.primitive != types__NONE) {
+		let direct = direct__direct_light(batch, vertex.receiver, state.media);
+		tree_vertex__see_direct(state, vertex.arriving * direct);
+		tree.radiance += vertex.arriving * (vertex.ambient + vertex.emission + direct);
 	}
-	radiance.x += arriving.x * (color.x + direct.x);
-	radiance.y += arriving.y * (color.y + direct.y);
-	radiance.z += arriving.z * (color.z + direct.z);
-	return Trees(next, radiance, are_unfinished);
-}
-
-fn escaping_throughput(state: ray_states__RayState) -> vec3f {
-	var throughput = state.throughput;
-	if (bindings__HAS_REFRACTION) {
-		throughput *= medium__transmittance(medium__medium_of(medium__dominant(state.media)), state.ray.t_max);
-	}
-	return throughput;
-}
-
-fn own_light(batch: dispatch__Batch, surface: shading__Surface, glow: vec3f) -> vec3f {
-	var color = batch.ambient * surface.phong.ambient;
-	if (bindings__HAS_EMISSION) {
-		let emission = emitters__emitted(surface, material__load_optics(surface.material), glow);
-		color += emission;
-	}
-	return color;
+	return tree;
 }
 
 struct dispatch__RayCounts {
@@ -283,7 +185,7 @@ fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
 }
 
 fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
-	if (bindings__COUNT_RAYS) {
+	if (bindings__COUNT_RAYS && hit.t >= 0.0) {
 		let hits = select(0u, 1u, hit.primitive != types__NONE);
 		if (kind == ray_states__KIND_PRIMARY) {
 			dispatch__counts.primary += 1u;
@@ -809,68 +711,61 @@ fn fetch__load_starts() {
 	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
-fn fetch__load_node(index: u32, inv: vec3f) -> tracing__Node {
-	let row = types__FLOAT_NODE_ROWS * index;
-	let near = select(vec3u(0u), vec3u(1u), inv < vec3f(0.0));
-	let far = vec3u(1u) - near;
-	return node__float_node(fetch__node_row(row + near.x), fetch__node_row(row + far.x), fetch__node_row(row + 2u + near.y), fetch__node_row(row + 2u + far.y), fetch__node_row(row + 4u + near.z), fetch__node_row(row + 4u + far.z), fetch__node_row(row + 6u));
-}
-
 fn fetch__load_moving_node(reference: u32, moment: motion__Moment, inv: vec3f) -> tracing__Node {
 	let moves = (reference & types__MOVING) != 0u;
 	let first = (reference & ~types__MOVING) + select(0u, moment.key, moves);
 	let second = first + select(0u, 1u, moves);
-	return node__node_between(fetch__load_node(first, inv), fetch__load_node(second, inv), moment.fraction);
+	return node__node_between(steps__load_node(first, inv), steps__load_node(second, inv), moment.fraction);
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
 	let row = fetch__instance_row + types__INSTANCE_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
-	let r6 = fetch__node_row(row + 6u);
-	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
+	let r6 = rows__node_row(row + 6u);
+	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(rows__node_row(row + 7u)), bitcast<vec4f>(rows__node_row(row + 8u)), bitcast<vec4f>(rows__node_row(row + 9u)));
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
 	let row = fetch__key_row + types__KEY_ROWS * index;
-	return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
+	return types__PackedKey(bitcast<vec3f>(rows__node_row(row).xyz), 0u, bitcast<vec4f>(rows__node_row(row + 1u)), bitcast<vec3f>(rows__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(rows__node_row(row + 3u).xyz), 0u);
 }
 
 fn fetch__load_light(index: u32) -> types__PackedLight {
 	let row = fetch__light_row + types__LIGHT_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
 	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), r5.x, bitcast<f32>(r5.y), r5.z, r5.w);
 }
 
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
 	let row = fetch__light_row + types__LIGHT_ROWS * bindings__frame.light_count * bindings__frame.light_key_count + types__CAMERA_ROWS * key;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
 	return types__PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
 }
 
 fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
 	let row = 3u * index;
-	let r0 = fetch__triangle_row(row);
-	let r1 = fetch__triangle_row(row + 1u);
-	let r2 = fetch__triangle_row(row + 2u);
+	let r0 = rows__triangle_row(row);
+	let r1 = rows__triangle_row(row + 1u);
+	let r2 = rows__triangle_row(row + 2u);
 	return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
 fn fetch__load_shape(index: u32) -> types__PackedShape {
 	let row = fetch__shape_row + types__SHAPE_ROWS * index;
-	return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
+	return fetch__shape_of(rows__triangle_row(row), rows__triangle_row(row + 1u), rows__triangle_row(row + 2u), rows__triangle_row(row + 3u), rows__triangle_row(row + 4u));
 }
 
 fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
@@ -878,61 +773,30 @@ fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> typ
 }
 
 fn fetch__load_vertex(index: u32) -> types__PackedVertex {
-	let r0 = fetch__vertex_row(index);
+	let r0 = rows__vertex_row(index);
 	return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
 }
 
 fn fetch__load_uvs(index: u32) -> vec4f {
-	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(fetch__uv_row + index));
 }
 
 fn fetch__load_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(2u * fetch__uv_row + index));
+	return fetch__tangent_of(rows__vertex_row(2u * fetch__uv_row + index));
 }
 
 fn fetch__load_key_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(index + 1u));
+	return fetch__tangent_of(rows__vertex_row(index + 1u));
 }
 
 fn fetch__load_color(index: u32) -> vec4f {
 	let parts = 1u + select(0u, 1u, bindings__HAS_UVS) + select(0u, 1u, bindings__HAS_TANGENTS);
-	return bitcast<vec4f>(fetch__vertex_row(parts * fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(parts * fetch__uv_row + index));
 }
 
 fn fetch__tangent_of(r0: vec4u) -> types__PackedTangent {
 	return types__PackedTangent(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w));
 }
-
-fn fetch__node_row(row: u32) -> vec4u {
-	return bindings__nodes[row];
-}
-
-fn fetch__triangle_row(row: u32) -> vec4u {
-	return bindings__triangles[row];
-}
-
-fn fetch__vertex_row(row: u32) -> vec4u {
-	return bindings__vertices[row];
-}
-
-fn fetch__material_row(row: u32) -> vec4u {
-	return bindings__materials[row];
-}
-
-@group(0) @binding(0)
-var<storage, read> bindings__nodes: array<vec4u>;
-
-@group(0) @binding(1)
-var<storage, read> bindings__triangles: array<vec4u>;
-
-@group(0) @binding(2)
-var<storage, read> bindings__vertices: array<vec4u>;
-
-@group(0) @binding(3)
-var<storage, read> bindings__materials: array<vec4u>;
-
-@group(0) @binding(4)
-var bindings__texels: texture_2d_array<u32>;
 
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
@@ -1079,8 +943,6 @@ override bindings__SHARED_STACK: bool = false;
 
 var<private> albedo__albedo_first: u32;
 
-const stack__EMPTY: u32 = 4294967295u;
-
 const stack__SHARED_ENTRIES: u32 = 24u;
 
 const stack__LANES: u32 = 64u;
@@ -1096,9 +958,12 @@ var<workgroup> stack__shared_entries: array<u32, stack__LANES * stack__SHARED_EN
 var<private> stack__shared_lane: u32;
 
 fn stack__take_stack(lane: u32) {
-	{
-		stack__shared_lane = lane;
-	}
+	stack__shared_lane = lane;
+}
+
+fn stack__start_stack() {
+	stack__top = 0u;
+	stack__put_entry(0u, traverse__EMPTY);
 }
 
 fn stack__entry_at(index: u32) -> u32 {
@@ -1123,46 +988,64 @@ fn stack__put_entry(index: u32, reference: u32) {
 	stack__entries[index] = reference;
 }
 
-fn stack__start_stack() {
-	stack__top = 0u;
-	stack__put_entry(0u, stack__EMPTY);
-}
-
-fn stack__top_of_stack() -> u32 {
-	return stack__entry_at(stack__top);
-}
-
 fn stack__push(reference: u32) {
-	{
-		if (bindings__SHARED_STACK && stack__top + 1u >= stack__SHARED_ENTRIES) {
-			loops__is_stack_full = true;
-			return;
-		}
-		stack__top += 1u;
-		stack__put_entry(stack__top, reference);
+	if (bindings__SHARED_STACK && stack__top + 1u >= stack__SHARED_ENTRIES) {
+		loops__is_stack_full = true;
+		return;
 	}
+	stack__top += 1u;
+	stack__put_entry(stack__top, reference);
 }
 
 fn stack__popped() -> u32 {
-	let reference = stack__top_of_stack();
-	{
-		if (reference != stack__EMPTY) {
-			stack__top -= 1u;
-		}
+	let reference = stack__entry_at(stack__top);
+	if (reference != traverse__EMPTY) {
+		stack__top -= 1u;
 	}
 	return reference;
+}
+
+struct samples__Samples {
+	block: block__Block,
+	lane: u32,
+	pixel: pixels__Pixel,
+	index: u32
+}
+
+fn samples__first_sample(batch: dispatch__Batch, group: vec3u, lane: u32) -> samples__Samples {
+	let block = block__load_block(group);
+	return samples__Samples(block, lane, pixels__load_pixel(batch, block, lane), batch.first_sample);
+}
+
+fn samples__is_last_done(batch: dispatch__Batch, samples: samples__Samples) -> bool {
+	return samples.index >= batch.end_sample;
+}
+
+fn samples__starts_tree(is_unfinished: bool) -> bool {
+	return !bindings__REFILLS_LANES | !is_unfinished;
+}
+
+fn samples__leaves_tree(is_unfinished: bool) -> bool {
+	return bindings__REFILLS_LANES | !is_unfinished;
+}
+
+fn samples__next_sample(batch: dispatch__Batch, before: samples__Samples, radiance: vec3f) -> samples__Samples {
+	var samples = before;
+	samples.pixel = pixels__with_sample(samples.pixel, samples.index, radiance);
+	samples.index += 1u;
+	if (bindings__REFILLS_LANES && samples__is_last_done(batch, samples) && block__has_next_block(samples.block)) {
+		pixels__store_pixel(samples.pixel);
+		samples.block = block__next_block(samples.block);
+		samples.pixel = pixels__load_pixel(batch, samples.block, samples.lane);
+		samples.index = batch.first_sample;
+	}
+	return samples;
 }
 
 struct block__Work {
 	inside: bool,
 	film_index: u32,
 	pixel: vec2u
-}
-
-fn block__place_of(lane: u32, k: u32) -> u32 {
-	{
-		return lane;
-	}
 }
 
 struct block__Block {
@@ -1206,202 +1089,51 @@ fn block__work_of(block: block__Block, place: u32) -> block__Work {
 	return block__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
 }
 
-const tile__GROUP_SIDE: u32 = 8u;
-
-fn tile__divided(dividend: u32, divisor: u32) -> vec2u {
-	let quotient = u32(f32(dividend) / f32(divisor));
-	let rest = bitcast<i32>(dividend - quotient * divisor);
-	let correction = select(0, 1, rest >= i32(divisor)) - select(0, 1, rest < 0);
-	return vec2u(quotient + bitcast<u32>(correction), bitcast<u32>(rest - correction * i32(divisor)));
+struct pixels__Pixel {
+	film_index: u32,
+	position: vec2u,
+	key: u32,
+	sum: film__Sum
 }
 
-fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
-	return tile__divided(index * stride, group_count).y;
-}
-
-fn tile__morton_8x8(lane: u32) -> vec2u {
-	let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
-	let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
-	return vec2u(x, y);
-}
-
-fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
-	return tile__GROUP_SIDE * tile__divided(group, group_columns).yx;
-}
-
-fn tile__next_corner(corner: vec2u, step: vec2u, size: vec2u) -> vec2u {
-	var place = corner / tile__GROUP_SIDE + step;
-	place += select(vec2u(0u), vec2u(0u - size.x, 1u), place.x >= size.x);
-	place.y -= select(0u, size.y, place.y >= size.y);
-	return tile__GROUP_SIDE * place;
-}
-
-struct pixels__Pixels {
-	film_index: wide__Words,
-	x: wide__Words,
-	y: wide__Words,
-	keys: wide__Words,
-	sums: wide__Vectors,
-	weights: wide__Floats,
-	squares: wide__Floats
-}
-
-fn pixels__load_pixels(batch: dispatch__Batch, block: block__Block, lane: u32) -> pixels__Pixels {
-	var pixels = pixels__Pixels(wide__Words(types__NONE), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__no_vectors(), wide__Floats(0.0), wide__Floats(0.0));
-	var k = 0u;
-	loop {
-		let work = block__work_of(block, block__place_of(lane, k));
-		pixels.x = wide__word_set(pixels.x, k, work.pixel.x);
-		pixels.y = wide__word_set(pixels.y, k, work.pixel.y);
-		pixels.keys = wide__word_set(pixels.keys, k, rng__pixel_key(batch.seed, work.pixel));
-		if (work.inside) {
-			pixels.film_index = wide__word_set(pixels.film_index, k, work.film_index);
-			pixels = pixels__with_sum(pixels, k, film__load_sum(work.film_index, batch.first_sample));
-		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
+fn pixels__load_pixel(batch: dispatch__Batch, block: block__Block, place: u32) -> pixels__Pixel {
+	let work = block__work_of(block, place);
+	var pixel = pixels__Pixel(types__NONE, work.pixel, rng__pixel_key(batch.seed, work.pixel), film__Sum(vec4f(0.0), 0.0));
+	if (work.inside) {
+		pixel.film_index = work.film_index;
+		pixel.sum = film__load_sum(work.film_index, batch.first_sample);
 	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	return pixels;
+	return pixel;
 }
 
-fn pixels__store_pixels(pixels: pixels__Pixels) {
-	var k = 0u;
-	loop {
-		let film_index = wide__word_at(pixels.film_index, k);
-		if (film_index != types__NONE) {
-			film__store_sum(film_index, pixels__sum_at(pixels, k));
-		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-}
-
-fn pixels__sample_rays(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32) -> rays__Rays {
-	var rays = rays__dead_rays();
-	var k = 0u;
-	loop {
-		if (wide__word_at(pixels.film_index, k) != types__NONE) {
-			rays = rays__ray_set(rays, k, dispatch__sample_ray(batch, pixels__pixel_at(pixels, k), wide__word_at(pixels.keys, k), sample));
-		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	return rays;
-}
-
-fn pixels__add_samples(pixels: pixels__Pixels, sample: u32, radiance: wide__Vectors) -> pixels__Pixels {
-	var next = pixels;
-	var k = 0u;
-	loop {
-		if (wide__word_at(pixels.film_index, k) != types__NONE) {
-			let weight = dispatch__sample_weight(wide__word_at(pixels.keys, k), sample);
-			let before = pixels__sum_at(pixels, k);
-			let sum = film__add_sample(before, film__Sample(wide__vector_at(radiance, k)), weight);
-			next = pixels__with_sum(next, k, sum);
-			let is_kept = sum.radiance.w != before.radiance.w;
-			if (bindings__HAS_FEATURES && is_kept) {
-				features__add_features(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), sample, weight);
-			}
-			if (bindings__HAS_OPACITY && is_kept) {
-				opacity__add_opacity(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), weight, wide__vector_at(radiance, k));
-			}
-		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	return next;
-}
-
-fn pixels__pixel_at(pixels: pixels__Pixels, k: u32) -> vec2u {
-	return vec2u(wide__word_at(pixels.x, k), wide__word_at(pixels.y, k));
-}
-
-fn pixels__sum_at(pixels: pixels__Pixels, k: u32) -> film__Sum {
-	return film__Sum(vec4f(wide__vector_at(pixels.sums, k), wide__float_at(pixels.weights, k)), wide__float_at(pixels.squares, k));
-}
-
-fn pixels__with_sum(pixels: pixels__Pixels, k: u32, sum: film__Sum) -> pixels__Pixels {
-	var next = pixels;
-	next.sums = wide__vector_set(pixels.sums, k, sum.radiance.xyz);
-	next.weights = wide__float_set(pixels.weights, k, sum.radiance.w);
-	next.squares = wide__float_set(pixels.squares, k, sum.squares);
-	return next;
-}
-
-const wide__RAYS_PER_LANE: u32 = 1u;
-
-const wide__ONE_RAY: bool = wide__RAYS_PER_LANE == 1u;
-
-alias wide__Floats = f32;
-
-alias wide__Words = u32;
-
-struct wide__Vectors {
-	x: wide__Floats,
-	y: wide__Floats,
-	z: wide__Floats
-}
-
-fn wide__no_vectors() -> wide__Vectors {
-	return wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0));
-}
-
-fn wide__float_at(all: wide__Floats, k: u32) -> f32 {
-	return all;
-}
-
-fn wide__word_at(all: wide__Words, k: u32) -> u32 {
-	return all;
-}
-
-fn wide__vector_at(all: wide__Vectors, k: u32) -> vec3f {
-	return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
-}
-
-fn wide__float_set(all: wide__Floats, k: u32, value: f32) -> wide__Floats {
-	{
-		return value;
+fn pixels__store_pixel(pixel: pixels__Pixel) {
+	if (pixel.film_index != types__NONE) {
+		film__store_sum(pixel.film_index, pixel.sum);
 	}
 }
 
-fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
-	{
-		return value;
+fn pixels__pixel_ray(batch: dispatch__Batch, pixel: pixels__Pixel, sample: u32) -> tracing__Ray {
+	var ray = ray_states__DEAD;
+	if (pixel.film_index != types__NONE) {
+		ray = dispatch__sample_ray(batch, pixel.position, pixel.key, sample);
 	}
+	return ray;
 }
 
-fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
-	return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
-}
-
-fn rng__hash(x: u32) -> u32 {
-	let a = (x ^ (x >> 16u)) * 2146121005u;
-	let b = (a ^ (a >> 15u)) * 2221713035u;
-	return b ^ (b >> 16u);
-}
-
-fn rng__hash_combine(a: u32, b: u32) -> u32 {
-	return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
-}
-
-fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
-	return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
-}
-
-fn rng__unit_float(x: u32) -> f32 {
-	return f32(x >> 8u) * 5.9604645e-8;
+fn pixels__with_sample(before: pixels__Pixel, sample: u32, radiance: vec3f) -> pixels__Pixel {
+	var pixel = before;
+	if (pixel.film_index != types__NONE) {
+		let weight = dispatch__sample_weight(pixel.key, sample);
+		pixel.sum = film__add_sample(before.sum, film__Sample(radiance), weight);
+		let is_kept = pixel.sum.radiance.w != before.sum.radiance.w;
+		if (bindings__HAS_FEATURES && is_kept) {
+			features__add_features(bindings__FILM_ROWS * pixel.film_index, sample, weight);
+		}
+		if (bindings__HAS_OPACITY && is_kept) {
+			opacity__add_opacity(bindings__FILM_ROWS * pixel.film_index, weight, radiance);
+		}
+	}
+	return pixel;
 }
 
 struct film__Sample {
@@ -1445,15 +1177,53 @@ fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__
 	return next;
 }
 
-var<private> loops__nodes_visited: u32;
+const tile__GROUP_SIDE: u32 = 8u;
 
-var<private> loops__primitives_tested: u32;
+fn tile__divided(dividend: u32, divisor: u32) -> vec2u {
+	let quotient = u32(f32(dividend) / f32(divisor));
+	let rest = bitcast<i32>(dividend - quotient * divisor);
+	let correction = select(0, 1, rest >= i32(divisor)) - select(0, 1, rest < 0);
+	return vec2u(quotient + bitcast<u32>(correction), bitcast<u32>(rest - correction * i32(divisor)));
+}
 
-var<private> loops__cut_off: bool;
+fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
+	return tile__divided(index * stride, group_count).y;
+}
 
-var<private> loops__is_stack_full: bool;
+fn tile__morton_8x8(lane: u32) -> vec2u {
+	let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
+	let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
+	return vec2u(x, y);
+}
 
-var<private> loops__nonfinite_samples: u32;
+fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
+	return tile__GROUP_SIDE * tile__divided(group, group_columns).yx;
+}
+
+fn tile__next_corner(corner: vec2u, step: vec2u, size: vec2u) -> vec2u {
+	var place = corner / tile__GROUP_SIDE + step;
+	place += select(vec2u(0u), vec2u(0u - size.x, 1u), place.x >= size.x);
+	place.y -= select(0u, size.y, place.y >= size.y);
+	return tile__GROUP_SIDE * place;
+}
+
+fn rng__hash(x: u32) -> u32 {
+	let a = (x ^ (x >> 16u)) * 2146121005u;
+	let b = (a ^ (a >> 15u)) * 2221713035u;
+	return b ^ (b >> 16u);
+}
+
+fn rng__hash_combine(a: u32, b: u32) -> u32 {
+	return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
+}
+
+fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
+	return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
+}
+
+fn rng__unit_float(x: u32) -> f32 {
+	return f32(x >> 8u) * 5.9604645e-8;
+}
 
 const ray_states__KIND_PRIMARY: u32 = 0u;
 
@@ -1471,132 +1241,54 @@ struct ray_states__RayState {
 	cone: tracing__Cone
 }
 
-struct ray_states__Media {
-	x: wide__Words,
-	y: wide__Words,
-	z: wide__Words,
-	w: wide__Words
-}
-
-struct ray_states__RayStates {
-	rays: rays__Rays,
-	throughput: wide__Vectors,
-	media: ray_states__Media,
-	step: wide__Words,
-	node: wide__Words,
-	cone_width: wide__Floats,
-	cone_spread: wide__Floats
-}
+const ray_states__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
 
 fn ray_states__is_alive(state: ray_states__RayState) -> bool {
 	return any(state.throughput > vec3f(0.0));
 }
 
-fn ray_states__with_cones(batch: dispatch__Batch, states: ray_states__RayStates) -> ray_states__RayStates {
-	var all = states;
-	var k = 0u;
-	loop {
-		let cone = footprint__camera_cone(batch, wide__vector_at(states.rays.direction, k));
-		all.cone_width = wide__float_set(all.cone_width, k, cone.width);
-		all.cone_spread = wide__float_set(all.cone_spread, k, cone.spread);
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	return all;
-}
-
-fn ray_states__state_at(states: ray_states__RayStates, k: u32) -> ray_states__RayState {
-	let step = wide__word_at(states.step, k);
-	return ray_states__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_states__media_at(states.media, k), step >> 2u, step & 3u, wide__word_at(states.node, k), tracing__Cone(wide__float_at(states.cone_width, k), wide__float_at(states.cone_spread, k)));
-}
-
-fn ray_states__state_set(states: ray_states__RayStates, k: u32, state: ray_states__RayState) -> ray_states__RayStates {
-	return ray_states__RayStates(rays__ray_set(states.rays, k, state.ray), wide__vector_set(states.throughput, k, state.throughput), ray_states__media_set(states.media, k, state.media), wide__word_set(states.step, k, (state.depth << 2u) | state.kind), wide__word_set(states.node, k, state.node), wide__float_set(states.cone_width, k, state.cone.width), wide__float_set(states.cone_spread, k, state.cone.spread));
-}
-
-fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
-	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
-}
-
-fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
-	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
-}
-
 fn ray_states__no_ray() -> ray_states__RayState {
-	return ray_states__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, tracing__Cone(0.0, 0.0));
+	return ray_states__RayState(ray_states__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, tracing__Cone(0.0, 0.0));
 }
 
-struct rays__Rays {
-	origin: wide__Vectors,
-	direction: wide__Vectors,
-	t_max: wide__Floats,
-	leaving: wide__Words,
-	leaving_instance: wide__Words
+struct tracing__Ray {
+	origin: vec3f,
+	t_max: f32,
+	direction: vec3f,
+	leaving: u32,
+	leaving_instance: u32
 }
 
-struct rays__Hits {
-	t: wide__Floats,
-	primitive: wide__Words,
-	b1: wide__Floats,
-	b2: wide__Floats,
-	instance: wide__Words
+struct tracing__Candidate {
+	hit: bool,
+	t: f32,
+	b1: f32,
+	b2: f32
 }
 
-fn rays__rows_where(condition: bool) -> u32 {
-	return select(0u, 1u, condition);
+struct tracing__Hit {
+	t: f32,
+	primitive: u32,
+	b1: f32,
+	b2: f32,
+	instance: u32
 }
 
-fn rays__first_row(rows: u32) -> u32 {
-	{
-		return 0u;
-	}
+struct tracing__Node {
+	lo: vec3f,
+	scale: vec3f,
+	near_x: vec4f,
+	far_x: vec4f,
+	near_y: vec4f,
+	far_y: vec4f,
+	near_z: vec4f,
+	far_z: vec4f,
+	children: vec4u
 }
 
-fn rays__later_rows(rows: u32) -> u32 {
-	return rows & (rows - 1u);
-}
-
-const rays__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
-
-fn rays__dead_rays() -> rays__Rays {
-	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
-}
-
-fn rays__ray_at(rays: rays__Rays, k: u32) -> tracing__Ray {
-	return tracing__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
-}
-
-fn rays__ray_set(rays: rays__Rays, k: u32, ray: tracing__Ray) -> rays__Rays {
-	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
-}
-
-fn rays__hit_at(hits: rays__Hits, k: u32) -> tracing__Hit {
-	return tracing__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
-}
-
-fn rays__hits_of(hit: tracing__Hit) -> rays__Hits {
-	return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
-}
-
-fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
-	}
-}
-
-fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
-	}
-}
-
-fn rays__any_lane(condition: bool) -> bool {
-	{
-		return condition;
-	}
+struct tracing__Cone {
+	width: f32,
+	spread: f32
 }
 
 struct features__Features {
@@ -1692,48 +1384,52 @@ fn features__add_mean(row: u32, value: vec3f, weight: f32) {
 
 const ray_stack__MAX_TREE_RAYS: u32 = 1024u;
 
-var<private> ray_stack__stack_counts: wide__Words;
+var<private> ray_stack__stack_count: u32;
 
-var<private> ray_stack__tree_rays: wide__Words;
+var<private> ray_stack__tree_rays: u32;
 
-var<private> ray_stack__current_tree: u32;
-
-var<private> ray_stack__trees_cut_off: wide__Words;
+var<private> ray_stack__tree_cut_off: u32;
 
 var<private> ray_stack__cut_off_trees: u32;
 
-fn ray_stack__camera_states(batch: dispatch__Batch, rays: rays__Rays) -> ray_states__RayStates {
-	let media = batch.camera_media;
-	ray_stack__stack_counts = wide__Words(0u);
-	ray_stack__tree_rays = wide__Words(0u);
-	ray_stack__trees_cut_off = wide__Words(0u);
-	let all = wide__Floats(1.0);
-	let states = ray_states__RayStates(rays, wide__Vectors(all, all, all), ray_states__Media(wide__Words(media.x), wide__Words(media.y), wide__Words(media.z), wide__Words(media.w)), wide__Words(ray_states__KIND_PRIMARY), wide__Words(1u), wide__Floats(0.0), wide__Floats(0.0));
+fn ray_stack__camera_state(batch: dispatch__Batch, ray: tracing__Ray) -> ray_states__RayState {
+	ray_stack__stack_count = 0u;
+	ray_stack__tree_rays = 0u;
+	ray_stack__tree_cut_off = 0u;
+	var cone = tracing__Cone(0.0, 0.0);
 	if (bindings__HAS_FOOTPRINTS) {
-		return ray_states__with_cones(batch, states);
+		cone = footprint__camera_cone(batch, ray.direction);
 	}
-	return states;
+	return ray_states__RayState(ray, vec3f(1.0), batch.camera_media, 0u, ray_states__KIND_PRIMARY, 1u, cone);
 }
 
-fn ray_stack__next_ray(reflected: ray_states__RayState, refracted: ray_states__RayState) -> ray_states__RayState {
-	let k = ray_stack__current_tree;
-	let count = wide__word_at(ray_stack__stack_counts, k);
-	let rays = wide__word_at(ray_stack__tree_rays, k) + 1u;
-	ray_stack__tree_rays = wide__word_set(ray_stack__tree_rays, k, rays);
+fn ray_stack__next_ray(batch: dispatch__Batch, reflected: ray_states__RayState, refracted: ray_states__RayState) -> ray_states__RayState {
+	if (!bindings__HAS_TREES) {
+		return ray_states__no_ray();
+	}
+	var next = ray_stack__following(reflected, refracted);
+	if (bindings__HAS_CLIP && next.depth == 0u && ray_states__is_alive(next)) {
+		next.ray.t_max = dispatch__way_to_far(batch, next.ray.origin, next.ray.direction);
+	}
+	return next;
+}
+
+fn ray_stack__following(reflected: ray_states__RayState, refracted: ray_states__RayState) -> ray_states__RayState {
+	ray_stack__tree_rays += 1u;
 	let sends_both = ray_states__is_alive(reflected) && ray_states__is_alive(refracted);
-	let goes_on = ray_states__is_alive(reflected) || ray_states__is_alive(refracted) || count > 0u;
-	if (goes_on && rays >= ray_stack__MAX_TREE_RAYS) {
+	let goes_on = ray_states__is_alive(reflected) || ray_states__is_alive(refracted) || ray_stack__stack_count > 0u;
+	if (goes_on && ray_stack__tree_rays >= ray_stack__MAX_TREE_RAYS) {
 		ray_stack__cut_tree();
-		ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, 0u);
+		ray_stack__stack_count = 0u;
 		return ray_states__no_ray();
 	}
 	if (sends_both) {
 		let reflected_is_weaker = ray_stack__strength(reflected) < ray_stack__strength(refracted);
-		if (count == ray_entries__RAY_STACK_SIZE) {
+		if (ray_stack__stack_count == ray_entry__RAY_STACK_SIZE) {
 			ray_stack__cut_tree();
 			return ray_stack__choose(reflected, refracted, !reflected_is_weaker);
 		}
-		ray_stack__push(k, ray_stack__choose(reflected, refracted, !reflected_is_weaker));
+		ray_stack__push_ray(ray_stack__choose(reflected, refracted, !reflected_is_weaker));
 		return ray_stack__choose(reflected, refracted, reflected_is_weaker);
 	}
 	if (ray_states__is_alive(refracted)) {
@@ -1742,12 +1438,12 @@ fn ray_stack__next_ray(reflected: ray_states__RayState, refracted: ray_states__R
 	if (ray_states__is_alive(reflected)) {
 		return reflected;
 	}
-	return ray_stack__pop(k);
+	return ray_stack__popped_ray();
 }
 
 fn ray_stack__cut_tree() {
-	ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);
-	ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
+	ray_stack__cut_off_trees += 1u - ray_stack__tree_cut_off;
+	ray_stack__tree_cut_off = 1u;
 }
 
 fn ray_stack__choose(reflected: ray_states__RayState, refracted: ray_states__RayState, first: bool) -> ray_states__RayState {
@@ -1761,27 +1457,26 @@ fn ray_stack__strength(state: ray_states__RayState) -> f32 {
 	return dot(state.throughput, vec3f(1.0));
 }
 
-fn ray_stack__push(k: u32, state: ray_states__RayState) {
-	let count = wide__word_at(ray_stack__stack_counts, k);
-	ray_entries__push_entry(ray_entries__Entry(vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving), vec4u(bitcast<vec3u>(state.ray.direction), ray_stack__step_and_instance(state)), vec4u(bitcast<vec3u>(state.throughput), state.node), state.media, state.cone), count);
-	ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, count + 1u);
+fn ray_stack__push_ray(state: ray_states__RayState) {
+	ray_entries__push_entry(ray_entry__RayEntry(vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving), vec4u(bitcast<vec3u>(state.ray.direction), ray_stack__step_and_instance(state)), vec4u(bitcast<vec3u>(state.throughput), state.node), state.media, state.cone), ray_stack__stack_count);
+	record__record_pushed(ray_stack__stack_count);
+	ray_stack__stack_count += 1u;
 }
 
-fn ray_stack__pop(k: u32) -> ray_states__RayState {
-	if (ray_stack__stack_counts == 0u) {
+fn ray_stack__popped_ray() -> ray_states__RayState {
+	if (ray_stack__stack_count == 0u) {
 		return ray_states__no_ray();
 	}
-	ray_stack__stack_counts -= 1u;
-	let entry = ray_entries__pop_entry(ray_stack__stack_counts);
-	return ray_stack__stored(bitcast<vec3f>(entry.r0.xyz), entry.r0.w, bitcast<vec3f>(entry.r1.xyz), entry.r1.w, bitcast<vec3f>(entry.r2.xyz), entry.r2.w, entry.media, entry.cone);
+	ray_stack__stack_count -= 1u;
+	record__record_popped(ray_stack__stack_count);
+	let entry = ray_entries__pop_entry(ray_stack__stack_count);
+	let place = entry.r1.w;
+	let ray = tracing__Ray(bitcast<vec3f>(entry.r0.xyz), camera__T_FAR, bitcast<vec3f>(entry.r1.xyz), entry.r0.w, place >> 12u);
+	return ray_states__RayState(ray, bitcast<vec3f>(entry.r2.xyz), entry.media, (place >> 2u) & 1023u, place & 3u, entry.r2.w, entry.cone);
 }
 
 fn ray_stack__step_and_instance(state: ray_states__RayState) -> u32 {
 	return (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind;
-}
-
-fn ray_stack__stored(origin: vec3f, leaving: u32, direction: vec3f, place: u32, throughput: vec3f, node: u32, media: vec4u, cone: tracing__Cone) -> ray_states__RayState {
-	return ray_states__RayState(tracing__Ray(origin, camera__T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node, cone);
 }
 
 const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
@@ -1867,46 +1562,6 @@ fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) 
 	}
 	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
 	return select(-bend, bend, side < 0.0) / 3.0;
-}
-
-struct tracing__Ray {
-	origin: vec3f,
-	t_max: f32,
-	direction: vec3f,
-	leaving: u32,
-	leaving_instance: u32
-}
-
-struct tracing__Candidate {
-	hit: bool,
-	t: f32,
-	b1: f32,
-	b2: f32
-}
-
-struct tracing__Hit {
-	t: f32,
-	primitive: u32,
-	b1: f32,
-	b2: f32,
-	instance: u32
-}
-
-struct tracing__Node {
-	lo: vec3f,
-	scale: vec3f,
-	near_x: vec4f,
-	far_x: vec4f,
-	near_y: vec4f,
-	far_y: vec4f,
-	near_z: vec4f,
-	far_z: vec4f,
-	children: vec4u
-}
-
-struct tracing__Cone {
-	width: f32,
-	spread: f32
 }
 
 const camera__T_FAR: f32 = 3e38;
@@ -2042,6 +1697,41 @@ fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fracti
 
 fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
 	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.place, a.visible);
+}
+
+@group(0) @binding(0)
+var<storage, read> rows__nodes: array<vec4u>;
+
+@group(0) @binding(1)
+var<storage, read> rows__triangles: array<vec4u>;
+
+@group(0) @binding(2)
+var<storage, read> rows__vertices: array<vec4u>;
+
+@group(0) @binding(3)
+var<storage, read> rows__materials: array<vec4u>;
+
+@group(0) @binding(4)
+var rows__texels: texture_2d_array<u32>;
+
+fn rows__node_row(row: u32) -> vec4u {
+	return rows__nodes[row];
+}
+
+fn rows__triangle_row(row: u32) -> vec4u {
+	return rows__triangles[row];
+}
+
+fn rows__vertex_row(row: u32) -> vec4u {
+	return rows__vertices[row];
+}
+
+fn rows__material_row(row: u32) -> vec4u {
+	return rows__materials[row];
+}
+
+fn rows__texel_word(place: vec2u, layer: u32) -> u32 {
+	return textureLoad(rows__texels, place, layer, 0).x;
 }
 
 const filter__PI: f32 = 3.14159265;
@@ -2214,6 +1904,8 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	return direction.x * x + direction.y * y + direction.z * n;
 }
 
+const traverse__EMPTY: u32 = 4294967295u;
+
 const traverse__RETURN: u32 = 4294967294u;
 
 const traverse__CONTACT_RANGE: f32 = 0.0001;
@@ -2233,10 +1925,6 @@ fn traverse__closest_hit(ray: tracing__Ray) -> tracing__Hit {
 	return traverse__walked(traverse__walk_of(ray, false), traverse__NO_LIMIT).hit;
 }
 
-fn traverse__any_hit(ray: tracing__Ray) -> tracing__Hit {
-	return traverse__walked(traverse__walk_of(ray, true), traverse__NO_LIMIT).hit;
-}
-
 fn traverse__search_limit(ray: tracing__Ray, hit: tracing__Hit) -> f32 {
 	if (bindings__HAS_CONTACT) {
 		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
@@ -2249,7 +1937,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 		primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
 	}
 	let shear = triangle_watertight__shear_of(ray.direction);
-	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), stack__EMPTY);
+	var walk = traverse__Walk(ray, shear, any, primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS), tracing__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE), traverse__EMPTY);
 	if (bindings__HAS_PLANES) {
 		walk.hit = exhaustive__hit_planes(ray, walk.hit);
 	}
@@ -2272,7 +1960,7 @@ fn traverse__walk_of(ray: tracing__Ray, any: bool) -> traverse__Walk {
 }
 
 fn traverse__is_walking(walk: traverse__Walk) -> bool {
-	return walk.current != stack__EMPTY;
+	return walk.current != traverse__EMPTY;
 }
 
 fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
@@ -2285,16 +1973,12 @@ fn traverse__walked(before: traverse__Walk, rounds: u32) -> traverse__Walk {
 			}
 			let is_node = !bindings__HAS_INSTANCES || (walk.current & types__LEAF) == 0u;
 			if (is_node) {
-				{
-					walk = branching__through_nodes(walk);
-				}
+				walk = steps__through_nodes(walk);
 				loops__cut_off |= (walk.current & types__LEAF) == 0u;
 			}
-			let is_leaf = walk.current != stack__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
+			let is_leaf = walk.current != traverse__EMPTY && (!bindings__HAS_INSTANCES || walk.current < types__INSTANCE);
 			if (is_leaf) {
-				{
-					walk = branching__through_leaves(walk);
-				}
+				walk = steps__through_leaves(walk);
 			}
 			round += 1u;
 			continuing {
@@ -2313,7 +1997,7 @@ fn traverse__in_its_space(before: traverse__Walk) -> traverse__Walk {
 		walk.at = primitive__traversal_ray(walk.ray, walk.shear, types__NO_INSTANCE, deforming__NO_KEYS);
 		walk.current = stack__popped();
 	}
-	if ((walk.current >= types__INSTANCE) & (walk.current != stack__EMPTY)) {
+	if ((walk.current >= types__INSTANCE) & (walk.current != traverse__EMPTY)) {
 		let index = walk.current & types__LEAF_FIRST_MASK;
 		let instance = fetch__load_instance(index);
 		let local = instance__object_ray(walk.ray, instance__space_of(instance));
@@ -2328,7 +2012,7 @@ fn traverse__load_current_node(reference: u32, at: primitive__TraversalRay) -> t
 	if (bindings__HAS_MOTION || bindings__HAS_DEFORMATION) {
 		return deforming__node_now(reference, at.keys, at.inv);
 	}
-	return fetch__load_node(reference, at.inv);
+	return steps__load_node(reference, at.inv);
 }
 
 struct triangle_watertight__Shear {
@@ -2578,7 +2262,24 @@ fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
 	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
 }
 
-fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
+var<private> loops__nodes_visited: u32;
+
+var<private> loops__primitives_tested: u32;
+
+var<private> loops__cut_off: bool;
+
+var<private> loops__is_stack_full: bool;
+
+var<private> loops__nonfinite_samples: u32;
+
+fn steps__load_node(index: u32, inv: vec3f) -> tracing__Node {
+	let row = types__FLOAT_NODE_ROWS * index;
+	let near = select(vec3u(0u), vec3u(1u), inv < vec3f(0.0));
+	let far = vec3u(1u) - near;
+	return node__float_node(rows__node_row(row + near.x), rows__node_row(row + far.x), rows__node_row(row + 2u + near.y), rows__node_row(row + 2u + far.y), rows__node_row(row + 4u + near.z), rows__node_row(row + 4u + far.z), rows__node_row(row + 6u));
+}
+
+fn steps__through_nodes(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	loop {
 		let node = traverse__load_current_node(walk.current, walk.at);
@@ -2588,8 +2289,8 @@ fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
 			loops__nodes_visited += 1u;
 		}
 		if (keys.x < node__MISS) {
-			branching__push_farther(node.children, keys);
-			walk.current = branching__child(node.children, keys.x);
+			steps__push_farther(node.children, keys);
+			walk.current = steps__child(node.children, keys.x);
 		}
 		else {
 			walk.current = stack__popped();
@@ -2602,24 +2303,24 @@ fn branching__through_nodes(before: traverse__Walk) -> traverse__Walk {
 	return walk;
 }
 
-fn branching__push_farther(children: vec4u, keys: vec4u) {
+fn steps__push_farther(children: vec4u, keys: vec4u) {
 	if (keys.y < node__MISS) {
 		if (keys.z < node__MISS) {
 			if (keys.w < node__MISS) {
-				stack__push(branching__child(children, keys.w));
+				stack__push(steps__child(children, keys.w));
 			}
-			stack__push(branching__child(children, keys.z));
+			stack__push(steps__child(children, keys.z));
 		}
-		stack__push(branching__child(children, keys.y));
+		stack__push(steps__child(children, keys.y));
 	}
 }
 
-fn branching__child(children: vec4u, key: u32) -> u32 {
+fn steps__child(children: vec4u, key: u32) -> u32 {
 	let first = select(children.xz, children.yw, vec2<bool>((key & 1u) != 0u));
 	return select(first.x, first.y, (key & 2u) != 0u);
 }
 
-fn branching__through_leaves(before: traverse__Walk) -> traverse__Walk {
+fn steps__through_leaves(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	loop {
 		walk.hit = primitive__closer(walk.at, walk.hit, walk.current & (types__SHAPE | types__LEAF_FIRST_MASK));
@@ -2627,7 +2328,7 @@ fn branching__through_leaves(before: traverse__Walk) -> traverse__Walk {
 			loops__primitives_tested += 1u;
 		}
 		if (walk.any && walk.hit.primitive != types__NONE) {
-			walk.current = stack__EMPTY;
+			walk.current = traverse__EMPTY;
 		}
 		else if ((walk.current & types__LEAF_COUNT_MASK) == 0u) {
 			walk.current = stack__popped();
@@ -3302,279 +3003,150 @@ fn plane__intersect_plane(ray: tracing__Ray, point: vec3f, n: vec3f) -> tracing_
 	return tracing__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
+struct tree_vertex__Vertex {
+	receiver: direct__Receiver,
+	hit: tracing__Hit,
+	arriving: vec3f,
+	ambient: vec3f,
+	emission: vec3f,
+	reflected: ray_states__RayState,
+	refracted: ray_states__RayState
+}
+
+fn tree_vertex__vertex_at(batch: dispatch__Batch, state: ray_states__RayState, hit: tracing__Hit, key: u32, sample: u32) -> tree_vertex__Vertex {
+	let contact = contact__contact_at(state.ray, hit, state.cone);
+	var surface = contact.surface;
+	if (bindings__HAS_TEXTURES) {
+		surface.phong = texture__textured_phong(surface);
+	}
+	let factors = texture__texture_optics(surface);
+	var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_states__no_ray(), ray_states__no_ray());
+	if (bindings__HAS_TREES) {
+		event = optics__scatter(batch, state, hit.t, contact, factors, coverage__coverage_at(surface));
+		surface.phong.diffuse *= event.diffuse;
+		surface.phong.ambient *= event.diffuse;
+		surface.phong.specular *= event.highlight;
+	}
+	if (!bindings__HAS_GLOSS) {
+		surface.phong.specular = vec3f(0.0);
+		surface.phong.shininess = 0.0;
+	}
+	let ambient = batch.ambient * surface.phong.ambient;
+	var emission = vec3f(0.0);
+	if (bindings__HAS_EMISSION) {
+		emission = emitters__emitted(surface, material__load_optics(surface.material), factors[2]);
+	}
+	var own_key = shading__SampleKey(key, sample, 1.0);
+	if (tree_vertex__is_first(state)) {
+		features__see_first(surface, hit, dispatch__way_to_near(batch, state.ray.direction) + hit.t);
+		let glow = ambient + emission - ambient;
+		features__see_albedo(surface.phong.diffuse + glow, surface.n);
+		features__see_light(event.arriving * glow, 0u);
+	}
+	else {
+		own_key.hash = rng__hash_combine(key, state.node);
+		own_key.weight = numeric__max_component(event.arriving);
+	}
+	let receiver = direct__Receiver(surface, -state.ray.direction, own_key);
+	return tree_vertex__Vertex(receiver, contact.hit, event.arriving, ambient, emission, event.reflected, event.refracted);
+}
+
+fn tree_vertex__missed(batch: dispatch__Batch, state: ray_states__RayState) -> vec3f {
+	var throughput = state.throughput;
+	if (bindings__HAS_REFRACTION) {
+		throughput *= medium__transmittance(medium__medium_of(medium__dominant(state.media)), state.ray.t_max);
+	}
+	let seen = throughput * background__background(batch, state.ray.direction);
+	if (tree_vertex__is_first(state)) {
+		features__see_albedo(seen, vec3f(0.0));
+		features__see_light(seen, 0u);
+	}
+	return seen;
+}
+
+fn tree_vertex__see_direct(state: ray_states__RayState, light: vec3f) {
+	if (tree_vertex__is_first(state)) {
+		features__see_light(light, 1u);
+	}
+}
+
+fn tree_vertex__is_first(state: ray_states__RayState) -> bool {
+	return state.node == 1u;
+}
+
 struct direct__Receiver {
 	surface: shading__Surface,
 	v: vec3f,
 	key: shading__SampleKey
 }
 
-struct direct__Receivers {
-	p: wide__Vectors,
-	error: wide__Vectors,
-	ng: wide__Vectors,
-	n: wide__Vectors,
-	v: wide__Vectors,
-	diffuse: wide__Vectors,
-	specular: wide__Vectors,
-	shininess: wide__Floats,
-	leaving: wide__Words,
-	instance: wide__Words,
-	hash: wide__Words,
-	weight: wide__Floats,
-	is_lit: wide__Words
-}
-
-fn direct__no_receivers() -> direct__Receivers {
-	let none = wide__no_vectors();
-	return direct__Receivers(none, none, none, none, none, none, none, wide__Floats(0.0), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__Floats(0.0), wide__Words(0u));
-}
-
-fn direct__receiver_set(all: direct__Receivers, k: u32, surface: shading__Surface, v: vec3f, key: shading__SampleKey) -> direct__Receivers {
-	return direct__Receivers(wide__vector_set(all.p, k, surface.p), wide__vector_set(all.error, k, surface.error), wide__vector_set(all.ng, k, surface.ng), wide__vector_set(all.n, k, surface.n), wide__vector_set(all.v, k, v), wide__vector_set(all.diffuse, k, surface.phong.diffuse), wide__vector_set(all.specular, k, surface.phong.specular), wide__float_set(all.shininess, k, surface.phong.shininess), wide__word_set(all.leaving, k, surface.leaving), wide__word_set(all.instance, k, surface.instance), wide__word_set(all.hash, k, key.hash), wide__float_set(all.weight, k, key.weight), wide__word_set(all.is_lit, k, 1u));
-}
-
-fn direct__receiver_at(all: direct__Receivers, k: u32) -> direct__Receiver {
-	var surface: shading__Surface;
-	surface.p = wide__vector_at(all.p, k);
-	surface.error = wide__vector_at(all.error, k);
-	surface.ng = wide__vector_at(all.ng, k);
-	surface.n = wide__vector_at(all.n, k);
-	surface.leaving = wide__word_at(all.leaving, k);
-	surface.instance = wide__word_at(all.instance, k);
-	surface.phong.diffuse = wide__vector_at(all.diffuse, k);
-	if (bindings__HAS_GLOSS) {
-		surface.phong.specular = wide__vector_at(all.specular, k);
-		surface.phong.shininess = wide__float_at(all.shininess, k);
-	}
-	return direct__Receiver(surface, wide__vector_at(all.v, k), shading__SampleKey(wide__word_at(all.hash, k), 0u, wide__float_at(all.weight, k)));
-}
-
-fn direct__direct_light(batch: dispatch__Batch, receivers: direct__Receivers, media: ray_states__Media, sample: u32) -> wide__Vectors {
-	var color = wide__no_vectors();
+fn direct__direct_light(batch: dispatch__Batch, receiver: direct__Receiver, media: vec4u) -> vec3f {
+	var color = vec3f(0.0);
 	if (!bindings__HAS_LIGHTS) {
 		return color;
 	}
-	let lit_rows = rays__rows_where(receivers.is_lit != wide__Words(0u));
-	let end = select(1u, batch.light_count, lit_rows != 0u);
 	var index = 0u;
 	loop {
-		let light = shutter__shutter_light(index, batch.light_count);
-		color = direct__with_light(batch, color, receivers, lit_rows, media, sample, light, index);
+		color += direct__light_from(batch, receiver, media, shutter__shutter_light(index, batch.light_count), index);
 		continuing {
 			index += 1u;
-			break if index >= end;
+			break if index >= batch.light_count;
 		}
 	}
-	loops__cut_off |= index < end;
+	loops__cut_off |= index < batch.light_count;
 	return color;
 }
 
-fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: direct__Receivers, lit_rows: u32, media: ray_states__Media, sample: u32, light: types__PackedLight, index: u32) -> wide__Vectors {
-	var sum = wide__no_vectors();
-	var counts = wide__Floats(1.0);
-	let has_extent = bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE;
+fn direct__light_from(batch: dispatch__Batch, receiver: direct__Receiver, media: vec4u, light: types__PackedLight, index: u32) -> vec3f {
+	let count = direct__light_samples(batch, receiver, light);
+	var sum = vec3f(0.0);
 	var drawn = 0u;
-	var is_unfinished = false;
 	loop {
-		var rays = rays__dead_rays();
-		var unshadowed = wide__no_vectors();
-		is_unfinished = false;
-		var rows = lit_rows;
-		loop {
-			let k = rays__first_row(rows);
-			if (wide__word_at(receivers.is_lit, k) != 0u) {
-				let receiver = direct__receiver_at(receivers, k);
-				var count = 1u;
-				if (has_extent) {
-					let wanted = max_f32(round(f32(light.sample_count) * batch.light_samples * receiver.key.weight), 1.0);
-					count = u32(wanted);
-					counts = wide__float_set(counts, k, f32(count));
-				}
-				if (drawn < count) {
-					var arriving = light__incident(light, receiver.surface.p);
-					if (has_extent) {
-						let hash = rng__hash_combine(receiver.key.hash, index);
-						arriving = area_light__area_incident(light, receiver.surface.p, sampling__stratified_2d(sample * count + drawn, hash));
-					}
-					let reflected = arriving.radiance * phong__phong(receiver.surface.phong, receiver.surface.n, arriving.direction, receiver.v);
-					let is_lit = any(reflected > vec3f(0.0));
-					if (is_lit) {
-						rays = rays__ray_set(rays, k, direct__shadow_ray(receiver.surface, arriving));
-						unshadowed = wide__vector_set(unshadowed, k, reflected);
-					}
-					is_unfinished |= drawn + 1u < count;
-				}
-			}
-			continuing {
-				rows = rays__later_rows(rows);
-				break if wide__ONE_RAY | (rows == 0u);
-			}
+		let arriving = direct__arriving_light(receiver, light, index, drawn, count);
+		let reflected = direct__reflected_light(receiver, arriving);
+		record__record_light(receiver, arriving, reflected, index, count);
+		if (any(reflected > vec3f(0.0))) {
+			let ray = direct__shadow_ray(receiver.surface, arriving);
+			let through = shadow__light_through(ray, media);
+			record__record_shadow(ray, through);
+			sum += through * reflected;
 		}
-		loops__cut_off |= rows != 0u;
-		let through = shadow__light_through(rays, media);
-		sum.x += through.x * unshadowed.x;
-		sum.y += through.y * unshadowed.y;
-		sum.z += through.z * unshadowed.z;
-		drawn += 1u;
 		continuing {
-		
-			break if !rays__any_lane(is_unfinished);
+			drawn += 1u;
+			break if drawn >= count;
 		}
 	}
-	loops__cut_off |= is_unfinished;
-	return wide__Vectors(before.x + sum.x / counts, before.y + sum.y / counts, before.z + sum.z / counts);
+	loops__cut_off |= drawn < count;
+	return sum / f32(count);
+}
+
+fn direct__light_samples(batch: dispatch__Batch, receiver: direct__Receiver, light: types__PackedLight) -> u32 {
+	var count = 1u;
+	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
+		let wanted = max_f32(round(f32(light.sample_count) * batch.light_samples * receiver.key.weight), 1.0);
+		count = u32(wanted);
+	}
+	return count;
+}
+
+fn direct__arriving_light(receiver: direct__Receiver, light: types__PackedLight, index: u32, drawn: u32, count: u32) -> shading__Incident {
+	var arriving = light__incident(light, receiver.surface.p);
+	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
+		let u = sampling__stratified_2d(receiver.key.index * count + drawn, rng__hash_combine(receiver.key.hash, index));
+		arriving = area_light__area_incident(light, receiver.surface.p, u);
+	}
+	return arriving;
+}
+
+fn direct__reflected_light(receiver: direct__Receiver, arriving: shading__Incident) -> vec3f {
+	let surface = receiver.surface;
+	return arriving.radiance * phong__phong(surface.phong, surface.n, arriving.direction, receiver.v);
 }
 
 fn direct__shadow_ray(surface: shading__Surface, arriving: shading__Incident) -> tracing__Ray {
 	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
 	ray.t_max = max_f32(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
 	return ray;
-}
-
-struct optics__ScatterEvent {
-	arriving: vec3f,
-	diffuse: vec3f,
-	highlight: vec3f,
-	reflected: ray_states__RayState,
-	refracted: ray_states__RayState
-}
-
-struct optics__Weights {
-	diffuse: vec3f,
-	highlight: vec3f
-}
-
-fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance: f32, contact: contact__Contact, factors: mat3x3f, coverage: f32) -> optics__ScatterEvent {
-	let surface = contact.surface;
-	let direction = state.ray.direction;
-	let optics = material__load_optics(surface.material);
-	let thin = (optics.flags & types__MATERIAL_THIN) != 0u;
-	let met = interface__interface_at(state.media, contact, optics);
-	let eta = met.ior / met.ior_behind;
-	var arriving = state.throughput;
-	if (bindings__HAS_REFRACTION) {
-		arriving *= medium__transmittance(medium__medium_of(met.here), distance);
-	}
-	let passing = arriving * (1.0 - coverage);
-	if (bindings__HAS_COVERAGE) {
-		arriving *= coverage;
-	}
-	let ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
-	var n = select(surface.n, -surface.n, dot(surface.n, direction) > 0.0);
-	n = select(ng, n, dot(fresnel__mirrored(direction, n), ng) > 0.0);
-	let boundary = fresnel__boundary_at(optics.flags, clamp_f32(-dot(direction, n), 0.0, 1.0), eta);
-	var reflect = factors[0] * surface.phong.reflect;
-	var transmit = factors[1] * vertex_color__transmit_of(surface, optics);
-	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
-		reflect *= boundary.reflectance;
-		transmit *= 1.0 - boundary.reflectance;
-	}
-	else if (boundary.total && met.encloses) {
-		reflect += select(transmit, vec3f(0.0), (optics.flags & types__MATERIAL_SUM) != 0u);
-		transmit = vec3f(0.0);
-	}
-	var straight = direction;
-	let bends = met.is_boundary && !thin;
-	if (bends) {
-		straight = fresnel__refracted(direction, n, eta, boundary.cos_t);
-	}
-	else if (!met.is_boundary) {
-		reflect = vec3f(0.0);
-		transmit = vec3f(1.0);
-	}
-	var cone = tracing__Cone(0.0, 0.0);
-	var mirrored_way = cone;
-	var refracted_way = cone;
-	if (bindings__HAS_FOOTPRINTS) {
-		cone = ray_cone__cone_at(state.cone, distance);
-		mirrored_way = ray_cone__mirrored_cone(cone, surface.curvature);
-		refracted_way = cone;
-		if (bends) {
-			refracted_way = ray_cone__refracted_cone(cone, surface.curvature, eta);
-		}
-	}
-	var reflected_ray = ray_states__no_ray();
-	var refracted_ray = ray_states__no_ray();
-	let deeper = state.depth < batch.max_depth;
-	if (bindings__HAS_REFLECTION && deeper && optics__is_worth_tracing(batch, arriving * reflect)) {
-		let way = fresnel__mirrored(direction, n);
-		let ray = leaving__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
-		reflected_ray = ray_states__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_states__KIND_REFLECTED, 2u * state.node, mirrored_way);
-	}
-	let refracts = bindings__HAS_REFRACTION && met.is_transparent && (deeper || !bends);
-	let beyond = select(vec3f(0.0), arriving * transmit, refracts);
-	if (bindings__HAS_REFRACTION && refracts && optics__is_worth_tracing(batch, beyond + passing)) {
-		let ray = leaving__leaving_ray(surface, straight, camera__T_FAR);
-		refracted_ray = ray_states__RayState(ray, beyond + passing, met.media, select(state.depth, state.depth + 1u, bends), ray_states__KIND_REFRACTED, 2u * state.node + 1u, refracted_way);
-	}
-	else if (bindings__HAS_COVERAGE && optics__is_worth_tracing(batch, passing)) {
-		let ray = leaving__leaving_ray(surface, direction, camera__T_FAR);
-		refracted_ray = ray_states__RayState(ray, passing, state.media, state.depth, ray_states__KIND_REFRACTED, 2u * state.node + 1u, cone);
-	}
-	let sends = any(reflected_ray.throughput > vec3f(0.0));
-	let kept = optics__local_weights(optics, reflect, sends);
-	let visible = select(0.0, 1.0, met.is_boundary);
-	return optics__ScatterEvent(arriving, visible * kept.diffuse, visible * kept.highlight, reflected_ray, refracted_ray);
-}
-
-fn optics__is_worth_tracing(batch: dispatch__Batch, throughput: vec3f) -> bool {
-	let mean = dot(throughput, vec3f(1.0 / 3.0));
-	return (mean > 0.0) & (mean >= batch.min_throughput);
-}
-
-fn optics__local_weights(optics: shading__Optics, reflect: vec3f, sends: bool) -> optics__Weights {
-	let left = max_vec3f(1.0 - reflect, vec3f(0.0));
-	if ((optics.flags & types__MATERIAL_SUM) != 0u) {
-		return optics__Weights(vec3f(1.0), vec3f(1.0));
-	}
-	if ((optics.flags & types__MATERIAL_BLEND) != 0u) {
-		let weight = select(vec3f(1.0), left, sends);
-		return optics__Weights(weight, weight);
-	}
-	return optics__Weights(optics.opacity * left, vec3f(1.0));
-}
-
-const medium__VACUUM: shading__Medium = shading__Medium(vec3f(0.0), 1.0, 0);
-
-fn medium__dominant(media: vec4u) -> u32 {
-	if (!bindings__HAS_CONTACT) {
-		return media.x;
-	}
-	if (!bindings__HAS_PRIORITIES) {
-		let last = select(media.xz, media.yw, media.yw != vec2u(types__NONE));
-		return select(last.x, last.y, last.y != types__NONE);
-	}
-	var best = media.x;
-	best = medium__higher(best, media.y);
-	best = medium__higher(best, media.z);
-	return medium__higher(best, media.w);
-}
-
-fn medium__higher(best: u32, next: u32) -> u32 {
-	if (next == types__NONE) {
-		return best;
-	}
-	return select(best, next, material__load_medium(next).priority >= material__load_medium(best).priority);
-}
-
-fn medium__medium_of(material: u32) -> shading__Medium {
-	if (material == types__NONE) {
-		return medium__VACUUM;
-	}
-	return material__load_medium(material);
-}
-
-fn medium__transmittance(medium: shading__Medium, distance: f32) -> vec3f {
-	return exp(-min_vec3f(medium.absorption * min_f32(distance, 1000000000000.0), vec3f(80.0)));
-}
-
-fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
-	return select(media__left(media, material), media__entered(media, material), vec4<bool>(entering));
-}
-
-fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
-	let started_inside = !entering & !media__contains(media, material);
-	return select(medium__dominant(media), material, started_inside);
 }
 
 struct shading__Phong {
@@ -3637,6 +3209,49 @@ struct shading__SampleKey {
 	weight: f32
 }
 
+const medium__VACUUM: shading__Medium = shading__Medium(vec3f(0.0), 1.0, 0);
+
+fn medium__dominant(media: vec4u) -> u32 {
+	if (!bindings__HAS_CONTACT) {
+		return media.x;
+	}
+	if (!bindings__HAS_PRIORITIES) {
+		let last = select(media.xz, media.yw, media.yw != vec2u(types__NONE));
+		return select(last.x, last.y, last.y != types__NONE);
+	}
+	var best = media.x;
+	best = medium__higher(best, media.y);
+	best = medium__higher(best, media.z);
+	return medium__higher(best, media.w);
+}
+
+fn medium__higher(best: u32, next: u32) -> u32 {
+	if (next == types__NONE) {
+		return best;
+	}
+	return select(best, next, material__load_medium(next).priority >= material__load_medium(best).priority);
+}
+
+fn medium__medium_of(material: u32) -> shading__Medium {
+	if (material == types__NONE) {
+		return medium__VACUUM;
+	}
+	return material__load_medium(material);
+}
+
+fn medium__transmittance(medium: shading__Medium, distance: f32) -> vec3f {
+	return exp(-min_vec3f(medium.absorption * min_f32(distance, 1000000000000.0), vec3f(80.0)));
+}
+
+fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
+	return select(media__left(media, material), media__entered(media, material), vec4<bool>(entering));
+}
+
+fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
+	let started_inside = !entering & !media__contains(media, material);
+	return select(medium__dominant(media), material, started_inside);
+}
+
 struct material__PhongMaterial {
 	phong: shading__Phong,
 	flags: u32
@@ -3644,12 +3259,12 @@ struct material__PhongMaterial {
 
 fn material__load_material(index: u32) -> material__PhongMaterial {
 	let row = types__MATERIAL_ROWS * index;
-	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
+	let r0 = rows__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = rows__material_row(row + 1u);
+	let r2 = rows__material_row(row + 2u);
 	var reflect = vec3f(0.0);
 	if (bindings__HAS_REFLECTION) {
-		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
+		reflect = bitcast<vec3f>(rows__material_row(row + 3u).xyz);
 	}
 	let phong = shading__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
 	return material__PhongMaterial(phong, r1.w);
@@ -3657,29 +3272,29 @@ fn material__load_material(index: u32) -> material__PhongMaterial {
 
 fn material__load_optics(index: u32) -> shading__Optics {
 	let row = types__MATERIAL_ROWS * index;
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = fetch__material_row(row + 4u);
+	let r1 = rows__material_row(row + 1u);
+	let r2 = rows__material_row(row + 2u);
+	let r3 = rows__material_row(row + 3u);
+	let r4 = rows__material_row(row + 4u);
 	return shading__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
 }
 
 fn material__load_flags(index: u32) -> u32 {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 1u).w;
+	return rows__material_row(types__MATERIAL_ROWS * index + 1u).w;
 }
 
 fn material__load_medium(index: u32) -> shading__Medium {
 	let row = types__MATERIAL_ROWS * index;
-	let r5 = fetch__material_row(row + 5u);
-	return shading__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
+	let r5 = rows__material_row(row + 5u);
+	return shading__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(rows__material_row(row + 3u).w), bitcast<i32>(rows__material_row(row + 4u).w));
 }
 
 fn material__load_emission(index: u32) -> vec3f {
-	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
+	return bitcast<vec3f>(rows__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
 }
 
 fn material__load_texture_indices(index: u32) -> vec4u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+	return rows__material_row(types__MATERIAL_ROWS * index + 7u);
 }
 
 struct material__CoverageMaterial {
@@ -3689,36 +3304,36 @@ struct material__CoverageMaterial {
 
 fn material__load_coverage(index: u32) -> material__CoverageMaterial {
 	let row = types__MATERIAL_ROWS * index;
-	return material__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
+	return material__CoverageMaterial(bitcast<f32>(rows__material_row(row + 5u).w), rows__material_row(row + 1u).w);
 }
 
 fn material__load_normal_scale(index: u32) -> f32 {
-	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+	return bitcast<f32>(rows__material_row(types__MATERIAL_ROWS * index + 6u).w);
 }
 
 fn material__load_texture(index: u32) -> types__PackedTexture {
 	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r5 = fetch__material_row(row + 5u);
-	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r5 = rows__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(rows__material_row(row + 2u)), bitcast<vec4f>(rows__material_row(row + 3u)), bitcast<vec4f>(rows__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
 }
 
 fn material__load_occlusion(index: u32) -> vec2u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 8u).xy;
+	return rows__material_row(types__MATERIAL_ROWS * index + 8u).xy;
 }
 
 fn material__load_layers(index: u32) -> types__PackedLayers {
 	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
-	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
-	let r6 = fetch__material_row(row + 6u);
-	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(rows__material_row(row + 2u));
+	let r3 = rows__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(rows__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(rows__material_row(row + 5u));
+	let r6 = rows__material_row(row + 6u);
+	let r7 = rows__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), rows__material_row(row + 8u), rows__material_row(row + 9u), rows__material_row(row + 10u));
 }
 
 fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
@@ -3818,7 +3433,7 @@ fn picture__texel_at(picture: u32, index: u32) -> vec4f {
 fn picture__load_texel_word(index: u32) -> u32 {
 	let row = index >> types__IMAGE_WIDTH_LOG2;
 	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
-	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
+	return rows__texel_word(place, row >> types__LAYER_ROWS_LOG2);
 }
 
 const contact__NEAR: f32 = 1e-5;
@@ -4671,6 +4286,110 @@ fn noise__corner(key: u32, d: vec3f) -> f32 {
 	return select(u, -u, (h & 1u) != 0u) + select(v, -v, (h & 2u) != 0u);
 }
 
+struct optics__ScatterEvent {
+	arriving: vec3f,
+	diffuse: vec3f,
+	highlight: vec3f,
+	reflected: ray_states__RayState,
+	refracted: ray_states__RayState
+}
+
+struct optics__Weights {
+	diffuse: vec3f,
+	highlight: vec3f
+}
+
+fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance: f32, contact: contact__Contact, factors: mat3x3f, coverage: f32) -> optics__ScatterEvent {
+	let surface = contact.surface;
+	let direction = state.ray.direction;
+	let optics = material__load_optics(surface.material);
+	let thin = (optics.flags & types__MATERIAL_THIN) != 0u;
+	let met = interface__interface_at(state.media, contact, optics);
+	let eta = met.ior / met.ior_behind;
+	var arriving = state.throughput;
+	if (bindings__HAS_REFRACTION) {
+		arriving *= medium__transmittance(medium__medium_of(met.here), distance);
+	}
+	let passing = arriving * (1.0 - coverage);
+	if (bindings__HAS_COVERAGE) {
+		arriving *= coverage;
+	}
+	let ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
+	var n = select(surface.n, -surface.n, dot(surface.n, direction) > 0.0);
+	n = select(ng, n, dot(fresnel__mirrored(direction, n), ng) > 0.0);
+	let boundary = fresnel__boundary_at(optics.flags, clamp_f32(-dot(direction, n), 0.0, 1.0), eta);
+	var reflect = factors[0] * surface.phong.reflect;
+	var transmit = factors[1] * vertex_color__transmit_of(surface, optics);
+	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
+		reflect *= boundary.reflectance;
+		transmit *= 1.0 - boundary.reflectance;
+	}
+	else if (boundary.total && met.encloses) {
+		reflect += select(transmit, vec3f(0.0), (optics.flags & types__MATERIAL_SUM) != 0u);
+		transmit = vec3f(0.0);
+	}
+	var straight = direction;
+	let bends = met.is_boundary && !thin;
+	if (bends) {
+		straight = fresnel__refracted(direction, n, eta, boundary.cos_t);
+	}
+	else if (!met.is_boundary) {
+		reflect = vec3f(0.0);
+		transmit = vec3f(1.0);
+	}
+	record__record_interface(met, boundary, reflect, transmit);
+	var cone = tracing__Cone(0.0, 0.0);
+	var mirrored_way = cone;
+	var refracted_way = cone;
+	if (bindings__HAS_FOOTPRINTS) {
+		cone = ray_cone__cone_at(state.cone, distance);
+		mirrored_way = ray_cone__mirrored_cone(cone, surface.curvature);
+		refracted_way = cone;
+		if (bends) {
+			refracted_way = ray_cone__refracted_cone(cone, surface.curvature, eta);
+		}
+	}
+	var reflected_ray = ray_states__no_ray();
+	var refracted_ray = ray_states__no_ray();
+	let deeper = state.depth < batch.max_depth;
+	if (bindings__HAS_REFLECTION && deeper && optics__is_worth_tracing(batch, arriving * reflect)) {
+		let way = fresnel__mirrored(direction, n);
+		let ray = leaving__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
+		reflected_ray = ray_states__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_states__KIND_REFLECTED, 2u * state.node, mirrored_way);
+	}
+	let refracts = bindings__HAS_REFRACTION && met.is_transparent && (deeper || !bends);
+	let beyond = select(vec3f(0.0), arriving * transmit, refracts);
+	if (bindings__HAS_REFRACTION && refracts && optics__is_worth_tracing(batch, beyond + passing)) {
+		let ray = leaving__leaving_ray(surface, straight, camera__T_FAR);
+		refracted_ray = ray_states__RayState(ray, beyond + passing, met.media, select(state.depth, state.depth + 1u, bends), ray_states__KIND_REFRACTED, 2u * state.node + 1u, refracted_way);
+	}
+	else if (bindings__HAS_COVERAGE && optics__is_worth_tracing(batch, passing)) {
+		let ray = leaving__leaving_ray(surface, direction, camera__T_FAR);
+		refracted_ray = ray_states__RayState(ray, passing, state.media, state.depth, ray_states__KIND_REFRACTED, 2u * state.node + 1u, cone);
+	}
+	let sends = any(reflected_ray.throughput > vec3f(0.0));
+	let kept = optics__local_weights(optics, reflect, sends);
+	let visible = select(0.0, 1.0, met.is_boundary);
+	return optics__ScatterEvent(arriving, visible * kept.diffuse, visible * kept.highlight, reflected_ray, refracted_ray);
+}
+
+fn optics__is_worth_tracing(batch: dispatch__Batch, throughput: vec3f) -> bool {
+	let mean = dot(throughput, vec3f(1.0 / 3.0));
+	return (mean > 0.0) & (mean >= batch.min_throughput);
+}
+
+fn optics__local_weights(optics: shading__Optics, reflect: vec3f, sends: bool) -> optics__Weights {
+	let left = max_vec3f(1.0 - reflect, vec3f(0.0));
+	if ((optics.flags & types__MATERIAL_SUM) != 0u) {
+		return optics__Weights(vec3f(1.0), vec3f(1.0));
+	}
+	if ((optics.flags & types__MATERIAL_BLEND) != 0u) {
+		let weight = select(vec3f(1.0), left, sends);
+		return optics__Weights(weight, weight);
+	}
+	return optics__Weights(optics.opacity * left, vec3f(1.0));
+}
+
 struct interface__Interface {
 	here: u32,
 	media: vec4u,
@@ -4778,6 +4497,36 @@ fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f
 	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
+const record__RECORDS: bool = false;
+
+fn record__record_interface(met: interface__Interface, boundary: fresnel__Boundary, reflect: vec3f, transmit: vec3f) {
+
+}
+
+fn record__record_pushed(index: u32) {
+
+}
+
+fn record__record_popped(index: u32) {
+
+}
+
+fn record__open_shadow(t_max: f32) {
+
+}
+
+fn record__record_met(hit: tracing__Hit, rest: f32) {
+
+}
+
+fn record__record_light(receiver: direct__Receiver, light: shading__Incident, reflected: vec3f, index: u32, count: u32) {
+
+}
+
+fn record__record_shadow(ray: tracing__Ray, through: vec3f) {
+
+}
+
 fn leaving__leaving_ray(surface: shading__Surface, direction: vec3f, t_max: f32) -> tracing__Ray {
 	if (bindings__FIXED_OFFSET > 0.0) {
 		let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
@@ -4826,9 +4575,9 @@ fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: v
 	return select(vec3f(0.0), glow * vertex_color__emission_of(surface), shines);
 }
 
-const ray_entries__RAY_STACK_SIZE: u32 = 9u;
+const ray_entry__RAY_STACK_SIZE: u32 = 9u;
 
-struct ray_entries__Entry {
+struct ray_entry__RayEntry {
 	r0: vec4u,
 	r1: vec4u,
 	r2: vec4u,
@@ -4836,13 +4585,13 @@ struct ray_entries__Entry {
 	cone: tracing__Cone
 }
 
-var<private> ray_entries__entries: array<ray_entries__Entry, ray_entries__RAY_STACK_SIZE>;
+var<private> ray_entries__entries: array<ray_entry__RayEntry, ray_entry__RAY_STACK_SIZE>;
 
-fn ray_entries__push_entry(entry: ray_entries__Entry, index: u32) {
+fn ray_entries__push_entry(entry: ray_entry__RayEntry, index: u32) {
 	ray_entries__entries[index] = entry;
 }
 
-fn ray_entries__pop_entry(index: u32) -> ray_entries__Entry {
+fn ray_entries__pop_entry(index: u32) -> ray_entry__RayEntry {
 	return ray_entries__entries[index];
 }
 
@@ -4944,14 +4693,20 @@ struct shadow__Passage {
 	crossings: u32
 }
 
+fn shadow__passage_of(ray: tracing__Ray, media: vec4u) -> shadow__Passage {
+	record__open_shadow(ray.t_max);
+	return shadow__Passage(ray, media, vec3f(1.0), 0u);
+}
+
 fn shadow__may_pass(hit: tracing__Hit) -> bool {
 	return (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) && hit.primitive != types__NONE;
 }
 
 fn shadow__arrived(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
 	var passage = before;
-	passage.ray = rays__DEAD;
+	passage.ray = ray_states__DEAD;
 	if (hit.primitive != types__NONE) {
+		record__record_met(hit, before.ray.t_max);
 		passage.through = vec3f(0.0);
 	}
 	else if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
@@ -4962,7 +4717,8 @@ fn shadow__arrived(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passag
 
 fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit, contact: contact__Contact, coverage: f32) -> shadow__Passage {
 	var passage = before;
-	passage.ray = rays__DEAD;
+	passage.ray = ray_states__DEAD;
+	record__record_met(contact.hit, before.ray.t_max);
 	let surface = contact.surface;
 	var through = vec3f(0.0);
 	if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
@@ -4990,38 +4746,34 @@ fn shadow__rest_of(ray: tracing__Ray, distance: f32, surface: shading__Surface) 
 	let way = ray.direction - shift / rest;
 	let is_ahead = dot(way, ray.direction) > 0.0;
 	next.direction = numeric__normalize_or(way, ray.direction);
-	next.t_max = select(rays__DEAD.t_max, rest * length(way), is_ahead);
+	next.t_max = select(ray_states__DEAD.t_max, rest * length(way), is_ahead);
 	return next;
 }
 
-fn shadow__light_through(rays: rays__Rays, media: ray_states__Media) -> wide__Vectors {
-	var through: wide__Vectors;
+fn shadow__light_through(ray: tracing__Ray, media: vec4u) -> vec3f {
+	var passage = shadow__passage_of(ray, media);
 	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
-		through = shadow__filtered(rays, media);
+		loop {
+			let hit = traverse__closest_hit(passage.ray);
+			if (shadow__may_pass(hit)) {
+				let contact = contact__contact_at(passage.ray, hit, shadow__NO_WIDTH);
+				passage = shadow__crossed(passage, hit, contact, coverage__coverage_at(contact.surface));
+			}
+			else {
+				passage = shadow__arrived(passage, hit);
+			}
+			continuing {
+			
+				break if passage.ray.t_max < 0.0;
+			}
+		}
+		loops__cut_off |= passage.ray.t_max >= 0.0;
 	}
 	else {
-		let hits = rays__any_hits(rays);
-		let passed = select(wide__Floats(0.0), wide__Floats(1.0), hits.primitive == wide__Words(types__NONE));
-		through = wide__Vectors(passed, passed, passed);
+		passage = shadow__arrived(passage, traverse__walked(traverse__walk_of(ray, !record__RECORDS), traverse__NO_LIMIT).hit);
 	}
-	if (bindings__COUNT_RAYS) {
-		shadow__count_shadows(rays, through);
-	}
-	return through;
-}
-
-fn shadow__count_shadows(rays: rays__Rays, through: wide__Vectors) {
-	var k = 0u;
-	loop {
-		if (wide__float_at(rays.t_max, k) >= 0.0) {
-			shadow__count_shadow(wide__vector_at(through, k));
-		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
+	shadow__count_shadow(passage.through);
+	return passage.through;
 }
 
 fn shadow__count_shadow(through: vec3f) {
@@ -5029,53 +4781,6 @@ fn shadow__count_shadow(through: vec3f) {
 		dispatch__counts.shadow += 1u;
 		dispatch__counts.shadow_blocked += select(0u, 1u, all(through == vec3f(0.0)));
 	}
-}
-
-fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__Vectors {
-	var rays = shadow_rays;
-	var media = start;
-	var transmitted = wide__Vectors(wide__Floats(1.0), wide__Floats(1.0), wide__Floats(1.0));
-	var crossings = 0u;
-	var is_unfinished = true;
-	loop {
-		let hits = rays__closest_hits(rays);
-		is_unfinished = false;
-		var rows = rays__rows_where(rays.t_max >= wide__Floats(0.0));
-		loop {
-			let k = rays__first_row(rows);
-			let ray = rays__ray_at(rays, k);
-			if (ray.t_max >= 0.0) {
-				ray_stack__current_tree = k;
-				let hit = rays__hit_at(hits, k);
-				var passage = shadow__Passage(ray, ray_states__media_at(media, k), wide__vector_at(transmitted, k), crossings);
-				if (shadow__may_pass(hit)) {
-					let contact = contact__contact_at(ray, hit, shadow__NO_WIDTH);
-					passage = shadow__crossed(passage, hit, contact, coverage__coverage_at(contact.surface));
-				}
-				else {
-					passage = shadow__arrived(passage, hit);
-				}
-				if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-					media = ray_states__media_set(media, k, passage.media);
-				}
-				transmitted = wide__vector_set(transmitted, k, passage.through);
-				rays = rays__ray_set(rays, k, passage.ray);
-				is_unfinished |= passage.ray.t_max >= 0.0;
-			}
-			continuing {
-				rows = rays__later_rows(rows);
-				break if wide__ONE_RAY | (rows == 0u);
-			}
-		}
-		loops__cut_off |= rows != 0u;
-		crossings += 1u;
-		continuing {
-		
-			break if !rays__any_lane(is_unfinished);
-		}
-	}
-	loops__cut_off |= is_unfinished;
-	return transmitted;
 }
 
 fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, around: vec4u, behind: u32) -> vec3f {

@@ -1,31 +1,29 @@
+struct Trees {
+	states: ray_states__RayStates,
+	radiance: wide__Vectors,
+	are_unfinished: bool
+}
+
 @compute @workgroup_size(16, 1, 1)
 fn whitted(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32, @builtin(subgroup_invocation_id) packet_lane: u32) {
 	lanes__start_packets(packet_lane);
-	ray_stack__stack_lane = lane;
-	render(group, lane);
-}
-
-fn render(group: vec3u, lane: u32) {
+	ray_entries__stack_lane = lane;
 	let batch = dispatch__load_batch();
-	var block = block__load_block(group);
-	var pixels = pixels__load_pixels(batch, block, lane);
+	var pixels = pixels__load_pixels(batch, block__load_block(group), lane);
 	var sample = batch.first_sample;
-	var trees: Trees;
 	loop {
-		if (!bindings__REFILLS_LANES | !trees.are_unfinished) {
-			trees = start_trees(batch, pixels__sample_rays(batch, pixels, sample));
-		}
-		trees = followed(batch, trees, pixels.keys, sample);
-		if (!trees.are_unfinished) {
-			pixels = pixels__add_samples(pixels, sample, trees.radiance);
-			sample += 1u;
-			if (bindings__REFILLS_LANES && sample >= batch.end_sample && block__has_next_block(block)) {
-				pixels__store_pixels(pixels);
-				block = block__next_block(block);
-				pixels = pixels__load_pixels(batch, block, lane);
-				sample = batch.first_sample;
+		trees__start_trees();
+		var trees = Trees(ray_states__primary_states(batch, pixels__camera_rays(batch, pixels, sample)), wide__no_vectors(), true);
+		loop {
+			trees = traced(batch, trees, pixels.keys, sample);
+			continuing {
+			
+				break if !lanes__any_lane_of_packet(trees.are_unfinished);
 			}
 		}
+		loops__cut_off |= trees.are_unfinished;
+		pixels = pixels__with_samples(pixels, sample, trees.radiance);
+		sample += 1u;
 		continuing {
 		
 			break if sample >= batch.end_sample;
@@ -36,127 +34,51 @@ fn render(group: vec3u, lane: u32) {
 	dispatch__add_counts(group, lane);
 }
 
-struct Trees {
-	states: ray_states__RayStates,
-	radiance: wide__Vectors,
-	are_unfinished: bool
-}
-
-fn start_trees(batch: dispatch__Batch, rays: rays__Rays) -> Trees {
-	features__start_features();
-	return Trees(ray_stack__camera_states(batch, rays), wide__no_vectors(), true);
-}
-
-fn followed(batch: dispatch__Batch, before: Trees, keys: wide__Words, sample: u32) -> Trees {
-	var trees = before;
-	loop {
-		trees = traced(batch, trees, keys, sample);
-		continuing {
-		
-			break if bindings__REFILLS_LANES | !rays__any_lane(trees.are_unfinished);
-		}
-	}
-	loops__cut_off |= !bindings__REFILLS_LANES & trees.are_unfinished;
-	return trees;
-}
-
-fn traced(batch: dispatch__Batch, trees: Trees, keys: wide__Words, sample: u32) -> Trees {
-	let states = trees.states;
-	var radiance = trees.radiance;
+fn traced(batch: dispatch__Batch, before: Trees, keys: vec4u, sample: u32) -> Trees {
+	let states = before.states;
+	var radiance = before.radiance;
 	let hits = rays__closest_hits(states.rays);
 	var next = states;
 	var receivers = direct__no_receivers();
 	var arriving = wide__no_vectors();
 	var color = wide__no_vectors();
-	var is_first = false;
 	var are_unfinished = false;
-	var rows = rays__rows_where(states.rays.t_max >= wide__Floats(0.0));
+	var rows = rays__rows_where(states.rays.t_max >= vec4f(0.0));
 	loop {
 		let k = rays__first_row(rows);
-		ray_stack__current_tree = k;
 		let state = ray_states__state_at(states, k);
 		let hit = rays__hit_at(hits, k);
-		is_first = state.node == 1u;
-		var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_states__no_ray(), ray_states__no_ray());
+		trees__enter_tree(k);
+		var vertex: tree_vertex__Vertex;
 		if (state.ray.t_max >= 0.0) {
 			dispatch__count_hit(state.kind, hit);
 			if (hit.primitive == types__NONE) {
-				let seen = escaping_throughput(state) * background__background(batch, state.ray.direction);
-				radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + seen);
-				if (is_first) {
-					features__see_albedo(seen, vec3f(0.0));
-					features__see_light(seen, 0u);
-				}
+				radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + tree_vertex__missed(batch, state));
 			}
 			else {
-				let contact = contact__contact_at(state.ray, hit, state.cone);
-				var surface = contact.surface;
-				if (bindings__HAS_TEXTURES) {
-					surface.phong = texture__textured_phong(surface);
-				}
-				let factors = texture__texture_optics(surface);
-				if (bindings__HAS_TREES) {
-					event = optics__scatter(batch, state, hit.t, contact, factors, coverage__coverage_at(surface));
-					surface.phong.diffuse *= event.diffuse;
-					surface.phong.ambient *= event.diffuse;
-					surface.phong.specular *= event.highlight;
-				}
-				var key = shading__SampleKey(wide__word_at(keys, k), sample, 1.0);
-				if (state.node > 1u) {
-					key.hash = rng__hash_combine(key.hash, state.node);
-					key.weight = numeric__max_component(event.arriving);
-				}
-				receivers = direct__receiver_set(receivers, k, surface, -state.ray.direction, key);
-				arriving = wide__vector_set(arriving, k, event.arriving);
-				let own = own_light(batch, surface, factors[2]);
-				color = wide__vector_set(color, k, own);
-				if (is_first) {
-					features__see_first(surface, hit, dispatch__way_to_near(batch, state.ray.direction) + hit.t);
-					let glow = own - batch.ambient * surface.phong.ambient;
-					features__see_albedo(surface.phong.diffuse + glow, surface.n);
-					features__see_light(event.arriving * glow, 0u);
-				}
+				vertex = tree_vertex__vertex_at(batch, state, hit, keys[k], sample);
+				receivers = direct__receiver_set(receivers, k, vertex.receiver);
+				arriving = wide__vector_set(arriving, k, vertex.arriving);
+				color = wide__vector_set(color, k, vertex.ambient + vertex.emission);
 			}
 		}
 		if (bindings__HAS_TREES) {
-			var following = ray_stack__next_ray(event.reflected, event.refracted);
-			if (bindings__HAS_CLIP && following.depth == 0u && ray_states__is_alive(following)) {
-				following.ray.t_max = dispatch__way_to_far(batch, following.ray.origin, following.ray.direction);
-			}
+			let following = ray_stack__next_ray(batch, vertex.reflected, vertex.refracted);
 			next = ray_states__state_set(next, k, following);
 			are_unfinished |= ray_states__is_alive(following);
 		}
+		trees__leave_tree(k);
 		continuing {
 			rows = rays__later_rows(rows);
-			break if wide__ONE_RAY | (rows == 0u);
+			break if rows == 0u;
 		}
 	}
 	loops__cut_off |= rows != 0u;
-	let direct = direct__direct_light(batch, receivers, states.media, sample);
-	if (is_first) {
-		features__see_light(wide__vector_at(arriving, 0u) * wide__vector_at(direct, 0u), 1u);
-	}
+	let direct = direct__direct_lights(batch, receivers, states.media, sample);
 	radiance.x += arriving.x * (color.x + direct.x);
 	radiance.y += arriving.y * (color.y + direct.y);
 	radiance.z += arriving.z * (color.z + direct.z);
 	return Trees(next, radiance, are_unfinished);
-}
-
-fn escaping_throughput(state: ray_states__RayState) -> vec3f {
-	var throughput = state.throughput;
-	if (bindings__HAS_REFRACTION) {
-		throughput *= medium__transmittance(medium__medium_of(medium__dominant(state.media)), state.ray.t_max);
-	}
-	return throughput;
-}
-
-fn own_light(batch: dispatch__Batch, surface: shading__Surface, glow: vec3f) -> vec3f {
-	var color = batch.ambient * surface.phong.ambient;
-	if (bindings__HAS_EMISSION) {
-		let emission = emitters__emitted(surface, material__load_optics(surface.material), glow);
-		color += emission;
-	}
-	return color;
 }
 
 var<private> lanes__packet_lane: u32;
@@ -205,140 +127,50 @@ fn lanes__closer_two(at: primitive__TraversalRay, before: lanes__TwoHits, candid
 	return lanes__TwoHits(hit, primitive__runner_up);
 }
 
-const ray_stack__MAX_TREE_RAYS: u32 = 1024u;
+const ray_entries__ENTRY_WORDS: u32 = 14u;
 
-const ray_stack__ENTRY_WORDS: u32 = 14u;
+var<workgroup> ray_entries__ray_stack: array<u32, 8064>;
 
-var<workgroup> ray_stack__ray_stack: array<u32, 8064>;
+var<private> ray_entries__cone_stack: array<vec2f, 36>;
 
-var<private> ray_stack__stack_lane: u32;
+var<private> ray_entries__stack_lane: u32;
 
-var<private> ray_stack__stack_counts: wide__Words;
+var<private> ray_entries__stack_row: u32;
 
-var<private> ray_stack__cone_stack: array<vec2f, 36>;
-
-var<private> ray_stack__tree_rays: wide__Words;
-
-var<private> ray_stack__current_tree: u32;
-
-var<private> ray_stack__trees_cut_off: wide__Words;
-
-var<private> ray_stack__cut_off_trees: u32;
-
-fn ray_stack__camera_states(batch: dispatch__Batch, rays: rays__Rays) -> ray_states__RayStates {
-	let media = batch.camera_media;
-	ray_stack__stack_counts = wide__Words(0u);
-	ray_stack__tree_rays = wide__Words(0u);
-	ray_stack__trees_cut_off = wide__Words(0u);
-	let all = wide__Floats(1.0);
-	let states = ray_states__RayStates(rays, wide__Vectors(all, all, all), ray_states__Media(wide__Words(media.x), wide__Words(media.y), wide__Words(media.z), wide__Words(media.w)), wide__Words(ray_states__KIND_PRIMARY), wide__Words(1u), wide__Floats(0.0), wide__Floats(0.0));
+fn ray_entries__push_entry(entry: ray_entry__RayEntry, index: u32) {
+	let at = ray_entries__entry_start(index);
+	ray_entries__ray_stack[at] = entry.r0.x;
+	ray_entries__ray_stack[at + 1u] = entry.r0.y;
+	ray_entries__ray_stack[at + 2u] = entry.r0.z;
+	ray_entries__ray_stack[at + 3u] = entry.r0.w;
+	ray_entries__ray_stack[at + 4u] = entry.r1.x;
+	ray_entries__ray_stack[at + 5u] = entry.r1.y;
+	ray_entries__ray_stack[at + 6u] = entry.r1.z;
+	ray_entries__ray_stack[at + 7u] = entry.r1.w;
+	ray_entries__ray_stack[at + 8u] = entry.r2.x;
+	ray_entries__ray_stack[at + 9u] = entry.r2.y;
+	ray_entries__ray_stack[at + 10u] = entry.r2.z;
+	ray_entries__ray_stack[at + 11u] = entry.r2.w;
+	ray_entries__ray_stack[at + 12u] = (entry.media.x & 65535u) | (entry.media.y << 16u);
+	ray_entries__ray_stack[at + 13u] = (entry.media.z & 65535u) | (entry.media.w << 16u);
 	if (bindings__HAS_FOOTPRINTS) {
-		return ray_states__with_cones(batch, states);
+		ray_entries__cone_stack[ray_entry__RAY_STACK_SIZE * ray_entries__stack_row + index] = vec2f(entry.cone.width, entry.cone.spread);
 	}
-	return states;
 }
 
-fn ray_stack__next_ray(reflected: ray_states__RayState, refracted: ray_states__RayState) -> ray_states__RayState {
-	let k = ray_stack__current_tree;
-	let count = wide__word_at(ray_stack__stack_counts, k);
-	let rays = wide__word_at(ray_stack__tree_rays, k) + 1u;
-	ray_stack__tree_rays = wide__word_set(ray_stack__tree_rays, k, rays);
-	let sends_both = ray_states__is_alive(reflected) && ray_states__is_alive(refracted);
-	let goes_on = ray_states__is_alive(reflected) || ray_states__is_alive(refracted) || count > 0u;
-	if (goes_on && rays >= ray_stack__MAX_TREE_RAYS) {
-		ray_stack__cut_tree();
-		ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, 0u);
-		return ray_states__no_ray();
-	}
-	if (sends_both) {
-		let reflected_is_weaker = ray_stack__strength(reflected) < ray_stack__strength(refracted);
-		if (count == ray_entries__RAY_STACK_SIZE) {
-			ray_stack__cut_tree();
-			return ray_stack__choose(reflected, refracted, !reflected_is_weaker);
-		}
-		ray_stack__push(k, ray_stack__choose(reflected, refracted, !reflected_is_weaker));
-		return ray_stack__choose(reflected, refracted, reflected_is_weaker);
-	}
-	if (ray_states__is_alive(refracted)) {
-		return refracted;
-	}
-	if (ray_states__is_alive(reflected)) {
-		return reflected;
-	}
-	return ray_stack__pop(k);
-}
-
-fn ray_stack__cut_tree() {
-	ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);
-	ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
-}
-
-fn ray_stack__choose(reflected: ray_states__RayState, refracted: ray_states__RayState, first: bool) -> ray_states__RayState {
-	if (first) {
-		return reflected;
-	}
-	return refracted;
-}
-
-fn ray_stack__strength(state: ray_states__RayState) -> f32 {
-	return dot(state.throughput, vec3f(1.0));
-}
-
-fn ray_stack__step_and_instance(state: ray_states__RayState) -> u32 {
-	return (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind;
-}
-
-fn ray_stack__stored(origin: vec3f, leaving: u32, direction: vec3f, place: u32, throughput: vec3f, node: u32, media: vec4u, cone: tracing__Cone) -> ray_states__RayState {
-	return ray_states__RayState(tracing__Ray(origin, camera__T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node, cone);
-}
-
-fn ray_stack__keep_cone(index: u32, cone: tracing__Cone) {
+fn ray_entries__pop_entry(index: u32) -> ray_entry__RayEntry {
+	let at = ray_entries__entry_start(index);
+	let media = vec4u(ray_entries__ray_stack[at + 12u] & 65535u, ray_entries__ray_stack[at + 12u] >> 16u, ray_entries__ray_stack[at + 13u] & 65535u, ray_entries__ray_stack[at + 13u] >> 16u);
+	var cone = tracing__Cone(0.0, 0.0);
 	if (bindings__HAS_FOOTPRINTS) {
-		ray_stack__cone_stack[index] = vec2f(cone.width, cone.spread);
+		let kept = ray_entries__cone_stack[ray_entry__RAY_STACK_SIZE * ray_entries__stack_row + index];
+		cone = tracing__Cone(kept.x, kept.y);
 	}
+	return ray_entry__RayEntry(vec4u(ray_entries__ray_stack[at], ray_entries__ray_stack[at + 1u], ray_entries__ray_stack[at + 2u], ray_entries__ray_stack[at + 3u]), vec4u(ray_entries__ray_stack[at + 4u], ray_entries__ray_stack[at + 5u], ray_entries__ray_stack[at + 6u], ray_entries__ray_stack[at + 7u]), vec4u(ray_entries__ray_stack[at + 8u], ray_entries__ray_stack[at + 9u], ray_entries__ray_stack[at + 10u], ray_entries__ray_stack[at + 11u]), select(media, vec4u(types__NONE), media == vec4u(65535u)), cone);
 }
 
-fn ray_stack__kept_cone(index: u32) -> tracing__Cone {
-	if (bindings__HAS_FOOTPRINTS) {
-		return tracing__Cone(ray_stack__cone_stack[index].x, ray_stack__cone_stack[index].y);
-	}
-	return tracing__Cone(0.0, 0.0);
-}
-
-fn ray_stack__entry_start(k: u32, index: u32) -> u32 {
-	return ray_stack__ENTRY_WORDS * ((wide__RAYS_PER_LANE * ray_stack__stack_lane + k) * ray_entries__RAY_STACK_SIZE + index);
-}
-
-fn ray_stack__push(k: u32, state: ray_states__RayState) {
-	let count = wide__word_at(ray_stack__stack_counts, k);
-	let at = ray_stack__entry_start(k, count);
-	ray_stack__ray_stack[at] = bitcast<u32>(state.ray.origin.x);
-	ray_stack__ray_stack[at + 1u] = bitcast<u32>(state.ray.origin.y);
-	ray_stack__ray_stack[at + 2u] = bitcast<u32>(state.ray.origin.z);
-	ray_stack__ray_stack[at + 3u] = state.ray.leaving;
-	ray_stack__ray_stack[at + 4u] = bitcast<u32>(state.ray.direction.x);
-	ray_stack__ray_stack[at + 5u] = bitcast<u32>(state.ray.direction.y);
-	ray_stack__ray_stack[at + 6u] = bitcast<u32>(state.ray.direction.z);
-	ray_stack__ray_stack[at + 7u] = ray_stack__step_and_instance(state);
-	ray_stack__ray_stack[at + 8u] = bitcast<u32>(state.throughput.x);
-	ray_stack__ray_stack[at + 9u] = bitcast<u32>(state.throughput.y);
-	ray_stack__ray_stack[at + 10u] = bitcast<u32>(state.throughput.z);
-	ray_stack__ray_stack[at + 11u] = state.node;
-	ray_stack__ray_stack[at + 12u] = (state.media.x & 65535u) | (state.media.y << 16u);
-	ray_stack__ray_stack[at + 13u] = (state.media.z & 65535u) | (state.media.w << 16u);
-	ray_stack__keep_cone(ray_entries__RAY_STACK_SIZE * k + count, state.cone);
-	ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, count + 1u);
-}
-
-fn ray_stack__pop(k: u32) -> ray_states__RayState {
-	let count = wide__word_at(ray_stack__stack_counts, k);
-	if (count == 0u) {
-		return ray_states__no_ray();
-	}
-	ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, count - 1u);
-	let at = ray_stack__entry_start(k, count - 1u);
-	let media = vec4u(ray_stack__ray_stack[at + 12u] & 65535u, ray_stack__ray_stack[at + 12u] >> 16u, ray_stack__ray_stack[at + 13u] & 65535u, ray_stack__ray_stack[at + 13u] >> 16u);
-	return ray_stack__stored(bitcast<vec3f>(vec3u(ray_stack__ray_stack[at], ray_stack__ray_stack[at + 1u], ray_stack__ray_stack[at + 2u])), ray_stack__ray_stack[at + 3u], bitcast<vec3f>(vec3u(ray_stack__ray_stack[at + 4u], ray_stack__ray_stack[at + 5u], ray_stack__ray_stack[at + 6u])), ray_stack__ray_stack[at + 7u], bitcast<vec3f>(vec3u(ray_stack__ray_stack[at + 8u], ray_stack__ray_stack[at + 9u], ray_stack__ray_stack[at + 10u])), ray_stack__ray_stack[at + 11u], select(media, vec4u(types__NONE), media == vec4u(65535u)), ray_stack__kept_cone(ray_entries__RAY_STACK_SIZE * k + count - 1u));
+fn ray_entries__entry_start(index: u32) -> u32 {
+	return ray_entries__ENTRY_WORDS * ((rays__RAYS_PER_LANE * ray_entries__stack_lane + ray_entries__stack_row) * ray_entry__RAY_STACK_SIZE + index);
 }
 
 struct dispatch__RayCounts {
@@ -466,7 +298,7 @@ fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
 }
 
 fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
-	if (bindings__COUNT_RAYS) {
+	if (bindings__COUNT_RAYS && hit.t >= 0.0) {
 		let hits = select(0u, 1u, hit.primitive != types__NONE);
 		if (kind == ray_states__KIND_PRIMARY) {
 			dispatch__counts.primary += 1u;
@@ -706,6 +538,8 @@ const types__PICTURE_HALF: u32 = 2147483648u;
 const types__PICTURE_SRGB: u32 = 1073741824u;
 
 const types__PICTURE_FIRST_MASK: u32 = 1073741823u;
+
+const types__BACKGROUND_COLOR: u32 = 0u;
 
 const types__BACKGROUND_GRADIENT: u32 = 1u;
 
@@ -986,52 +820,52 @@ fn fetch__load_starts() {
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
 	let row = fetch__instance_row + types__INSTANCE_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
-	let r6 = fetch__node_row(row + 6u);
-	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
+	let r6 = rows__node_row(row + 6u);
+	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(rows__node_row(row + 7u)), bitcast<vec4f>(rows__node_row(row + 8u)), bitcast<vec4f>(rows__node_row(row + 9u)));
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
 	let row = fetch__key_row + types__KEY_ROWS * index;
-	return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
+	return types__PackedKey(bitcast<vec3f>(rows__node_row(row).xyz), 0u, bitcast<vec4f>(rows__node_row(row + 1u)), bitcast<vec3f>(rows__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(rows__node_row(row + 3u).xyz), 0u);
 }
 
 fn fetch__load_light(index: u32) -> types__PackedLight {
 	let row = fetch__light_row + types__LIGHT_ROWS * index;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
-	let r4 = fetch__node_row(row + 4u);
-	let r5 = fetch__node_row(row + 5u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
+	let r4 = rows__node_row(row + 4u);
+	let r5 = rows__node_row(row + 5u);
 	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), r5.x, bitcast<f32>(r5.y), r5.z, r5.w);
 }
 
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
 	let row = fetch__light_row + types__LIGHT_ROWS * bindings__frame.light_count * bindings__frame.light_key_count + types__CAMERA_ROWS * key;
-	let r0 = fetch__node_row(row);
-	let r1 = fetch__node_row(row + 1u);
-	let r2 = fetch__node_row(row + 2u);
-	let r3 = fetch__node_row(row + 3u);
+	let r0 = rows__node_row(row);
+	let r1 = rows__node_row(row + 1u);
+	let r2 = rows__node_row(row + 2u);
+	let r3 = rows__node_row(row + 3u);
 	return types__PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
 }
 
 fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
 	let row = 3u * index;
-	let r0 = fetch__triangle_row(row);
-	let r1 = fetch__triangle_row(row + 1u);
-	let r2 = fetch__triangle_row(row + 2u);
+	let r0 = rows__triangle_row(row);
+	let r1 = rows__triangle_row(row + 1u);
+	let r2 = rows__triangle_row(row + 2u);
 	return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
 fn fetch__load_shape(index: u32) -> types__PackedShape {
 	let row = fetch__shape_row + types__SHAPE_ROWS * index;
-	return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
+	return fetch__shape_of(rows__triangle_row(row), rows__triangle_row(row + 1u), rows__triangle_row(row + 2u), rows__triangle_row(row + 3u), rows__triangle_row(row + 4u));
 }
 
 fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
@@ -1039,65 +873,30 @@ fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> typ
 }
 
 fn fetch__load_vertex(index: u32) -> types__PackedVertex {
-	let r0 = fetch__vertex_row(index);
+	let r0 = rows__vertex_row(index);
 	return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
 }
 
 fn fetch__load_uvs(index: u32) -> vec4f {
-	return bitcast<vec4f>(fetch__vertex_row(fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(fetch__uv_row + index));
 }
 
 fn fetch__load_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(2u * fetch__uv_row + index));
+	return fetch__tangent_of(rows__vertex_row(2u * fetch__uv_row + index));
 }
 
 fn fetch__load_key_tangent(index: u32) -> types__PackedTangent {
-	return fetch__tangent_of(fetch__vertex_row(index + 1u));
+	return fetch__tangent_of(rows__vertex_row(index + 1u));
 }
 
 fn fetch__load_color(index: u32) -> vec4f {
 	let parts = 1u + select(0u, 1u, bindings__HAS_UVS) + select(0u, 1u, bindings__HAS_TANGENTS);
-	return bitcast<vec4f>(fetch__vertex_row(parts * fetch__uv_row + index));
+	return bitcast<vec4f>(rows__vertex_row(parts * fetch__uv_row + index));
 }
 
 fn fetch__tangent_of(r0: vec4u) -> types__PackedTangent {
 	return types__PackedTangent(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w));
 }
-
-fn fetch__texel(row: u32) -> vec2u {
-	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
-}
-
-fn fetch__node_row(row: u32) -> vec4u {
-	return textureLoad(bindings__nodes, fetch__texel(row));
-}
-
-fn fetch__triangle_row(row: u32) -> vec4u {
-	return textureLoad(bindings__triangles, fetch__texel(row));
-}
-
-fn fetch__vertex_row(row: u32) -> vec4u {
-	return textureLoad(bindings__vertices, fetch__texel(row));
-}
-
-fn fetch__material_row(row: u32) -> vec4u {
-	return textureLoad(bindings__materials, fetch__texel(row));
-}
-
-@group(0) @binding(0)
-var bindings__nodes: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(1)
-var bindings__triangles: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(2)
-var bindings__vertices: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(3)
-var bindings__materials: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(4)
-var bindings__texels: texture_storage_2d_array<r32uint, read>;
 
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
@@ -1108,7 +907,23 @@ var<storage, read_write> bindings__dispatch: types__PackedDispatch;
 @group(2) @binding(0)
 var<storage, read_write> bindings__film: array<vec4f>;
 
-override bindings__MIXED_MATERIALS: bool = false;
+override bindings__TRIANGLE_TEST: u32 = types__TRIANGLE_TEST_WATERTIGHT;
+
+override bindings__HAS_TRIANGLES: bool = true;
+
+override bindings__TRIANGLES_APART: u32 = 0u;
+
+override bindings__SHAPES_APART: bool = false;
+
+override bindings__HAS_SHAPES: bool = true;
+
+override bindings__HAS_PLANES: bool = true;
+
+override bindings__MOSTLY_SHAPES: bool = false;
+
+override bindings__MIXED_MATERIALS: bool = true;
+
+override bindings__PACKET_LANES: u32 = 8u;
 
 override bindings__FIXED_OFFSET: f32 = 0.0;
 
@@ -1116,143 +931,195 @@ override bindings__STRATIFIED: bool = false;
 
 override bindings__COUNT_RAYS: bool = false;
 
-override bindings__HAS_REFLECTION: bool = false;
+override bindings__COUNT_STEPS: bool = false;
 
-override bindings__HAS_REFRACTION: bool = false;
+override bindings__HAS_LIGHTS: bool = true;
 
-override bindings__HAS_PRIORITIES: bool = false;
+override bindings__SHAPE_KINDS: u32 = 4294967295u;
+
+override bindings__HAS_REFLECTION: bool = true;
+
+override bindings__HAS_REFRACTION: bool = true;
+
+override bindings__HAS_CONTACT: bool = true;
+
+override bindings__HAS_PRIORITIES: bool = true;
 
 override bindings__FILTERED_SHADOWS: bool = false;
 
 override bindings__SOLID_GLASS: bool = false;
 
-override bindings__HAS_LENS: bool = false;
+override bindings__HAS_AREA_LIGHTS: bool = true;
 
-override bindings__HAS_CLIP: bool = false;
+override bindings__LIGHT_KIND: u32 = types__MIXED_LIGHTS;
 
-override bindings__FILTER: u32 = 0u;
+override bindings__LIGHT_ATTENUATION: u32 = types__MIXED_LIGHTS;
 
-override bindings__FILTER_RADIUS: f32 = 0.0;
+override bindings__HAS_LENS: bool = true;
 
-override bindings__HAS_TEXTURES: bool = false;
+override bindings__HAS_CLIP: bool = true;
 
-override bindings__HAS_NOISE: bool = false;
+override bindings__FILTER: u32 = types__FILTER_BOX;
 
-override bindings__HAS_PICTURES: bool = false;
+override bindings__FILTER_RADIUS: f32 = 0.5;
 
-override bindings__HAS_OPTICS_TEXTURES: bool = false;
+override bindings__BACKGROUND: u32 = types__BACKGROUND_COLOR;
 
-override bindings__HAS_FOOTPRINTS: bool = false;
+override bindings__HAS_TEXTURES: bool = true;
 
-override bindings__HAS_COVERAGE: bool = false;
+override bindings__HAS_NOISE: bool = true;
 
-override bindings__HAS_TREES: bool = false;
+override bindings__HAS_PICTURES: bool = true;
 
-override bindings__HAS_NORMAL_MAPS: bool = false;
+override bindings__HAS_FOOTPRINTS: bool = true;
+
+override bindings__HAS_COVERAGE: bool = true;
+
+override bindings__HAS_TREES: bool = true;
+
+override bindings__HAS_NORMAL_MAPS: bool = true;
 
 override bindings__HAS_COAT_NORMALS: bool = false;
 
-override bindings__HAS_OCCLUSION: bool = false;
+override bindings__HAS_OCCLUSION: bool = true;
 
-override bindings__HAS_BYTE_TEXELS: bool = false;
+override bindings__HAS_BYTE_TEXELS: bool = true;
 
-override bindings__HAS_HALF_TEXELS: bool = false;
+override bindings__HAS_HALF_TEXELS: bool = true;
 
-override bindings__HAS_EMISSION: bool = false;
+override bindings__HAS_OPTICS_TEXTURES: bool = true;
+
+override bindings__HAS_EMISSION: bool = true;
 
 override bindings__HAS_LAYERS: bool = false;
 
 override bindings__CLAMP_INDIRECT: f32 = 0.0;
 
-override bindings__HAS_GLOSS: bool = false;
+override bindings__HAS_GLOSS: bool = true;
 
-override bindings__HAS_METALLIC_ROUGHNESS: bool = false;
+override bindings__HAS_METALLIC_ROUGHNESS: bool = true;
 
 override bindings__HAS_COATINGS: bool = false;
 
 override bindings__ADAPTIVE: bool = false;
 
-override bindings__CAMERA_MOTION: bool = false;
+override bindings__HAS_INSTANCES: bool = true;
 
-override bindings__LIGHT_MOTION: bool = false;
+override bindings__HAS_MOTION: bool = true;
+
+override bindings__CAMERA_MOTION: bool = true;
+
+override bindings__LIGHT_MOTION: bool = true;
+
+override bindings__HAS_DEFORMATION: bool = true;
 
 override bindings__ORTHOGRAPHIC: bool = false;
 
-override bindings__HAS_UVS: bool = false;
+override bindings__HAS_UVS: bool = true;
 
-override bindings__HAS_SECOND_UVS: bool = false;
+override bindings__HAS_SECOND_UVS: bool = true;
 
-override bindings__HAS_COLORS: bool = false;
+override bindings__HAS_TANGENTS: bool = true;
 
-override bindings__HAS_TANGENTS: bool = false;
+override bindings__HAS_COLORS: bool = true;
 
 override bindings__HAS_ANISOTROPY: bool = false;
 
+override bindings__FILM_ROWS: u32 = 1u;
+
+override bindings__SQUARES_ROW: u32 = 1u;
+
 override bindings__HAS_FEATURES: bool = false;
 
-override bindings__OPACITY_ROW: u32 = 0u;
-
-override bindings__FILM_ROWS: u32 = 0u;
-
-override bindings__SQUARES_ROW: u32 = 0u;
-
-override bindings__FEATURES_ROW: u32 = 0u;
-
-override bindings__TRIANGLE_TEST: u32 = 0u;
-
-override bindings__HAS_TRIANGLES: bool = false;
-
-override bindings__TRIANGLES_APART: u32 = 0u;
-
-override bindings__SHAPES_APART: bool = false;
-
-override bindings__HAS_SHAPES: bool = false;
-
-override bindings__HAS_PLANES: bool = false;
-
-override bindings__MOSTLY_SHAPES: bool = false;
-
-override bindings__SHAPE_KINDS: u32 = 0u;
-
-override bindings__HAS_INSTANCES: bool = false;
-
-override bindings__HAS_MOTION: bool = false;
-
-override bindings__HAS_DEFORMATION: bool = false;
-
-override bindings__HAS_CONTACT: bool = false;
-
-override bindings__COUNT_STEPS: bool = false;
-
-override bindings__HAS_LIGHTS: bool = false;
-
-override bindings__HAS_AREA_LIGHTS: bool = false;
-
-override bindings__LIGHT_KIND: u32 = 0u;
-
-override bindings__LIGHT_ATTENUATION: u32 = 0u;
-
-override bindings__BACKGROUND: u32 = 0u;
+override bindings__FEATURES_ROW: u32 = 2u;
 
 override bindings__HAS_OPACITY: bool = false;
 
-override bindings__REFILLS_LANES: bool = false;
-
-override bindings__PACKET_LANES: u32 = 0u;
+override bindings__OPACITY_ROW: u32 = 1u;
 
 var<private> albedo__albedo_first: u32;
+
+struct pixels__Pixels {
+	film_index: vec4u,
+	x: vec4u,
+	y: vec4u,
+	keys: vec4u,
+	sums: wide__Vectors,
+	weights: vec4f,
+	squares: vec4f
+}
+
+fn pixels__place_of(lane: u32, k: u32) -> u32 {
+	let within = lane & (bindings__PACKET_LANES - 1u);
+	return 4u * (lane - within) + bindings__PACKET_LANES * k + within;
+}
+
+fn pixels__load_pixels(batch: dispatch__Batch, block: block__Block, lane: u32) -> pixels__Pixels {
+	var pixels = pixels__Pixels(vec4u(types__NONE), vec4u(0u), vec4u(0u), vec4u(0u), wide__no_vectors(), vec4f(0.0), vec4f(0.0));
+	var k = 0u;
+	loop {
+		pixels = pixels__pixel_set(pixels, k, pixels__load_pixel(batch, block, pixels__place_of(lane, k)));
+		continuing {
+			k += 1u;
+			break if k >= rays__RAYS_PER_LANE;
+		}
+	}
+	loops__cut_off |= k < rays__RAYS_PER_LANE;
+	return pixels;
+}
+
+fn pixels__store_pixels(pixels: pixels__Pixels) {
+	var k = 0u;
+	loop {
+		pixels__store_pixel(pixels__pixel_at(pixels, k));
+		continuing {
+			k += 1u;
+			break if k >= rays__RAYS_PER_LANE;
+		}
+	}
+	loops__cut_off |= k < rays__RAYS_PER_LANE;
+}
+
+fn pixels__camera_rays(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32) -> rays__Rays {
+	var rays = rays__dead_rays();
+	var k = 0u;
+	loop {
+		rays = rays__ray_set(rays, k, pixels__pixel_ray(batch, pixels__pixel_at(pixels, k), sample));
+		continuing {
+			k += 1u;
+			break if k >= rays__RAYS_PER_LANE;
+		}
+	}
+	loops__cut_off |= k < rays__RAYS_PER_LANE;
+	return rays;
+}
+
+fn pixels__with_samples(before: pixels__Pixels, sample: u32, radiance: wide__Vectors) -> pixels__Pixels {
+	var pixels = before;
+	var k = 0u;
+	loop {
+		pixels = pixels__pixel_set(pixels, k, pixels__with_sample(pixels__pixel_at(pixels, k), sample, wide__vector_at(radiance, k)));
+		continuing {
+			k += 1u;
+			break if k >= rays__RAYS_PER_LANE;
+		}
+	}
+	loops__cut_off |= k < rays__RAYS_PER_LANE;
+	return pixels;
+}
+
+fn pixels__pixel_at(pixels: pixels__Pixels, k: u32) -> pixels__Pixel {
+	return pixels__Pixel(pixels.film_index[k], vec2u(pixels.x[k], pixels.y[k]), pixels.keys[k], film__Sum(vec4f(wide__vector_at(pixels.sums, k), pixels.weights[k]), pixels.squares[k]));
+}
+
+fn pixels__pixel_set(pixels: pixels__Pixels, k: u32, pixel: pixels__Pixel) -> pixels__Pixels {
+	return pixels__Pixels(wide__word_set(pixels.film_index, k, pixel.film_index), wide__word_set(pixels.x, k, pixel.position.x), wide__word_set(pixels.y, k, pixel.position.y), wide__word_set(pixels.keys, k, pixel.key), wide__vector_set(pixels.sums, k, pixel.sum.radiance.xyz), wide__float_set(pixels.weights, k, pixel.sum.radiance.w), wide__float_set(pixels.squares, k, pixel.sum.squares));
+}
 
 struct block__Work {
 	inside: bool,
 	film_index: u32,
 	pixel: vec2u
-}
-
-fn block__place_of(lane: u32, k: u32) -> u32 {
-	{
-		let within = lane & (bindings__PACKET_LANES - 1u);
-		return 4u * (lane - within) + bindings__PACKET_LANES * k + within;
-	}
 }
 
 struct block__Block {
@@ -1275,17 +1142,6 @@ fn block__load_block(group: vec3u) -> block__Block {
 	return block__Block(index, min(index + bindings__dispatch.blocks, bindings__dispatch.end_group), tile + tile__group_corner(visited, columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group, tile, vec2u(columns, tile__divided(bindings__dispatch.group_count, columns).x), tile__divided(bindings__dispatch.group_stride, columns).yx);
 }
 
-fn block__has_next_block(block: block__Block) -> bool {
-	return block.index + 1u < block.end_index;
-}
-
-fn block__next_block(block: block__Block) -> block__Block {
-	var next = block;
-	next.index += 1u;
-	next.corner = block.tile + tile__next_corner(block.corner - block.tile, block.step, block.size);
-	return next;
-}
-
 fn block__work_of(block: block__Block, place: u32) -> block__Work {
 	let film_index = 64u * block.index + place;
 	if (bindings__ADAPTIVE) {
@@ -1296,202 +1152,77 @@ fn block__work_of(block: block__Block, place: u32) -> block__Work {
 	return block__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
 }
 
-const tile__GROUP_SIDE: u32 = 8u;
-
-fn tile__divided(dividend: u32, divisor: u32) -> vec2u {
-	let quotient = u32(f32(dividend) / f32(divisor));
-	let rest = bitcast<i32>(dividend - quotient * divisor);
-	let correction = select(0, 1, rest >= i32(divisor)) - select(0, 1, rest < 0);
-	return vec2u(quotient + bitcast<u32>(correction), bitcast<u32>(rest - correction * i32(divisor)));
-}
-
-fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
-	return tile__divided(index * stride, group_count).y;
-}
-
-fn tile__morton_8x8(lane: u32) -> vec2u {
-	let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
-	let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
-	return vec2u(x, y);
-}
-
-fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
-	return tile__GROUP_SIDE * tile__divided(group, group_columns).yx;
-}
-
-fn tile__next_corner(corner: vec2u, step: vec2u, size: vec2u) -> vec2u {
-	var place = corner / tile__GROUP_SIDE + step;
-	place += select(vec2u(0u), vec2u(0u - size.x, 1u), place.x >= size.x);
-	place.y -= select(0u, size.y, place.y >= size.y);
-	return tile__GROUP_SIDE * place;
-}
-
-struct pixels__Pixels {
-	film_index: wide__Words,
-	x: wide__Words,
-	y: wide__Words,
-	keys: wide__Words,
-	sums: wide__Vectors,
-	weights: wide__Floats,
-	squares: wide__Floats
-}
-
-fn pixels__load_pixels(batch: dispatch__Batch, block: block__Block, lane: u32) -> pixels__Pixels {
-	var pixels = pixels__Pixels(wide__Words(types__NONE), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__no_vectors(), wide__Floats(0.0), wide__Floats(0.0));
-	var k = 0u;
-	loop {
-		let work = block__work_of(block, block__place_of(lane, k));
-		pixels.x = wide__word_set(pixels.x, k, work.pixel.x);
-		pixels.y = wide__word_set(pixels.y, k, work.pixel.y);
-		pixels.keys = wide__word_set(pixels.keys, k, rng__pixel_key(batch.seed, work.pixel));
-		if (work.inside) {
-			pixels.film_index = wide__word_set(pixels.film_index, k, work.film_index);
-			pixels = pixels__with_sum(pixels, k, film__load_sum(work.film_index, batch.first_sample));
-		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	return pixels;
-}
-
-fn pixels__store_pixels(pixels: pixels__Pixels) {
-	var k = 0u;
-	loop {
-		let film_index = wide__word_at(pixels.film_index, k);
-		if (film_index != types__NONE) {
-			film__store_sum(film_index, pixels__sum_at(pixels, k));
-		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-}
-
-fn pixels__sample_rays(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32) -> rays__Rays {
-	var rays = rays__dead_rays();
-	var k = 0u;
-	loop {
-		if (wide__word_at(pixels.film_index, k) != types__NONE) {
-			rays = rays__ray_set(rays, k, dispatch__sample_ray(batch, pixels__pixel_at(pixels, k), wide__word_at(pixels.keys, k), sample));
-		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	return rays;
-}
-
-fn pixels__add_samples(pixels: pixels__Pixels, sample: u32, radiance: wide__Vectors) -> pixels__Pixels {
-	var next = pixels;
-	var k = 0u;
-	loop {
-		if (wide__word_at(pixels.film_index, k) != types__NONE) {
-			let weight = dispatch__sample_weight(wide__word_at(pixels.keys, k), sample);
-			let before = pixels__sum_at(pixels, k);
-			let sum = film__add_sample(before, film__Sample(wide__vector_at(radiance, k)), weight);
-			next = pixels__with_sum(next, k, sum);
-			let is_kept = sum.radiance.w != before.radiance.w;
-			if (bindings__HAS_FEATURES && is_kept) {
-				features__add_features(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), sample, weight);
-			}
-			if (bindings__HAS_OPACITY && is_kept) {
-				opacity__add_opacity(bindings__FILM_ROWS * wide__word_at(pixels.film_index, k), weight, wide__vector_at(radiance, k));
-			}
-		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	return next;
-}
-
-fn pixels__pixel_at(pixels: pixels__Pixels, k: u32) -> vec2u {
-	return vec2u(wide__word_at(pixels.x, k), wide__word_at(pixels.y, k));
-}
-
-fn pixels__sum_at(pixels: pixels__Pixels, k: u32) -> film__Sum {
-	return film__Sum(vec4f(wide__vector_at(pixels.sums, k), wide__float_at(pixels.weights, k)), wide__float_at(pixels.squares, k));
-}
-
-fn pixels__with_sum(pixels: pixels__Pixels, k: u32, sum: film__Sum) -> pixels__Pixels {
-	var next = pixels;
-	next.sums = wide__vector_set(pixels.sums, k, sum.radiance.xyz);
-	next.weights = wide__float_set(pixels.weights, k, sum.radiance.w);
-	next.squares = wide__float_set(pixels.squares, k, sum.squares);
-	return next;
-}
-
-const wide__RAYS_PER_LANE: u32 = 4u;
-
-const wide__ONE_RAY: bool = wide__RAYS_PER_LANE == 1u;
-
-alias wide__Floats = vec4f;
-
-alias wide__Words = vec4u;
-
 struct wide__Vectors {
-	x: wide__Floats,
-	y: wide__Floats,
-	z: wide__Floats
+	x: vec4f,
+	y: vec4f,
+	z: vec4f
 }
 
 fn wide__no_vectors() -> wide__Vectors {
-	return wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0));
-}
-
-fn wide__float_at(all: wide__Floats, k: u32) -> f32 {
-	return all[k];
-}
-
-fn wide__word_at(all: wide__Words, k: u32) -> u32 {
-	return all[k];
+	return wide__Vectors(vec4f(0.0), vec4f(0.0), vec4f(0.0));
 }
 
 fn wide__vector_at(all: wide__Vectors, k: u32) -> vec3f {
-	return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
+	return vec3f(all.x[k], all.y[k], all.z[k]);
 }
 
-fn wide__float_set(all: wide__Floats, k: u32, value: f32) -> wide__Floats {
-	{
-		return select(all, vec4f(value), vec4u(0u, 1u, 2u, 3u) == vec4u(k));
-	}
+fn wide__float_set(all: vec4f, k: u32, value: f32) -> vec4f {
+	return select(all, vec4f(value), vec4u(0u, 1u, 2u, 3u) == vec4u(k));
 }
 
-fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
-	{
-		return select(all, vec4u(value), vec4u(0u, 1u, 2u, 3u) == vec4u(k));
-	}
+fn wide__word_set(all: vec4u, k: u32, value: u32) -> vec4u {
+	return select(all, vec4u(value), vec4u(0u, 1u, 2u, 3u) == vec4u(k));
 }
 
 fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
 	return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
 }
 
-fn rng__hash(x: u32) -> u32 {
-	let a = (x ^ (x >> 16u)) * 2146121005u;
-	let b = (a ^ (a >> 15u)) * 2221713035u;
-	return b ^ (b >> 16u);
+struct pixels__Pixel {
+	film_index: u32,
+	position: vec2u,
+	key: u32,
+	sum: film__Sum
 }
 
-fn rng__hash_combine(a: u32, b: u32) -> u32 {
-	return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
+fn pixels__load_pixel(batch: dispatch__Batch, block: block__Block, place: u32) -> pixels__Pixel {
+	let work = block__work_of(block, place);
+	var pixel = pixels__Pixel(types__NONE, work.pixel, rng__pixel_key(batch.seed, work.pixel), film__Sum(vec4f(0.0), 0.0));
+	if (work.inside) {
+		pixel.film_index = work.film_index;
+		pixel.sum = film__load_sum(work.film_index, batch.first_sample);
+	}
+	return pixel;
 }
 
-fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
-	return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
+fn pixels__store_pixel(pixel: pixels__Pixel) {
+	if (pixel.film_index != types__NONE) {
+		film__store_sum(pixel.film_index, pixel.sum);
+	}
 }
 
-fn rng__unit_float(x: u32) -> f32 {
-	return f32(x >> 8u) * 5.9604645e-8;
+fn pixels__pixel_ray(batch: dispatch__Batch, pixel: pixels__Pixel, sample: u32) -> tracing__Ray {
+	var ray = ray_states__DEAD;
+	if (pixel.film_index != types__NONE) {
+		ray = dispatch__sample_ray(batch, pixel.position, pixel.key, sample);
+	}
+	return ray;
+}
+
+fn pixels__with_sample(before: pixels__Pixel, sample: u32, radiance: vec3f) -> pixels__Pixel {
+	var pixel = before;
+	if (pixel.film_index != types__NONE) {
+		let weight = dispatch__sample_weight(pixel.key, sample);
+		pixel.sum = film__add_sample(before.sum, film__Sample(radiance), weight);
+		let is_kept = pixel.sum.radiance.w != before.sum.radiance.w;
+		if (bindings__HAS_FEATURES && is_kept) {
+			features__add_features(bindings__FILM_ROWS * pixel.film_index, sample, weight);
+		}
+		if (bindings__HAS_OPACITY && is_kept) {
+			opacity__add_opacity(bindings__FILM_ROWS * pixel.film_index, weight, radiance);
+		}
+	}
+	return pixel;
 }
 
 struct film__Sample {
@@ -1535,6 +1266,102 @@ fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__
 	return next;
 }
 
+const tile__GROUP_SIDE: u32 = 8u;
+
+fn tile__divided(dividend: u32, divisor: u32) -> vec2u {
+	let quotient = u32(f32(dividend) / f32(divisor));
+	let rest = bitcast<i32>(dividend - quotient * divisor);
+	let correction = select(0, 1, rest >= i32(divisor)) - select(0, 1, rest < 0);
+	return vec2u(quotient + bitcast<u32>(correction), bitcast<u32>(rest - correction * i32(divisor)));
+}
+
+fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
+	return tile__divided(index * stride, group_count).y;
+}
+
+fn tile__morton_8x8(lane: u32) -> vec2u {
+	let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
+	let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
+	return vec2u(x, y);
+}
+
+fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
+	return tile__GROUP_SIDE * tile__divided(group, group_columns).yx;
+}
+
+fn rng__hash(x: u32) -> u32 {
+	let a = (x ^ (x >> 16u)) * 2146121005u;
+	let b = (a ^ (a >> 15u)) * 2221713035u;
+	return b ^ (b >> 16u);
+}
+
+fn rng__hash_combine(a: u32, b: u32) -> u32 {
+	return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
+}
+
+fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
+	return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
+}
+
+fn rng__unit_float(x: u32) -> f32 {
+	return f32(x >> 8u) * 5.9604645e-8;
+}
+
+const rays__RAYS_PER_LANE: u32 = 4u;
+
+struct rays__Rays {
+	origin: wide__Vectors,
+	direction: wide__Vectors,
+	t_max: vec4f,
+	leaving: vec4u,
+	leaving_instance: vec4u
+}
+
+struct rays__Hits {
+	t: vec4f,
+	primitive: vec4u,
+	b1: vec4f,
+	b2: vec4f,
+	instance: vec4u
+}
+
+fn rays__rows_where(condition: vec4<bool>) -> u32 {
+	let bits = select(vec4u(0u), vec4u(1u, 2u, 4u, 8u), condition);
+	return lanes__or_of_packet((bits.x | bits.y) | (bits.z | bits.w));
+}
+
+fn rays__first_row(rows: u32) -> u32 {
+	return firstTrailingBit(rows | 8u);
+}
+
+fn rays__later_rows(rows: u32) -> u32 {
+	return rows & (rows - 1u);
+}
+
+fn rays__dead_rays() -> rays__Rays {
+	return rays__Rays(wide__Vectors(vec4f(0.0), vec4f(0.0), vec4f(0.0)), wide__Vectors(vec4f(0.0), vec4f(0.0), vec4f(1.0)), vec4f(-1.0), vec4u(types__NONE), vec4u(types__NO_INSTANCE));
+}
+
+fn rays__ray_at(rays: rays__Rays, k: u32) -> tracing__Ray {
+	return tracing__Ray(wide__vector_at(rays.origin, k), rays.t_max[k], wide__vector_at(rays.direction, k), rays.leaving[k], rays.leaving_instance[k]);
+}
+
+fn rays__ray_set(rays: rays__Rays, k: u32, ray: tracing__Ray) -> rays__Rays {
+	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
+}
+
+fn rays__hit_at(hits: rays__Hits, k: u32) -> tracing__Hit {
+	return tracing__Hit(hits.t[k], hits.primitive[k], hits.b1[k], hits.b2[k], hits.instance[k]);
+}
+
+fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
+	return walk__packet_hits(rays, false);
+}
+
+fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
+	return walk__packet_hits(rays, true);
+}
+
 var<private> loops__nodes_visited: u32;
 
 var<private> loops__primitives_tested: u32;
@@ -1544,6 +1371,92 @@ var<private> loops__cut_off: bool;
 var<private> loops__is_stack_full: bool;
 
 var<private> loops__nonfinite_samples: u32;
+
+var<private> trees__stack_counts: vec4u;
+
+var<private> trees__all_tree_rays: vec4u;
+
+var<private> trees__trees_cut_off: vec4u;
+
+fn trees__start_trees() {
+	trees__stack_counts = vec4u(0u);
+	trees__all_tree_rays = vec4u(0u);
+	trees__trees_cut_off = vec4u(0u);
+}
+
+fn trees__enter_tree(k: u32) {
+	ray_entries__stack_row = k;
+	ray_stack__stack_count = trees__stack_counts[k];
+	ray_stack__tree_rays = trees__all_tree_rays[k];
+	ray_stack__tree_cut_off = trees__trees_cut_off[k];
+	primitive__runner_up = walk__second_hit(k);
+}
+
+fn trees__leave_tree(k: u32) {
+	trees__stack_counts = wide__word_set(trees__stack_counts, k, ray_stack__stack_count);
+	trees__all_tree_rays = wide__word_set(trees__all_tree_rays, k, ray_stack__tree_rays);
+	trees__trees_cut_off = wide__word_set(trees__trees_cut_off, k, ray_stack__tree_cut_off);
+}
+
+struct ray_states__Media {
+	x: vec4u,
+	y: vec4u,
+	z: vec4u,
+	w: vec4u
+}
+
+struct ray_states__RayStates {
+	rays: rays__Rays,
+	throughput: wide__Vectors,
+	media: ray_states__Media,
+	step: vec4u,
+	node: vec4u,
+	cone_width: vec4f,
+	cone_spread: vec4f
+}
+
+fn ray_states__primary_states(batch: dispatch__Batch, rays: rays__Rays) -> ray_states__RayStates {
+	let media = batch.camera_media;
+	let all = vec4f(1.0);
+	let states = ray_states__RayStates(rays, wide__Vectors(all, all, all), ray_states__Media(vec4u(media.x), vec4u(media.y), vec4u(media.z), vec4u(media.w)), vec4u(ray_states__KIND_PRIMARY), vec4u(1u), vec4f(0.0), vec4f(0.0));
+	if (bindings__HAS_FOOTPRINTS) {
+		return ray_states__with_cones(batch, states);
+	}
+	return states;
+}
+
+fn ray_states__with_cones(batch: dispatch__Batch, states: ray_states__RayStates) -> ray_states__RayStates {
+	var all = states;
+	var k = 0u;
+	loop {
+		let cone = footprint__camera_cone(batch, wide__vector_at(states.rays.direction, k));
+		all.cone_width = wide__float_set(all.cone_width, k, cone.width);
+		all.cone_spread = wide__float_set(all.cone_spread, k, cone.spread);
+		continuing {
+			k += 1u;
+			break if k >= rays__RAYS_PER_LANE;
+		}
+	}
+	loops__cut_off |= k < rays__RAYS_PER_LANE;
+	return all;
+}
+
+fn ray_states__state_at(states: ray_states__RayStates, k: u32) -> ray_states__RayState {
+	let step = states.step[k];
+	return ray_states__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_states__media_at(states.media, k), step >> 2u, step & 3u, states.node[k], tracing__Cone(states.cone_width[k], states.cone_spread[k]));
+}
+
+fn ray_states__state_set(states: ray_states__RayStates, k: u32, state: ray_states__RayState) -> ray_states__RayStates {
+	return ray_states__RayStates(rays__ray_set(states.rays, k, state.ray), wide__vector_set(states.throughput, k, state.throughput), ray_states__media_set(states.media, k, state.media), wide__word_set(states.step, k, (state.depth << 2u) | state.kind), wide__word_set(states.node, k, state.node), wide__float_set(states.cone_width, k, state.cone.width), wide__float_set(states.cone_spread, k, state.cone.spread));
+}
+
+fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
+	return vec4u(all.x[k], all.y[k], all.z[k], all.w[k]);
+}
+
+fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
+	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
+}
 
 const ray_states__KIND_PRIMARY: u32 = 0u;
 
@@ -1561,220 +1474,14 @@ struct ray_states__RayState {
 	cone: tracing__Cone
 }
 
-struct ray_states__Media {
-	x: wide__Words,
-	y: wide__Words,
-	z: wide__Words,
-	w: wide__Words
-}
-
-struct ray_states__RayStates {
-	rays: rays__Rays,
-	throughput: wide__Vectors,
-	media: ray_states__Media,
-	step: wide__Words,
-	node: wide__Words,
-	cone_width: wide__Floats,
-	cone_spread: wide__Floats
-}
+const ray_states__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
 
 fn ray_states__is_alive(state: ray_states__RayState) -> bool {
 	return any(state.throughput > vec3f(0.0));
 }
 
-fn ray_states__with_cones(batch: dispatch__Batch, states: ray_states__RayStates) -> ray_states__RayStates {
-	var all = states;
-	var k = 0u;
-	loop {
-		let cone = footprint__camera_cone(batch, wide__vector_at(states.rays.direction, k));
-		all.cone_width = wide__float_set(all.cone_width, k, cone.width);
-		all.cone_spread = wide__float_set(all.cone_spread, k, cone.spread);
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
-	return all;
-}
-
-fn ray_states__state_at(states: ray_states__RayStates, k: u32) -> ray_states__RayState {
-	let step = wide__word_at(states.step, k);
-	return ray_states__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_states__media_at(states.media, k), step >> 2u, step & 3u, wide__word_at(states.node, k), tracing__Cone(wide__float_at(states.cone_width, k), wide__float_at(states.cone_spread, k)));
-}
-
-fn ray_states__state_set(states: ray_states__RayStates, k: u32, state: ray_states__RayState) -> ray_states__RayStates {
-	return ray_states__RayStates(rays__ray_set(states.rays, k, state.ray), wide__vector_set(states.throughput, k, state.throughput), ray_states__media_set(states.media, k, state.media), wide__word_set(states.step, k, (state.depth << 2u) | state.kind), wide__word_set(states.node, k, state.node), wide__float_set(states.cone_width, k, state.cone.width), wide__float_set(states.cone_spread, k, state.cone.spread));
-}
-
-fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
-	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
-}
-
-fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
-	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
-}
-
 fn ray_states__no_ray() -> ray_states__RayState {
-	return ray_states__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, tracing__Cone(0.0, 0.0));
-}
-
-struct rays__Rays {
-	origin: wide__Vectors,
-	direction: wide__Vectors,
-	t_max: wide__Floats,
-	leaving: wide__Words,
-	leaving_instance: wide__Words
-}
-
-struct rays__Hits {
-	t: wide__Floats,
-	primitive: wide__Words,
-	b1: wide__Floats,
-	b2: wide__Floats,
-	instance: wide__Words
-}
-
-fn rays__rows_where(condition: vec4<bool>) -> u32 {
-	let bits = select(vec4u(0u), vec4u(1u, 2u, 4u, 8u), condition);
-	return lanes__or_of_packet((bits.x | bits.y) | (bits.z | bits.w));
-}
-
-fn rays__first_row(rows: u32) -> u32 {
-	{
-		return firstTrailingBit(rows | 8u);
-	}
-}
-
-fn rays__later_rows(rows: u32) -> u32 {
-	return rows & (rows - 1u);
-}
-
-const rays__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
-
-fn rays__dead_rays() -> rays__Rays {
-	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
-}
-
-fn rays__ray_at(rays: rays__Rays, k: u32) -> tracing__Ray {
-	return tracing__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
-}
-
-fn rays__ray_set(rays: rays__Rays, k: u32, ray: tracing__Ray) -> rays__Rays {
-	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
-}
-
-fn rays__hit_at(hits: rays__Hits, k: u32) -> tracing__Hit {
-	return tracing__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
-}
-
-fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return walk__packet_hits(rays, false);
-	}
-}
-
-fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
-	{
-		return walk__packet_hits(rays, true);
-	}
-}
-
-fn rays__any_lane(condition: bool) -> bool {
-	{
-		return lanes__any_lane_of_packet(condition);
-	}
-}
-
-struct features__Features {
-	albedo: vec3f,
-	normal: vec3f,
-	weight: f32,
-	chance: f32,
-	direct: vec3f,
-	emission: vec3f,
-	position: vec3f,
-	depth: f32,
-	uv: vec2f,
-	material: u32,
-	primitive: u32,
-	instance: u32,
-	is_followed: bool
-}
-
-const features__LEAST_WEIGHT: f32 = 1.0 / 1024.0;
-
-var<private> features__features: features__Features;
-
-var<private> features__off_centre: f32;
-
-fn features__start_features() {
-	if (bindings__HAS_FEATURES) {
-		features__features = features__Features();
-		features__features.weight = features__LEAST_WEIGHT;
-		features__features.chance = 1.0;
-		features__features.is_followed = true;
-	}
-}
-
-fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32) {
-	if (bindings__HAS_FEATURES && features__features.material == 0u) {
-		features__features.position = surface.p;
-		features__features.depth = depth;
-		features__features.uv = surface.uv;
-		features__features.material = surface.material + 1u;
-		features__features.primitive = hit.primitive;
-		features__features.instance = hit.instance;
-	}
-}
-
-fn features__see_albedo(albedo: vec3f, normal: vec3f) {
-	features__see_through(albedo, normal);
-	if (bindings__HAS_FEATURES && features__features.is_followed) {
-		features__features.weight = 1.0;
-		features__features.is_followed = false;
-	}
-}
-
-fn features__see_through(albedo: vec3f, normal: vec3f) {
-	if (bindings__HAS_FEATURES && features__features.is_followed) {
-		features__features.albedo = clamp_vec3f(features__features.chance * albedo, vec3f(0.0), vec3f(1.0));
-		features__features.normal = normal;
-	}
-}
-
-fn features__see_light(light: vec3f, scatterings: u32) {
-	if (bindings__HAS_FEATURES) {
-		features__features.emission += select(vec3f(0.0), light, scatterings == 0u);
-		features__features.direct += select(vec3f(0.0), light, scatterings == 1u);
-	}
-}
-
-fn features__add_features(first_row: u32, sample: u32, weight: f32) {
-	let row = first_row + bindings__FEATURES_ROW;
-	let luminance = dot(features__features.albedo, tone__LUMINANCE_REC709);
-	let albedo = bindings__film[row] + features__features.weight * weight * vec4f(features__features.albedo, 1.0);
-	let normal = bindings__film[row + 1u] + features__features.weight * weight * vec4f(features__features.normal, luminance * luminance);
-	if (numeric__is_finite(albedo.xyz) && numeric__is_finite(normal.xyz) && numeric__is_finite(normal.www)) {
-		bindings__film[row] = albedo;
-		bindings__film[row + 1u] = normal;
-	}
-	features__add_mean(row + 2u, features__features.direct, weight);
-	features__add_mean(row + 3u, features__features.emission, weight);
-	let nearness = 1.0 / (1.0 + features__off_centre);
-	if (nearness > bindings__film[row + 4u].x) {
-		let usable = numeric__is_finite(features__features.position) && numeric__is_finite(vec3f(features__features.uv, features__features.depth));
-		bindings__film[row + 4u] = vec4f(nearness, f32(sample), f32(features__features.material), f32(features__features.instance));
-		bindings__film[row + 5u] = select(vec4f(0.0), vec4f(features__features.position, features__features.depth), usable);
-		bindings__film[row + 6u] = vec4f(select(vec2f(0.0), features__features.uv, usable), f32(features__features.primitive & 65535u), f32(features__features.primitive >> 16u));
-	}
-}
-
-fn features__add_mean(row: u32, value: vec3f, weight: f32) {
-	let next = bindings__film[row] + weight * vec4f(value, 1.0);
-	if (numeric__is_finite(next.xyz)) {
-		bindings__film[row] = next;
-	}
+	return ray_states__RayState(ray_states__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, tracing__Cone(0.0, 0.0));
 }
 
 const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
@@ -2025,6 +1732,45 @@ fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction:
 	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, a.chance, a.place, a.visible);
 }
 
+@group(0) @binding(0)
+var rows__nodes: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(1)
+var rows__triangles: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(2)
+var rows__vertices: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(3)
+var rows__materials: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(4)
+var rows__texels: texture_storage_2d_array<r32uint, read>;
+
+fn rows__node_row(row: u32) -> vec4u {
+	return textureLoad(rows__nodes, rows__texel(row));
+}
+
+fn rows__triangle_row(row: u32) -> vec4u {
+	return textureLoad(rows__triangles, rows__texel(row));
+}
+
+fn rows__vertex_row(row: u32) -> vec4u {
+	return textureLoad(rows__vertices, rows__texel(row));
+}
+
+fn rows__material_row(row: u32) -> vec4u {
+	return textureLoad(rows__materials, rows__texel(row));
+}
+
+fn rows__texel_word(place: vec2u, layer: u32) -> u32 {
+	return textureLoad(rows__texels, place, layer).x;
+}
+
+fn rows__texel(row: u32) -> vec2u {
+	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
+}
+
 const filter__PI: f32 = 3.14159265;
 
 const filter__SIGMA: f32 = 0.5;
@@ -2156,6 +1902,86 @@ fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
 	return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
 }
 
+struct features__Features {
+	albedo: vec3f,
+	normal: vec3f,
+	weight: f32,
+	chance: f32,
+	direct: vec3f,
+	emission: vec3f,
+	position: vec3f,
+	depth: f32,
+	uv: vec2f,
+	material: u32,
+	primitive: u32,
+	instance: u32,
+	is_followed: bool
+}
+
+var<private> features__features: features__Features;
+
+var<private> features__off_centre: f32;
+
+fn features__see_first(surface: shading__Surface, hit: tracing__Hit, depth: f32) {
+	if (bindings__HAS_FEATURES && features__features.material == 0u) {
+		features__features.position = surface.p;
+		features__features.depth = depth;
+		features__features.uv = surface.uv;
+		features__features.material = surface.material + 1u;
+		features__features.primitive = hit.primitive;
+		features__features.instance = hit.instance;
+	}
+}
+
+fn features__see_albedo(albedo: vec3f, normal: vec3f) {
+	features__see_through(albedo, normal);
+	if (bindings__HAS_FEATURES && features__features.is_followed) {
+		features__features.weight = 1.0;
+		features__features.is_followed = false;
+	}
+}
+
+fn features__see_through(albedo: vec3f, normal: vec3f) {
+	if (bindings__HAS_FEATURES && features__features.is_followed) {
+		features__features.albedo = clamp_vec3f(features__features.chance * albedo, vec3f(0.0), vec3f(1.0));
+		features__features.normal = normal;
+	}
+}
+
+fn features__see_light(light: vec3f, scatterings: u32) {
+	if (bindings__HAS_FEATURES) {
+		features__features.emission += select(vec3f(0.0), light, scatterings == 0u);
+		features__features.direct += select(vec3f(0.0), light, scatterings == 1u);
+	}
+}
+
+fn features__add_features(first_row: u32, sample: u32, weight: f32) {
+	let row = first_row + bindings__FEATURES_ROW;
+	let luminance = dot(features__features.albedo, tone__LUMINANCE_REC709);
+	let albedo = bindings__film[row] + features__features.weight * weight * vec4f(features__features.albedo, 1.0);
+	let normal = bindings__film[row + 1u] + features__features.weight * weight * vec4f(features__features.normal, luminance * luminance);
+	if (numeric__is_finite(albedo.xyz) && numeric__is_finite(normal.xyz) && numeric__is_finite(normal.www)) {
+		bindings__film[row] = albedo;
+		bindings__film[row + 1u] = normal;
+	}
+	features__add_mean(row + 2u, features__features.direct, weight);
+	features__add_mean(row + 3u, features__features.emission, weight);
+	let nearness = 1.0 / (1.0 + features__off_centre);
+	if (nearness > bindings__film[row + 4u].x) {
+		let usable = numeric__is_finite(features__features.position) && numeric__is_finite(vec3f(features__features.uv, features__features.depth));
+		bindings__film[row + 4u] = vec4f(nearness, f32(sample), f32(features__features.material), f32(features__features.instance));
+		bindings__film[row + 5u] = select(vec4f(0.0), vec4f(features__features.position, features__features.depth), usable);
+		bindings__film[row + 6u] = vec4f(select(vec2f(0.0), features__features.uv, usable), f32(features__features.primitive & 65535u), f32(features__features.primitive >> 16u));
+	}
+}
+
+fn features__add_mean(row: u32, value: vec3f, weight: f32) {
+	let next = bindings__film[row] + weight * vec4f(value, 1.0);
+	if (numeric__is_finite(next.xyz)) {
+		bindings__film[row] = next;
+	}
+}
+
 const warp__PI: f32 = 3.14159265;
 
 fn warp__disc_from_square(u: vec2f) -> vec2f {
@@ -2213,7 +2039,7 @@ fn walk__second_hit(k: u32) -> tracing__Hit {
 fn walk__packet_hits(rays: rays__Rays, any: bool) -> rays__Hits {
 	let found = walk__walk(rays__ray_at(rays, 0u), rays__ray_at(rays, 1u), rays__ray_at(rays, 2u), rays__ray_at(rays, 3u), any);
 	walk__seconds = found;
-	return rays__Hits(wide__Floats(found.h0.hit.t, found.h1.hit.t, found.h2.hit.t, found.h3.hit.t), wide__Words(found.h0.hit.primitive, found.h1.hit.primitive, found.h2.hit.primitive, found.h3.hit.primitive), wide__Floats(found.h0.hit.b1, found.h1.hit.b1, found.h2.hit.b1, found.h3.hit.b1), wide__Floats(found.h0.hit.b2, found.h1.hit.b2, found.h2.hit.b2, found.h3.hit.b2), wide__Words(found.h0.hit.instance, found.h1.hit.instance, found.h2.hit.instance, found.h3.hit.instance));
+	return rays__Hits(vec4f(found.h0.hit.t, found.h1.hit.t, found.h2.hit.t, found.h3.hit.t), vec4u(found.h0.hit.primitive, found.h1.hit.primitive, found.h2.hit.primitive, found.h3.hit.primitive), vec4f(found.h0.hit.b1, found.h1.hit.b1, found.h2.hit.b1, found.h3.hit.b1), vec4f(found.h0.hit.b2, found.h1.hit.b2, found.h2.hit.b2, found.h3.hit.b2), vec4u(found.h0.hit.instance, found.h1.hit.instance, found.h2.hit.instance, found.h3.hit.instance));
 }
 
 fn walk__first_hit(at: primitive__TraversalRay) -> lanes__TwoHits {
@@ -2243,7 +2069,7 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 	if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES)) {
 		return hits;
 	}
-	var stack = stack__Stack(stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY, stack__EMPTY);
+	var stack = shared_stack__Stack(traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY);
 	var current = 0u;
 	if (bindings__HAS_INSTANCES) {
 		current = fetch__root;
@@ -2253,10 +2079,10 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 			if (bindings__HAS_INSTANCES) {
 				if (current == traverse__RETURN) {
 					rays = lanes__FourRays(walk__world_ray(ray0), walk__world_ray(ray1), walk__world_ray(ray2), walk__world_ray(ray3));
-					current = stack__top_of(stack);
-					stack = stack__popped(stack);
+					current = shared_stack__top_of(stack);
+					stack = shared_stack__popped(stack);
 				}
-				if ((current >= types__INSTANCE) & (current != stack__EMPTY)) {
+				if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
 					let index = current & types__LEAF_FIRST_MASK;
 					let instance = fetch__load_instance(index);
 					let space = instance__space_of(instance);
@@ -2265,7 +2091,7 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 					let o2 = instance__object_ray(ray2, space);
 					let o3 = instance__object_ray(ray3, space);
 					rays = lanes__FourRays(walk__placed_ray(o0, index), walk__placed_ray(o1, index), walk__placed_ray(o2, index), walk__placed_ray(o3, index));
-					stack = stack__pushed(stack, traverse__RETURN, 1u);
+					stack = shared_stack__pushed(stack, traverse__RETURN, 1u);
 					current = instance.root;
 				}
 			}
@@ -2274,8 +2100,8 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 				loop {
 					let node = node__load_shared_node(current);
 					let children = node__order_children(node, rays, limits);
-					current = select(stack__top_of(stack), subgroupShuffle(children.reference, 0u), children.count > 0u);
-					stack = stack__pushed(stack, subgroupShuffle(children.reference, (lanes__packet_lane + 1u) & 3u), children.count - 1u);
+					current = select(shared_stack__top_of(stack), subgroupShuffle(children.reference, 0u), children.count > 0u);
+					stack = shared_stack__pushed(stack, subgroupShuffle(children.reference, (lanes__packet_lane + 1u) & 3u), children.count - 1u);
 					if (bindings__COUNT_STEPS) {
 						loops__nodes_visited += 1u;
 					}
@@ -2287,13 +2113,13 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 			}
 			loop {
 				let is_here = leaf__is_common(current);
-				let next = leaf__after(current, stack__top_of(stack));
+				let next = leaf__after(current, shared_stack__top_of(stack));
 				if (is_here) {
 					hits = leaf__meet_common(rays, hits, current);
-					stack = stack__pushed(stack, stack__EMPTY, select(0u, stack__POP, next.is_last));
+					stack = shared_stack__pushed(stack, traverse__EMPTY, select(0u, shared_stack__POP, next.is_last));
 					current = next.reference;
 					if (any) {
-						current = select(stack__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
+						current = select(traverse__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
 					}
 				}
 				continuing {
@@ -2303,26 +2129,26 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 			}
 			continuing {
 			
-				break if (current == stack__EMPTY) | leaf__is_rare(current);
+				break if (current == traverse__EMPTY) | leaf__is_rare(current);
 			}
 		}
 		if (bindings__HAS_SHAPES && bindings__HAS_TRIANGLES && bindings__TRIANGLES_APART == 0u && !bindings__SHAPES_APART) {
-			let next = leaf__after(current, stack__top_of(stack));
+			let next = leaf__after(current, shared_stack__top_of(stack));
 			if (leaf__is_rare(current)) {
 				hits = leaf__meet_rare(rays, hits, current);
-				stack = stack__pushed(stack, stack__EMPTY, select(0u, stack__POP, next.is_last));
+				stack = shared_stack__pushed(stack, traverse__EMPTY, select(0u, shared_stack__POP, next.is_last));
 				current = next.reference;
 				if (any) {
-					current = select(stack__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
+					current = select(traverse__EMPTY, current, walk__is_open(hits, ray0, ray1, ray2, ray3));
 				}
 			}
 		}
 		continuing {
 		
-			break if current == stack__EMPTY;
+			break if current == traverse__EMPTY;
 		}
 	}
-	loops__cut_off |= stack__is_full | (current != stack__EMPTY);
+	loops__cut_off |= shared_stack__is_full | (current != traverse__EMPTY);
 	return hits;
 }
 
@@ -3111,11 +2937,11 @@ fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
 }
 
-const stack__POP: u32 = 4294967295u;
+const shared_stack__POP: u32 = 4294967295u;
 
-var<private> stack__is_full: bool;
+var<private> shared_stack__is_full: bool;
 
-struct stack__Stack {
+struct shared_stack__Stack {
 	s0: u32,
 	s1: u32,
 	s2: u32,
@@ -3124,22 +2950,22 @@ struct stack__Stack {
 	s5: u32
 }
 
-fn stack__top_of(stack: stack__Stack) -> u32 {
+fn shared_stack__top_of(stack: shared_stack__Stack) -> u32 {
 	return subgroupShuffle(stack.s0, 0u);
 }
 
-fn stack__pushed(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
+fn shared_stack__pushed(stack: shared_stack__Stack, reference: u32, count: u32) -> shared_stack__Stack {
 	if (bindings__PACKET_LANES == 16u) {
-		return stack__pushed16(stack, reference, count);
+		return shared_stack__pushed16(stack, reference, count);
 	}
-	return stack__pushed8(stack, reference, count);
+	return shared_stack__pushed8(stack, reference, count);
 }
 
-fn stack__pushed16(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
-	let is_pop = count == stack__POP;
+fn shared_stack__pushed16(stack: shared_stack__Stack, reference: u32, count: u32) -> shared_stack__Stack {
+	let is_pop = count == shared_stack__POP;
 	let moves_one = !is_pop & ((count & 1u) != 0u);
 	let moves_two = !is_pop & (count >= 2u);
-	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 16u) & (stack.s2 != stack__EMPTY);
+	shared_stack__is_full |= !is_pop & (lanes__packet_lane + count >= 16u) & (stack.s2 != traverse__EMPTY);
 	let one_up = (lanes__packet_lane - 1u) & 15u;
 	let u0 = subgroupShuffle(stack.s0, one_up);
 	let u1 = subgroupShuffle(stack.s1, one_up);
@@ -3152,35 +2978,35 @@ fn stack__pushed16(stack: stack__Stack, reference: u32, count: u32) -> stack__St
 	let is_last = lanes__packet_lane == 15u;
 	let m0 = select(select(stack.s0, u0, moves_one), select(d0, d1, is_last), is_pop);
 	let m1 = select(select(stack.s1, select(u1, u0, is_first), moves_one), select(d1, d2, is_last), is_pop);
-	let m2 = select(select(stack.s2, select(u2, u1, is_first), moves_one), select(d2, stack__EMPTY, is_last), is_pop);
+	let m2 = select(select(stack.s2, select(u2, u1, is_first), moves_one), select(d2, traverse__EMPTY, is_last), is_pop);
 	let two_up = (lanes__packet_lane - 2u) & 15u;
 	let w0 = subgroupShuffle(m0, two_up);
 	let w1 = subgroupShuffle(m1, two_up);
 	let w2 = subgroupShuffle(m2, two_up);
 	let is_low = lanes__packet_lane < 2u;
-	return stack__Stack(select(select(m0, w0, moves_two), reference, !is_pop & (lanes__packet_lane < count)), select(m1, select(w1, w0, is_low), moves_two), select(m2, select(w2, w1, is_low), moves_two), stack__EMPTY, stack__EMPTY, stack__EMPTY);
+	return shared_stack__Stack(select(select(m0, w0, moves_two), reference, !is_pop & (lanes__packet_lane < count)), select(m1, select(w1, w0, is_low), moves_two), select(m2, select(w2, w1, is_low), moves_two), traverse__EMPTY, traverse__EMPTY, traverse__EMPTY);
 }
 
-fn stack__pushed8(stack: stack__Stack, reference: u32, count: u32) -> stack__Stack {
+fn shared_stack__pushed8(stack: shared_stack__Stack, reference: u32, count: u32) -> shared_stack__Stack {
 	let source = (lanes__packet_lane - count) & 7u;
-	let is_pop = count == stack__POP;
+	let is_pop = count == shared_stack__POP;
 	let is_new = !is_pop & (lanes__packet_lane < count);
 	let is_last = is_pop & (lanes__packet_lane == 7u);
-	stack__is_full |= !is_pop & (lanes__packet_lane + count >= 8u) & (stack.s5 != stack__EMPTY);
+	shared_stack__is_full |= !is_pop & (lanes__packet_lane + count >= 8u) & (stack.s5 != traverse__EMPTY);
 	let m0 = subgroupShuffle(stack.s0, source);
 	let m1 = subgroupShuffle(stack.s1, source);
 	let m2 = subgroupShuffle(stack.s2, source);
 	let m3 = subgroupShuffle(stack.s3, source);
 	let m4 = subgroupShuffle(stack.s4, source);
 	let m5 = subgroupShuffle(stack.s5, source);
-	return stack__Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), m4, is_last), select(select(m4, m3, is_new), m5, is_last), select(select(m5, m4, is_new), stack__EMPTY, is_last));
+	return shared_stack__Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), m4, is_last), select(select(m4, m3, is_new), m5, is_last), select(select(m5, m4, is_new), traverse__EMPTY, is_last));
 }
 
-fn stack__popped(stack: stack__Stack) -> stack__Stack {
-	return stack__pushed(stack, stack__EMPTY, stack__POP);
+fn shared_stack__popped(stack: shared_stack__Stack) -> shared_stack__Stack {
+	return shared_stack__pushed(stack, traverse__EMPTY, shared_stack__POP);
 }
 
-const stack__EMPTY: u32 = 4294967295u;
+const traverse__EMPTY: u32 = 4294967295u;
 
 const traverse__RETURN: u32 = 4294967294u;
 
@@ -3240,7 +3066,7 @@ struct node__SharedNode {
 fn node__load_shared_node(index: u32) -> node__SharedNode {
 	let child = lanes__packet_lane & 3u;
 	let is_max = (lanes__packet_lane & 4u) != 0u;
-	let row = fetch__node_row(4u * index + child);
+	let row = rows__node_row(4u * index + child);
 	let words = vec3u(select(subgroupShuffle(row.z, 1u), subgroupShuffle(row.w, 1u), is_max), select(subgroupShuffle(row.x, 2u), subgroupShuffle(row.y, 2u), is_max), select(subgroupShuffle(row.z, 2u), subgroupShuffle(row.w, 2u), is_max));
 	let is_even = (child & 1u) == 0u;
 	let c01 = select(subgroupShuffle(row.y, 3u), subgroupShuffle(row.x, 3u), is_even);
@@ -3355,7 +3181,7 @@ fn leaf__meet_rare(rays: lanes__FourRays, hits: lanes__FourHits, reference: u32)
 fn leaf__meet_triangles(rays: lanes__FourRays, before: lanes__FourHits, reference: u32) -> lanes__FourHits {
 	let count = leaf__tested_triangles(reference);
 	let first = select(reference & types__LEAF_FIRST_MASK, 0u, leaf__has_shapes(reference));
-	var row = fetch__triangle_row(3u * first + lanes__packet_lane);
+	var row = rows__triangle_row(3u * first + lanes__packet_lane);
 	if (bindings__COUNT_STEPS) {
 		loops__primitives_tested += count;
 	}
@@ -3397,18 +3223,12 @@ fn leaf__meet_triangle(rays: lanes__FourRays, before: lanes__FourHits, triangle:
 fn leaf__meet_shape(rays: lanes__FourRays, before: lanes__FourHits, reference: u32) -> lanes__FourHits {
 	let index = select(0u, reference & types__LEAF_FIRST_MASK, leaf__has_shapes(reference));
 	let primitive = types__SHAPE | index;
-	let row = fetch__triangle_row(fetch__shape_row + types__SHAPE_ROWS * index + lanes__packet_lane);
+	let row = rows__triangle_row(fetch__shape_row + types__SHAPE_ROWS * index + lanes__packet_lane);
 	if (bindings__COUNT_STEPS) {
 		loops__primitives_tested += 1u;
 	}
 	let shape = fetch__shape_of(leaf__row_of(row, 0u), leaf__row_of(row, 1u), leaf__row_of(row, 2u), leaf__row_of(row, 3u), leaf__row_of(row, 4u));
 	return lanes__FourHits(lanes__closer_two(rays.r0, before.h0, shape__test_shape(rays.r0.ray, shape), primitive), lanes__closer_two(rays.r1, before.h1, shape__test_shape(rays.r1.ray, shape), primitive), lanes__closer_two(rays.r2, before.h2, shape__test_shape(rays.r2.ray, shape), primitive), lanes__closer_two(rays.r3, before.h3, shape__test_shape(rays.r3.ray, shape), primitive));
-}
-
-struct direct__Receiver {
-	surface: shading__Surface,
-	v: vec3f,
-	key: shading__SampleKey
 }
 
 struct direct__Receivers {
@@ -3419,45 +3239,46 @@ struct direct__Receivers {
 	v: wide__Vectors,
 	diffuse: wide__Vectors,
 	specular: wide__Vectors,
-	shininess: wide__Floats,
-	leaving: wide__Words,
-	instance: wide__Words,
-	hash: wide__Words,
-	weight: wide__Floats,
-	is_lit: wide__Words
+	shininess: vec4f,
+	leaving: vec4u,
+	instance: vec4u,
+	hash: vec4u,
+	weight: vec4f,
+	is_lit: vec4u
 }
 
 fn direct__no_receivers() -> direct__Receivers {
 	let none = wide__no_vectors();
-	return direct__Receivers(none, none, none, none, none, none, none, wide__Floats(0.0), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__Floats(0.0), wide__Words(0u));
+	return direct__Receivers(none, none, none, none, none, none, none, vec4f(0.0), vec4u(0u), vec4u(0u), vec4u(0u), vec4f(0.0), vec4u(0u));
 }
 
-fn direct__receiver_set(all: direct__Receivers, k: u32, surface: shading__Surface, v: vec3f, key: shading__SampleKey) -> direct__Receivers {
-	return direct__Receivers(wide__vector_set(all.p, k, surface.p), wide__vector_set(all.error, k, surface.error), wide__vector_set(all.ng, k, surface.ng), wide__vector_set(all.n, k, surface.n), wide__vector_set(all.v, k, v), wide__vector_set(all.diffuse, k, surface.phong.diffuse), wide__vector_set(all.specular, k, surface.phong.specular), wide__float_set(all.shininess, k, surface.phong.shininess), wide__word_set(all.leaving, k, surface.leaving), wide__word_set(all.instance, k, surface.instance), wide__word_set(all.hash, k, key.hash), wide__float_set(all.weight, k, key.weight), wide__word_set(all.is_lit, k, 1u));
+fn direct__receiver_set(all: direct__Receivers, k: u32, receiver: direct__Receiver) -> direct__Receivers {
+	let surface = receiver.surface;
+	return direct__Receivers(wide__vector_set(all.p, k, surface.p), wide__vector_set(all.error, k, surface.error), wide__vector_set(all.ng, k, surface.ng), wide__vector_set(all.n, k, surface.n), wide__vector_set(all.v, k, receiver.v), wide__vector_set(all.diffuse, k, surface.phong.diffuse), wide__vector_set(all.specular, k, surface.phong.specular), wide__float_set(all.shininess, k, surface.phong.shininess), wide__word_set(all.leaving, k, surface.leaving), wide__word_set(all.instance, k, surface.instance), wide__word_set(all.hash, k, receiver.key.hash), wide__float_set(all.weight, k, receiver.key.weight), wide__word_set(all.is_lit, k, 1u));
 }
 
-fn direct__receiver_at(all: direct__Receivers, k: u32) -> direct__Receiver {
+fn direct__receiver_at(all: direct__Receivers, k: u32, sample: u32) -> direct__Receiver {
 	var surface: shading__Surface;
 	surface.p = wide__vector_at(all.p, k);
 	surface.error = wide__vector_at(all.error, k);
 	surface.ng = wide__vector_at(all.ng, k);
 	surface.n = wide__vector_at(all.n, k);
-	surface.leaving = wide__word_at(all.leaving, k);
-	surface.instance = wide__word_at(all.instance, k);
+	surface.leaving = all.leaving[k];
+	surface.instance = all.instance[k];
 	surface.phong.diffuse = wide__vector_at(all.diffuse, k);
 	if (bindings__HAS_GLOSS) {
 		surface.phong.specular = wide__vector_at(all.specular, k);
-		surface.phong.shininess = wide__float_at(all.shininess, k);
+		surface.phong.shininess = all.shininess[k];
 	}
-	return direct__Receiver(surface, wide__vector_at(all.v, k), shading__SampleKey(wide__word_at(all.hash, k), 0u, wide__float_at(all.weight, k)));
+	return direct__Receiver(surface, wide__vector_at(all.v, k), shading__SampleKey(all.hash[k], sample, all.weight[k]));
 }
 
-fn direct__direct_light(batch: dispatch__Batch, receivers: direct__Receivers, media: ray_states__Media, sample: u32) -> wide__Vectors {
+fn direct__direct_lights(batch: dispatch__Batch, receivers: direct__Receivers, media: ray_states__Media, sample: u32) -> wide__Vectors {
 	var color = wide__no_vectors();
 	if (!bindings__HAS_LIGHTS) {
 		return color;
 	}
-	let lit_rows = rays__rows_where(receivers.is_lit != wide__Words(0u));
+	let lit_rows = rays__rows_where(receivers.is_lit != vec4u(0u));
 	let end = select(1u, batch.light_count, lit_rows != 0u);
 	var index = 0u;
 	loop {
@@ -3474,8 +3295,7 @@ fn direct__direct_light(batch: dispatch__Batch, receivers: direct__Receivers, me
 
 fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: direct__Receivers, lit_rows: u32, media: ray_states__Media, sample: u32, light: types__PackedLight, index: u32) -> wide__Vectors {
 	var sum = wide__no_vectors();
-	var counts = wide__Floats(1.0);
-	let has_extent = bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE;
+	var counts = vec4f(1.0);
 	var drawn = 0u;
 	var is_unfinished = false;
 	loop {
@@ -3485,23 +3305,14 @@ fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: 
 		var rows = lit_rows;
 		loop {
 			let k = rays__first_row(rows);
-			if (wide__word_at(receivers.is_lit, k) != 0u) {
-				let receiver = direct__receiver_at(receivers, k);
-				var count = 1u;
-				if (has_extent) {
-					let wanted = max_f32(round(f32(light.sample_count) * batch.light_samples * receiver.key.weight), 1.0);
-					count = u32(wanted);
-					counts = wide__float_set(counts, k, f32(count));
-				}
+			if (receivers.is_lit[k] != 0u) {
+				let receiver = direct__receiver_at(receivers, k, sample);
+				let count = direct__light_samples(batch, receiver, light);
+				counts = wide__float_set(counts, k, f32(count));
 				if (drawn < count) {
-					var arriving = light__incident(light, receiver.surface.p);
-					if (has_extent) {
-						let hash = rng__hash_combine(receiver.key.hash, index);
-						arriving = area_light__area_incident(light, receiver.surface.p, sampling__stratified_2d(sample * count + drawn, hash));
-					}
-					let reflected = arriving.radiance * phong__phong(receiver.surface.phong, receiver.surface.n, arriving.direction, receiver.v);
-					let is_lit = any(reflected > vec3f(0.0));
-					if (is_lit) {
+					let arriving = direct__arriving_light(receiver, light, index, drawn, count);
+					let reflected = direct__reflected_light(receiver, arriving);
+					if (any(reflected > vec3f(0.0))) {
 						rays = rays__ray_set(rays, k, direct__shadow_ray(receiver.surface, arriving));
 						unshadowed = wide__vector_set(unshadowed, k, reflected);
 					}
@@ -3510,174 +3321,208 @@ fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: 
 			}
 			continuing {
 				rows = rays__later_rows(rows);
-				break if wide__ONE_RAY | (rows == 0u);
+				break if rows == 0u;
 			}
 		}
 		loops__cut_off |= rows != 0u;
-		let through = shadow__light_through(rays, media);
+		let through = shadow__lights_through(rays, media);
 		sum.x += through.x * unshadowed.x;
 		sum.y += through.y * unshadowed.y;
 		sum.z += through.z * unshadowed.z;
 		drawn += 1u;
 		continuing {
 		
-			break if !rays__any_lane(is_unfinished);
+			break if !lanes__any_lane_of_packet(is_unfinished);
 		}
 	}
 	loops__cut_off |= is_unfinished;
 	return wide__Vectors(before.x + sum.x / counts, before.y + sum.y / counts, before.z + sum.z / counts);
 }
 
-fn direct__shadow_ray(surface: shading__Surface, arriving: shading__Incident) -> tracing__Ray {
-	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
-	ray.t_max = max_f32(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
-	return ray;
+const ray_stack__MAX_TREE_RAYS: u32 = 1024u;
+
+var<private> ray_stack__stack_count: u32;
+
+var<private> ray_stack__tree_rays: u32;
+
+var<private> ray_stack__tree_cut_off: u32;
+
+var<private> ray_stack__cut_off_trees: u32;
+
+fn ray_stack__next_ray(batch: dispatch__Batch, reflected: ray_states__RayState, refracted: ray_states__RayState) -> ray_states__RayState {
+	if (!bindings__HAS_TREES) {
+		return ray_states__no_ray();
+	}
+	var next = ray_stack__following(reflected, refracted);
+	if (bindings__HAS_CLIP && next.depth == 0u && ray_states__is_alive(next)) {
+		next.ray.t_max = dispatch__way_to_far(batch, next.ray.origin, next.ray.direction);
+	}
+	return next;
 }
 
-struct optics__ScatterEvent {
+fn ray_stack__following(reflected: ray_states__RayState, refracted: ray_states__RayState) -> ray_states__RayState {
+	ray_stack__tree_rays += 1u;
+	let sends_both = ray_states__is_alive(reflected) && ray_states__is_alive(refracted);
+	let goes_on = ray_states__is_alive(reflected) || ray_states__is_alive(refracted) || ray_stack__stack_count > 0u;
+	if (goes_on && ray_stack__tree_rays >= ray_stack__MAX_TREE_RAYS) {
+		ray_stack__cut_tree();
+		ray_stack__stack_count = 0u;
+		return ray_states__no_ray();
+	}
+	if (sends_both) {
+		let reflected_is_weaker = ray_stack__strength(reflected) < ray_stack__strength(refracted);
+		if (ray_stack__stack_count == ray_entry__RAY_STACK_SIZE) {
+			ray_stack__cut_tree();
+			return ray_stack__choose(reflected, refracted, !reflected_is_weaker);
+		}
+		ray_stack__push_ray(ray_stack__choose(reflected, refracted, !reflected_is_weaker));
+		return ray_stack__choose(reflected, refracted, reflected_is_weaker);
+	}
+	if (ray_states__is_alive(refracted)) {
+		return refracted;
+	}
+	if (ray_states__is_alive(reflected)) {
+		return reflected;
+	}
+	return ray_stack__popped_ray();
+}
+
+fn ray_stack__cut_tree() {
+	ray_stack__cut_off_trees += 1u - ray_stack__tree_cut_off;
+	ray_stack__tree_cut_off = 1u;
+}
+
+fn ray_stack__choose(reflected: ray_states__RayState, refracted: ray_states__RayState, first: bool) -> ray_states__RayState {
+	if (first) {
+		return reflected;
+	}
+	return refracted;
+}
+
+fn ray_stack__strength(state: ray_states__RayState) -> f32 {
+	return dot(state.throughput, vec3f(1.0));
+}
+
+fn ray_stack__push_ray(state: ray_states__RayState) {
+	ray_entries__push_entry(ray_entry__RayEntry(vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving), vec4u(bitcast<vec3u>(state.ray.direction), ray_stack__step_and_instance(state)), vec4u(bitcast<vec3u>(state.throughput), state.node), state.media, state.cone), ray_stack__stack_count);
+	record__record_pushed(ray_stack__stack_count);
+	ray_stack__stack_count += 1u;
+}
+
+fn ray_stack__popped_ray() -> ray_states__RayState {
+	if (ray_stack__stack_count == 0u) {
+		return ray_states__no_ray();
+	}
+	ray_stack__stack_count -= 1u;
+	record__record_popped(ray_stack__stack_count);
+	let entry = ray_entries__pop_entry(ray_stack__stack_count);
+	let place = entry.r1.w;
+	let ray = tracing__Ray(bitcast<vec3f>(entry.r0.xyz), camera__T_FAR, bitcast<vec3f>(entry.r1.xyz), entry.r0.w, place >> 12u);
+	return ray_states__RayState(ray, bitcast<vec3f>(entry.r2.xyz), entry.media, (place >> 2u) & 1023u, place & 3u, entry.r2.w, entry.cone);
+}
+
+fn ray_stack__step_and_instance(state: ray_states__RayState) -> u32 {
+	return (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind;
+}
+
+struct tree_vertex__Vertex {
+	receiver: direct__Receiver,
+	hit: tracing__Hit,
 	arriving: vec3f,
-	diffuse: vec3f,
-	highlight: vec3f,
+	ambient: vec3f,
+	emission: vec3f,
 	reflected: ray_states__RayState,
 	refracted: ray_states__RayState
 }
 
-struct optics__Weights {
-	diffuse: vec3f,
-	highlight: vec3f
+fn tree_vertex__vertex_at(batch: dispatch__Batch, state: ray_states__RayState, hit: tracing__Hit, key: u32, sample: u32) -> tree_vertex__Vertex {
+	let contact = contact__contact_at(state.ray, hit, state.cone);
+	var surface = contact.surface;
+	if (bindings__HAS_TEXTURES) {
+		surface.phong = texture__textured_phong(surface);
+	}
+	let factors = texture__texture_optics(surface);
+	var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_states__no_ray(), ray_states__no_ray());
+	if (bindings__HAS_TREES) {
+		event = optics__scatter(batch, state, hit.t, contact, factors, coverage__coverage_at(surface));
+		surface.phong.diffuse *= event.diffuse;
+		surface.phong.ambient *= event.diffuse;
+		surface.phong.specular *= event.highlight;
+	}
+	if (!bindings__HAS_GLOSS) {
+		surface.phong.specular = vec3f(0.0);
+		surface.phong.shininess = 0.0;
+	}
+	let ambient = batch.ambient * surface.phong.ambient;
+	var emission = vec3f(0.0);
+	if (bindings__HAS_EMISSION) {
+		emission = emitters__emitted(surface, material__load_optics(surface.material), factors[2]);
+	}
+	var own_key = shading__SampleKey(key, sample, 1.0);
+	if (tree_vertex__is_first(state)) {
+		features__see_first(surface, hit, dispatch__way_to_near(batch, state.ray.direction) + hit.t);
+		let glow = ambient + emission - ambient;
+		features__see_albedo(surface.phong.diffuse + glow, surface.n);
+		features__see_light(event.arriving * glow, 0u);
+	}
+	else {
+		own_key.hash = rng__hash_combine(key, state.node);
+		own_key.weight = numeric__max_component(event.arriving);
+	}
+	let receiver = direct__Receiver(surface, -state.ray.direction, own_key);
+	return tree_vertex__Vertex(receiver, contact.hit, event.arriving, ambient, emission, event.reflected, event.refracted);
 }
 
-fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance: f32, contact: contact__Contact, factors: mat3x3f, coverage: f32) -> optics__ScatterEvent {
-	let surface = contact.surface;
-	let direction = state.ray.direction;
-	let optics = material__load_optics(surface.material);
-	let thin = (optics.flags & types__MATERIAL_THIN) != 0u;
-	let met = interface__interface_at(state.media, contact, optics);
-	let eta = met.ior / met.ior_behind;
-	var arriving = state.throughput;
+fn tree_vertex__missed(batch: dispatch__Batch, state: ray_states__RayState) -> vec3f {
+	var throughput = state.throughput;
 	if (bindings__HAS_REFRACTION) {
-		arriving *= medium__transmittance(medium__medium_of(met.here), distance);
+		throughput *= medium__transmittance(medium__medium_of(medium__dominant(state.media)), state.ray.t_max);
 	}
-	let passing = arriving * (1.0 - coverage);
-	if (bindings__HAS_COVERAGE) {
-		arriving *= coverage;
+	let seen = throughput * background__background(batch, state.ray.direction);
+	if (tree_vertex__is_first(state)) {
+		features__see_albedo(seen, vec3f(0.0));
+		features__see_light(seen, 0u);
 	}
-	let ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
-	var n = select(surface.n, -surface.n, dot(surface.n, direction) > 0.0);
-	n = select(ng, n, dot(fresnel__mirrored(direction, n), ng) > 0.0);
-	let boundary = fresnel__boundary_at(optics.flags, clamp_f32(-dot(direction, n), 0.0, 1.0), eta);
-	var reflect = factors[0] * surface.phong.reflect;
-	var transmit = factors[1] * vertex_color__transmit_of(surface, optics);
-	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
-		reflect *= boundary.reflectance;
-		transmit *= 1.0 - boundary.reflectance;
-	}
-	else if (boundary.total && met.encloses) {
-		reflect += select(transmit, vec3f(0.0), (optics.flags & types__MATERIAL_SUM) != 0u);
-		transmit = vec3f(0.0);
-	}
-	var straight = direction;
-	let bends = met.is_boundary && !thin;
-	if (bends) {
-		straight = fresnel__refracted(direction, n, eta, boundary.cos_t);
-	}
-	else if (!met.is_boundary) {
-		reflect = vec3f(0.0);
-		transmit = vec3f(1.0);
-	}
-	var cone = tracing__Cone(0.0, 0.0);
-	var mirrored_way = cone;
-	var refracted_way = cone;
-	if (bindings__HAS_FOOTPRINTS) {
-		cone = ray_cone__cone_at(state.cone, distance);
-		mirrored_way = ray_cone__mirrored_cone(cone, surface.curvature);
-		refracted_way = cone;
-		if (bends) {
-			refracted_way = ray_cone__refracted_cone(cone, surface.curvature, eta);
-		}
-	}
-	var reflected_ray = ray_states__no_ray();
-	var refracted_ray = ray_states__no_ray();
-	let deeper = state.depth < batch.max_depth;
-	if (bindings__HAS_REFLECTION && deeper && optics__is_worth_tracing(batch, arriving * reflect)) {
-		let way = fresnel__mirrored(direction, n);
-		let ray = leaving__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
-		reflected_ray = ray_states__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_states__KIND_REFLECTED, 2u * state.node, mirrored_way);
-	}
-	let refracts = bindings__HAS_REFRACTION && met.is_transparent && (deeper || !bends);
-	let beyond = select(vec3f(0.0), arriving * transmit, refracts);
-	if (bindings__HAS_REFRACTION && refracts && optics__is_worth_tracing(batch, beyond + passing)) {
-		let ray = leaving__leaving_ray(surface, straight, camera__T_FAR);
-		refracted_ray = ray_states__RayState(ray, beyond + passing, met.media, select(state.depth, state.depth + 1u, bends), ray_states__KIND_REFRACTED, 2u * state.node + 1u, refracted_way);
-	}
-	else if (bindings__HAS_COVERAGE && optics__is_worth_tracing(batch, passing)) {
-		let ray = leaving__leaving_ray(surface, direction, camera__T_FAR);
-		refracted_ray = ray_states__RayState(ray, passing, state.media, state.depth, ray_states__KIND_REFRACTED, 2u * state.node + 1u, cone);
-	}
-	let sends = any(reflected_ray.throughput > vec3f(0.0));
-	let kept = optics__local_weights(optics, reflect, sends);
-	let visible = select(0.0, 1.0, met.is_boundary);
-	return optics__ScatterEvent(arriving, visible * kept.diffuse, visible * kept.highlight, reflected_ray, refracted_ray);
+	return seen;
 }
 
-fn optics__is_worth_tracing(batch: dispatch__Batch, throughput: vec3f) -> bool {
-	let mean = dot(throughput, vec3f(1.0 / 3.0));
-	return (mean > 0.0) & (mean >= batch.min_throughput);
+fn tree_vertex__is_first(state: ray_states__RayState) -> bool {
+	return state.node == 1u;
 }
 
-fn optics__local_weights(optics: shading__Optics, reflect: vec3f, sends: bool) -> optics__Weights {
-	let left = max_vec3f(1.0 - reflect, vec3f(0.0));
-	if ((optics.flags & types__MATERIAL_SUM) != 0u) {
-		return optics__Weights(vec3f(1.0), vec3f(1.0));
+struct direct__Receiver {
+	surface: shading__Surface,
+	v: vec3f,
+	key: shading__SampleKey
+}
+
+fn direct__light_samples(batch: dispatch__Batch, receiver: direct__Receiver, light: types__PackedLight) -> u32 {
+	var count = 1u;
+	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
+		let wanted = max_f32(round(f32(light.sample_count) * batch.light_samples * receiver.key.weight), 1.0);
+		count = u32(wanted);
 	}
-	if ((optics.flags & types__MATERIAL_BLEND) != 0u) {
-		let weight = select(vec3f(1.0), left, sends);
-		return optics__Weights(weight, weight);
+	return count;
+}
+
+fn direct__arriving_light(receiver: direct__Receiver, light: types__PackedLight, index: u32, drawn: u32, count: u32) -> shading__Incident {
+	var arriving = light__incident(light, receiver.surface.p);
+	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
+		let u = sampling__stratified_2d(receiver.key.index * count + drawn, rng__hash_combine(receiver.key.hash, index));
+		arriving = area_light__area_incident(light, receiver.surface.p, u);
 	}
-	return optics__Weights(optics.opacity * left, vec3f(1.0));
+	return arriving;
 }
 
-const medium__VACUUM: shading__Medium = shading__Medium(vec3f(0.0), 1.0, 0);
-
-fn medium__dominant(media: vec4u) -> u32 {
-	if (!bindings__HAS_CONTACT) {
-		return media.x;
-	}
-	if (!bindings__HAS_PRIORITIES) {
-		let last = select(media.xz, media.yw, media.yw != vec2u(types__NONE));
-		return select(last.x, last.y, last.y != types__NONE);
-	}
-	var best = media.x;
-	best = medium__higher(best, media.y);
-	best = medium__higher(best, media.z);
-	return medium__higher(best, media.w);
+fn direct__reflected_light(receiver: direct__Receiver, arriving: shading__Incident) -> vec3f {
+	let surface = receiver.surface;
+	return arriving.radiance * phong__phong(surface.phong, surface.n, arriving.direction, receiver.v);
 }
 
-fn medium__higher(best: u32, next: u32) -> u32 {
-	if (next == types__NONE) {
-		return best;
-	}
-	return select(best, next, material__load_medium(next).priority >= material__load_medium(best).priority);
-}
-
-fn medium__medium_of(material: u32) -> shading__Medium {
-	if (material == types__NONE) {
-		return medium__VACUUM;
-	}
-	return material__load_medium(material);
-}
-
-fn medium__transmittance(medium: shading__Medium, distance: f32) -> vec3f {
-	return exp(-min_vec3f(medium.absorption * min_f32(distance, 1000000000000.0), vec3f(80.0)));
-}
-
-fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
-	return select(media__left(media, material), media__entered(media, material), vec4<bool>(entering));
-}
-
-fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
-	let started_inside = !entering & !media__contains(media, material);
-	return select(medium__dominant(media), material, started_inside);
+fn direct__shadow_ray(surface: shading__Surface, arriving: shading__Incident) -> tracing__Ray {
+	var ray = leaving__leaving_ray(surface, arriving.direction, arriving.distance);
+	ray.t_max = max_f32(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
+	return ray;
 }
 
 struct shading__Phong {
@@ -3740,6 +3585,49 @@ struct shading__SampleKey {
 	weight: f32
 }
 
+const medium__VACUUM: shading__Medium = shading__Medium(vec3f(0.0), 1.0, 0);
+
+fn medium__dominant(media: vec4u) -> u32 {
+	if (!bindings__HAS_CONTACT) {
+		return media.x;
+	}
+	if (!bindings__HAS_PRIORITIES) {
+		let last = select(media.xz, media.yw, media.yw != vec2u(types__NONE));
+		return select(last.x, last.y, last.y != types__NONE);
+	}
+	var best = media.x;
+	best = medium__higher(best, media.y);
+	best = medium__higher(best, media.z);
+	return medium__higher(best, media.w);
+}
+
+fn medium__higher(best: u32, next: u32) -> u32 {
+	if (next == types__NONE) {
+		return best;
+	}
+	return select(best, next, material__load_medium(next).priority >= material__load_medium(best).priority);
+}
+
+fn medium__medium_of(material: u32) -> shading__Medium {
+	if (material == types__NONE) {
+		return medium__VACUUM;
+	}
+	return material__load_medium(material);
+}
+
+fn medium__transmittance(medium: shading__Medium, distance: f32) -> vec3f {
+	return exp(-min_vec3f(medium.absorption * min_f32(distance, 1000000000000.0), vec3f(80.0)));
+}
+
+fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
+	return select(media__left(media, material), media__entered(media, material), vec4<bool>(entering));
+}
+
+fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
+	let started_inside = !entering & !media__contains(media, material);
+	return select(medium__dominant(media), material, started_inside);
+}
+
 struct material__PhongMaterial {
 	phong: shading__Phong,
 	flags: u32
@@ -3747,12 +3635,12 @@ struct material__PhongMaterial {
 
 fn material__load_material(index: u32) -> material__PhongMaterial {
 	let row = types__MATERIAL_ROWS * index;
-	let r0 = fetch__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
+	let r0 = rows__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = rows__material_row(row + 1u);
+	let r2 = rows__material_row(row + 2u);
 	var reflect = vec3f(0.0);
 	if (bindings__HAS_REFLECTION) {
-		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
+		reflect = bitcast<vec3f>(rows__material_row(row + 3u).xyz);
 	}
 	let phong = shading__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
 	return material__PhongMaterial(phong, r1.w);
@@ -3760,29 +3648,29 @@ fn material__load_material(index: u32) -> material__PhongMaterial {
 
 fn material__load_optics(index: u32) -> shading__Optics {
 	let row = types__MATERIAL_ROWS * index;
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = fetch__material_row(row + 2u);
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = fetch__material_row(row + 4u);
+	let r1 = rows__material_row(row + 1u);
+	let r2 = rows__material_row(row + 2u);
+	let r3 = rows__material_row(row + 3u);
+	let r4 = rows__material_row(row + 4u);
 	return shading__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
 }
 
 fn material__load_flags(index: u32) -> u32 {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 1u).w;
+	return rows__material_row(types__MATERIAL_ROWS * index + 1u).w;
 }
 
 fn material__load_medium(index: u32) -> shading__Medium {
 	let row = types__MATERIAL_ROWS * index;
-	let r5 = fetch__material_row(row + 5u);
-	return shading__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
+	let r5 = rows__material_row(row + 5u);
+	return shading__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(rows__material_row(row + 3u).w), bitcast<i32>(rows__material_row(row + 4u).w));
 }
 
 fn material__load_emission(index: u32) -> vec3f {
-	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
+	return bitcast<vec3f>(rows__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
 }
 
 fn material__load_texture_indices(index: u32) -> vec4u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+	return rows__material_row(types__MATERIAL_ROWS * index + 7u);
 }
 
 struct material__CoverageMaterial {
@@ -3792,36 +3680,36 @@ struct material__CoverageMaterial {
 
 fn material__load_coverage(index: u32) -> material__CoverageMaterial {
 	let row = types__MATERIAL_ROWS * index;
-	return material__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
+	return material__CoverageMaterial(bitcast<f32>(rows__material_row(row + 5u).w), rows__material_row(row + 1u).w);
 }
 
 fn material__load_normal_scale(index: u32) -> f32 {
-	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+	return bitcast<f32>(rows__material_row(types__MATERIAL_ROWS * index + 6u).w);
 }
 
 fn material__load_texture(index: u32) -> types__PackedTexture {
 	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r5 = fetch__material_row(row + 5u);
-	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r5 = rows__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(rows__material_row(row + 2u)), bitcast<vec4f>(rows__material_row(row + 3u)), bitcast<vec4f>(rows__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
 }
 
 fn material__load_occlusion(index: u32) -> vec2u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 8u).xy;
+	return rows__material_row(types__MATERIAL_ROWS * index + 8u).xy;
 }
 
 fn material__load_layers(index: u32) -> types__PackedLayers {
 	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
-	let r0 = fetch__material_row(row);
-	let r1 = fetch__material_row(row + 1u);
-	let r2 = bitcast<vec4f>(fetch__material_row(row + 2u));
-	let r3 = fetch__material_row(row + 3u);
-	let r4 = bitcast<vec4f>(fetch__material_row(row + 4u));
-	let r5 = bitcast<vec4f>(fetch__material_row(row + 5u));
-	let r6 = fetch__material_row(row + 6u);
-	let r7 = fetch__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), fetch__material_row(row + 8u), fetch__material_row(row + 9u), fetch__material_row(row + 10u));
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(rows__material_row(row + 2u));
+	let r3 = rows__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(rows__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(rows__material_row(row + 5u));
+	let r6 = rows__material_row(row + 6u);
+	let r7 = rows__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), rows__material_row(row + 8u), rows__material_row(row + 9u), rows__material_row(row + 10u));
 }
 
 fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
@@ -3921,7 +3809,7 @@ fn picture__texel_at(picture: u32, index: u32) -> vec4f {
 fn picture__load_texel_word(index: u32) -> u32 {
 	let row = index >> types__IMAGE_WIDTH_LOG2;
 	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
-	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2).x;
+	return rows__texel_word(place, row >> types__LAYER_ROWS_LOG2);
 }
 
 const contact__NEAR: f32 = 1e-5;
@@ -3938,7 +3826,6 @@ struct contact__Contact {
 }
 
 fn contact__contact_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone) -> contact__Contact {
-	primitive__runner_up = walk__second_hit(ray_stack__current_tree);
 	var contact: contact__Contact;
 	contact.hit = hit;
 	contact.touching = types__NONE;
@@ -4775,6 +4662,110 @@ fn noise__corner(key: u32, d: vec3f) -> f32 {
 	return select(u, -u, (h & 1u) != 0u) + select(v, -v, (h & 2u) != 0u);
 }
 
+struct optics__ScatterEvent {
+	arriving: vec3f,
+	diffuse: vec3f,
+	highlight: vec3f,
+	reflected: ray_states__RayState,
+	refracted: ray_states__RayState
+}
+
+struct optics__Weights {
+	diffuse: vec3f,
+	highlight: vec3f
+}
+
+fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance: f32, contact: contact__Contact, factors: mat3x3f, coverage: f32) -> optics__ScatterEvent {
+	let surface = contact.surface;
+	let direction = state.ray.direction;
+	let optics = material__load_optics(surface.material);
+	let thin = (optics.flags & types__MATERIAL_THIN) != 0u;
+	let met = interface__interface_at(state.media, contact, optics);
+	let eta = met.ior / met.ior_behind;
+	var arriving = state.throughput;
+	if (bindings__HAS_REFRACTION) {
+		arriving *= medium__transmittance(medium__medium_of(met.here), distance);
+	}
+	let passing = arriving * (1.0 - coverage);
+	if (bindings__HAS_COVERAGE) {
+		arriving *= coverage;
+	}
+	let ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
+	var n = select(surface.n, -surface.n, dot(surface.n, direction) > 0.0);
+	n = select(ng, n, dot(fresnel__mirrored(direction, n), ng) > 0.0);
+	let boundary = fresnel__boundary_at(optics.flags, clamp_f32(-dot(direction, n), 0.0, 1.0), eta);
+	var reflect = factors[0] * surface.phong.reflect;
+	var transmit = factors[1] * vertex_color__transmit_of(surface, optics);
+	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
+		reflect *= boundary.reflectance;
+		transmit *= 1.0 - boundary.reflectance;
+	}
+	else if (boundary.total && met.encloses) {
+		reflect += select(transmit, vec3f(0.0), (optics.flags & types__MATERIAL_SUM) != 0u);
+		transmit = vec3f(0.0);
+	}
+	var straight = direction;
+	let bends = met.is_boundary && !thin;
+	if (bends) {
+		straight = fresnel__refracted(direction, n, eta, boundary.cos_t);
+	}
+	else if (!met.is_boundary) {
+		reflect = vec3f(0.0);
+		transmit = vec3f(1.0);
+	}
+	record__record_interface(met, boundary, reflect, transmit);
+	var cone = tracing__Cone(0.0, 0.0);
+	var mirrored_way = cone;
+	var refracted_way = cone;
+	if (bindings__HAS_FOOTPRINTS) {
+		cone = ray_cone__cone_at(state.cone, distance);
+		mirrored_way = ray_cone__mirrored_cone(cone, surface.curvature);
+		refracted_way = cone;
+		if (bends) {
+			refracted_way = ray_cone__refracted_cone(cone, surface.curvature, eta);
+		}
+	}
+	var reflected_ray = ray_states__no_ray();
+	var refracted_ray = ray_states__no_ray();
+	let deeper = state.depth < batch.max_depth;
+	if (bindings__HAS_REFLECTION && deeper && optics__is_worth_tracing(batch, arriving * reflect)) {
+		let way = fresnel__mirrored(direction, n);
+		let ray = leaving__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
+		reflected_ray = ray_states__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_states__KIND_REFLECTED, 2u * state.node, mirrored_way);
+	}
+	let refracts = bindings__HAS_REFRACTION && met.is_transparent && (deeper || !bends);
+	let beyond = select(vec3f(0.0), arriving * transmit, refracts);
+	if (bindings__HAS_REFRACTION && refracts && optics__is_worth_tracing(batch, beyond + passing)) {
+		let ray = leaving__leaving_ray(surface, straight, camera__T_FAR);
+		refracted_ray = ray_states__RayState(ray, beyond + passing, met.media, select(state.depth, state.depth + 1u, bends), ray_states__KIND_REFRACTED, 2u * state.node + 1u, refracted_way);
+	}
+	else if (bindings__HAS_COVERAGE && optics__is_worth_tracing(batch, passing)) {
+		let ray = leaving__leaving_ray(surface, direction, camera__T_FAR);
+		refracted_ray = ray_states__RayState(ray, passing, state.media, state.depth, ray_states__KIND_REFRACTED, 2u * state.node + 1u, cone);
+	}
+	let sends = any(reflected_ray.throughput > vec3f(0.0));
+	let kept = optics__local_weights(optics, reflect, sends);
+	let visible = select(0.0, 1.0, met.is_boundary);
+	return optics__ScatterEvent(arriving, visible * kept.diffuse, visible * kept.highlight, reflected_ray, refracted_ray);
+}
+
+fn optics__is_worth_tracing(batch: dispatch__Batch, throughput: vec3f) -> bool {
+	let mean = dot(throughput, vec3f(1.0 / 3.0));
+	return (mean > 0.0) & (mean >= batch.min_throughput);
+}
+
+fn optics__local_weights(optics: shading__Optics, reflect: vec3f, sends: bool) -> optics__Weights {
+	let left = max_vec3f(1.0 - reflect, vec3f(0.0));
+	if ((optics.flags & types__MATERIAL_SUM) != 0u) {
+		return optics__Weights(vec3f(1.0), vec3f(1.0));
+	}
+	if ((optics.flags & types__MATERIAL_BLEND) != 0u) {
+		let weight = select(vec3f(1.0), left, sends);
+		return optics__Weights(weight, weight);
+	}
+	return optics__Weights(optics.opacity * left, vec3f(1.0));
+}
+
 struct interface__Interface {
 	here: u32,
 	media: vec4u,
@@ -4882,6 +4873,22 @@ fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f
 	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
+fn record__record_interface(met: interface__Interface, boundary: fresnel__Boundary, reflect: vec3f, transmit: vec3f) {
+
+}
+
+fn record__record_pushed(index: u32) {
+
+}
+
+fn record__record_popped(index: u32) {
+
+}
+
+fn record__record_met(hit: tracing__Hit, rest: f32) {
+
+}
+
 fn leaving__leaving_ray(surface: shading__Surface, direction: vec3f, t_max: f32) -> tracing__Ray {
 	if (bindings__FIXED_OFFSET > 0.0) {
 		let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
@@ -4930,7 +4937,15 @@ fn emitters__emitted(surface: shading__Surface, optics: shading__Optics, glow: v
 	return select(vec3f(0.0), glow * vertex_color__emission_of(surface), shines);
 }
 
-const ray_entries__RAY_STACK_SIZE: u32 = 9u;
+const ray_entry__RAY_STACK_SIZE: u32 = 9u;
+
+struct ray_entry__RayEntry {
+	r0: vec4u,
+	r1: vec4u,
+	r2: vec4u,
+	media: vec4u,
+	cone: tracing__Cone
+}
 
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
 	let x = clamp_f32((cos_angle - cos_outer) / max_f32(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
@@ -5019,6 +5034,83 @@ fn phong__phong(coefficients: shading__Phong, n: vec3f, l: vec3f, v: vec3f) -> v
 	return select(vec3f(0.0), lit, cos_l > 0.0);
 }
 
+fn shadow__lights_through(rays: rays__Rays, media: ray_states__Media) -> wide__Vectors {
+	var through: wide__Vectors;
+	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
+		through = shadow__filtered(rays, media);
+	}
+	else {
+		let passed = select(vec4f(0.0), vec4f(1.0), rays__any_hits(rays).primitive == vec4u(types__NONE));
+		through = wide__Vectors(passed, passed, passed);
+	}
+	if (bindings__COUNT_RAYS) {
+		shadow__count_shadows(rays, through);
+	}
+	return through;
+}
+
+fn shadow__count_shadows(rays: rays__Rays, through: wide__Vectors) {
+	var k = 0u;
+	loop {
+		if (rays.t_max[k] >= 0.0) {
+			shadow__count_shadow(wide__vector_at(through, k));
+		}
+		continuing {
+			k += 1u;
+			break if k >= rays__RAYS_PER_LANE;
+		}
+	}
+	loops__cut_off |= k < rays__RAYS_PER_LANE;
+}
+
+fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__Vectors {
+	var rays = shadow_rays;
+	var media = start;
+	var transmitted = wide__Vectors(vec4f(1.0), vec4f(1.0), vec4f(1.0));
+	var crossings = 0u;
+	var is_unfinished = true;
+	loop {
+		let hits = rays__closest_hits(rays);
+		is_unfinished = false;
+		var rows = rays__rows_where(rays.t_max >= vec4f(0.0));
+		loop {
+			let k = rays__first_row(rows);
+			let ray = rays__ray_at(rays, k);
+			if (ray.t_max >= 0.0) {
+				trees__enter_tree(k);
+				let hit = rays__hit_at(hits, k);
+				var passage = shadow__Passage(ray, ray_states__media_at(media, k), wide__vector_at(transmitted, k), crossings);
+				if (shadow__may_pass(hit)) {
+					let contact = contact__contact_at(ray, hit, shadow__NO_WIDTH);
+					passage = shadow__crossed(passage, hit, contact, coverage__coverage_at(contact.surface));
+				}
+				else {
+					passage = shadow__arrived(passage, hit);
+				}
+				if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+					media = ray_states__media_set(media, k, passage.media);
+				}
+				transmitted = wide__vector_set(transmitted, k, passage.through);
+				rays = rays__ray_set(rays, k, passage.ray);
+				is_unfinished |= passage.ray.t_max >= 0.0;
+				trees__leave_tree(k);
+			}
+			continuing {
+				rows = rays__later_rows(rows);
+				break if rows == 0u;
+			}
+		}
+		loops__cut_off |= rows != 0u;
+		crossings += 1u;
+		continuing {
+		
+			break if !lanes__any_lane_of_packet(is_unfinished);
+		}
+	}
+	loops__cut_off |= is_unfinished;
+	return transmitted;
+}
+
 const shadow__MAX_CROSSINGS: u32 = 64u;
 
 const shadow__NO_WIDTH: tracing__Cone = tracing__Cone(0.0, 0.0);
@@ -5036,8 +5128,9 @@ fn shadow__may_pass(hit: tracing__Hit) -> bool {
 
 fn shadow__arrived(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passage {
 	var passage = before;
-	passage.ray = rays__DEAD;
+	passage.ray = ray_states__DEAD;
 	if (hit.primitive != types__NONE) {
+		record__record_met(hit, before.ray.t_max);
 		passage.through = vec3f(0.0);
 	}
 	else if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
@@ -5048,7 +5141,8 @@ fn shadow__arrived(before: shadow__Passage, hit: tracing__Hit) -> shadow__Passag
 
 fn shadow__crossed(before: shadow__Passage, hit: tracing__Hit, contact: contact__Contact, coverage: f32) -> shadow__Passage {
 	var passage = before;
-	passage.ray = rays__DEAD;
+	passage.ray = ray_states__DEAD;
+	record__record_met(contact.hit, before.ray.t_max);
 	let surface = contact.surface;
 	var through = vec3f(0.0);
 	if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
@@ -5076,38 +5170,8 @@ fn shadow__rest_of(ray: tracing__Ray, distance: f32, surface: shading__Surface) 
 	let way = ray.direction - shift / rest;
 	let is_ahead = dot(way, ray.direction) > 0.0;
 	next.direction = numeric__normalize_or(way, ray.direction);
-	next.t_max = select(rays__DEAD.t_max, rest * length(way), is_ahead);
+	next.t_max = select(ray_states__DEAD.t_max, rest * length(way), is_ahead);
 	return next;
-}
-
-fn shadow__light_through(rays: rays__Rays, media: ray_states__Media) -> wide__Vectors {
-	var through: wide__Vectors;
-	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
-		through = shadow__filtered(rays, media);
-	}
-	else {
-		let hits = rays__any_hits(rays);
-		let passed = select(wide__Floats(0.0), wide__Floats(1.0), hits.primitive == wide__Words(types__NONE));
-		through = wide__Vectors(passed, passed, passed);
-	}
-	if (bindings__COUNT_RAYS) {
-		shadow__count_shadows(rays, through);
-	}
-	return through;
-}
-
-fn shadow__count_shadows(rays: rays__Rays, through: wide__Vectors) {
-	var k = 0u;
-	loop {
-		if (wide__float_at(rays.t_max, k) >= 0.0) {
-			shadow__count_shadow(wide__vector_at(through, k));
-		}
-		continuing {
-			k += 1u;
-			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-		}
-	}
-	loops__cut_off |= k < wide__RAYS_PER_LANE;
 }
 
 fn shadow__count_shadow(through: vec3f) {
@@ -5115,53 +5179,6 @@ fn shadow__count_shadow(through: vec3f) {
 		dispatch__counts.shadow += 1u;
 		dispatch__counts.shadow_blocked += select(0u, 1u, all(through == vec3f(0.0)));
 	}
-}
-
-fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__Vectors {
-	var rays = shadow_rays;
-	var media = start;
-	var transmitted = wide__Vectors(wide__Floats(1.0), wide__Floats(1.0), wide__Floats(1.0));
-	var crossings = 0u;
-	var is_unfinished = true;
-	loop {
-		let hits = rays__closest_hits(rays);
-		is_unfinished = false;
-		var rows = rays__rows_where(rays.t_max >= wide__Floats(0.0));
-		loop {
-			let k = rays__first_row(rows);
-			let ray = rays__ray_at(rays, k);
-			if (ray.t_max >= 0.0) {
-				ray_stack__current_tree = k;
-				let hit = rays__hit_at(hits, k);
-				var passage = shadow__Passage(ray, ray_states__media_at(media, k), wide__vector_at(transmitted, k), crossings);
-				if (shadow__may_pass(hit)) {
-					let contact = contact__contact_at(ray, hit, shadow__NO_WIDTH);
-					passage = shadow__crossed(passage, hit, contact, coverage__coverage_at(contact.surface));
-				}
-				else {
-					passage = shadow__arrived(passage, hit);
-				}
-				if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-					media = ray_states__media_set(media, k, passage.media);
-				}
-				transmitted = wide__vector_set(transmitted, k, passage.through);
-				rays = rays__ray_set(rays, k, passage.ray);
-				is_unfinished |= passage.ray.t_max >= 0.0;
-			}
-			continuing {
-				rows = rays__later_rows(rows);
-				break if wide__ONE_RAY | (rows == 0u);
-			}
-		}
-		loops__cut_off |= rows != 0u;
-		crossings += 1u;
-		continuing {
-		
-			break if !rays__any_lane(is_unfinished);
-		}
-	}
-	loops__cut_off |= is_unfinished;
-	return transmitted;
 }
 
 fn shadow__passing(ray: tracing__Ray, distance: f32, surface: shading__Surface, around: vec4u, behind: u32) -> vec3f {

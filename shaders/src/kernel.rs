@@ -16,8 +16,7 @@ pub enum AdapterKind {
 /// A compute kernel: linked WGSL from `shaders/linked`, and its entry point.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel {
-    /// The name of the kernel, its entry point and its file in `shaders/kernels/`; `explain` is `whitted` with
-    /// recording.
+    /// The name of the kernel, its entry point and its file in `shaders/kernels/`; packets have files of their own there.
     pub name: &'static str,
     variants: &'static [Variant],
 }

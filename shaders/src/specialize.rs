@@ -60,7 +60,41 @@ pub(crate) fn simplify(module: &mut Module) {
             &module.global_expressions,
         );
     }
+    remove_idle_calls(module);
     compact(module, KeepUnused::No);
+}
+
+/// Removes calls of functions that do nothing, such as those that record rays in kernels without records.
+fn remove_idle_calls(module: &mut Module) {
+    let is_idle = |function: &naga::Function| {
+        let ends = |statement: &Statement| matches!(statement, Statement::Return { value: None });
+        function.result.is_none() && function.body.iter().all(ends)
+    };
+    let idle = (module.functions.iter()).filter(|(_, function)| is_idle(function));
+    let idle: HashSet<_> = idle.map(|(handle, _)| handle).collect();
+    let functions = module.functions.iter_mut().map(|(_, function)| function);
+    let entries = module
+        .entry_points
+        .iter_mut()
+        .map(|entry| &mut entry.function);
+    for function in functions.chain(entries) {
+        without_calls(&mut function.body, &idle);
+    }
+}
+
+/// Removes the calls of these functions from a block and its nested blocks.
+fn without_calls(block: &mut Block, functions: &HashSet<Handle<naga::Function>>) {
+    let mut kept = Block::with_capacity(block.len());
+    for (mut statement, span) in std::mem::take(block).span_into_iter() {
+        if matches!(&statement, Statement::Call { function, .. } if functions.contains(function)) {
+            continue;
+        }
+        for inner in inner_blocks_mut(&mut statement) {
+            without_calls(inner, functions);
+        }
+        kept.push(statement, span);
+    }
+    *block = kept;
 }
 
 /// The source with each `override NAME: TYPE = DEFAULT;` replaced by a `const`. The front end folds constant
@@ -175,13 +209,16 @@ impl Fold<'_> {
                     continuing,
                     break_if,
                 } => {
-                    let body = self.block(std::mem::take(body));
+                    let mut body = self.block(std::mem::take(body));
                     let continuing = self.block(std::mem::take(continuing));
                     let break_if = *break_if;
                     let ends = break_if.and_then(|condition| self.constant(condition));
                     if ends == Some(true) && !jumps(&body) {
                         folded.extend_block(body);
                         folded.extend_block(continuing);
+                    } else if let Some(once) = before_last_break(&body) {
+                        body.cull(once..);
+                        folded.extend_block(body);
                     } else {
                         folded.push(with_continuing_in_body(body, continuing, break_if), span);
                     }
@@ -285,6 +322,19 @@ pub fn inner_blocks(statement: &Statement) -> Vec<&Block> {
     }
 }
 
+/// As [`inner_blocks`], to be changed.
+fn inner_blocks_mut(statement: &mut Statement) -> Vec<&mut Block> {
+    match statement {
+        Statement::Block(inner) => vec![inner],
+        Statement::If { accept, reject, .. } => vec![accept, reject],
+        Statement::Switch { cases, .. } => cases.iter_mut().map(|case| &mut case.body).collect(),
+        Statement::Loop {
+            body, continuing, ..
+        } => vec![body, continuing],
+        _ => Vec::new(),
+    }
+}
+
 /// A loop whose body holds its `continuing` block and its `break if`, unless it has a `continue`. Mesa runs a
 /// `continuing` block before the body of the next iteration, behind a flag; lavapipe, which skips no branch, then
 /// executes the whole body once more with all lanes masked before the loop ends.
@@ -331,6 +381,15 @@ fn jumps(block: &Block) -> bool {
     any_of_loop(block, &|statement| {
         matches!(statement, Break | Continue | Switch { .. })
     })
+}
+
+/// The number of statements of the body of a loop before a `break` that ends it, if the loop is left by no other.
+fn before_last_break(body: &Block) -> Option<usize> {
+    let (last, others) = body.split_last()?;
+    let jumps = others
+        .iter()
+        .any(|statement| jumps(&Block::from_vec(vec![statement.clone()])));
+    (matches!(last, Statement::Break) && !jumps).then_some(others.len())
 }
 
 /// Whether any statement of a block of a loop is such, without those of inner loops.

@@ -11,56 +11,86 @@ use naga::{
     valid::{Capabilities, FunctionInfo, ModuleInfo, ValidationFlags, Validator},
 };
 use std::{
+    borrow::Cow,
     collections::{BTreeMap, BTreeSet},
     error::Error,
+    iter,
     panic::resume_unwind,
     path::Path,
     thread,
 };
+use wesl::{FileResolver, Mangler, ModulePath, ResolveError, Resolver, Wesl};
 
-/// Variants of kernels, and the features of `shaders` that they have.
-const VARIANTS: [(&str, &[&str]); 3] = [
-    ("image", &["image_fetch"]),
-    ("buffer", &[]),
-    ("packet", &["image_fetch", "packet"]),
+/// Variants of kernels, the ends of the names of their modules, and their modes: where the scene is, and whether four rays
+/// of a lane are traced together.
+const VARIANTS: [(&str, &str, &[&str]); 3] = [
+    ("image", "", &["image"]),
+    ("buffer", "", &["buffer"]),
+    ("packet", "_packet", &["packet", "image"]),
 ];
 
-/// Names of kernels, the modules in `shaders/kernels` they are made of, the features that all their variants
-/// have, and their variants.
-const KERNELS: [(&str, &str, &[&str], &[&str]); 12] = [
-    ("lecture", "lecture", &[], &["image", "buffer"]),
-    ("whitted", "whitted", &[], &["image", "buffer", "packet"]),
-    ("path_trace", "path_trace", &[], &["image", "buffer"]),
-    ("debug_view", "debug_view", &[], &["image", "buffer"]),
-    ("develop", "develop", &[], &["buffer"]),
-    ("show", "show", &[], &["buffer"]),
-    ("film_features", "film_features", &[], &["buffer"]),
-    ("demodulate", "demodulate", &[], &["buffer"]),
-    ("denoise", "denoise", &[], &["image", "buffer"]),
-    ("explain", "whitted", &["record"], &["image", "buffer"]),
-    (
-        "explain_path",
-        "explain_path",
-        &["record"],
-        &["image", "buffer"],
-    ),
-    (
-        "trace_rays",
-        "trace_rays",
-        &[],
-        &["image", "buffer", "packet"],
-    ),
+/// Names of kernels, which are those of modules in `shaders/kernels`, whether they record rays, and their variants.
+const KERNELS: [(&str, &str, &[&str]); 12] = [
+    ("lecture", "silent", &["image", "buffer"]),
+    ("whitted", "silent", &["image", "buffer", "packet"]),
+    ("path_trace", "silent", &["image", "buffer"]),
+    ("debug_view", "silent", &["image", "buffer"]),
+    ("develop", "silent", &["buffer"]),
+    ("show", "silent", &["buffer"]),
+    ("film_features", "silent", &["buffer"]),
+    ("demodulate", "silent", &["buffer"]),
+    ("denoise", "silent", &["image", "buffer"]),
+    ("explain", "recording", &["image", "buffer"]),
+    ("explain_path", "recording", &["image", "buffer"]),
+    ("trace_rays", "silent", &["image", "buffer", "packet"]),
 ];
 
-/// Every feature of `shaders`.
-pub const FEATURES: [&str; 3] = ["image_fetch", "packet", "record"];
+/// Finds modules in files. A module that differs between modes is in a folder for each: `scene::stack` is
+/// `scene/image/stack.wesl` or `scene/buffer/stack.wesl`.
+pub struct Modules {
+    files: FileResolver,
+    modes: Vec<&'static str>,
+}
+
+impl Modules {
+    /// The modules in a folder, for these modes; the first that has a module counts.
+    pub fn new(folder: &Path, modes: &[&'static str]) -> Self {
+        Self {
+            files: FileResolver::new(folder),
+            modes: modes.to_vec(),
+        }
+    }
+
+    /// The module as the file system has it.
+    fn place(&self, path: &ModulePath) -> ModulePath {
+        let is_file = |path: &ModulePath| self.files.fs_path(path).is_some();
+        let in_modes = self.modes.iter().map(|mode| {
+            let mut path = path.clone();
+            let last = path.components.len().saturating_sub(1);
+            path.components.insert(last, (*mode).to_owned());
+            path
+        });
+        let mut places = iter::once(path.clone()).chain(in_modes);
+        places.find(is_file).unwrap_or_else(|| path.clone())
+    }
+}
+
+impl Resolver for Modules {
+    fn resolve_source<'a>(&'a self, path: &ModulePath) -> Result<Cow<'a, str>, ResolveError> {
+        self.files.resolve_source(&self.place(path))
+    }
+
+    fn display_name(&self, path: &ModulePath) -> Option<String> {
+        self.files.display_name(&self.place(path))
+    }
+}
 
 /// Names items of modules as `module__item`, where wesl would repeat the whole path: the program embeds the text.
 /// Modules that share a name have no item of the same name; naga would reject the second.
 struct ShortNames;
 
-impl wesl::Mangler for ShortNames {
-    fn mangle(&self, path: &wesl::ModulePath, item: &str) -> String {
+impl Mangler for ShortNames {
+    fn mangle(&self, path: &ModulePath, item: &str) -> String {
         format!("{}__{item}", path.last().unwrap_or_default())
     }
 }
@@ -82,13 +112,17 @@ pub fn kernels(folder: &Path) -> Result<Vec<(String, String)>, Box<dyn Error>> {
     // wesl takes seconds for each, on one thread.
     thread::scope(|scope| {
         let mut threads = Vec::new();
-        for (kernel, module, own, variants) in KERNELS {
-            for (variant, features) in VARIANTS {
+        for (kernel, recorder, variants) in KERNELS {
+            for (variant, end, modes) in VARIANTS {
                 if variants.contains(&variant) {
                     let name = format!("{kernel}_{variant}.wgsl");
                     let text = scope.spawn(move || {
-                        linked(folder, module, &[own, features].concat())
-                            .map_err(|error| error.to_string())
+                        linked(
+                            folder,
+                            &format!("{kernel}{end}"),
+                            &[modes, &[recorder]].concat(),
+                        )
+                        .map_err(|error| error.to_string())
                     });
                     threads.push((name, text));
                 }
@@ -102,13 +136,10 @@ pub fn kernels(folder: &Path) -> Result<Vec<(String, String)>, Box<dyn Error>> {
     })
 }
 
-/// A module of `shaders/kernels` with these features and all that it imports.
-fn linked(folder: &Path, module: &str, features: &[&str]) -> Result<String, Box<dyn Error>> {
-    let mut compiler = wesl::Wesl::new(folder);
+/// A module of `shaders/kernels` and all that it imports, in these modes.
+fn linked(folder: &Path, module: &str, modes: &[&'static str]) -> Result<String, Box<dyn Error>> {
+    let mut compiler = Wesl::new(folder).set_custom_resolver(Modules::new(folder, modes));
     compiler.set_custom_mangler(ShortNames);
-    for feature in FEATURES {
-        compiler.set_feature(feature, features.contains(&feature));
-    }
     let linked = compiler.compile(&format!("package::kernels::{module}").parse()?)?;
     with_extremes(indented_by_tabs(&linked.to_string()))
 }

@@ -1,4 +1,4 @@
-//! Records all rays of a pixel: `kernels/whitted.wesl` or `kernels/explain_path.wesl` with the feature `record`.
+//! Records all rays of a pixel: `kernels/explain.wesl` or `kernels/explain_path.wesl`.
 //!
 //! The code that rendered the picture, compiled a second time with recording enabled, runs once more for each
 //! sample with the same random numbers. It writes to its own buffer, so the film, which may still be

@@ -331,7 +331,7 @@ fn stack_registers(scene: &PackedScene, view: &PackedView, stack: Stack) -> u32 
     }
 }
 
-/// Whether the smaller array of `scene/stack.wesl` is enough. Trees over instances differ between frames, as above.
+/// Whether the smaller array of `scene/buffer/stack.wesl` is enough. Trees over instances differ between frames, as above.
 fn has_short_stack(scene: &PackedScene, view: &PackedView) -> bool {
     !scene.features.instances && scene.stack_entries(view) <= SHORT_STACK_SIZE as usize
 }

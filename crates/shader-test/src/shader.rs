@@ -5,15 +5,25 @@ use crate::{
     linked::{Linked, TEXT, of_wesl},
 };
 use bytemuck::NoUninit;
-use std::path::{Path, PathBuf};
-use wesl::{FileResolver, ModulePath, Router, VirtualResolver, Wesl};
+use std::{fmt, path::Path, sync::Arc};
+use wesl::{FileResolver, ModulePath, Resolver, Router, VirtualResolver, Wesl};
 use wgpu::naga;
+
+/// Makes a resolver of modules each time that a function is linked.
+#[derive(Clone)]
+struct Modules(Arc<dyn Fn() -> Box<dyn Resolver> + Send + Sync>);
+
+impl fmt::Debug for Modules {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        formatter.write_str("Modules")
+    }
+}
 
 /// A text in WGSL or WESL, a folder of modules in WESL, or both.
 #[derive(Clone, Debug, Default)]
 pub struct Shader {
     text: String,
-    folder: Option<PathBuf>,
+    modules: Option<Modules>,
     features: Vec<String>,
     overrides: Vec<(String, f64)>,
     buffers: Vec<(String, Vec<u8>)>,
@@ -28,8 +38,15 @@ impl Shader {
     /// The WESL package in a folder: `package::shapes::area` is the function `area` in its file `shapes.wesl` or
     /// `shapes.wgsl`, and [`Gpu::map`](crate::Gpu::map) calls it `shapes::area`.
     pub fn package(folder: impl AsRef<Path>) -> Self {
+        let folder = folder.as_ref().to_owned();
+        Self::resolved_by(move || FileResolver::new(&folder))
+    }
+
+    /// A WESL package whose modules are not simply files of one folder. `make` is called once for each function that is
+    /// linked.
+    pub fn resolved_by<R: Resolver + 'static>(make: impl Fn() -> R + Send + Sync + 'static) -> Self {
         Self {
-            folder: Some(folder.as_ref().to_owned()),
+            modules: Some(Modules(Arc::new(move || Box::new(make())))),
             ..Self::default()
         }
     }
@@ -76,8 +93,8 @@ impl Shader {
         let mut text = VirtualResolver::new();
         text.add_module(parse("package")?, self.text.clone().into());
         router.mount_resolver(parse(&format!("package::{TEXT}"))?, text);
-        if let Some(folder) = &self.folder {
-            router.mount_fallback_resolver(FileResolver::new(folder));
+        if let Some(Modules(make)) = &self.modules {
+            router.mount_fallback_resolver(make());
         }
         let mut compiler = Wesl::new(".").set_custom_resolver(router);
         compiler.keep_declarations(vec![name.to_owned()]);

@@ -2,8 +2,9 @@
 
 use super::verdict::{Expected, Tolerance, Verdict};
 use glimray::gpu::{bound_loops, inline_functions, runtime_checks};
+use glimray_link::Modules;
 use glimray_shader_test::{Gpu, Row, Shader};
-use std::{borrow::Cow, sync::OnceLock};
+use std::{borrow::Cow, path::Path, sync::OnceLock};
 
 /// The device that all tests share.
 pub struct Harness(Gpu);
@@ -39,9 +40,14 @@ fn make_module(
     unsafe { device.create_shader_module_trusted(descriptor, runtime_checks()) }
 }
 
+/// The modules of `shaders/` for a scene in buffers, without records.
+fn shaders() -> Shader {
+    Shader::resolved_by(|| Modules::new(Path::new("shaders"), &["buffer", "silent"]))
+}
+
 /// A piece of WESL that imports from `shaders/`.
 pub fn probe(source: &str) -> Shader {
-    Shader::package("shaders").text(source)
+    shaders().text(source)
 }
 
 impl Harness {
@@ -55,7 +61,7 @@ impl Harness {
 
     /// Evaluates a function such as `lib::phong::phong` for each row of arguments.
     pub fn map<I: Row, O: Row>(&self, function: &str, inputs: &[I]) -> Vec<O> {
-        self.run(&Shader::package("shaders"), function, inputs)
+        self.run(&shaders(), function, inputs)
     }
 
     /// Evaluates the function `probe` of a piece of WESL for each row of arguments.
