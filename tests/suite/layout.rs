@@ -120,6 +120,67 @@ fn structs_have_the_same_members_at_the_same_offsets() {
     verdict.close();
 }
 
+/// The line of `types.wesl` after which the structs are generated.
+const GENERATED: &str =
+    "// Written by `UPDATE=1 cargo test --profile ci --test suite layout` from layout.rs.\n";
+
+/// The structs of `packed!` with their docs, in WGSL.
+fn generated(layout: &str) -> String {
+    let (_, structs) = (layout.split_once("\npacked! {\n")).expect("layout.rs has structs");
+    let (structs, _) = structs.split_once("\n}").expect("the macro ends");
+    let mut text = String::new();
+    let mut is_shared = false;
+    for line in structs.lines() {
+        let Some(line) = line.strip_prefix("    ") else {
+            continue;
+        };
+        let item = line.trim_start();
+        let indent = &line[..line.len() - item.len()];
+        if let Some(doc) = item.strip_prefix("///") {
+            let doc = doc.replace("[`", "`").replace("`]", "`");
+            text += &format!("{indent}//{doc}\n");
+        } else if let Some(name) = item.strip_suffix(" {") {
+            is_shared = name == "PackedCounters";
+            text += &format!("struct {name} {{\n");
+        } else if let Some((name, ty)) = item.trim_end_matches(',').split_once(": ") {
+            text += &format!("{indent}{name}: {},\n", in_wgsl(ty, is_shared));
+        } else if item == "}" {
+            text += "}\n\n";
+        }
+    }
+    text.trim_end().to_owned() + "\n"
+}
+
+/// A type in WGSL; all invocations add to words that are shared.
+fn in_wgsl(ty: &str, is_shared: bool) -> String {
+    let array = ty.strip_prefix('[').and_then(|ty| ty.strip_suffix(']'));
+    match array.and_then(|array| array.rsplit_once("; ")) {
+        Some((element @ ("f32" | "u32"), count)) if !is_shared => {
+            format!("vec{count}{}", &element[..1])
+        }
+        Some((element, count)) => format!("array<{}, {count}>", in_wgsl(element, is_shared)),
+        None if is_shared => format!("atomic<{ty}>"),
+        None => ty.to_owned(),
+    }
+}
+
+#[test]
+fn structs_of_shaders_are_those_of_the_host() {
+    const PATH: &str = "shaders/types.wesl";
+    let text = fs::read_to_string(PATH).expect("a file");
+    let (own, _) = text.split_once(GENERATED).expect("the line is there");
+    let layout = fs::read_to_string("crates/render/src/layout.rs").expect("a file");
+    let expected = format!("{own}{GENERATED}\n{}", generated(&layout));
+    if std::env::var_os("UPDATE").is_some() {
+        fs::write(PATH, &expected).expect("a file that can be written");
+        return;
+    }
+    assert!(
+        text == expected,
+        "shaders/types.wesl differs from layout.rs: {GENERATED}"
+    );
+}
+
 macro_rules! constants {
     ($($name:ident)*) => { &[$((stringify!($name), layout::$name)),*] };
 }

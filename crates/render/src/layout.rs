@@ -1,5 +1,5 @@
 //! The structs and tags shared with shaders, as the GPU sees them: the same names, members and values as
-//! in `shaders/types.wesl`. A test compares the two through naga.
+//! in `shaders/types.wesl`. A test writes the structs there, and compares all through naga.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -100,7 +100,7 @@ packed! {
         #[doc(hidden)]
         _pad1: u32,
     }
-    /// An instance of a BLAS, placed in render space by `linear` and `translation`.
+    /// An instance of a BLAS, placed in render space: p = linear q + translation, q = inverse (p − translation).
     PackedInstance {
         /// Position of its origin.
         translation: [f32; 3],
@@ -139,7 +139,8 @@ packed! {
         /// Affine row for z, from object space to the space of solid textures.
         pattern_z: [f32; 4],
     }
-    /// The transform of a moving instance at one time: stretch, then rotation, then translation.
+    /// The transform of a moving instance at one time: stretch, then rotation, then translation (Shoemake and Duff, Matrix
+    /// Animation and Polar Decomposition, 1992).
     PackedKey {
         /// Translation into render space.
         translation: [f32; 3],
@@ -341,7 +342,7 @@ packed! {
         /// The way to its group in the light tree: bit k says whether it is under the second child at depth k.
         trail: u32,
     }
-    /// A camera; `right` and `up` reach from the centre of the image plane to its edges.
+    /// A camera. Its image plane is at distance 1, with the centre `origin` + `forward`.
     PackedCamera {
         /// The pinhole or the centre of the lens, in render space.
         origin: [f32; 3],
@@ -570,7 +571,8 @@ packed! {
         /// Result: whether the ray tree exceeded its limits.
         cut_off: u32,
     }
-    /// A ray that was traced, in render space; see `shaders/types.wesl`.
+    /// A ray that was traced, in render space. Shadow ray in Phong's model: `emission` is L, `reflect` k_d, `value` k_s,
+    /// `pdf` the shininess α, `own_pdf` l·n, `other_pdf` r·v, and `chance` max(r·v, 0)^α.
     PackedRay {
         /// Origin of the ray.
         origin: [f32; 3],
