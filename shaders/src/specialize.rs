@@ -370,13 +370,13 @@ fn with_continuing_in_body(
 }
 
 /// Whether a block of a loop has a `continue` of that loop.
-fn continues(block: &Block) -> bool {
+fn continues(block: &[Statement]) -> bool {
     any_of_loop(block, &|statement| matches!(statement, Statement::Continue))
 }
 
 /// Whether a block of a loop leaves it, or its iteration, by a statement. `break` in a switch ends the switch, but
 /// `continue` belongs to the loop.
-fn jumps(block: &Block) -> bool {
+fn jumps(block: &[Statement]) -> bool {
     use Statement::{Break, Continue, Switch};
     any_of_loop(block, &|statement| {
         matches!(statement, Break | Continue | Switch { .. })
@@ -386,14 +386,11 @@ fn jumps(block: &Block) -> bool {
 /// The number of statements of the body of a loop before a `break` that ends it, if the loop is left by no other.
 fn before_last_break(body: &Block) -> Option<usize> {
     let (last, others) = body.split_last()?;
-    let jumps = others
-        .iter()
-        .any(|statement| jumps(&Block::from_vec(vec![statement.clone()])));
-    (matches!(last, Statement::Break) && !jumps).then_some(others.len())
+    (matches!(last, Statement::Break) && !jumps(others)).then_some(others.len())
 }
 
 /// Whether any statement of a block of a loop is such, without those of inner loops.
-fn any_of_loop(block: &Block, is_such: &impl Fn(&Statement) -> bool) -> bool {
+fn any_of_loop(block: &[Statement], is_such: &impl Fn(&Statement) -> bool) -> bool {
     let is_inner = |block: &Block| any_of_loop(block, is_such);
     block.iter().any(|statement| {
         let is_loop = matches!(statement, Statement::Loop { .. });
