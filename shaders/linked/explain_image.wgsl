@@ -51,23 +51,9 @@ var<storage, read_write> bindings__dispatch: types__PackedDispatch;
 @group(2) @binding(0)
 var<storage, read_write> bindings__records: array<vec4u>;
 
-override bindings__TRIANGLE_TEST: u32 = types__TRIANGLE_TEST_WATERTIGHT;
-
-override bindings__HAS_TRIANGLES: bool = true;
-
-override bindings__TRIANGLES_APART: u32 = 0u;
-
-override bindings__SHAPES_APART: bool = false;
-
-override bindings__HAS_SHAPES: bool = true;
-
-override bindings__HAS_PLANES: bool = true;
-
-override bindings__MIXED_MATERIALS: bool = true;
+override bindings__MIXED_MATERIALS: bool = false;
 
 override bindings__BRUTE_FORCE: bool = false;
-
-override bindings__STACK_REGISTERS: u32 = 0u;
 
 override bindings__FIXED_OFFSET: f32 = 0.0;
 
@@ -75,99 +61,113 @@ override bindings__STRATIFIED: bool = false;
 
 override bindings__COUNT_RAYS: bool = false;
 
-override bindings__COUNT_STEPS: bool = false;
+override bindings__HAS_REFLECTION: bool = false;
 
-override bindings__HAS_LIGHTS: bool = true;
+override bindings__HAS_REFRACTION: bool = false;
 
-override bindings__SHAPE_KINDS: u32 = 4294967295u;
-
-override bindings__HAS_REFLECTION: bool = true;
-
-override bindings__HAS_REFRACTION: bool = true;
-
-override bindings__HAS_CONTACT: bool = true;
-
-override bindings__HAS_PRIORITIES: bool = true;
+override bindings__HAS_PRIORITIES: bool = false;
 
 override bindings__FILTERED_SHADOWS: bool = false;
 
 override bindings__SOLID_GLASS: bool = false;
 
-override bindings__HAS_AREA_LIGHTS: bool = true;
+override bindings__HAS_LENS: bool = false;
 
-override bindings__LIGHT_KIND: u32 = types__MIXED_LIGHTS;
+override bindings__HAS_CLIP: bool = false;
 
-override bindings__LIGHT_ATTENUATION: u32 = types__MIXED_LIGHTS;
+override bindings__FILTER: u32 = 0u;
 
-override bindings__HAS_LENS: bool = true;
+override bindings__FILTER_RADIUS: f32 = 0.0;
 
-override bindings__HAS_CLIP: bool = true;
+override bindings__HAS_TEXTURES: bool = false;
 
-override bindings__FILTER: u32 = types__FILTER_BOX;
+override bindings__HAS_NOISE: bool = false;
 
-override bindings__FILTER_RADIUS: f32 = 0.5;
+override bindings__HAS_PICTURES: bool = false;
 
-override bindings__BACKGROUND: u32 = types__BACKGROUND_COLOR;
+override bindings__HAS_OPTICS_TEXTURES: bool = false;
 
-override bindings__HAS_TEXTURES: bool = true;
+override bindings__HAS_FOOTPRINTS: bool = false;
 
-override bindings__HAS_NOISE: bool = true;
+override bindings__HAS_COVERAGE: bool = false;
 
-override bindings__HAS_PICTURES: bool = true;
+override bindings__HAS_TREES: bool = false;
 
-override bindings__HAS_FOOTPRINTS: bool = true;
-
-override bindings__HAS_COVERAGE: bool = true;
-
-override bindings__HAS_TREES: bool = true;
-
-override bindings__HAS_NORMAL_MAPS: bool = true;
+override bindings__HAS_NORMAL_MAPS: bool = false;
 
 override bindings__HAS_COAT_NORMALS: bool = false;
 
-override bindings__HAS_OCCLUSION: bool = true;
+override bindings__HAS_OCCLUSION: bool = false;
 
-override bindings__HAS_BYTE_TEXELS: bool = true;
+override bindings__HAS_BYTE_TEXELS: bool = false;
 
-override bindings__HAS_HALF_TEXELS: bool = true;
+override bindings__HAS_HALF_TEXELS: bool = false;
 
-override bindings__HAS_OPTICS_TEXTURES: bool = true;
-
-override bindings__HAS_EMISSION: bool = true;
+override bindings__HAS_EMISSION: bool = false;
 
 override bindings__HAS_LAYERS: bool = false;
 
 override bindings__CLAMP_INDIRECT: f32 = 0.0;
 
-override bindings__HAS_GLOSS: bool = true;
+override bindings__HAS_GLOSS: bool = false;
 
-override bindings__HAS_METALLIC_ROUGHNESS: bool = true;
+override bindings__HAS_METALLIC_ROUGHNESS: bool = false;
 
 override bindings__HAS_COATINGS: bool = false;
 
-override bindings__HAS_INSTANCES: bool = true;
+override bindings__CAMERA_MOTION: bool = false;
 
-override bindings__HAS_MOTION: bool = true;
-
-override bindings__CAMERA_MOTION: bool = true;
-
-override bindings__LIGHT_MOTION: bool = true;
-
-override bindings__HAS_DEFORMATION: bool = true;
+override bindings__LIGHT_MOTION: bool = false;
 
 override bindings__ORTHOGRAPHIC: bool = false;
 
-override bindings__HAS_UVS: bool = true;
+override bindings__HAS_UVS: bool = false;
 
-override bindings__HAS_SECOND_UVS: bool = true;
+override bindings__HAS_SECOND_UVS: bool = false;
 
-override bindings__HAS_TANGENTS: bool = true;
+override bindings__HAS_COLORS: bool = false;
 
-override bindings__HAS_COLORS: bool = true;
+override bindings__HAS_TANGENTS: bool = false;
 
 override bindings__HAS_ANISOTROPY: bool = false;
 
 override bindings__HAS_FEATURES: bool = false;
+
+override bindings__TRIANGLE_TEST: u32 = 0u;
+
+override bindings__HAS_TRIANGLES: bool = false;
+
+override bindings__TRIANGLES_APART: u32 = 0u;
+
+override bindings__SHAPES_APART: bool = false;
+
+override bindings__HAS_SHAPES: bool = false;
+
+override bindings__HAS_PLANES: bool = false;
+
+override bindings__SHAPE_KINDS: u32 = 0u;
+
+override bindings__HAS_INSTANCES: bool = false;
+
+override bindings__STACK_REGISTERS: u32 = 0u;
+
+override bindings__HAS_MOTION: bool = false;
+
+override bindings__HAS_DEFORMATION: bool = false;
+
+override bindings__HAS_CONTACT: bool = false;
+
+override bindings__COUNT_STEPS: bool = false;
+
+override bindings__HAS_LIGHTS: bool = false;
+
+override bindings__HAS_AREA_LIGHTS: bool = false;
+
+override bindings__LIGHT_KIND: u32 = 0u;
+
+override bindings__LIGHT_ATTENUATION: u32 = 0u;
+
+override bindings__BACKGROUND: u32 = 0u;
 
 const types__NONE: u32 = 4294967295u;
 
@@ -348,8 +348,6 @@ const types__PICTURE_HALF: u32 = 2147483648u;
 const types__PICTURE_SRGB: u32 = 1073741824u;
 
 const types__PICTURE_FIRST_MASK: u32 = 1073741823u;
-
-const types__BACKGROUND_COLOR: u32 = 0u;
 
 const types__BACKGROUND_GRADIENT: u32 = 1u;
 

@@ -67,19 +67,19 @@ var<storage, read> bindings__tone: types__PackedTone;
 @group(3) @binding(2)
 var bindings__screen: texture_storage_2d<rgba8unorm, write>;
 
-override bindings__SHOWS_DENOISED: bool = false;
-
-override bindings__VIEW: u32 = types__VIEW_NORMALS;
-
-override bindings__TONE_CURVE: u32 = types__TONE_NONE;
-
-override bindings__TONE_TRANSFER: u32 = types__TRANSFER_SRGB;
-
 override bindings__ADAPTIVE: bool = false;
 
-override bindings__FILM_ROWS: u32 = 1u;
+override bindings__FILM_ROWS: u32 = 0u;
 
-override bindings__SQUARES_ROW: u32 = 1u;
+override bindings__SQUARES_ROW: u32 = 0u;
+
+override bindings__TONE_CURVE: u32 = 0u;
+
+override bindings__TONE_TRANSFER: u32 = 0u;
+
+override bindings__VIEW: u32 = 0u;
+
+override bindings__SHOWS_DENOISED: bool = false;
 
 const tile__GROUP_SIDE: u32 = 8u;
 
@@ -103,8 +103,6 @@ fn tile__morton_8x8(lane: u32) -> vec2u {
 fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
 	return tile__GROUP_SIDE * tile__divided(group, group_columns).yx;
 }
-
-const types__VIEW_NORMALS: u32 = 0u;
 
 const types__VIEW_DEPTH: u32 = 1u;
 

@@ -44,7 +44,9 @@ impl Shader {
 
     /// A WESL package whose modules are not simply files of one folder. `make` is called once for each function that is
     /// linked.
-    pub fn resolved_by<R: Resolver + 'static>(make: impl Fn() -> R + Send + Sync + 'static) -> Self {
+    pub fn resolved_by<R: Resolver + 'static>(
+        make: impl Fn() -> R + Send + Sync + 'static,
+    ) -> Self {
         Self {
             modules: Some(Modules(Arc::new(move || Box::new(make())))),
             ..Self::default()
