@@ -391,9 +391,10 @@ fn only_a_few_files_of_the_library_wait_for_the_device() {
         "crates/render/src/gpu/lanes.rs",
         "src/picture.rs",
     ];
+    const PROGRAM: &[&str] = &["app", "cli", "link", "main", "shader-test", "viewer"];
     let mut verdict = Verdict::on("sources of the library");
     for (path, text) in rust_files() {
-        let is_of_program = ["app", "cli", "link", "main", "viewer"].contains(&&*module_of(&path));
+        let is_of_program = PROGRAM.contains(&&*module_of(&path));
         if is_of_program || FILES.iter().any(|file| path == Path::new(file)) {
             continue;
         }
