@@ -162,11 +162,11 @@ build: compiler shaders
 	$(CARGO) build --release --locked
 
 # Links the kernels again where a shader has changed since. Sums are compared, not times: a fresh
-# checkout has none to go by.
+# checkout has none to go by. `--workspace` shares what tests have built.
 shaders: linker
 	@cd shaders && find * -name '*.wesl' | LC_ALL=C sort | xargs cksum | diff - linked/sources.txt > /dev/null 2>&1 || { \
 		cd .. && echo 'A shader has changed: linking the kernels again.' && \
-		$(CARGO) run $(FLAGS) --quiet --package glimray-link; }
+		$(CARGO) build $(FLAGS) --quiet --workspace --bin glimray-link && $(TARGET)/ci/glimray-link; }
 
 # Rust links with it.
 linker:

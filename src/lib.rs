@@ -82,8 +82,8 @@
 //!
 //! All are on by default. Without any the library is the renderer: it opens no window, needs no C or C++
 //! compiler, knows no command line, and compiles for `wasm32-unknown-unknown`, where [`output`], the
-//! functions of [`import`] that read folders and those that wait for the device are left out. Each of the last is beside one
-//! whose name ends in `_async`; [`gpu::Gpu::open`] and [`render_from`] do not wait either.
+//! functions of [`import`] that read folders, and those that wait for the device are left out. Each function that waits has a
+//! counterpart whose name ends in `_async`; [`gpu::Gpu::open`] is that of `Gpu::new`, and [`render_from`] that of `render_file`.
 //!
 //! | feature | adds |
 //! |---|---|

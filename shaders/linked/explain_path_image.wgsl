@@ -399,6 +399,12 @@ const types__TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
 
 const types__TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
 
+const types__RAY_PRIMARY: u32 = 0u;
+
+const types__RAY_REFLECTION: u32 = 1u;
+
+const types__RAY_REFRACTION: u32 = 2u;
+
 const types__RAY_SHADOW: u32 = 3u;
 
 const types__RAY_OUTSIDE: u32 = 1u;
@@ -994,11 +1000,11 @@ fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
 fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
 	if (bindings__COUNT_RAYS && hit.t >= 0.0) {
 		let hits = select(0u, 1u, hit.primitive != types__NONE);
-		if (kind == ray_states__KIND_PRIMARY) {
+		if (kind == types__RAY_PRIMARY) {
 			dispatch__counts.primary += 1u;
 			dispatch__counts.primary_hits += hits;
 		}
-		else if (kind == ray_states__KIND_REFLECTED) {
+		else if (kind == types__RAY_REFLECTION) {
 			dispatch__counts.reflection += 1u;
 			dispatch__counts.reflection_hits += hits;
 		}
@@ -1282,7 +1288,7 @@ fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, pixel: vec2u, sam
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
 	let eye = ray.origin - dispatch__way_to_near(batch, ray.direction) * ray.direction;
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, ray_states__KIND_PRIMARY, eye, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(ray_states__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, types__RAY_PRIMARY, eye, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(ray_states__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
 }
 
 fn path__is_going(path: path__Path) -> bool {
@@ -1356,7 +1362,7 @@ fn path__passed(batch: dispatch__Batch, path: path__Path, surface: shading__Surf
 		next.ray.t_max = dispatch__way_to_far(batch, next.ray.origin, next.ray.direction);
 	}
 	next.passes += 1u;
-	next.kind = ray_states__KIND_REFRACTED;
+	next.kind = types__RAY_REFRACTION;
 	return next;
 }
 
@@ -1822,12 +1828,6 @@ fn rows__texel_word(place: vec2u, layer: u32) -> u32 {
 fn rows__texel(row: u32) -> vec2u {
 	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
 }
-
-const ray_states__KIND_PRIMARY: u32 = 0u;
-
-const ray_states__KIND_REFLECTED: u32 = 1u;
-
-const ray_states__KIND_REFRACTED: u32 = 2u;
 
 const ray_states__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
 
@@ -3662,7 +3662,7 @@ fn path_vertex__scattered(batch: dispatch__Batch, before: path__Path, surface: s
 	let crosses = dot(next.direction, bsdf.ng) < 0.0;
 	let is_straight = crosses && next.pdf == 0.0 && !(bindings__SOLID_GLASS && bsdf.encloses);
 	record_path__record_straight(crosses && next.pdf == 0.0 && !bsdf.boundary.bends);
-	path.kind = select(ray_states__KIND_REFLECTED, ray_states__KIND_REFRACTED, crosses);
+	path.kind = select(types__RAY_REFLECTION, types__RAY_REFRACTION, crosses);
 	path.media = select(path.media, met.media, vec4<bool>(crosses));
 	path.ray = leaving__leaving_ray(surface, next.direction, camera__T_FAR);
 	path.origin = select(surface.p, path.origin, is_straight);
@@ -4953,7 +4953,7 @@ fn shadow_catcher__caught(batch: dispatch__Batch, before: path__Path, surface: s
 	path.origin = surface.p;
 	path.normal = n;
 	path.pdf = pdf;
-	path.kind = ray_states__KIND_REFLECTED;
+	path.kind = types__RAY_REFLECTION;
 	path.bounces += 1u;
 	return path;
 }

@@ -187,11 +187,11 @@ fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
 fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
 	if (bindings__COUNT_RAYS && hit.t >= 0.0) {
 		let hits = select(0u, 1u, hit.primitive != types__NONE);
-		if (kind == ray_states__KIND_PRIMARY) {
+		if (kind == types__RAY_PRIMARY) {
 			dispatch__counts.primary += 1u;
 			dispatch__counts.primary_hits += hits;
 		}
-		else if (kind == ray_states__KIND_REFLECTED) {
+		else if (kind == types__RAY_REFLECTION) {
 			dispatch__counts.reflection += 1u;
 			dispatch__counts.reflection_hits += hits;
 		}
@@ -453,6 +453,12 @@ const types__TRIANGLE_TEST_PLANE: u32 = 0u;
 const types__TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
 
 const types__TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
+
+const types__RAY_PRIMARY: u32 = 0u;
+
+const types__RAY_REFLECTION: u32 = 1u;
+
+const types__RAY_REFRACTION: u32 = 2u;
 
 struct types__PackedTriangle {
 	v0: vec3f,
@@ -1331,12 +1337,6 @@ fn rng__unit_float(x: u32) -> f32 {
 	return f32(x >> 8u) * 5.9604645e-8;
 }
 
-const ray_states__KIND_PRIMARY: u32 = 0u;
-
-const ray_states__KIND_REFLECTED: u32 = 1u;
-
-const ray_states__KIND_REFRACTED: u32 = 2u;
-
 struct ray_states__RayState {
 	ray: tracing__Ray,
 	throughput: vec3f,
@@ -1506,7 +1506,7 @@ fn ray_stack__camera_state(batch: dispatch__Batch, ray: tracing__Ray) -> ray_sta
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
-	return ray_states__RayState(ray, vec3f(1.0), batch.camera_media, 0u, ray_states__KIND_PRIMARY, 1u, cone);
+	return ray_states__RayState(ray, vec3f(1.0), batch.camera_media, 0u, types__RAY_PRIMARY, 1u, cone);
 }
 
 fn ray_stack__next_ray(batch: dispatch__Batch, reflected: ray_states__RayState, refracted: ray_states__RayState) -> ray_states__RayState {
@@ -4446,17 +4446,17 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 	if (bindings__HAS_REFLECTION && deeper && optics__is_worth_tracing(batch, arriving * reflect)) {
 		let way = fresnel__mirrored(direction, n);
 		let ray = leaving__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
-		reflected_ray = ray_states__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_states__KIND_REFLECTED, 2u * state.node, mirrored_way);
+		reflected_ray = ray_states__RayState(ray, arriving * reflect, state.media, state.depth + 1u, types__RAY_REFLECTION, 2u * state.node, mirrored_way);
 	}
 	let refracts = bindings__HAS_REFRACTION && met.is_transparent && (deeper || !bends);
 	let beyond = select(vec3f(0.0), arriving * transmit, refracts);
 	if (bindings__HAS_REFRACTION && refracts && optics__is_worth_tracing(batch, beyond + passing)) {
 		let ray = leaving__leaving_ray(surface, straight, camera__T_FAR);
-		refracted_ray = ray_states__RayState(ray, beyond + passing, met.media, select(state.depth, state.depth + 1u, bends), ray_states__KIND_REFRACTED, 2u * state.node + 1u, refracted_way);
+		refracted_ray = ray_states__RayState(ray, beyond + passing, met.media, select(state.depth, state.depth + 1u, bends), types__RAY_REFRACTION, 2u * state.node + 1u, refracted_way);
 	}
 	else if (bindings__HAS_COVERAGE && optics__is_worth_tracing(batch, passing)) {
 		let ray = leaving__leaving_ray(surface, direction, camera__T_FAR);
-		refracted_ray = ray_states__RayState(ray, passing, state.media, state.depth, ray_states__KIND_REFRACTED, 2u * state.node + 1u, cone);
+		refracted_ray = ray_states__RayState(ray, passing, state.media, state.depth, types__RAY_REFRACTION, 2u * state.node + 1u, cone);
 	}
 	let sends = any(reflected_ray.throughput > vec3f(0.0));
 	let kept = optics__local_weights(optics, reflect, sends);

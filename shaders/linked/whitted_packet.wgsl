@@ -129,9 +129,11 @@ fn lanes__closer_two(at: primitive__TraversalRay, before: lanes__TwoHits, candid
 
 const ray_entries__ENTRY_WORDS: u32 = 14u;
 
-var<workgroup> ray_entries__ray_stack: array<u32, 8064>;
+const ray_entries__LANES: u32 = 16u;
 
-var<private> ray_entries__cone_stack: array<vec2f, 36>;
+var<workgroup> ray_entries__ray_stack: array<u32, ray_entries__LANES * rays__RAYS_PER_LANE * ray_entry__RAY_STACK_SIZE * ray_entries__ENTRY_WORDS>;
+
+var<private> ray_entries__cone_stack: array<vec2f, rays__RAYS_PER_LANE * ray_entry__RAY_STACK_SIZE>;
 
 var<private> ray_entries__stack_lane: u32;
 
@@ -300,11 +302,11 @@ fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
 fn dispatch__count_hit(kind: u32, hit: tracing__Hit) {
 	if (bindings__COUNT_RAYS && hit.t >= 0.0) {
 		let hits = select(0u, 1u, hit.primitive != types__NONE);
-		if (kind == ray_states__KIND_PRIMARY) {
+		if (kind == types__RAY_PRIMARY) {
 			dispatch__counts.primary += 1u;
 			dispatch__counts.primary_hits += hits;
 		}
-		else if (kind == ray_states__KIND_REFLECTED) {
+		else if (kind == types__RAY_REFLECTION) {
 			dispatch__counts.reflection += 1u;
 			dispatch__counts.reflection_hits += hits;
 		}
@@ -560,6 +562,12 @@ const types__TRIANGLE_TEST_PLANE: u32 = 0u;
 const types__TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
 
 const types__TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
+
+const types__RAY_PRIMARY: u32 = 0u;
+
+const types__RAY_REFLECTION: u32 = 1u;
+
+const types__RAY_REFRACTION: u32 = 2u;
 
 struct types__PackedTriangle {
 	v0: vec3f,
@@ -1416,7 +1424,7 @@ struct ray_states__RayStates {
 fn ray_states__primary_states(batch: dispatch__Batch, rays: rays__Rays) -> ray_states__RayStates {
 	let media = batch.camera_media;
 	let all = vec4f(1.0);
-	let states = ray_states__RayStates(rays, wide__Vectors(all, all, all), ray_states__Media(vec4u(media.x), vec4u(media.y), vec4u(media.z), vec4u(media.w)), vec4u(ray_states__KIND_PRIMARY), vec4u(1u), vec4f(0.0), vec4f(0.0));
+	let states = ray_states__RayStates(rays, wide__Vectors(all, all, all), ray_states__Media(vec4u(media.x), vec4u(media.y), vec4u(media.z), vec4u(media.w)), vec4u(types__RAY_PRIMARY), vec4u(1u), vec4f(0.0), vec4f(0.0));
 	if (bindings__HAS_FOOTPRINTS) {
 		return ray_states__with_cones(batch, states);
 	}
@@ -1454,32 +1462,6 @@ fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
 
 fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
 	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
-}
-
-const ray_states__KIND_PRIMARY: u32 = 0u;
-
-const ray_states__KIND_REFLECTED: u32 = 1u;
-
-const ray_states__KIND_REFRACTED: u32 = 2u;
-
-struct ray_states__RayState {
-	ray: tracing__Ray,
-	throughput: vec3f,
-	media: vec4u,
-	depth: u32,
-	kind: u32,
-	node: u32,
-	cone: tracing__Cone
-}
-
-const ray_states__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
-
-fn ray_states__is_alive(state: ray_states__RayState) -> bool {
-	return any(state.throughput > vec3f(0.0));
-}
-
-fn ray_states__no_ray() -> ray_states__RayState {
-	return ray_states__RayState(ray_states__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, tracing__Cone(0.0, 0.0));
 }
 
 const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
@@ -1767,6 +1749,26 @@ fn rows__texel_word(place: vec2u, layer: u32) -> u32 {
 
 fn rows__texel(row: u32) -> vec2u {
 	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
+}
+
+struct ray_states__RayState {
+	ray: tracing__Ray,
+	throughput: vec3f,
+	media: vec4u,
+	depth: u32,
+	kind: u32,
+	node: u32,
+	cone: tracing__Cone
+}
+
+const ray_states__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
+
+fn ray_states__is_alive(state: ray_states__RayState) -> bool {
+	return any(state.throughput > vec3f(0.0));
+}
+
+fn ray_states__no_ray() -> ray_states__RayState {
+	return ray_states__RayState(ray_states__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, tracing__Cone(0.0, 0.0));
 }
 
 const filter__PI: f32 = 3.14159265;
@@ -4729,17 +4731,17 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance
 	if (bindings__HAS_REFLECTION && deeper && optics__is_worth_tracing(batch, arriving * reflect)) {
 		let way = fresnel__mirrored(direction, n);
 		let ray = leaving__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
-		reflected_ray = ray_states__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_states__KIND_REFLECTED, 2u * state.node, mirrored_way);
+		reflected_ray = ray_states__RayState(ray, arriving * reflect, state.media, state.depth + 1u, types__RAY_REFLECTION, 2u * state.node, mirrored_way);
 	}
 	let refracts = bindings__HAS_REFRACTION && met.is_transparent && (deeper || !bends);
 	let beyond = select(vec3f(0.0), arriving * transmit, refracts);
 	if (bindings__HAS_REFRACTION && refracts && optics__is_worth_tracing(batch, beyond + passing)) {
 		let ray = leaving__leaving_ray(surface, straight, camera__T_FAR);
-		refracted_ray = ray_states__RayState(ray, beyond + passing, met.media, select(state.depth, state.depth + 1u, bends), ray_states__KIND_REFRACTED, 2u * state.node + 1u, refracted_way);
+		refracted_ray = ray_states__RayState(ray, beyond + passing, met.media, select(state.depth, state.depth + 1u, bends), types__RAY_REFRACTION, 2u * state.node + 1u, refracted_way);
 	}
 	else if (bindings__HAS_COVERAGE && optics__is_worth_tracing(batch, passing)) {
 		let ray = leaving__leaving_ray(surface, direction, camera__T_FAR);
-		refracted_ray = ray_states__RayState(ray, passing, state.media, state.depth, ray_states__KIND_REFRACTED, 2u * state.node + 1u, cone);
+		refracted_ray = ray_states__RayState(ray, passing, state.media, state.depth, types__RAY_REFRACTION, 2u * state.node + 1u, cone);
 	}
 	let sends = any(reflected_ray.throughput > vec3f(0.0));
 	let kept = optics__local_weights(optics, reflect, sends);

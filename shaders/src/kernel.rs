@@ -16,7 +16,8 @@ pub enum AdapterKind {
 /// A compute kernel: linked WGSL from `shaders/linked`, and its entry point.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel {
-    /// The name of the kernel, its entry point and its file in `shaders/kernels/`; packets have files of their own there.
+    /// The name of the kernel, its entry point and its file in `shaders/kernels/`. The file of the packet variant has
+    /// `_packet` after the name.
     pub name: &'static str,
     variants: &'static [Variant],
 }

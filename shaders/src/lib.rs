@@ -7,8 +7,8 @@
 //! ```
 //! use glimray_shaders::{AdapterKind, Kernel, Variant};
 //!
-//! // The classical ray tracer for GPUs, without code for textures.
-//! let overrides = [("HAS_TEXTURES", 0.0)];
+//! // The classical ray tracer for GPUs, for triangles and lights only.
+//! let overrides = [("HAS_TRIANGLES", 1.0), ("HAS_LIGHTS", 1.0)];
 //! let module = Kernel::WHITTED.module(Variant::Buffer, &overrides, AdapterKind::Gpu)?;
 //! assert_eq!(module.entry_points[0].name, "whitted");
 //! assert!(module.overrides.is_empty());

@@ -1,5 +1,5 @@
 //! Specialises kernels before the driver sees them: overrides become constants, branches on constants are
-//! folded, and unreachable code is removed. A driver would parse, inline and simplify a whole module before
+//! folded, and unreachable code and calls of functions that do nothing are removed. A driver would parse, inline and simplify a whole module before
 //! removing the code that overrides disable, and no disk cache saves that time. Loops end where lavapipe can leave
 //! them at once.
 

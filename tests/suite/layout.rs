@@ -413,7 +413,7 @@ fn no_kernel_needs_more_storage_buffers_than_webgpu_guarantees() {
 }
 
 /// Begins the declarations that the table of the host has.
-const TABLE: &str = "\n// The others, with their meaning: crates/render/src/overrides.rs. \
+const TABLE: &str = "\n// crates/render/src/overrides.rs explains the overrides below. \
     UPDATE=1 cargo test --profile ci --test suite layout\n";
 
 #[test]

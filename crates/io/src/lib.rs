@@ -5,8 +5,10 @@
 //! use glimray_io::{export, import, output};
 //! use glimray_scene::image::Image;
 //!
-//! let text = "sphere pos: 0 0 -5 rad: 2\n";
-//! let scene = import::parse("ball.scene", text, &import::Options::default())?;
+//! let text = "[[objects]]
+//!     sphere = { center = [0, 0, -5], radius = 2 }
+//!     material = { phong = { diffuse = [0.8, 0.1, 0.1] } }";
+//! let scene = import::parse("ball.toml", text, &import::Options::default())?;
 //! assert_eq!(scene.shapes.len(), 1);
 //! println!("{}", export::native(&scene, "ball", &|_, _| false)?.text);
 //!

@@ -2,8 +2,8 @@
 //! [`GpuError`].
 //!
 //! wgpu reports the loss of a device through a callback, and `poll` panics after it; see `guard.rs`.
-//! Allocation and pipeline creation run inside error scopes. Nothing waits for the device but `blocking.rs`, which browsers
-//! do without.
+//! Allocation and pipeline creation run inside error scopes. Only `blocking.rs` waits for the
+//! device. On software adapters `lanes.rs` calls it once for each device. A browser has neither.
 
 mod adapter;
 #[cfg(not(target_arch = "wasm32"))]
@@ -93,8 +93,8 @@ pub struct Needs {
 
 impl Gpu {
     /// Opens the adapter that `choice` names, or the fastest kind available. The device requires only the default limits of
-    /// WebGPU, and a fifth storage image where the adapter has it. It has subgroups where [`Gpu::traces_packets`]. In a browser it
-    /// is that of [`Gpu::open_with_all_limits`].
+    /// WebGPU, and a fifth storage image where the adapter has it. The device has subgroups where [`Gpu::traces_packets`]. In a
+    /// browser this is [`Gpu::open_with_all_limits`].
     ///
     /// # Errors
     /// There is no such adapter, or it cannot be opened.

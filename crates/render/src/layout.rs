@@ -226,7 +226,7 @@ packed! {
         sheen_roughness: f32,
         /// How much longer highlights are along one direction, 0 to 1.
         anisotropy: f32,
-        /// That direction, in radians counter-clockwise from the tangent.
+        /// Direction of the longest highlights, in radians counter-clockwise from the tangent.
         anisotropy_rotation: f32,
         /// Strength of the thin film.
         iridescence: f32,
@@ -342,7 +342,7 @@ packed! {
         /// The way to its group in the light tree: bit k says whether it is under the second child at depth k.
         trail: u32,
     }
-    /// A camera. Its image plane is at distance 1, with the centre `origin` + `forward`.
+    /// A camera. The image plane is at distance 1; the centre of the plane is `origin` + `forward`.
     PackedCamera {
         /// The pinhole or the centre of the lens, in render space.
         origin: [f32; 3],
@@ -543,7 +543,7 @@ packed! {
         view: u32,
         /// Smallest and largest value of the range in which a quantity is shown.
         range: [f32; 2],
-        /// Whether that range is used, 0 or 1.
+        /// Whether `range` is used, 0 or 1.
         has_range: u32,
         /// Rows of the film per pixel.
         film_rows: u32,

@@ -79,7 +79,7 @@ overrides! {
             true => features.thin_walls || settings.transparent_shadows,
             false => features.filtered_shadows,
         };
-        // Whether only smooth thin walls do so, as in the path tracer, which finds the light behind other glass by its paths.
+        // Whether only smooth thin walls filter shadow rays: the path tracer finds light behind other glass by its paths.
         SOLID_GLASS: bool = is_path && !settings.transparent_shadows;
         HAS_LENS: bool = cameras.any(|camera| camera.lens_radius > 0.0);
         HAS_CLIP: bool = view.frame.clip != [0.0; 2];
@@ -90,7 +90,7 @@ overrides! {
             Filter::BlackmanHarris => FILTER_BLACKMAN_HARRIS,
             Filter::Mitchell => FILTER_MITCHELL,
         };
-        // In pixels.
+        // The radius of the filter in pixels.
         FILTER_RADIUS: f32 = settings.filter_radius;
         HAS_TEXTURES: bool = features.textures || integrator.needs_uvs;
         // Whether some texture is noise or a picture, and whether some is of reflection, transmission or emission.
@@ -131,7 +131,7 @@ overrides! {
         HAS_LIGHT_TREE: bool = is_path && view.has_light_tree();
         // Whether paths sample emissive triangles.
         HAS_EMITTERS: bool = is_path && !view.emitters.is_empty();
-        // Whether some of these are shapes.
+        // Whether some emitters are shapes.
         HAS_EMISSIVE_SHAPES: bool = is_path && view.has_emissive_shapes();
         // Whether a texture is brighter on some emitters than on others.
         HAS_EMITTER_GLOWS: bool = is_path && !view.emitter_glows.is_empty();
@@ -153,6 +153,7 @@ overrides! {
         HAS_ANISOTROPY: bool = is_path && features.anisotropy;
         // Whether the film has features besides radiance, in seven rows from FEATURES_ROW on, and the sum of squared luminance.
         HAS_FEATURES: bool = settings.has_features();
+        // The first row of opacity of a pixel.
         OPACITY_ROW: u32 = layers::row_of(layers, &layers::OPACITY).unwrap_or_default() as u32;
         // Whether some material catches shadows, and the film has opacity.
         HAS_CATCHERS: bool = settings.has_opacity() && features.shadow_catchers;
@@ -225,6 +226,7 @@ overrides! {
     }
 
     alone {
+        // The quantity that a debug view shows: VIEW_….
         VIEW: u32;
         // Whether a denoised picture has opacity, or the film has it in two rows from OPACITY_ROW on, and two more if it is
         // ADAPTIVE.

@@ -5,7 +5,6 @@ use std::{borrow::Cow, sync::OnceLock};
 use wgpu::{
     BufferBindingType, BufferUsages,
     naga::{self, AddressSpace, StorageAccess},
-    util::DeviceExt,
 };
 
 /// Fills the output before a run.
@@ -66,7 +65,8 @@ impl Gpu {
         Ok(Self::from_device(device, queue, is_software))
     }
 
-    /// A device of the caller's. It has at least WebGPU's default limits.
+    /// Runs functions on a device of the caller. The device has at least WebGPU's default limits; `is_software` is the
+    /// answer of [`Self::is_software`].
     pub fn from_device(device: wgpu::Device, queue: wgpu::Queue, is_software: bool) -> Self {
         Self {
             device,
@@ -101,8 +101,9 @@ impl Gpu {
     /// `function` is a name in the shader's text, or a path of its package: `lib::phong::phong`.
     ///
     /// # Errors
-    /// - [`Error::Shader`]: the function is missing or invalid, with the file and line.
-    /// - [`Error::Rows`]: `I` or `O` do not fit it.
+    /// - [`Error::Shader`]: the function is missing or invalid, with the file and line; it reads a buffer that
+    ///   [`Shader::buffer`] does not fill; or it has no override that [`Shader::set`] names.
+    /// - [`Error::Rows`]: `rows` is empty, or `I` or `O` do not fit the function.
     /// - [`Error::Unwritten`]: the driver did not finish a row.
     /// - [`Error::Device`]: the device was lost or is out of memory.
     pub fn map<I: Row, O: Row>(
@@ -123,15 +124,19 @@ impl Gpu {
         let (handle, item) = found.ok_or_else(missing)?;
         let signature = Signature::new::<I, O>(&module, item, function)?;
         let info = linked.validate(&module)?;
-        let buffers = self.buffers(shader, &linked, &module, &info[handle]);
+        let buffers = self.checked(|| self.buffers(shader, &linked, &module, &info[handle]));
+        let of_device = |error: wgpu::Error| Error::Device(error.to_string());
         let of_function = |error| Error::Shader(format!("`{function}` {error}"));
-        let buffers = buffers.map_err(of_function)?;
+        let buffers = buffers.map_err(of_device)?.map_err(of_function)?;
 
         let module = linked.parse(&entry_point(name, &signature))?;
         linked.validate(&module)?;
         let overrides = shader.overrides(&linked, &module).map_err(of_function)?;
         let run = self.checked(|| self.run(module, &overrides, &buffers));
-        let run = run.map_err(|error| Error::Shader(format!("`{function}`: {error}")))?;
+        let run = run.map_err(|error| match error {
+            wgpu::Error::Validation { .. } => Error::Shader(format!("`{function}`: {error}")),
+            error => of_device(error),
+        })?;
 
         let row_bytes = 4 * (signature.outputs + 1).max(signature.inputs);
         let most = self.device.limits().max_storage_buffer_binding_size / row_bytes as u64;
@@ -142,7 +147,7 @@ impl Gpu {
             rows.iter().for_each(|row| row.write(&mut words));
             let found =
                 self.checked(|| self.dispatch(&run, &words, rows.len(), signature.outputs + 1));
-            let found = found.and_then(|found| found).map_err(Error::Device)?;
+            let found = found.map_err(of_device)?.map_err(Error::Device)?;
             for (index, words) in found.chunks_exact(signature.outputs + 1).enumerate() {
                 let (mut words, end) = words.split_at(signature.outputs);
                 if end != [index as u32] {
@@ -326,16 +331,22 @@ impl Gpu {
     }
 
     fn upload(&self, contents: &[u8], usage: BufferUsages) -> wgpu::Buffer {
-        let descriptor = wgpu::util::BufferInitDescriptor {
+        // A binding holds at least one word.
+        let size = contents.len().next_multiple_of(4).max(4);
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
-            contents,
-            usage,
-        };
-        self.device.create_buffer_init(&descriptor)
+            size: size as u64,
+            usage: usage | BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let mut padded = contents.to_vec();
+        padded.resize(size, 0);
+        self.queue.write_buffer(&buffer, 0, &padded);
+        buffer
     }
 
-    /// Does something on the device, and returns what wgpu reports of it.
-    fn checked<T>(&self, work: impl FnOnce() -> T) -> Result<T, String> {
+    /// Does something on the device, and returns the first error that wgpu reports.
+    fn checked<T>(&self, work: impl FnOnce() -> T) -> Result<T, wgpu::Error> {
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let done = work();
@@ -344,7 +355,7 @@ impl Gpu {
             pollster::block_on(memory.pop()),
         ];
         match found.into_iter().flatten().next() {
-            Some(error) => Err(error.to_string()),
+            Some(error) => Err(error),
             None => Ok(done),
         }
     }
@@ -362,7 +373,7 @@ struct Run {
     pipeline: wgpu::ComputePipeline,
     /// The groups of the shader's buffers.
     groups: Vec<Option<wgpu::BindGroup>>,
-    /// Of the group of rows.
+    /// The layout of the bind group of rows.
     rows: wgpu::BindGroupLayout,
 }
 

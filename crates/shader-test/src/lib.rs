@@ -9,12 +9,14 @@ mod signature;
 pub use gpu::Gpu;
 pub use row::{Plain, Row, Scalar};
 pub use shader::Shader;
+/// The wesl of [`Shader::resolved_by`].
+pub use wesl;
 /// The wgpu of [`Gpu::from_device`].
 pub use wgpu;
 
 use std::fmt;
 
-/// Why a function did not run. `Debug` is as readable as `Display`, for `unwrap` in tests.
+/// The reason why a call gave no results. `Debug` prints the text of `Display`, for `unwrap` in tests.
 #[derive(Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {

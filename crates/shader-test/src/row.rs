@@ -76,6 +76,13 @@ impl<T: Row, const N: usize> Row for [T; N] {
     }
 }
 
+/// No parameters.
+impl Row for () {
+    fn scalars(_: &mut Vec<Scalar>) {}
+    fn write(&self, _: &mut Vec<u32>) {}
+    fn read(_: &mut &[u32]) -> Self {}
+}
+
 macro_rules! tuple {
     ($($name:ident)*) => {
         impl<$($name: Row),*> Row for ($($name,)*) {

@@ -30,7 +30,7 @@ pub struct Shader {
 }
 
 impl Shader {
-    /// A text in WGSL. Its functions are named as in the text.
+    /// A text in WGSL, or in WESL without a package. Functions keep their names.
     pub fn new(text: impl Into<String>) -> Self {
         Self::default().text(text)
     }
@@ -75,7 +75,7 @@ impl Shader {
     }
 
     /// Fills a buffer that the function reads, `@group(0) @binding(0) var<storage, read> name: …` or `var<uniform>`, in
-    /// the layout of WGSL. The group is 0, 1 or 2.
+    /// the layout of WGSL. The group is 0, 1 or 2. A buffer that the function does not read is ignored.
     #[must_use]
     pub fn buffer<T: NoUninit>(mut self, name: &str, contents: &[T]) -> Self {
         let contents = bytemuck::cast_slice(contents).to_vec();

@@ -107,3 +107,41 @@ fn one_call_gives_the_picture_of_the_program() {
         assert!(is_same, "{}", path.display());
     }
 }
+
+#[test]
+fn options_out_of_range_are_refused_in_one_line() {
+    let sized = |size| PictureOptions {
+        size: Some(size),
+        ..PictureOptions::default()
+    };
+    let sampled = PictureOptions {
+        samples: Some(0),
+        ..PictureOptions::default()
+    };
+    let timed = PictureOptions {
+        time: f64::NAN,
+        ..PictureOptions::default()
+    };
+    for (options, expected) in [
+        (sized((0, 9)), "bad option (size): (0, 9) is not two sides"),
+        (sized((9, 1_000_001)), "bad option (size): (9, 1000001)"),
+        (sampled, "bad option (samples): 0 is not at least 1."),
+        (timed, "bad option (time): NaN is not finite."),
+    ] {
+        let error = render_file("assets/scenes/sphere.scene", &options).expect_err(expected);
+        let error = error.to_string();
+        assert!(
+            error.starts_with(expected) && !error.contains('\n'),
+            "{error}"
+        );
+    }
+}
+
+/// Executors of several threads move futures between them.
+#[test]
+fn futures_of_pictures_can_be_sent_to_other_threads() {
+    fn is_sent<T: Send>(_: &T) {}
+    let folder = Folder::of(Path::new("assets/scenes/sphere.scene")).expect("a folder");
+    let options = PictureOptions::default();
+    is_sent(&render_from(&folder, "sphere.scene", &options));
+}

@@ -109,9 +109,8 @@ fn table(light: &Light, may_split: bool) -> LightTable {
 
 /// A spot light's place and cone.
 fn spot(position: DVec3, direction: DVec3, [inner, outer]: [f64; 2]) -> SpotTable {
-    let is_read = |degrees: &f64| (0.0..=90.0).contains(degrees);
-    let (inner_deg, inner) = angle(inner, is_read);
-    let (outer_deg, outer) = angle(outer, is_read);
+    let (inner_deg, inner) = angle(inner, |degrees| (0.0..=90.0).contains(degrees));
+    let (outer_deg, outer) = angle(outer, |degrees| (0.05..=90.0).contains(degrees));
     SpotTable {
         position: position.into(),
         look_at: None,

@@ -11,7 +11,7 @@ use crate::import::native::file::{
 use crate::import::native::shapes::{
     box_place, cone_place, disc_place, rectangle_place, torus_place,
 };
-use crate::import::native::values::{Length, Positive, Vector, differing};
+use crate::import::native::values::{Distance, Positive, Vector, differing};
 use glam::{DAffine3, DQuat, DVec3};
 use glimray_scene::{CanonicalShape, Geometry, Shape};
 
@@ -181,7 +181,7 @@ fn disc_table(center: DVec3, normal: DVec3, [radius, hole]: [f64; 2]) -> ObjectT
         center: center.into(),
         normal: differing(normal, DVec3::Y),
         radius: radius.into(),
-        inner_radius: (hole != 0.0).then(|| Length(hole).into()),
+        inner_radius: (hole != 0.0).then(|| Distance(hole).into()),
     })
 }
 
@@ -203,7 +203,7 @@ fn cone_table(from: DVec3, to: DVec3, [bottom, top]: [f64; 2], capped: bool) -> 
         false => object!(cone: ConeTable {
             from,
             to,
-            from_radius: Length(bottom).into(),
+            from_radius: Distance(bottom).into(),
             to_radius: differing(top, 0.0),
             open,
         }),

@@ -18,9 +18,7 @@ pub(crate) use names::{
     AntialiasName, AttenuationName, FilterName, FresnelName, IntegratorName, MixingName,
     ShadowsName, ToneName, TransferName,
 };
-pub(crate) use places::{
-    AxisRadians, ConeAngle, ConeRadians, Length, Matrix, Upwards, ViewRadians,
-};
+pub(crate) use places::{AxisRadians, ConeAngle, ConeRadians, Matrix, Upwards, ViewRadians};
 pub(crate) use spanned::Spanned;
 pub(crate) use written::{Written, differing, or, short};
 

@@ -5,8 +5,8 @@ use glam::{DAffine3, DVec3, Vec3, Vec4};
 use glimray::export::{self, ExportError};
 use glimray::import;
 use glimray::scene::{
-    Camera, CanonicalShape, Geometry, Instance, Material, Mesh, Phong, Picture, Scene, Shape,
-    Texels,
+    Camera, CanonicalShape, Geometry, Instance, Light, LightKind, Material, Mesh, Phong, Picture,
+    Scene, Shape, Texels,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -277,4 +277,25 @@ fn a_sky_at_radians_that_no_degrees_give_is_written_with_the_nearest() {
         .and_then(|rest| rest.split(',').next());
     let written: f64 = written.expect(line).trim().parse().expect("a number");
     assert!((written.to_radians() - radians).abs() < 1e-15, "{line}");
+}
+
+/// Degrees of so narrow a cone are refused: it is written in radians.
+#[test]
+fn a_spot_light_as_narrow_as_files_may_have_it_is_read_back() {
+    let kind = LightKind::Spot {
+        position: DVec3::Y,
+        direction: DVec3::NEG_Y,
+        inner: 0.0,
+        outer: 0.0006,
+    };
+    let written = Scene {
+        lights: vec![Light {
+            kind: kind.clone(),
+            ..Light::default()
+        }],
+        ..scene()
+    };
+    let options = import::Options::default();
+    let read = import::parse("s.toml", &text(&written), &options).expect("a scene");
+    assert_eq!(read.lights[0].kind, kind);
 }

@@ -42,63 +42,63 @@ pub(crate) struct AnimationTable {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum PropertyName {
-    /// Of an object: as in `transform`.
+    /// Translation of an object, as in `transform`.
     Translate,
-    /// Of an object: a quaternion [x, y, z, w], instead of `rotate_deg`.
+    /// Rotation of an object by a quaternion [x, y, z, w], instead of `rotate_deg`.
     Rotation,
-    /// Of an object: as in `transform`; may exceed a full turn.
+    /// Angles of an object in degrees, as in `transform`; may exceed a full turn.
     RotateDeg,
-    /// The same in radians.
+    /// Angles of an object in radians, instead of `rotate_deg`.
     Angles,
-    /// Of an object: as in `transform`.
+    /// Scale of an object, as in `transform`.
     Scale,
-    /// Of an object: true or false.
+    /// Whether an object is visible.
     Visible,
-    /// Of a camera.
+    /// Position of a camera.
     LookFrom,
-    /// Of a camera that looks at a point, not at an object.
+    /// Point that a camera looks at, if it is no object.
     LookAt,
-    /// Of a camera.
+    /// Upward direction of a camera.
     Up,
-    /// Of a camera.
+    /// Vertical field of view of a camera in degrees.
     FovYDeg,
-    /// The same in radians.
+    /// Vertical field of view of a camera in radians, instead of `fov_y_deg`.
     FovY,
-    /// Of an orthographic camera.
+    /// Height of the picture of an orthographic camera.
     Orthographic,
-    /// Of a camera with a lens.
+    /// Distance of the plane in focus of a camera with a lens.
     FocusDistance,
-    /// Of a camera with a lens: its `radius`.
+    /// Radius of the lens of a camera.
     LensRadius,
-    /// Of a light that is not directional: its `position` or `center`.
+    /// Position or centre of a light that is not directional.
     Position,
-    /// Of a directional or spot light: its direction; of a disc: its normal.
+    /// Direction of a directional or spot light, or normal of a disc.
     Direction,
-    /// Of a light.
+    /// Colour of a light.
     Color,
-    /// Of a light: replaces its `intensity` or `radiance`.
+    /// Intensity of a light: replaces its `intensity` or `radiance`.
     Intensity,
-    /// Of a light: true or false.
+    /// Whether a light shines.
     On,
-    /// Of a material.
+    /// Diffuse colour of a material.
     Diffuse,
-    /// Of a material.
+    /// Specular colour of a material.
     Specular,
-    /// Of a material.
+    /// Shininess of a material.
     Shininess,
-    /// Of a material; follows `diffuse` if the material's table does not give it.
+    /// Ambient colour of a material; follows `diffuse` if the material's table does not give it.
     Ambient,
-    /// Of a material.
+    /// Radiance that a material emits.
     Emission,
-    /// Of a material: the fraction of light that it reflects, `amount` times `color`.
+    /// Fraction of light that a material reflects, `amount` times `color`.
     Reflect,
-    /// Of a material: the fraction of light that it transmits, `amount` times `color`.
+    /// Fraction of light that a material transmits, `amount` times `color`.
     Transmit,
-    /// Of a material: the weight of ambient and diffuse light, 1 − `amount` of `refract`.
+    /// Weight of ambient and diffuse light, 1 − `amount` of `refract`.
     Opacity,
-    /// Of a material: the index of refraction.
+    /// Index of refraction of a material.
     Ior,
-    /// Of a material.
+    /// Absorption of a material.
     Absorption,
 }
 

@@ -38,9 +38,9 @@ pub(crate) struct LightTable {
 #[derive(Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PointTable {
-    /// Its position.
+    /// The position of the light.
     pub position: Vector,
-    /// Its colour; default white.
+    /// The colour of the light; default white.
     pub color: Option<Color>,
     /// Factor on the colour; default 1.
     pub intensity: Option<NonNegative>,
@@ -54,7 +54,7 @@ pub(crate) struct PointTable {
 pub(crate) struct DirectionalTable {
     /// The direction in which the light travels.
     pub direction: Direction,
-    /// Its colour; default white.
+    /// The colour of the light; default white.
     pub color: Option<Color>,
     /// Factor on the colour; default 1.
     pub intensity: Option<NonNegative>,
@@ -64,7 +64,7 @@ pub(crate) struct DirectionalTable {
 #[derive(Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SpotTable {
-    /// Its position.
+    /// The position of the light.
     pub position: Vector,
     /// A point on its axis. Either this or `direction`.
     pub look_at: Option<Spanned<Vector>>,
@@ -74,11 +74,11 @@ pub(crate) struct SpotTable {
     pub inner_deg: Option<Spanned<AxisAngle>>,
     /// Angle from the axis in degrees beyond which it is dark; default 30.
     pub outer_deg: Option<ConeAngle>,
-    /// The same as `inner_deg` in radians, instead of it.
+    /// Angle in radians, instead of `inner_deg`.
     pub inner: Option<Spanned<AxisRadians>>,
-    /// The same as `outer_deg` in radians, instead of it.
+    /// Angle in radians, instead of `outer_deg`.
     pub outer: Option<Spanned<ConeRadians>>,
-    /// Its colour; default white.
+    /// The colour of the light; default white.
     pub color: Option<Color>,
     /// Factor on the colour; default 1.
     pub intensity: Option<NonNegative>,
@@ -94,7 +94,7 @@ macro_rules! area_light {
         #[serde(deny_unknown_fields)]
         pub(crate) struct $name {
             $($own)*
-            /// Its colour; default white.
+            /// The colour of the light; default white.
             pub color: Option<Color>,
             /// Factor on the colour, as for a point light at its centre seen from far away, along the normal if it has one;
             /// default 1, unless `radiance` is given.
@@ -114,7 +114,7 @@ macro_rules! area_light {
 area_light! {
     /// An area light: a rectangle or parallelogram.
     RectangleLightTable {
-        /// Its centre.
+        /// The centre of the light.
         pub center: Vector,
         /// From its centre to the middle of one edge. It shines along edge_u × edge_v. Either both edges or
         /// `look_at` and `size`.
@@ -123,7 +123,7 @@ area_light! {
         pub edge_v: Option<Vector>,
         /// The point that it faces. It is then level.
         pub look_at: Option<Spanned<Vector>>,
-        /// Its width and height.
+        /// Width and height of the rectangle.
         pub size: Option<Extent>,
     }
 }
@@ -131,13 +131,13 @@ area_light! {
 area_light! {
     /// An area light: a disc.
     DiscLightTable {
-        /// Its centre.
+        /// The centre of the light.
         pub center: Vector,
         /// The point that it faces. Either this or `normal`.
         pub look_at: Option<Spanned<Vector>>,
         /// The direction in which it shines.
         pub normal: Option<Direction>,
-        /// Its radius.
+        /// The radius of the light.
         pub radius: Positive,
     }
 }
@@ -145,9 +145,9 @@ area_light! {
 area_light! {
     /// An area light: a sphere.
     SphereLightTable {
-        /// Its centre.
+        /// The centre of the light.
         pub center: Vector,
-        /// Its radius.
+        /// The radius of the light.
         pub radius: Positive,
     }
 }

@@ -31,7 +31,7 @@ pub(crate) struct MaterialTable {
     pub optics: Option<Spanned<OpticsTable>>,
     /// Bumps of the surface that only light shows; default none.
     pub normal_map: Option<Spanned<DataMapTable>>,
-    /// The same by the height of the surface, which has slopes; default none.
+    /// Bumps by the height of the surface, which has slopes; default none.
     pub height_map: Option<Spanned<HeightMapTable>>,
     /// Where ambient light does not reach; default none.
     pub occlusion_map: Option<Spanned<DataMapTable>>,

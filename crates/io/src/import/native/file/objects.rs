@@ -5,7 +5,7 @@ use super::groups::RepeatTable;
 use super::materials::MaterialRef;
 use super::meshes::MeshOrName;
 use super::nodes::TransformTable;
-use crate::import::native::values::{Direction, Extent, Length, Positive, Radii, Triple, Vector};
+use crate::import::native::values::{Direction, Distance, Extent, Positive, Radii, Triple, Vector};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -96,7 +96,7 @@ pub(crate) struct DiscTable {
     /// Its radius, greater than 0.
     pub radius: Positive,
     /// The radius of its hole, less than `radius`; default no hole.
-    pub inner_radius: Option<Spanned<Length>>,
+    pub inner_radius: Option<Spanned<Distance>>,
 }
 
 /// A rectangle: either two edges, or a size and a normal.
@@ -150,9 +150,9 @@ pub(crate) struct ConeTable {
     /// The centre of the other end: the tip, unless `to_radius` is given.
     pub to: Spanned<Vector>,
     /// The radius at `from`, 0 or more.
-    pub from_radius: Spanned<Length>,
+    pub from_radius: Spanned<Distance>,
     /// The radius at `to`, 0 or more; default 0. At least one of the two radii is greater than 0.
-    pub to_radius: Option<Length>,
+    pub to_radius: Option<Distance>,
     /// Whether it has no caps; default false.
     pub open: Option<bool>,
 }

@@ -242,11 +242,11 @@ words! {
 words! {
     /// How a picture continues beyond its edges along one axis.
     WrapName for Wrap {
-        /// It is repeated.
+        /// The picture is repeated.
         Repeat,
-        /// Its edge goes on.
+        /// The texels of the edge go on.
         Clamp,
-        /// It is repeated, and every second copy is mirrored.
+        /// The picture is repeated, and every second copy is mirrored.
         Mirror,
     }
 }
@@ -290,7 +290,7 @@ words! {
         /// The surface's own u and v, as x and y: for a model from its file, for a triangle from its first
         /// corner to its second and third.
         Uv,
-        /// The same with the second set of u and v, of models that have one.
+        /// The second set of u and v, of models that have one.
         SecondUv,
     }
 }

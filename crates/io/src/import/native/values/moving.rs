@@ -97,7 +97,7 @@ value! {
         { "type": "array", "items": { "type": "number", "minimum": -1000, "maximum": 1000 }, "minItems": 2, "maxItems": 2 }
     ] },
     |d| d.deserialize_any(ShutterVisitor),
-    |[open, close]| match *open == 0.0 {
+    |[open, close]| match open.to_bits() == 0 {
         true => close.written(),
         false => [*open, *close].written(),
     }

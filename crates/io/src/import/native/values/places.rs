@@ -4,13 +4,6 @@ use super::*;
 use glam::{DAffine3, DMat3};
 
 value! {
-    /// A length, 0 or more.
-    Length(f64),
-    { "type": "number", "minimum": 0 },
-    |d| number(d, |x| x >= 0.0, "0 or more")
-}
-
-value! {
     /// A field of view in radians.
     ViewRadians(f64),
     { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": std::f64::consts::PI },
