@@ -1,5 +1,37 @@
 //! The renderer: takes a packed scene and a frame, adds samples to the film step by step, and develops the
 //! picture. All front ends run this loop.
+//!
+//! ```
+//! use glam::{DVec3, Vec3, dvec3};
+//! use glimray_render::gpu::{AdapterChoice, Gpu};
+//! use glimray_render::{ExecutionPolicy, RenderSettings, Renderer, Tone, pack};
+//! use glimray_scene::{Camera, Geometry, Phong, Scene, Shape};
+//! use std::sync::Arc;
+//!
+//! let bright = Phong { ambient: Vec3::splat(0.75), ..Phong::default() };
+//! let scene = Scene {
+//!     materials: vec![bright.into()],
+//!     shapes: vec![Shape {
+//!         geometry: Geometry::Sphere { center: DVec3::ZERO, radius: 1.0 },
+//!         material: 0,
+//!         node: None,
+//!     }],
+//!     cameras: vec![Camera { look_from: dvec3(0.0, 0.0, 5.0), ..Camera::default() }],
+//!     ambient: Vec3::ONE,
+//!     ..Scene::default()
+//! };
+//! let packed = Arc::new(pack::scene(&scene)?);
+//! let view = packed.frame(&scene.frame(0.0))?;
+//! let settings = RenderSettings { size: (64, 48), ..RenderSettings::default() };
+//! let gpu = Gpu::new(&AdapterChoice::default())?;
+//! let mut renderer = Renderer::new(gpu, packed, &view, settings, ExecutionPolicy::default())?;
+//! while !renderer.is_done() {
+//!     renderer.step()?;
+//! }
+//! let picture = renderer.develop(&Tone::LINEAR)?;
+//! assert_eq!(picture.pixels[24 * 64 + 32], [0.75, 0.75, 0.75, 1.0]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod adaptive;
 mod arrays;

@@ -290,7 +290,7 @@ fn a_spot_light_as_narrow_as_files_may_have_it_is_read_back() {
     };
     let written = Scene {
         lights: vec![Light {
-            kind: kind.clone(),
+            kind,
             ..Light::default()
         }],
         ..scene()
