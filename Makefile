@@ -33,8 +33,8 @@ skip = echo 'skipped: $(1) ($(2))' >&2; case ",$$GLIMRAY_REQUIRE," in *,$(2),*) 
 help:
 	@echo 'make setup     install the packages of Debian or Ubuntu that targets need; a target calls it for those that it misses'
 	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
-	@echo 'make test      format, lints, documentation, all tests (about 40 minutes the first time)'
-	@echo 'make test-all  the same, spelling, licences of crates, sets of features, WebAssembly (about 50 minutes the first time)'
+	@echo 'make test      format, lints, documentation, all tests (about 30 minutes the first time, then 12)'
+	@echo 'make test-all  the same, spelling, licences of crates, sets of features, WebAssembly (about 35 minutes the first time)'
 	@echo 'make farm-test render on a Slurm of its own, which it installs (Debian, as root), and compare the bytes'
 	@echo 'make drivers   test on Mesa of Debian 13 and unstable and on SwiftShader, which it fetches (Debian)'
 	@echo 'make bench     measure speed on built-in scenes'
