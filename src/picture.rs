@@ -136,8 +136,7 @@ fn loaded(
 
 async fn render(scene: &Scene, options: &PictureOptions) -> Result<Image, PictureError> {
     let packed = Arc::new(pack::scene(scene)?);
-    let (shutter, fps) = (scene.output.shutter, scene.output.fps);
-    let [open, close] = [shutter.open, shutter.close].map(|frames| options.time + frames / fps);
+    let (open, close) = (scene.output.shutter).interval(options.time, scene.output.fps);
     let view = packed.view(&scene.motion_samples(open, close))?;
     let gpu = (Gpu::open(&options.adapter).await).map_err(RenderError::from)?;
     let settings = RenderSettings::from(&scene.output);

@@ -5,6 +5,7 @@
 //! a second exit in front of all else in the body: each value that leaves the loop is then chosen lane by lane. wgpu's own
 //! bound has the same effect, but GLSL that naga writes has none.
 
+use crate::specialize::inner_blocks_mut;
 use naga::{
     BinaryOperator, Block, Expression, Function, Handle, Literal, LocalVariable, Module, Range,
     Scalar, Span, Statement, Type, TypeInner,
@@ -84,17 +85,4 @@ fn counter(ty: Handle<Type>, function: &mut Function) -> (Statement, Block) {
         start,
         Block::from_vec(vec![Statement::Emit(evaluated), leave, count]),
     )
-}
-
-/// The blocks of a statement.
-fn inner_blocks_mut(statement: &mut Statement) -> Vec<&mut Block> {
-    match statement {
-        Statement::Block(inner) => vec![inner],
-        Statement::If { accept, reject, .. } => vec![accept, reject],
-        Statement::Switch { cases, .. } => cases.iter_mut().map(|case| &mut case.body).collect(),
-        Statement::Loop {
-            body, continuing, ..
-        } => vec![body, continuing],
-        _ => Vec::new(),
-    }
 }

@@ -323,7 +323,7 @@ pub fn inner_blocks(statement: &Statement) -> Vec<&Block> {
 }
 
 /// As [`inner_blocks`], to be changed.
-fn inner_blocks_mut(statement: &mut Statement) -> Vec<&mut Block> {
+pub fn inner_blocks_mut(statement: &mut Statement) -> Vec<&mut Block> {
     match statement {
         Statement::Block(inner) => vec![inner],
         Statement::If { accept, reject, .. } => vec![accept, reject],

@@ -361,14 +361,20 @@ fn only_a_few_files_of_the_library_need_more_than_a_browser_has() {
         "crates/scene/src/threads.rs",
         "shaders/src/files.rs",
     ];
-    let mut verdict = Verdict::on("sources for browsers");
+    check_words("sources for browsers", WORDS, PARTS, FILES);
+}
+
+/// Checks that only these modules and files have any of these words in their code.
+#[track_caller]
+fn check_words(name: &str, words: &[&str], modules: &[&str], files: &[&str]) {
+    let mut verdict = Verdict::on(name);
     for (path, text) in rust_files() {
-        let is_allowed = PARTS.contains(&&*module_of(&path));
-        if is_allowed || FILES.iter().any(|file| path == Path::new(file)) {
+        let is_allowed = modules.contains(&&*module_of(&path));
+        if is_allowed || files.iter().any(|file| path == Path::new(file)) {
             continue;
         }
         let code = code(&text);
-        let word = WORDS.iter().find(|word| code.contains(**word));
+        let word = words.iter().find(|word| code.contains(**word));
         verdict.that(path.display(), word.is_none(), || format!("has {word:?}"));
     }
     verdict.close();
@@ -392,17 +398,7 @@ fn only_a_few_files_of_the_library_wait_for_the_device() {
         "src/picture.rs",
     ];
     const PROGRAM: &[&str] = &["app", "cli", "link", "main", "shader-test", "viewer"];
-    let mut verdict = Verdict::on("sources of the library");
-    for (path, text) in rust_files() {
-        let is_of_program = PROGRAM.contains(&&*module_of(&path));
-        if is_of_program || FILES.iter().any(|file| path == Path::new(file)) {
-            continue;
-        }
-        let code = code(&text);
-        let word = WORDS.iter().find(|word| code.contains(**word));
-        verdict.that(path.display(), word.is_none(), || format!("has {word:?}"));
-    }
-    verdict.close();
+    check_words("sources of the library", WORDS, PROGRAM, FILES);
 }
 
 /// Kernels are entry points, and nothing imports one; not even another kernel.

@@ -44,12 +44,9 @@ impl Clock {
 
     /// Shutter opening and closing times for a picture at `time`, all in seconds.
     pub fn shutter_interval(&self, time: f64) -> (f64, f64) {
-        let Shutter { open, close } = self.shutter;
+        let (open, close) = self.shutter.interval(time, self.fps);
         let until = |time: f64| self.end.map_or(time, |end| time.min(end));
-        (
-            until(time + open / self.fps),
-            until(time + close / self.fps),
-        )
+        (until(open), until(close))
     }
 }
 

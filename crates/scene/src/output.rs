@@ -69,6 +69,13 @@ pub struct Shutter {
     pub close: f64,
 }
 
+impl Shutter {
+    /// When it opens and closes for a picture at `time`, in seconds, at this many frames per second.
+    pub fn interval(self, time: f64, fps: f64) -> (f64, f64) {
+        (time + self.open / fps, time + self.close / fps)
+    }
+}
+
 impl Default for OutputDefaults {
     fn default() -> Self {
         Self {

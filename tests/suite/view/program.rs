@@ -3,7 +3,7 @@
 use super::harness::Window;
 use super::pixels::{self, Bytes};
 use crate::support::PATIENCE;
-use eframe::egui::{Event, Key, OutputCommand};
+use eframe::egui::Key;
 use egui_kittest::kittest::Queryable;
 use glam::{Vec3, dvec3};
 use glimray::output;
@@ -71,18 +71,6 @@ fn file_bytes(path: &Path) -> Bytes {
         size: picture.dimensions(),
         rgb: picture.pixels().map(|pixel| pixel.0).collect(),
     }
-}
-
-/// The command line that the window copies.
-fn copied(window: &mut Window) -> String {
-    window.harness.event(Event::Copy);
-    window.harness.step();
-    let commands = window.harness.output().platform_output.commands.clone();
-    let line = commands.into_iter().find_map(|command| match command {
-        OutputCommand::CopyText(text) => Some(text),
-        _ => None,
-    });
-    line.expect("a command line")
 }
 
 /// Steps until the file is written.
@@ -492,7 +480,7 @@ fn the_command_line_makes_the_pixels_that_were_copied() {
         session.moved();
         drop(session);
         window.settle();
-        let line = copied(&mut window);
+        let line = window.copied();
         let made = folder.path().join("made.png");
         let words = shell_words(&line);
         let words: Vec<_> = words[1..].iter().map(String::as_str).collect();

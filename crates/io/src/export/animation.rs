@@ -6,7 +6,7 @@ use crate::import::native::file::{
     AnimationTable, InterpolationName, Key, KeyTable, KeyValue, PropertyName as P, Spanned,
     of_camera, of_light, of_material, of_node,
 };
-use crate::import::native::values::{Pace, Time, differing};
+use crate::import::native::values::{Pace, Time, ViewAngle, differing};
 use glam::{DVec3, Vec3};
 use glimray_scene::{
     Beyond, Curve, Easing, Interpolation, LayerProperty, MaterialProperty, Target, Track, Values,
@@ -154,7 +154,7 @@ fn in_degrees(curve: &Curve) -> bool {
     match &curve.values {
         Values::Scalar(values) => values.iter().all(|radians| {
             let degrees = exact::degrees(*radians);
-            degrees.is_some_and(|degrees| (1e-3..=179.999).contains(&degrees))
+            degrees.is_some_and(|degrees| ViewAngle::range().contains(&degrees))
                 || curve.interpolation == Interpolation::Hermite && degrees.is_some()
         }),
         Values::Vector(values) => values.iter().all(|v| v.to_array().iter().all(is_told)),

@@ -16,7 +16,7 @@ impl Writer<'_> {
             Some(node) => LookAt::Object(self.names.nodes[node].clone()),
             None => LookAt::Point(camera.look_at.into()),
         };
-        let is_read = |degrees: &f64| (1e-3..=179.999).contains(degrees);
+        let is_read = |degrees: &f64| ViewAngle::range().contains(degrees);
         let (degrees, radians) = exact::angle(camera.fov_y, is_read);
         let degrees = degrees.filter(|degrees| *degrees != CameraTable::FOV_Y_DEG);
         let (near, far) = camera.clip;

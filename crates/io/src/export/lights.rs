@@ -109,8 +109,8 @@ fn table(light: &Light, may_split: bool) -> LightTable {
 
 /// A spot light's place and cone.
 fn spot(position: DVec3, direction: DVec3, [inner, outer]: [f64; 2]) -> SpotTable {
-    let (inner_deg, inner) = angle(inner, |degrees| (0.0..=90.0).contains(degrees));
-    let (outer_deg, outer) = angle(outer, |degrees| (0.05..=90.0).contains(degrees));
+    let (inner_deg, inner) = angle(inner, |degrees| AxisAngle::range().contains(degrees));
+    let (outer_deg, outer) = angle(outer, |degrees| ConeAngle::range().contains(degrees));
     SpotTable {
         position: position.into(),
         look_at: None,

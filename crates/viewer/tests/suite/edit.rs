@@ -457,14 +457,7 @@ fn what_the_command_line_said_is_in_the_saved_file_and_not_said_again() {
     window.settle();
     let other = folder.path().join("other.toml");
     enter_name(&mut window, other.to_str().expect("a path in UTF-8"));
-    window.harness.event(eframe::egui::Event::Copy);
-    window.harness.step();
-    let commands = window.harness.output().platform_output.commands.clone();
-    let line = commands.into_iter().find_map(|command| match command {
-        eframe::egui::OutputCommand::CopyText(text) => Some(text),
-        _ => None,
-    });
-    let line = line.expect("a command line");
+    let line = window.copied();
     assert!(line.contains("other.toml"), "{line}");
     assert!(
         !line.contains("--set") && !line.contains("--look-from"),

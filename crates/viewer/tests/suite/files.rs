@@ -450,14 +450,7 @@ fn a_camera_copied_as_a_command_line_and_pasted_is_the_same_camera() {
         .orbit_by(0.7, 0.3);
     window.settle();
     let camera = window.camera();
-    window.harness.event(egui::Event::Copy);
-    window.harness.step();
-    let commands = window.harness.output().platform_output.commands.clone();
-    let line = commands.into_iter().find_map(|command| match command {
-        egui::OutputCommand::CopyText(text) => Some(text),
-        _ => None,
-    });
-    let line = line.expect("a command line");
+    let line = window.copied();
     assert!(line.starts_with("glimray render "), "{line}");
     window.harness.key_press(egui::Key::Home);
     window.settle();

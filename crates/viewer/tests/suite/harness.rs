@@ -117,6 +117,18 @@ impl Window {
         receiver.recv_timeout(PATIENCE).expect("the picture")
     }
 
+    /// The command line that the window copies.
+    pub fn copied(&mut self) -> String {
+        self.harness.event(egui::Event::Copy);
+        self.harness.step();
+        let commands = self.harness.output().platform_output.commands.clone();
+        let line = commands.into_iter().find_map(|command| match command {
+            egui::OutputCommand::CopyText(text) => Some(text),
+            _ => None,
+        });
+        line.expect("a command line")
+    }
+
     /// The camera that the picture is seen by.
     pub fn camera(&self) -> Camera {
         self.session.borrow().camera().expect("a camera")

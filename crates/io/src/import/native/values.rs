@@ -165,7 +165,14 @@ macro_rules! number {
             $(#[doc = $doc])*
             $name($inner),
             { "type": "number", "minimum": $least, "maximum": $most },
-            |d| number(d, |x| ($least..=$most).contains(&x), $wanted).map(|x| x as $inner)
+            |d| number(d, |x| $name::range().contains(&x), $wanted).map(|x| x as $inner)
+        }
+
+        impl $name {
+            /// The values that are read.
+            pub fn range() -> std::ops::RangeInclusive<f64> {
+                $least..=$most
+            }
         }
     };
 }
@@ -349,7 +356,14 @@ value! {
     /// A field of view in degrees.
     ViewAngle(f64),
     { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 180 },
-    |d| number(d, |x| (1e-3..=179.999).contains(&x), "an angle between 0.001 and 179.999 degrees")
+    |d| number(d, |x| ViewAngle::range().contains(&x), "an angle between 0.001 and 179.999 degrees")
+}
+
+impl ViewAngle {
+    /// The values that are read.
+    pub fn range() -> RangeInclusive<f64> {
+        1e-3..=179.999
+    }
 }
 
 number! {
