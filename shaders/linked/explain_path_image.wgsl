@@ -9,7 +9,7 @@ fn explain_path(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 		let key = rng__pixel_key(batch.seed, pixel);
 		var path = path__path_along(batch, dispatch__sample_ray(batch, pixel, key, probe.sample), pixel, probe.sample);
 		loop {
-			let hit = traverse__walked(path__next_walk(path), traverse__NO_LIMIT).hit;
+			let hit = section_walk__followed(path__next_walk(path), traverse__NO_LIMIT).hit;
 			if (path__is_to_lamp(path) && !shadow__may_pass(hit)) {
 				path = path__lit(path, shadow__arrived(path.lamp, hit));
 			}
@@ -166,6 +166,8 @@ override bindings__HAS_MOTION: bool = false;
 override bindings__HAS_DEFORMATION: bool = false;
 
 override bindings__HAS_CONTACT: bool = false;
+
+override bindings__HAS_SECTION: bool = false;
 
 override bindings__COUNT_STEPS: bool = false;
 
@@ -602,7 +604,10 @@ struct types__PackedCamera {
 struct types__PackedFrame {
 	camera: types__PackedCamera,
 	clip: vec2f,
-	_pad0: vec2u,
+	solid_row: u32,
+	solid_count: u32,
+	section: vec3f,
+	section_offset: f32,
 	background: vec3f,
 	light_count: u32,
 	ambient: vec3f,
@@ -1306,7 +1311,7 @@ fn path__next_walk(path: path__Path) -> traverse__Walk {
 		ray = path.lamp.ray;
 		any = !(record__RECORDS || bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS));
 	}
-	return traverse__walk_of(ray, any);
+	return section_walk__walk_from(ray, any);
 }
 
 fn path__lit(before: path__Path, left: shadow__Passage) -> path__Path {
@@ -2016,6 +2021,204 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	return direction.x * x + direction.y * y + direction.z * n;
 }
 
+struct section_walk__Crossing {
+	stage: u32,
+	enters: bool,
+	shift: f32,
+	leaves: bool,
+	way: f32,
+	hit: tracing__Hit,
+	runner_up: tracing__Hit,
+	entered: section_walk__Entered,
+	surfaces: u32
+}
+
+const section_walk__AHEAD: u32 = 0u;
+
+const section_walk__BEHIND: u32 = 1u;
+
+const section_walk__DONE: u32 = 2u;
+
+var<private> section_walk__crossing: section_walk__Crossing;
+
+const section_walk__MAX_SURFACES: u32 = 256u;
+
+fn section_walk__walk_from(ray: tracing__Ray, any: bool) -> traverse__Walk {
+	if (!bindings__HAS_SECTION) {
+		return traverse__walk_of(ray, any);
+	}
+	var kept = ray;
+	section_walk__crossing = section_walk__Crossing();
+	let height = dot(bindings__frame.section, ray.origin) - bindings__frame.section_offset;
+	let rate = dot(bindings__frame.section, ray.direction);
+	let is_toward = height * rate < 0.0;
+	let way = select(0.0, -height / select(1.0, rate, is_toward), is_toward);
+	if (height > 0.0 && !is_toward) {
+		kept.t_max = min_f32(ray.t_max, 0.0);
+	}
+	else if (height > 0.0) {
+		section_walk__crossing.enters = way < ray.t_max;
+		section_walk__crossing.shift = way;
+		kept.origin += way * ray.direction;
+		kept.t_max -= way;
+	}
+	else if (rate > 0.0 && way < ray.t_max) {
+		section_walk__crossing.leaves = true;
+		section_walk__crossing.way = way;
+		kept.t_max = way;
+	}
+	return traverse__walk_of(kept, any);
+}
+
+fn section_walk__followed(before: traverse__Walk, rounds: u32) -> traverse__Walk {
+	var walk = before;
+	loop {
+		walk = traverse__walked(walk, rounds);
+		if (bindings__HAS_SECTION) {
+			if (!traverse__is_walking(walk)) {
+				walk = section_walk__searched(walk);
+			}
+		}
+		continuing {
+		
+			break if !bindings__HAS_SECTION || section_walk__crossing.stage == section_walk__DONE || (section_walk__crossing.stage == section_walk__AHEAD && traverse__is_walking(walk));
+		}
+	}
+	return walk;
+}
+
+fn section_walk__searched(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	var hit = walk.hit;
+	var is_found = false;
+	var goes_on = false;
+	if (section_walk__crossing.stage == section_walk__AHEAD) {
+		goes_on = section_walk__crossing.enters || (bindings__HAS_REFRACTION && section_walk__crossing.leaves && hit.primitive == types__NONE);
+		section_walk__crossing.stage = section_walk__BEHIND;
+		section_walk__crossing.hit = hit;
+		section_walk__crossing.runner_up = primitive__runner_up;
+		walk.ray = tracing__Ray(walk.ray.origin + section_walk__crossing.way * walk.ray.direction, camera__T_FAR, walk.ray.direction, types__NONE, types__NO_INSTANCE);
+	}
+	else if (section_walk__crossing.stage == section_walk__BEHIND && hit.primitive != types__NONE) {
+		let crossed = section_walk__crossed_at(walk.ray, hit);
+		is_found = section_walk__is_around(section_walk__crossing.entered, crossed);
+		section_walk__crossing.entered = section_walk__after(section_walk__crossing.entered, crossed);
+		section_walk__crossing.surfaces += 1u;
+		goes_on = !is_found && section_walk__crossing.surfaces < section_walk__MAX_SURFACES;
+		loops__cut_off |= !is_found && !goes_on;
+		primitive__passed = hit;
+	}
+	if (goes_on) {
+		return traverse__walk_of(walk.ray, false);
+	}
+	if (section_walk__crossing.stage == section_walk__BEHIND) {
+		section_walk__crossing.stage = section_walk__DONE;
+		primitive__passed = tracing__Hit();
+		walk.hit = section_walk__crossing.hit;
+		primitive__runner_up = section_walk__crossing.runner_up;
+		if (is_found) {
+			walk.hit = tracing__Hit(section_walk__crossing.way, hit.primitive, 0.0, section__CAP, hit.instance);
+			primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+		}
+		walk.hit.t += section_walk__crossing.shift;
+		primitive__runner_up.t += section_walk__crossing.shift;
+	}
+	return walk;
+}
+
+struct section_walk__Crossed {
+	solid: u32,
+	leaves: bool,
+	t: f32
+}
+
+struct section_walk__Entered {
+	solids: array<u32, section_walk__MOST_ENTERED>,
+	count: u32,
+	last: section_walk__Crossed
+}
+
+const section_walk__MOST_ENTERED: u32 = 16u;
+
+fn section_walk__is_around(entered: section_walk__Entered, crossed: section_walk__Crossed) -> bool {
+	let is_open = crossed.solid == types__NONE || !crossed.leaves;
+	return !is_open && !section_walk__is_again(entered, crossed) && section_walk__place_of(entered, crossed.solid) == entered.count;
+}
+
+fn section_walk__is_again(entered: section_walk__Entered, crossed: section_walk__Crossed) -> bool {
+	let last = entered.last;
+	let is_near = abs(crossed.t - last.t) <= 1e-6 * crossed.t;
+	return last.solid == crossed.solid && last.leaves == crossed.leaves && is_near;
+}
+
+fn section_walk__place_of(entered: section_walk__Entered, solid: u32) -> u32 {
+	var place = entered.count;
+	var k = 0u;
+	loop {
+		place = select(place, k, k < entered.count && entered.solids[k] == solid);
+		continuing {
+			k += 1u;
+			break if k >= section_walk__MOST_ENTERED;
+		}
+	}
+	loops__cut_off |= k < section_walk__MOST_ENTERED;
+	return place;
+}
+
+fn section_walk__after(before: section_walk__Entered, crossed: section_walk__Crossed) -> section_walk__Entered {
+	var entered = before;
+	if (crossed.solid == types__NONE || section_walk__is_again(before, crossed)) {
+		return entered;
+	}
+	entered.last = crossed;
+	if (crossed.leaves) {
+		let place = section_walk__place_of(before, crossed.solid);
+		if (place < before.count) {
+			entered.count -= 1u;
+			entered.solids[place] = before.solids[entered.count];
+		}
+	}
+	else if ((crossed.solid & types__SHAPE) == 0u) {
+		loops__cut_off |= before.count >= section_walk__MOST_ENTERED;
+		entered.solids[min(before.count, section_walk__MOST_ENTERED - 1u)] = crossed.solid;
+		entered.count = min(before.count + 1u, section_walk__MOST_ENTERED);
+	}
+	return entered;
+}
+
+fn section_walk__crossed_at(ray: tracing__Ray, hit: tracing__Hit) -> section_walk__Crossed {
+	var instance: types__PackedInstance;
+	var local = ray;
+	let is_placed = bindings__HAS_INSTANCES && hit.instance != types__NO_INSTANCE;
+	if (is_placed) {
+		instance = fetch__load_instance(hit.instance);
+		local = instance__object_ray(ray, instance__space_of(instance));
+	}
+	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+		let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+		let reached = local.origin + hit.t * local.direction;
+		let leaves = dot(shape_surface__shape_point(shape, reached, hit.b1, local.direction).ng, local.direction) > 0.0;
+		return section_walk__Crossed(select(types__NONE, hit.primitive, section__is_closed(shape)), leaves, hit.t);
+	}
+	if (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u) {
+		return section_walk__Crossed(types__NONE, false, hit.t);
+	}
+	let mesh = section__closed_mesh_of(hit.primitive);
+	let keys = deforming__keys_of(instance);
+	let own = deforming__triangle_now(hit.primitive, keys);
+	var normals = mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			normals = deforming__normals_now(hit.primitive, keys);
+		}
+	}
+	let n = normals * vec3f(1.0 - hit.b1 - hit.b2, hit.b1, hit.b2);
+	let across = cross(own.v1 - own.v0, own.v2 - own.v0);
+	let leaves = (dot(n, across) < 0.0) != (dot(across, local.direction) > 0.0);
+	let id = mesh + bindings__frame.solid_count * select(0u, hit.instance + 1u, is_placed);
+	return section_walk__Crossed(select(types__NONE, id & ~types__SHAPE, mesh != types__NONE), leaves, hit.t);
+}
+
 const traverse__EMPTY: u32 = 4294967295u;
 
 const traverse__RETURN: u32 = 4294967294u;
@@ -2164,6 +2367,8 @@ fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: tria
 
 var<private> primitive__runner_up: tracing__Hit;
 
+var<private> primitive__passed: tracing__Hit;
+
 struct primitive__TraversalRay {
 	ray: tracing__Ray,
 	inv: vec3f,
@@ -2188,13 +2393,21 @@ fn primitive__closer_of(at: primitive__TraversalRay, hit: tracing__Hit, candidat
 		is_left = is_left & (at.instance == at.ray.leaving_instance);
 	}
 	let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
-	let counts = candidate.hit & !is_left;
+	let counts = candidate.hit & !is_left & !primitive__is_passed(candidate.t, primitive, at.instance);
 	let wins = counts & ((candidate.t < hit.t) | ties);
 	if (bindings__HAS_CONTACT) {
 		let found = tracing__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
 		primitive__keep_runner_up(hit, found, counts, wins);
 	}
 	return tracing__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+}
+
+fn primitive__is_passed(t: f32, primitive: u32, instance: u32) -> bool {
+	if (!bindings__HAS_SECTION) {
+		return false;
+	}
+	let is_later = instance > primitive__passed.instance || (instance == primitive__passed.instance && primitive > primitive__passed.primitive);
+	return t < primitive__passed.t || (t == primitive__passed.t && !is_later);
 }
 
 fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: bool, wins: bool) {
@@ -3150,6 +3363,144 @@ fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
 	return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
 }
 
+fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let reached = ray.origin + hit.t * ray.direction;
+	let material = material__load_material(shape.material);
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		let ng = shape.row_y;
+		let p = reached - dot(reached - shape.position, ng) * ng;
+		let outside = dot(ng, ray.direction) <= 0.0;
+		var plane_uv = vec2f(0.0);
+		if (bindings__HAS_TEXTURES) {
+			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
+		}
+		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), false);
+	}
+	if (!shape__is_round(shape.kind)) {
+		let point = shape__canonical_point(shape, reached, hit.b1);
+		let placed = canonical__placed_point(shape, reached, point);
+		let ng = placed.ng;
+		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), false);
+	}
+	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
+	let ng = placed.ng;
+	let outside = dot(ng, ray.direction) <= 0.0;
+	var uv = vec2f(0.0);
+	if (bindings__HAS_TEXTURES) {
+		uv = canonical__sphere_uv(ng);
+	}
+	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), false);
+}
+
+fn shape_surface__shape_point(shape: types__PackedShape, reached: vec3f, part: f32, direction: vec3f) -> canonical__PlacedPoint {
+	if (!shape__is_round(shape.kind)) {
+		return canonical__placed_point(shape, reached, shape__canonical_point(shape, reached, part));
+	}
+	return shape_surface__sphere_point(shape, reached, direction);
+}
+
+fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
+	if (shape__is_globe(shape.kind)) {
+		return globe__globe_point(shape, reached);
+	}
+	let ng = numeric__normalize_or(reached - shape.position, -direction);
+	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
+}
+
+fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
+	let b0 = abs(1.0 - b1 - b2);
+	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
+}
+
+fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
+}
+
+fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
+}
+
+fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
+}
+
+fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
+	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
+}
+
+fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
+	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
+}
+
+fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
+	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
+}
+
+const section__CAP: f32 = -1.0;
+
+fn section__is_cut(p: vec3f) -> bool {
+	return bindings__HAS_SECTION && dot(bindings__frame.section, p) > bindings__frame.section_offset;
+}
+
+fn section__uncut(p: vec3f, arriving: shading__Incident) -> shading__Incident {
+	var kept = arriving;
+	if (section__is_cut(p + arriving.distance * arriving.direction)) {
+		kept.radiance = vec3f(0.0);
+	}
+	return kept;
+}
+
+fn section__is_cap(hit: tracing__Hit) -> bool {
+	return bindings__HAS_SECTION && hit.b2 == section__CAP;
+}
+
+fn section__closed_mesh_of(triangle: u32) -> u32 {
+	if (bindings__frame.solid_count == 0u) {
+		return types__NONE;
+	}
+	let vertex = fetch__load_triangle(triangle).i0;
+	var low = 0u;
+	var high = bindings__frame.solid_count - 1u;
+	loop {
+		let middle = (low + high + 1u) / 2u;
+		let is_before = section__load_solid(middle).x <= vertex;
+		low = select(low, middle, is_before);
+		high = select(max(middle, 1u) - 1u, high, is_before);
+		continuing {
+		
+			break if low >= high;
+		}
+	}
+	loops__cut_off |= low < high;
+	let range = section__load_solid(low);
+	return select(types__NONE, low, range.x <= vertex && vertex < range.y);
+}
+
+fn section__is_closed(shape: types__PackedShape) -> bool {
+	return shape.kind != types__SHAPE_PLANE && shape.kind != types__SHAPE_DISC && shape.kind != types__SHAPE_RECTANGLE && (shape.kind != types__SHAPE_CONE || (shape.flags & types__SHAPE_CAPPED) != 0u);
+}
+
+fn section__load_solid(index: u32) -> vec2u {
+	return rows__node_row(bindings__frame.solid_row + index).xy;
+}
+
+fn section__cap_surface(ray: tracing__Ray, local: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
+	var index = 0u;
+	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+		index = fetch__load_shape(hit.primitive & ~types__SHAPE).material;
+	}
+	else {
+		index = fetch__load_vertex(fetch__load_triangle(hit.primitive).i0).material;
+	}
+	let material = material__load_material(index);
+	let ng = bindings__frame.section;
+	let reached = ray.origin + hit.t * ray.direction;
+	let p = reached - (dot(ng, reached) - bindings__frame.section_offset) * ng;
+	let side = dot(ng, ray.direction);
+	return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, side)), ng, offset__plane_error(p, bindings__frame.section_offset * ng), types__NONE, side <= 0.0, vec2f(0.0), vec2f(0.0), index, material.phong, 2246822507u * (index + 1u), local.origin + hit.t * local.direction, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), true);
+}
+
 fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
 	var hit = start;
 	var index = fetch__first_plane;
@@ -3157,7 +3508,7 @@ fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hi
 		let shape = fetch__load_shape(index);
 		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
 		let primitive = types__SHAPE | index;
-		let counts = candidate.hit & (primitive != ray.leaving);
+		let counts = candidate.hit & (primitive != ray.leaving) & !primitive__is_passed(candidate.t, primitive, types__NO_INSTANCE);
 		let wins = counts & (candidate.t < hit.t);
 		let found = tracing__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
 		if (bindings__HAS_CONTACT) {
@@ -3459,7 +3810,8 @@ struct shading__Surface {
 	curvature: f32,
 	tangent: vec4f,
 	coat_n: vec3f,
-	color: vec4f
+	color: vec4f,
+	is_cap: bool
 }
 
 struct shading__Footprint {
@@ -4000,10 +4352,13 @@ fn surface__surface_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone
 		local = instance__object_ray(ray, space);
 	}
 	var surface: shading__Surface;
-	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
+	if (section__is_cap(hit)) {
+		surface = section__cap_surface(ray, local, hit);
+	}
+	else if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
 		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
 	}
-	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+	else if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
 		surface = shape_surface__shape_surface(local, hit);
 		let p = surface.p;
 		if (is_placed) {
@@ -4122,7 +4477,7 @@ fn triangle_surface__triangle_surface(ray: tracing__Ray, hit: tracing__Hit, plac
 		}
 	}
 	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips), color);
+	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips), color, false);
 }
 
 fn triangle_surface__mix_phong(p0: shading__Phong, p1: shading__Phong, p2: shading__Phong, b0: f32, b1: f32, b2: f32) -> shading__Phong {
@@ -4322,6 +4677,10 @@ fn texture__footprint_in(texture: types__PackedTexture, footprint: shading__Foot
 	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
 }
 
+fn texture__is_bare(texture: types__PackedTexture, surface: shading__Surface) -> bool {
+	return bindings__HAS_SECTION && surface.is_cap && (texture.flags & types__TEXTURE_UV) != 0u;
+}
+
 fn texture__place_in_pattern(texture: types__PackedTexture, surface: shading__Surface) -> vec3f {
 	let uv = select(surface.uv, surface.second_uv, texture__uses_second_uv(texture));
 	let at = select(vec4f(surface.place, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
@@ -4329,7 +4688,7 @@ fn texture__place_in_pattern(texture: types__PackedTexture, surface: shading__Su
 }
 
 fn texture__texture_alpha(texture: types__PackedTexture, surface: shading__Surface, is_mask: bool) -> f32 {
-	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
+	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE && !texture__is_bare(texture, surface)) {
 		let axes = texture__footprint_in(texture, surface.footprint);
 		let size = select(1.0, 0.0, is_mask);
 		return texture__picture_color(texture, texture__place_in_pattern(texture, surface).xy, size * axes).w;
@@ -4342,6 +4701,9 @@ fn texture__texture_color(texture: types__PackedTexture, surface: shading__Surfa
 }
 
 fn texture__texture_value(texture: types__PackedTexture, surface: shading__Surface) -> vec4f {
+	if (texture__is_bare(texture, surface)) {
+		return vec4f(1.0);
+	}
 	let q = texture__place_in_pattern(texture, surface);
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
 		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint));
@@ -4561,73 +4923,6 @@ fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
 	let low = select(four.x, four.y, word == 1u);
 	let high = select(four.z, four.w, word == 3u);
 	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
-}
-
-fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
-	let b0 = abs(1.0 - b1 - b2);
-	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
-}
-
-fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
-}
-
-fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
-}
-
-fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
-}
-
-fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
-	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
-}
-
-fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
-	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
-}
-
-fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
-	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
-}
-
-fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
-	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	let reached = ray.origin + hit.t * ray.direction;
-	let material = material__load_material(shape.material);
-	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
-		let ng = shape.row_y;
-		let p = reached - dot(reached - shape.position, ng) * ng;
-		let outside = dot(ng, ray.direction) <= 0.0;
-		var plane_uv = vec2f(0.0);
-		if (bindings__HAS_TEXTURES) {
-			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
-		}
-		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
-	}
-	if (!shape__is_round(shape.kind)) {
-		let point = shape__canonical_point(shape, reached, hit.b1);
-		let placed = canonical__placed_point(shape, reached, point);
-		let ng = placed.ng;
-		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
-	}
-	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
-	let ng = placed.ng;
-	let outside = dot(ng, ray.direction) <= 0.0;
-	var uv = vec2f(0.0);
-	if (bindings__HAS_TEXTURES) {
-		uv = canonical__sphere_uv(ng);
-	}
-	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
-}
-
-fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
-	if (shape__is_globe(shape.kind)) {
-		return globe__globe_point(shape, reached);
-	}
-	let ng = numeric__normalize_or(reached - shape.position, -direction);
-	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
 }
 
 fn coverage__coverage_at(surface: shading__Surface) -> f32 {
@@ -4997,9 +5292,15 @@ fn emitters__sample_light(batch: dispatch__Batch, p: vec3f, n: vec3f, choice: f3
 	let source = light_choice__choose_source(batch, p, n, choice);
 	record_path__record_source(select(types__SOURCE_LIGHT, types__SOURCE_EMITTER, source.is_emitter), source.index, source.chance);
 	if (bindings__HAS_EMITTERS && (!bindings__HAS_LIGHTS || source.is_emitter)) {
-		return emitters__sample_emitter(p, source, u);
+		var emitted = emitters__sample_emitter(p, source, u);
+		emitted.incident = section__uncut(p, emitted.incident);
+		return emitted;
 	}
-	var found = emitters__sample_lamp(shutter__shutter_light(source.index, batch.light_count), p, u);
+	let light = shutter__shutter_light(source.index, batch.light_count);
+	var found = emitters__sample_lamp(light, p, u);
+	if (light.visible != 0u) {
+		found.incident = section__uncut(p, found.incident);
+	}
 	found.incident.radiance *= select(0.0, warp__PI / max_f32(source.chance, 1e-30), source.chance > 0.0);
 	found.pdf *= source.chance;
 	return found;
@@ -6045,7 +6346,7 @@ struct light_weight__Sender {
 }
 
 fn light_weight__emission_weight(batch: dispatch__Batch, surface: shading__Surface, hit: tracing__Hit, sender: light_weight__Sender, direction: vec3f) -> f32 {
-	if (!(bindings__HAS_AREA_LIGHTS || bindings__HAS_EMITTERS) || sender.pdf <= 0.0) {
+	if (!(bindings__HAS_AREA_LIGHTS || bindings__HAS_EMITTERS) || sender.pdf <= 0.0 || section__is_cap(hit)) {
 		return 1.0;
 	}
 	let distance = distance(sender.p, surface.p);

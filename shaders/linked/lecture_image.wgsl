@@ -466,7 +466,10 @@ struct types__PackedCamera {
 struct types__PackedFrame {
 	camera: types__PackedCamera,
 	clip: vec2f,
-	_pad0: vec2u,
+	solid_row: u32,
+	solid_count: u32,
+	section: vec3f,
+	section_offset: f32,
 	background: vec3f,
 	light_count: u32,
 	ambient: vec3f,
@@ -748,6 +751,8 @@ override bindings__HAS_INSTANCES: bool = false;
 override bindings__HAS_MOTION: bool = false;
 
 override bindings__HAS_DEFORMATION: bool = false;
+
+override bindings__HAS_SECTION: bool = false;
 
 override bindings__BACKGROUND: u32 = 0u;
 
@@ -1433,10 +1438,13 @@ fn surface__surface_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone
 		local = instance__object_ray(ray, space);
 	}
 	var surface: shading__Surface;
-	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
+	if (section__is_cap(hit)) {
+		surface = section__cap_surface(ray, local, hit);
+	}
+	else if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
 		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
 	}
-	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+	else if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
 		surface = shape_surface__shape_surface(local, hit);
 		let p = surface.p;
 		if (is_placed) {
@@ -1495,7 +1503,8 @@ struct shading__Surface {
 	curvature: f32,
 	tangent: vec4f,
 	coat_n: vec3f,
-	color: vec4f
+	color: vec4f,
+	is_cap: bool
 }
 
 struct shading__Footprint {
@@ -1541,6 +1550,183 @@ fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
 fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
 	let at = vec4f(q, 1.0);
 	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
+}
+
+const section__CAP: f32 = -1.0;
+
+fn section__is_cap(hit: tracing__Hit) -> bool {
+	return bindings__HAS_SECTION && hit.b2 == section__CAP;
+}
+
+fn section__cap_surface(ray: tracing__Ray, local: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
+	var index = 0u;
+	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+		index = fetch__load_shape(hit.primitive & ~types__SHAPE).material;
+	}
+	else {
+		index = fetch__load_vertex(fetch__load_triangle(hit.primitive).i0).material;
+	}
+	let material = material__load_material(index);
+	let ng = bindings__frame.section;
+	let reached = ray.origin + hit.t * ray.direction;
+	let p = reached - (dot(ng, reached) - bindings__frame.section_offset) * ng;
+	let side = dot(ng, ray.direction);
+	return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, side)), ng, offset__plane_error(p, bindings__frame.section_offset * ng), types__NONE, side <= 0.0, vec2f(0.0), vec2f(0.0), index, material.phong, 2246822507u * (index + 1u), local.origin + hit.t * local.direction, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), true);
+}
+
+struct material__PhongMaterial {
+	phong: shading__Phong,
+	flags: u32
+}
+
+fn material__load_material(index: u32) -> material__PhongMaterial {
+	let row = types__MATERIAL_ROWS * index;
+	let r0 = rows__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
+	let r1 = rows__material_row(row + 1u);
+	let r2 = rows__material_row(row + 2u);
+	var reflect = vec3f(0.0);
+	if (bindings__HAS_REFLECTION) {
+		reflect = bitcast<vec3f>(rows__material_row(row + 3u).xyz);
+	}
+	let phong = shading__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+	return material__PhongMaterial(phong, r1.w);
+}
+
+fn material__load_texture_indices(index: u32) -> vec4u {
+	return rows__material_row(types__MATERIAL_ROWS * index + 7u);
+}
+
+fn material__load_normal_scale(index: u32) -> f32 {
+	return bitcast<f32>(rows__material_row(types__MATERIAL_ROWS * index + 6u).w);
+}
+
+fn material__load_texture(index: u32) -> types__PackedTexture {
+	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r5 = rows__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(rows__material_row(row + 2u)), bitcast<vec4f>(rows__material_row(row + 3u)), bitcast<vec4f>(rows__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+}
+
+fn material__load_layers(index: u32) -> types__PackedLayers {
+	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
+	let r0 = rows__material_row(row);
+	let r1 = rows__material_row(row + 1u);
+	let r2 = bitcast<vec4f>(rows__material_row(row + 2u));
+	let r3 = rows__material_row(row + 3u);
+	let r4 = bitcast<vec4f>(rows__material_row(row + 4u));
+	let r5 = bitcast<vec4f>(rows__material_row(row + 5u));
+	let r6 = rows__material_row(row + 6u);
+	let r7 = rows__material_row(row + 7u);
+	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), rows__material_row(row + 8u), rows__material_row(row + 9u), rows__material_row(row + 10u));
+}
+
+fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
+	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
+	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
+}
+
+fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
+	let b0 = abs(1.0 - b1 - b2);
+	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
+}
+
+fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
+}
+
+fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
+}
+
+fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
+}
+
+fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
+	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
+}
+
+fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
+	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
+}
+
+fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
+	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
+}
+
+const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
+
+fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
+	let e1 = corners[1] - corners[0];
+	let e2 = corners[2] - corners[0];
+	let d1 = uvs[1] - uvs[0];
+	let d2 = uvs[2] - uvs[0];
+	return mat2x2f(ray_cone__uv_along(axes[0], e1, e2, d1, d2), ray_cone__uv_along(axes[1], e1, e2, d1, d2));
+}
+
+fn footprint__shape_uv_footprint(shape: types__PackedShape, p: vec3f, axes: mat2x3f, part: f32) -> mat2x2f {
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		return mat2x2f(vec2f(dot(shape.row_x, axes[0]), dot(shape.row_z, axes[0])), vec2f(dot(shape.row_x, axes[1]), dot(shape.row_z, axes[1])));
+	}
+	var first = vec2f(0.0);
+	var ends = mat2x2f(first, first);
+	var k = 0u;
+	loop {
+		let at = select(select(p + axes[1], p + axes[0], k == 1u), p, k == 0u);
+		let uv = footprint__shape_uv(shape, at, part);
+		let way = uv - first - round(uv - first);
+		first = select(first, uv, k == 0u);
+		ends = mat2x2f(select(ends[0], way, k == 1u), select(ends[1], way, k == 2u));
+		continuing {
+			k += 1u;
+			break if k > 2u;
+		}
+	}
+	loops__cut_off |= k <= 2u;
+	return ends;
+}
+
+fn footprint__shape_uv(shape: types__PackedShape, p: vec3f, part: f32) -> vec2f {
+	if (!shape__is_round(shape.kind)) {
+		return shape__canonical_point(shape, p, part).uv;
+	}
+	if (shape__is_globe(shape.kind)) {
+		return canonical__sphere_uv(globe__globe_point(shape, p).ng);
+	}
+	return canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
+}
+
+fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) -> mat2x3f {
+	let rows = transpose(mat3x3f(instance.pattern_x.xyz, instance.pattern_y.xyz, instance.pattern_z.xyz));
+	return mat2x3f(rows * own[0], rows * own[1]);
+}
+
+fn footprint__with_shape_footprint(own: shading__Surface, ray: tracing__Ray, hit: tracing__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: tracing__Cone) -> shading__Surface {
+	var surface = own;
+	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
+	var local = axes;
+	var scale = 1.0;
+	if (bindings__HAS_INSTANCES && is_placed) {
+		local = mat2x3f(space.inverse * axes[0], space.inverse * axes[1]);
+		scale = length(instance__placed_normal(space, own.ng));
+	}
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
+	surface.footprint = shading__Footprint(in_uv, in_uv, axes);
+	if (shape__is_round(shape.kind)) {
+		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
+		surface.curvature = select(-curvature, curvature, own.outside);
+	}
+	return surface;
+}
+
+fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) -> f32 {
+	if (!(bindings__HAS_FOOTPRINTS && (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION))) {
+		return 0.0;
+	}
+	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
+	return select(-bend, bend, side < 0.0) / 3.0;
 }
 
 var<private> triangle_surface__met_vertices: vec3u;
@@ -1629,7 +1815,7 @@ fn triangle_surface__triangle_surface(ray: tracing__Ray, hit: tracing__Hit, plac
 		}
 	}
 	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips), color);
+	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips), color, false);
 }
 
 fn triangle_surface__mix_phong(p0: shading__Phong, p1: shading__Phong, p2: shading__Phong, b0: f32, b1: f32, b2: f32) -> shading__Phong {
@@ -1733,58 +1919,6 @@ fn tangent_space__surface_tangent(frame: mat3x3f, n: vec3f, flips: bool) -> vec4
 	return vec4f(along, select(hand, 0.0, dot(along, along) == 0.0));
 }
 
-struct material__PhongMaterial {
-	phong: shading__Phong,
-	flags: u32
-}
-
-fn material__load_material(index: u32) -> material__PhongMaterial {
-	let row = types__MATERIAL_ROWS * index;
-	let r0 = rows__material_row(row + select(0u, types__LAYERS_ROW, bindings__HAS_LAYERS));
-	let r1 = rows__material_row(row + 1u);
-	let r2 = rows__material_row(row + 2u);
-	var reflect = vec3f(0.0);
-	if (bindings__HAS_REFLECTION) {
-		reflect = bitcast<vec3f>(rows__material_row(row + 3u).xyz);
-	}
-	let phong = shading__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
-	return material__PhongMaterial(phong, r1.w);
-}
-
-fn material__load_texture_indices(index: u32) -> vec4u {
-	return rows__material_row(types__MATERIAL_ROWS * index + 7u);
-}
-
-fn material__load_normal_scale(index: u32) -> f32 {
-	return bitcast<f32>(rows__material_row(types__MATERIAL_ROWS * index + 6u).w);
-}
-
-fn material__load_texture(index: u32) -> types__PackedTexture {
-	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-	let r0 = rows__material_row(row);
-	let r1 = rows__material_row(row + 1u);
-	let r5 = rows__material_row(row + 5u);
-	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(rows__material_row(row + 2u)), bitcast<vec4f>(rows__material_row(row + 3u)), bitcast<vec4f>(rows__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
-}
-
-fn material__load_layers(index: u32) -> types__PackedLayers {
-	let row = types__MATERIAL_ROWS * index + types__LAYERS_ROW;
-	let r0 = rows__material_row(row);
-	let r1 = rows__material_row(row + 1u);
-	let r2 = bitcast<vec4f>(rows__material_row(row + 2u));
-	let r3 = rows__material_row(row + 3u);
-	let r4 = bitcast<vec4f>(rows__material_row(row + 4u));
-	let r5 = bitcast<vec4f>(rows__material_row(row + 5u));
-	let r6 = rows__material_row(row + 6u);
-	let r7 = rows__material_row(row + 7u);
-	return types__PackedLayers(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), r2.x, r2.y, r2.z, r2.w, bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), r4.x, r4.y, r4.z, r4.w, r5.x, r5.y, r5.z, r5.w, bitcast<vec3f>(r6.xyz), bitcast<f32>(r6.w), r7.x, bitcast<f32>(r7.y), r7.z, bitcast<f32>(r7.w), rows__material_row(row + 8u), rows__material_row(row + 9u), rows__material_row(row + 10u));
-}
-
-fn material__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
-	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
-	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
-}
-
 fn vertex_color__interpolated_color(triangle: types__PackedTriangle, weights: vec3f) -> vec4f {
 	return mat3x4f(fetch__load_color(triangle.i0), fetch__load_color(triangle.i1), fetch__load_color(triangle.i2)) * weights;
 }
@@ -1792,80 +1926,6 @@ fn vertex_color__interpolated_color(triangle: types__PackedTriangle, weights: ve
 fn vertex_color__colored_phong(phong: shading__Phong, color: vec3f, flags: u32) -> shading__Phong {
 	let is_mirror = (flags & types__MATERIAL_COLORED_MIRROR) != 0u;
 	return shading__Phong(color * phong.diffuse, select(phong.specular, saturate_vec3f(color * phong.specular), is_mirror), phong.shininess, color * phong.ambient, select(phong.reflect, saturate_vec3f(color * phong.reflect), is_mirror));
-}
-
-const footprint__NO_FOOTPRINT: shading__Footprint = shading__Footprint(mat2x2f(), mat2x2f(), mat2x3f());
-
-fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
-	let e1 = corners[1] - corners[0];
-	let e2 = corners[2] - corners[0];
-	let d1 = uvs[1] - uvs[0];
-	let d2 = uvs[2] - uvs[0];
-	return mat2x2f(ray_cone__uv_along(axes[0], e1, e2, d1, d2), ray_cone__uv_along(axes[1], e1, e2, d1, d2));
-}
-
-fn footprint__shape_uv_footprint(shape: types__PackedShape, p: vec3f, axes: mat2x3f, part: f32) -> mat2x2f {
-	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
-		return mat2x2f(vec2f(dot(shape.row_x, axes[0]), dot(shape.row_z, axes[0])), vec2f(dot(shape.row_x, axes[1]), dot(shape.row_z, axes[1])));
-	}
-	var first = vec2f(0.0);
-	var ends = mat2x2f(first, first);
-	var k = 0u;
-	loop {
-		let at = select(select(p + axes[1], p + axes[0], k == 1u), p, k == 0u);
-		let uv = footprint__shape_uv(shape, at, part);
-		let way = uv - first - round(uv - first);
-		first = select(first, uv, k == 0u);
-		ends = mat2x2f(select(ends[0], way, k == 1u), select(ends[1], way, k == 2u));
-		continuing {
-			k += 1u;
-			break if k > 2u;
-		}
-	}
-	loops__cut_off |= k <= 2u;
-	return ends;
-}
-
-fn footprint__shape_uv(shape: types__PackedShape, p: vec3f, part: f32) -> vec2f {
-	if (!shape__is_round(shape.kind)) {
-		return shape__canonical_point(shape, p, part).uv;
-	}
-	if (shape__is_globe(shape.kind)) {
-		return canonical__sphere_uv(globe__globe_point(shape, p).ng);
-	}
-	return canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
-}
-
-fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) -> mat2x3f {
-	let rows = transpose(mat3x3f(instance.pattern_x.xyz, instance.pattern_y.xyz, instance.pattern_z.xyz));
-	return mat2x3f(rows * own[0], rows * own[1]);
-}
-
-fn footprint__with_shape_footprint(own: shading__Surface, ray: tracing__Ray, hit: tracing__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: tracing__Cone) -> shading__Surface {
-	var surface = own;
-	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
-	var local = axes;
-	var scale = 1.0;
-	if (bindings__HAS_INSTANCES && is_placed) {
-		local = mat2x3f(space.inverse * axes[0], space.inverse * axes[1]);
-		scale = length(instance__placed_normal(space, own.ng));
-	}
-	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-	let in_uv = footprint__shape_uv_footprint(shape, p, local, hit.b1);
-	surface.footprint = shading__Footprint(in_uv, in_uv, axes);
-	if (shape__is_round(shape.kind)) {
-		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
-		surface.curvature = select(-curvature, curvature, own.outside);
-	}
-	return surface;
-}
-
-fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) -> f32 {
-	if (!(bindings__HAS_FOOTPRINTS && (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION))) {
-		return 0.0;
-	}
-	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
-	return select(-bend, bend, side < 0.0) / 3.0;
 }
 
 const ray_cone__MOST_TAPS: f32 = 8.0;
@@ -2045,35 +2105,6 @@ fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
 	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
 }
 
-fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
-	let b0 = abs(1.0 - b1 - b2);
-	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
-}
-
-fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
-}
-
-fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
-}
-
-fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
-}
-
-fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
-	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
-}
-
-fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
-	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
-}
-
-fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
-	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
-}
-
 fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
 	let reached = ray.origin + hit.t * ray.direction;
@@ -2086,13 +2117,13 @@ fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
+		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), false);
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
+		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), false);
 	}
 	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -2101,7 +2132,7 @@ fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
+	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), false);
 }
 
 fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {

@@ -5,7 +5,7 @@ fn trace_rays(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 	let index = 64u * tile__permuted_group(group.x, bindings__dispatch.group_count, bindings__dispatch.group_stride) + lane;
 	let query = query__load_query_ray(index);
 	shutter__shutter_time = query.time;
-	query__store_hit(index, traverse__walked(traverse__walk_of(query.ray, bindings__ANY_HIT), traverse__NO_LIMIT).hit);
+	query__store_hit(index, section_walk__followed(section_walk__walk_from(query.ray, bindings__ANY_HIT), traverse__NO_LIMIT).hit);
 	dispatch__report_cut_off();
 	groups__count_group(group, lane);
 }
@@ -81,6 +81,11 @@ fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> typ
 	return types__PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
 }
 
+fn fetch__load_vertex(index: u32) -> types__PackedVertex {
+	let r0 = rows__vertex_row(index);
+	return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
+}
+
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
 
@@ -91,6 +96,8 @@ var<storage, read_write> bindings__dispatch: types__PackedDispatch;
 var<storage, read_write> bindings__hits: array<vec4u>;
 
 override bindings__BRUTE_FORCE: bool = false;
+
+override bindings__HAS_REFRACTION: bool = false;
 
 override bindings__TRIANGLE_TEST: u32 = 0u;
 
@@ -115,6 +122,8 @@ override bindings__HAS_MOTION: bool = false;
 override bindings__HAS_DEFORMATION: bool = false;
 
 override bindings__HAS_CONTACT: bool = false;
+
+override bindings__HAS_SECTION: bool = false;
 
 override bindings__COUNT_STEPS: bool = false;
 
@@ -156,6 +165,8 @@ const types__IMAGE_WIDTH_LOG2: u32 = 12u;
 
 const types__SHAPE_SPHERE: u32 = 0u;
 
+const types__SHAPE_PLANE: u32 = 1u;
+
 const types__SHAPE_DISC: u32 = 2u;
 
 const types__SHAPE_RECTANGLE: u32 = 3u;
@@ -185,6 +196,11 @@ struct types__PackedTriangle {
 	i1: u32,
 	v2: vec3f,
 	i2: u32
+}
+
+struct types__PackedVertex {
+	normal: vec3f,
+	material: u32
 }
 
 struct types__PackedShape {
@@ -246,7 +262,10 @@ struct types__PackedCamera {
 struct types__PackedFrame {
 	camera: types__PackedCamera,
 	clip: vec2f,
-	_pad0: vec2u,
+	solid_row: u32,
+	solid_count: u32,
+	section: vec3f,
+	section_offset: f32,
 	background: vec3f,
 	light_count: u32,
 	ambient: vec3f,
@@ -576,6 +595,9 @@ var rows__nodes: texture_storage_2d<rgba32uint, read>;
 @group(0) @binding(1)
 var rows__triangles: texture_storage_2d<rgba32uint, read>;
 
+@group(0) @binding(2)
+var rows__vertices: texture_storage_2d<rgba32uint, read>;
+
 @group(0) @binding(3)
 var rows__rays: texture_storage_2d<rgba32uint, read>;
 
@@ -585,6 +607,10 @@ fn rows__node_row(row: u32) -> vec4u {
 
 fn rows__triangle_row(row: u32) -> vec4u {
 	return textureLoad(rows__triangles, rows__texel(row));
+}
+
+fn rows__vertex_row(row: u32) -> vec4u {
+	return textureLoad(rows__vertices, rows__texel(row));
 }
 
 fn rows__ray_row(row: u32) -> vec4u {
@@ -604,6 +630,204 @@ var<private> loops__primitives_tested: u32;
 var<private> loops__cut_off: bool;
 
 var<private> loops__is_stack_full: bool;
+
+struct section_walk__Crossing {
+	stage: u32,
+	enters: bool,
+	shift: f32,
+	leaves: bool,
+	way: f32,
+	hit: tracing__Hit,
+	runner_up: tracing__Hit,
+	entered: section_walk__Entered,
+	surfaces: u32
+}
+
+const section_walk__AHEAD: u32 = 0u;
+
+const section_walk__BEHIND: u32 = 1u;
+
+const section_walk__DONE: u32 = 2u;
+
+var<private> section_walk__crossing: section_walk__Crossing;
+
+const section_walk__MAX_SURFACES: u32 = 256u;
+
+fn section_walk__walk_from(ray: tracing__Ray, any: bool) -> traverse__Walk {
+	if (!bindings__HAS_SECTION) {
+		return traverse__walk_of(ray, any);
+	}
+	var kept = ray;
+	section_walk__crossing = section_walk__Crossing();
+	let height = dot(bindings__frame.section, ray.origin) - bindings__frame.section_offset;
+	let rate = dot(bindings__frame.section, ray.direction);
+	let is_toward = height * rate < 0.0;
+	let way = select(0.0, -height / select(1.0, rate, is_toward), is_toward);
+	if (height > 0.0 && !is_toward) {
+		kept.t_max = min_f32(ray.t_max, 0.0);
+	}
+	else if (height > 0.0) {
+		section_walk__crossing.enters = way < ray.t_max;
+		section_walk__crossing.shift = way;
+		kept.origin += way * ray.direction;
+		kept.t_max -= way;
+	}
+	else if (rate > 0.0 && way < ray.t_max) {
+		section_walk__crossing.leaves = true;
+		section_walk__crossing.way = way;
+		kept.t_max = way;
+	}
+	return traverse__walk_of(kept, any);
+}
+
+fn section_walk__followed(before: traverse__Walk, rounds: u32) -> traverse__Walk {
+	var walk = before;
+	loop {
+		walk = traverse__walked(walk, rounds);
+		if (bindings__HAS_SECTION) {
+			if (!traverse__is_walking(walk)) {
+				walk = section_walk__searched(walk);
+			}
+		}
+		continuing {
+		
+			break if !bindings__HAS_SECTION || section_walk__crossing.stage == section_walk__DONE || (section_walk__crossing.stage == section_walk__AHEAD && traverse__is_walking(walk));
+		}
+	}
+	return walk;
+}
+
+fn section_walk__searched(before: traverse__Walk) -> traverse__Walk {
+	var walk = before;
+	var hit = walk.hit;
+	var is_found = false;
+	var goes_on = false;
+	if (section_walk__crossing.stage == section_walk__AHEAD) {
+		goes_on = section_walk__crossing.enters || (bindings__HAS_REFRACTION && section_walk__crossing.leaves && hit.primitive == types__NONE);
+		section_walk__crossing.stage = section_walk__BEHIND;
+		section_walk__crossing.hit = hit;
+		section_walk__crossing.runner_up = primitive__runner_up;
+		walk.ray = tracing__Ray(walk.ray.origin + section_walk__crossing.way * walk.ray.direction, camera__T_FAR, walk.ray.direction, types__NONE, types__NO_INSTANCE);
+	}
+	else if (section_walk__crossing.stage == section_walk__BEHIND && hit.primitive != types__NONE) {
+		let crossed = section_walk__crossed_at(walk.ray, hit);
+		is_found = section_walk__is_around(section_walk__crossing.entered, crossed);
+		section_walk__crossing.entered = section_walk__after(section_walk__crossing.entered, crossed);
+		section_walk__crossing.surfaces += 1u;
+		goes_on = !is_found && section_walk__crossing.surfaces < section_walk__MAX_SURFACES;
+		loops__cut_off |= !is_found && !goes_on;
+		primitive__passed = hit;
+	}
+	if (goes_on) {
+		return traverse__walk_of(walk.ray, false);
+	}
+	if (section_walk__crossing.stage == section_walk__BEHIND) {
+		section_walk__crossing.stage = section_walk__DONE;
+		primitive__passed = tracing__Hit();
+		walk.hit = section_walk__crossing.hit;
+		primitive__runner_up = section_walk__crossing.runner_up;
+		if (is_found) {
+			walk.hit = tracing__Hit(section_walk__crossing.way, hit.primitive, 0.0, section__CAP, hit.instance);
+			primitive__runner_up = tracing__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+		}
+		walk.hit.t += section_walk__crossing.shift;
+		primitive__runner_up.t += section_walk__crossing.shift;
+	}
+	return walk;
+}
+
+struct section_walk__Crossed {
+	solid: u32,
+	leaves: bool,
+	t: f32
+}
+
+struct section_walk__Entered {
+	solids: array<u32, section_walk__MOST_ENTERED>,
+	count: u32,
+	last: section_walk__Crossed
+}
+
+const section_walk__MOST_ENTERED: u32 = 16u;
+
+fn section_walk__is_around(entered: section_walk__Entered, crossed: section_walk__Crossed) -> bool {
+	let is_open = crossed.solid == types__NONE || !crossed.leaves;
+	return !is_open && !section_walk__is_again(entered, crossed) && section_walk__place_of(entered, crossed.solid) == entered.count;
+}
+
+fn section_walk__is_again(entered: section_walk__Entered, crossed: section_walk__Crossed) -> bool {
+	let last = entered.last;
+	let is_near = abs(crossed.t - last.t) <= 1e-6 * crossed.t;
+	return last.solid == crossed.solid && last.leaves == crossed.leaves && is_near;
+}
+
+fn section_walk__place_of(entered: section_walk__Entered, solid: u32) -> u32 {
+	var place = entered.count;
+	var k = 0u;
+	loop {
+		place = select(place, k, k < entered.count && entered.solids[k] == solid);
+		continuing {
+			k += 1u;
+			break if k >= section_walk__MOST_ENTERED;
+		}
+	}
+	loops__cut_off |= k < section_walk__MOST_ENTERED;
+	return place;
+}
+
+fn section_walk__after(before: section_walk__Entered, crossed: section_walk__Crossed) -> section_walk__Entered {
+	var entered = before;
+	if (crossed.solid == types__NONE || section_walk__is_again(before, crossed)) {
+		return entered;
+	}
+	entered.last = crossed;
+	if (crossed.leaves) {
+		let place = section_walk__place_of(before, crossed.solid);
+		if (place < before.count) {
+			entered.count -= 1u;
+			entered.solids[place] = before.solids[entered.count];
+		}
+	}
+	else if ((crossed.solid & types__SHAPE) == 0u) {
+		loops__cut_off |= before.count >= section_walk__MOST_ENTERED;
+		entered.solids[min(before.count, section_walk__MOST_ENTERED - 1u)] = crossed.solid;
+		entered.count = min(before.count + 1u, section_walk__MOST_ENTERED);
+	}
+	return entered;
+}
+
+fn section_walk__crossed_at(ray: tracing__Ray, hit: tracing__Hit) -> section_walk__Crossed {
+	var instance: types__PackedInstance;
+	var local = ray;
+	let is_placed = bindings__HAS_INSTANCES && hit.instance != types__NO_INSTANCE;
+	if (is_placed) {
+		instance = fetch__load_instance(hit.instance);
+		local = instance__object_ray(ray, instance__space_of(instance));
+	}
+	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+		let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+		let reached = local.origin + hit.t * local.direction;
+		let leaves = dot(shape_surface__shape_point(shape, reached, hit.b1, local.direction).ng, local.direction) > 0.0;
+		return section_walk__Crossed(select(types__NONE, hit.primitive, section__is_closed(shape)), leaves, hit.t);
+	}
+	if (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u) {
+		return section_walk__Crossed(types__NONE, false, hit.t);
+	}
+	let mesh = section__closed_mesh_of(hit.primitive);
+	let keys = deforming__keys_of(instance);
+	let own = deforming__triangle_now(hit.primitive, keys);
+	var normals = mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+	if (bindings__HAS_DEFORMATION) {
+		if (keys.next != 0u) {
+			normals = deforming__normals_now(hit.primitive, keys);
+		}
+	}
+	let n = normals * vec3f(1.0 - hit.b1 - hit.b2, hit.b1, hit.b2);
+	let across = cross(own.v1 - own.v0, own.v2 - own.v0);
+	let leaves = (dot(n, across) < 0.0) != (dot(across, local.direction) > 0.0);
+	let id = mesh + bindings__frame.solid_count * select(0u, hit.instance + 1u, is_placed);
+	return section_walk__Crossed(select(types__NONE, id & ~types__SHAPE, mesh != types__NONE), leaves, hit.t);
+}
 
 const traverse__EMPTY: u32 = 4294967295u;
 
@@ -753,6 +977,8 @@ fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: tria
 
 var<private> primitive__runner_up: tracing__Hit;
 
+var<private> primitive__passed: tracing__Hit;
+
 struct primitive__TraversalRay {
 	ray: tracing__Ray,
 	inv: vec3f,
@@ -777,13 +1003,21 @@ fn primitive__closer_of(at: primitive__TraversalRay, hit: tracing__Hit, candidat
 		is_left = is_left & (at.instance == at.ray.leaving_instance);
 	}
 	let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
-	let counts = candidate.hit & !is_left;
+	let counts = candidate.hit & !is_left & !primitive__is_passed(candidate.t, primitive, at.instance);
 	let wins = counts & ((candidate.t < hit.t) | ties);
 	if (bindings__HAS_CONTACT) {
 		let found = tracing__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
 		primitive__keep_runner_up(hit, found, counts, wins);
 	}
 	return tracing__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+}
+
+fn primitive__is_passed(t: f32, primitive: u32, instance: u32) -> bool {
+	if (!bindings__HAS_SECTION) {
+		return false;
+	}
+	let is_later = instance > primitive__passed.instance || (instance == primitive__passed.instance && primitive > primitive__passed.primitive);
+	return t < primitive__passed.t || (t == primitive__passed.t && !is_later);
 }
 
 fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: bool, wins: bool) {
@@ -859,7 +1093,27 @@ fn deforming__triangle_now(primitive: u32, keys: deforming__Keys) -> types__Pack
 	return first;
 }
 
+fn deforming__normals_now(primitive: u32, keys: deforming__Keys) -> mat3x3f {
+	let moment = motion__moment_of(shutter__shutter_time, bindings__frame.deformation_key_count);
+	let a = deforming__normals_at(deforming__index_at(primitive, keys, moment.key));
+	let b = deforming__normals_at(deforming__index_at(primitive, keys, moment.key + 1u));
+	return a * (1.0 - moment.fraction) + b * moment.fraction;
+}
+
+fn deforming__normals_at(triangle: u32) -> mat3x3f {
+	let own = fetch__load_triangle(triangle);
+	return mat3x3f(fetch__load_vertex(own.i0).normal, fetch__load_vertex(own.i1).normal, fetch__load_vertex(own.i2).normal);
+}
+
 const numeric__ROUNDING: f32 = 5.9604645e-8;
+
+fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
+	let largest = max_f32(abs(v.x), max_f32(abs(v.y), abs(v.z)));
+	let usable = largest > 1e-30;
+	let shrink = select(1.0, 2.3283064e-10, largest > 1e37);
+	let scaled = select(vec3f(1.0, 0.0, 0.0), (shrink * v) / select(1.0, shrink * largest, usable), usable);
+	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
+}
 
 fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
 	let tiny = abs(d) < vec3f(1e-18);
@@ -1105,6 +1359,41 @@ fn shape__test_shape(ray: tracing__Ray, shape: types__PackedShape) -> tracing__C
 	return candidate;
 }
 
+fn shape__canonical_point(shape: types__PackedShape, reached: vec3f, part: f32) -> canonical__CanonicalPoint {
+	let p = canonical__canonical_vector(shape, reached - shape.position);
+	var point: canonical__CanonicalPoint;
+	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
+		point = disc__disc_point(p);
+	}
+	if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
+		point = rectangle__rectangle_point(p);
+	}
+	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
+		point = box__box_point(p, part);
+	}
+	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
+		point = cone__cone_point(p, shape.size0, shape.size1, part);
+	}
+	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
+		point = torus__torus_point(p, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
+		point = ellipsoid__ellipsoid_point(p);
+	}
+	return point;
+}
+
+fn shape__is_round(kind: u32) -> bool {
+	if ((bindings__SHAPE_KINDS & (shape__SPHERES | shape__GLOBES)) == 0u) {
+		return false;
+	}
+	return (bindings__SHAPE_KINDS & ~(shape__SPHERES | shape__GLOBES)) == 0u || kind == types__SHAPE_SPHERE || kind == types__SHAPE_GLOBE;
+}
+
+fn shape__is_globe(kind: u32) -> bool {
+	return (bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || kind == types__SHAPE_GLOBE);
+}
+
 fn sphere__intersect_sphere(ray: tracing__Ray, center: vec3f, radius: f32) -> tracing__Candidate {
 	let f = ray.origin - center;
 	let a = dot(ray.direction, ray.direction);
@@ -1144,7 +1433,28 @@ fn globe__intersect_globe(ray: tracing__Ray, anchor: vec3f, n: vec3f, curvature:
 	return tracing__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
+fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__PlacedPoint {
+	let w = reached - shape.position;
+	let f = shape.row_y + shape.size0 * w;
+	let height = (shape.size0 * dot(w, w) + 2.0 * dot(shape.row_y, w)) / (1.0 + length(f));
+	let ng = numeric__normalize_or(f, shape.row_y);
+	let p = reached - height * ng;
+	return canonical__PlacedPoint(p, ng, 16.0 * numeric__ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
+}
+
 const canonical__TWO_PI: f32 = 6.2831855;
+
+struct canonical__CanonicalPoint {
+	p: vec3f,
+	n: vec3f,
+	uv: vec2f
+}
+
+struct canonical__PlacedPoint {
+	p: vec3f,
+	ng: vec3f,
+	error: vec3f
+}
 
 struct canonical__Approach {
 	origin: vec3f,
@@ -1179,12 +1489,54 @@ fn canonical__approached_t(near: canonical__Approach, s: f32) -> f32 {
 	return (near.start + s) * near.t_per_length;
 }
 
+fn canonical__placed_point(shape: types__PackedShape, reached: vec3f, point: canonical__CanonicalPoint) -> canonical__PlacedPoint {
+	let inv_lengths = 1.0 / vec3f(length(shape.row_x), length(shape.row_y), length(shape.row_z));
+	let x = shape.row_x * inv_lengths.x;
+	let y = shape.row_y * inv_lengths.y;
+	let z = shape.row_z * inv_lengths.z;
+	let normal_x = cross(y, z);
+	let det = dot(x, normal_x);
+	let scale = inv_lengths / select(1.0, det, abs(det) > 1e-20);
+	let column_x = scale.x * normal_x;
+	let column_y = scale.y * cross(z, x);
+	let column_z = scale.z * cross(x, y);
+	let q = reached - shape.position;
+	let way = point.p - canonical__canonical_vector(shape, q);
+	let p = reached + (way.x * column_x + way.y * column_y + way.z * column_z);
+	let size = vec3f(dot(abs(shape.row_x), abs(q)), dot(abs(shape.row_y), abs(q)), dot(abs(shape.row_z), abs(q))) + 1.0;
+	let reach = size.x * abs(column_x) + size.y * abs(column_y) + size.z * abs(column_z);
+	let normal = point.n.x * shape.row_x + point.n.y * shape.row_y + point.n.z * shape.row_z;
+	return canonical__PlacedPoint(p, numeric__normalize_or(normal, y), offset__placed_error(p, shape.position, reach));
+}
+
+fn canonical__longitude(x: f32, z: f32) -> f32 {
+	let on_axis = (x == 0.0) & (z == 0.0);
+	return saturate_f32(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
+}
+
+fn canonical__sphere_uv(n: vec3f) -> vec2f {
+	let off_axis = length(n.xz);
+	let at_center = (off_axis == 0.0) & (n.y == 0.0);
+	let latitude = atan2(n.y, select(off_axis, 1.0, at_center));
+	return vec2f(canonical__longitude(n.x, n.z), saturate_f32(0.5 + 2.0 * latitude / canonical__TWO_PI));
+}
+
+fn canonical__outwards(v: vec2f) -> vec2f {
+	let size = length(v);
+	let usable = size > 1e-18;
+	return select(vec2f(1.0, 0.0), v / select(1.0, size, usable), usable);
+}
+
 fn disc__intersect_disc(ray: tracing__Ray, hole: f32) -> tracing__Candidate {
 	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
 	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
 	let p = clamp_vec2f(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
 	let distance = dot(p, p);
 	return tracing__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
+}
+
+fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate_vec2f(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
 fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
@@ -1194,6 +1546,10 @@ fn rectangle__intersect_rectangle(ray: tracing__Ray) -> tracing__Candidate {
 	let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
 	let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
 	return tracing__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
+}
+
+fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate_vec2f(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
 fn box__intersect_box(ray: tracing__Ray) -> tracing__Candidate {
@@ -1215,6 +1571,24 @@ fn box__intersect_box(ray: tracing__Ray) -> tracing__Candidate {
 	let side = f32(axis) + select(0.0, 3.0, positive);
 	let hit = (enter <= leave) & (s > 0.0);
 	return tracing__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
+}
+
+fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
+	let code = u32(side + 0.5);
+	let positive = code >= 3u;
+	let axis = code - select(0u, 3u, positive);
+	let sign = select(-1.0, 1.0, positive);
+	let n = box__box_normal(side);
+	let place = select(p, n, n != vec3f(0.0));
+	let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
+	let up = select(p.y, -sign * p.z, axis == 1u);
+	return canonical__CanonicalPoint(place, n, saturate_vec2f(0.5 + 0.5 * vec2f(right, up)));
+}
+
+fn box__box_normal(side: f32) -> vec3f {
+	let code = u32(side + 0.5);
+	let axis = code % 3u;
+	return select(vec3f(0.0), vec3f(select(-1.0, 1.0, code >= 3u)), vec3<bool>(axis == 0u, axis == 1u, axis == 2u));
 }
 
 const cone__FAR: f32 = 1e30;
@@ -1279,6 +1653,26 @@ fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
 	let usable = abs(rate) > 0.001;
 	let step = (off_axis - (bottom + slope * p.y)) / select(1.0, rate, usable);
 	return s - clamp_f32(select(0.0, step, usable), -0.001, 0.001);
+}
+
+fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__CanonicalPoint {
+	let slope = top - bottom;
+	let out = canonical__outwards(p.xz);
+	if (part < 0.5) {
+		let y = saturate_f32(p.y);
+		let radius = bottom + slope * y;
+		return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), cone__cone_side_normal(out, slope), vec2f(canonical__longitude(p.x, p.z), y));
+	}
+	let is_top = part > 1.5;
+	let radius = select(bottom, top, is_top);
+	let flat = out * min_f32(length(p.xz), radius);
+	let sign = select(-1.0, 1.0, is_top);
+	let uv = vec2f(flat.x, -sign * flat.y) / max_f32(radius, 1e-18);
+	return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate_vec2f(0.5 + 0.5 * uv));
+}
+
+fn cone__cone_side_normal(out: vec2f, slope: f32) -> vec3f {
+	return vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
 }
 
 const torus__MOST_ROUNDS: u32 = 40u;
@@ -1370,13 +1764,82 @@ fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, ou
 	return s;
 }
 
+fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
+	let out = canonical__outwards(p.xz);
+	let tube = canonical__outwards(vec2f(length(p.xz) - 1.0, p.y));
+	let n = vec3f(tube.x * out.x, tube.y, tube.x * out.y);
+	let ring = 1.0 + minor * tube.x;
+	let place = vec3f(ring * out.x, minor * tube.y, ring * out.y);
+	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate_f32(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
+}
+
 fn ellipsoid__intersect_ellipsoid(ray: tracing__Ray) -> tracing__Candidate {
 	let near = canonical__approach(ray, vec3f(0.0), 1.5);
 	let found = sphere__intersect_sphere(tracing__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
 	return tracing__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
 }
 
+fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
+	let n = numeric__normalize_or(p, vec3f(0.0, 1.0, 0.0));
+	return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
+}
+
 const camera__T_FAR: f32 = 3e38;
+
+fn shape_surface__shape_point(shape: types__PackedShape, reached: vec3f, part: f32, direction: vec3f) -> canonical__PlacedPoint {
+	if (!shape__is_round(shape.kind)) {
+		return canonical__placed_point(shape, reached, shape__canonical_point(shape, reached, part));
+	}
+	return shape_surface__sphere_point(shape, reached, direction);
+}
+
+fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
+	if (shape__is_globe(shape.kind)) {
+		return globe__globe_point(shape, reached);
+	}
+	let ng = numeric__normalize_or(reached - shape.position, -direction);
+	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
+}
+
+fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
+}
+
+fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
+}
+
+const section__CAP: f32 = -1.0;
+
+fn section__closed_mesh_of(triangle: u32) -> u32 {
+	if (bindings__frame.solid_count == 0u) {
+		return types__NONE;
+	}
+	let vertex = fetch__load_triangle(triangle).i0;
+	var low = 0u;
+	var high = bindings__frame.solid_count - 1u;
+	loop {
+		let middle = (low + high + 1u) / 2u;
+		let is_before = section__load_solid(middle).x <= vertex;
+		low = select(low, middle, is_before);
+		high = select(max(middle, 1u) - 1u, high, is_before);
+		continuing {
+		
+			break if low >= high;
+		}
+	}
+	loops__cut_off |= low < high;
+	let range = section__load_solid(low);
+	return select(types__NONE, low, range.x <= vertex && vertex < range.y);
+}
+
+fn section__is_closed(shape: types__PackedShape) -> bool {
+	return shape.kind != types__SHAPE_PLANE && shape.kind != types__SHAPE_DISC && shape.kind != types__SHAPE_RECTANGLE && (shape.kind != types__SHAPE_CONE || (shape.flags & types__SHAPE_CAPPED) != 0u);
+}
+
+fn section__load_solid(index: u32) -> vec2u {
+	return rows__node_row(bindings__frame.solid_row + index).xy;
+}
 
 fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
 	var hit = start;
@@ -1385,7 +1848,7 @@ fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hi
 		let shape = fetch__load_shape(index);
 		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
 		let primitive = types__SHAPE | index;
-		let counts = candidate.hit & (primitive != ray.leaving);
+		let counts = candidate.hit & (primitive != ray.leaving) & !primitive__is_passed(candidate.t, primitive, types__NO_INSTANCE);
 		let wins = counts & (candidate.t < hit.t);
 		let found = tracing__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
 		if (bindings__HAS_CONTACT) {

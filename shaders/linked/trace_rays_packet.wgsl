@@ -168,6 +168,8 @@ override bindings__HAS_MOTION: bool = false;
 
 override bindings__HAS_CONTACT: bool = false;
 
+override bindings__HAS_SECTION: bool = false;
+
 override bindings__COUNT_STEPS: bool = false;
 
 override bindings__ANY_HIT: bool = false;
@@ -294,7 +296,10 @@ struct types__PackedCamera {
 struct types__PackedFrame {
 	camera: types__PackedCamera,
 	clip: vec2f,
-	_pad0: vec2u,
+	solid_row: u32,
+	solid_count: u32,
+	section: vec3f,
+	section_offset: f32,
 	background: vec3f,
 	light_count: u32,
 	ambient: vec3f,
@@ -661,6 +666,8 @@ fn walk__limit_of(ray: tracing__Ray, hit: tracing__Hit, any: bool) -> i32 {
 
 var<private> primitive__runner_up: tracing__Hit;
 
+var<private> primitive__passed: tracing__Hit;
+
 struct primitive__TraversalRay {
 	ray: tracing__Ray,
 	inv: vec3f,
@@ -681,13 +688,21 @@ fn primitive__closer_of(at: primitive__TraversalRay, hit: tracing__Hit, candidat
 		is_left = is_left & (at.instance == at.ray.leaving_instance);
 	}
 	let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
-	let counts = candidate.hit & !is_left;
+	let counts = candidate.hit & !is_left & !primitive__is_passed(candidate.t, primitive, at.instance);
 	let wins = counts & ((candidate.t < hit.t) | ties);
 	if (bindings__HAS_CONTACT) {
 		let found = tracing__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
 		primitive__keep_runner_up(hit, found, counts, wins);
 	}
 	return tracing__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+}
+
+fn primitive__is_passed(t: f32, primitive: u32, instance: u32) -> bool {
+	if (!bindings__HAS_SECTION) {
+		return false;
+	}
+	let is_later = instance > primitive__passed.instance || (instance == primitive__passed.instance && primitive > primitive__passed.primitive);
+	return t < primitive__passed.t || (t == primitive__passed.t && !is_later);
 }
 
 fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: bool, wins: bool) {
@@ -776,7 +791,7 @@ fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hi
 		let shape = fetch__load_shape(index);
 		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
 		let primitive = types__SHAPE | index;
-		let counts = candidate.hit & (primitive != ray.leaving);
+		let counts = candidate.hit & (primitive != ray.leaving) & !primitive__is_passed(candidate.t, primitive, types__NO_INSTANCE);
 		let wins = counts & (candidate.t < hit.t);
 		let found = tracing__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
 		if (bindings__HAS_CONTACT) {

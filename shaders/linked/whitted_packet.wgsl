@@ -708,7 +708,10 @@ struct types__PackedCamera {
 struct types__PackedFrame {
 	camera: types__PackedCamera,
 	clip: vec2f,
-	_pad0: vec2u,
+	solid_row: u32,
+	solid_count: u32,
+	section: vec3f,
+	section_offset: f32,
 	background: vec3f,
 	light_count: u32,
 	ambient: vec3f,
@@ -1026,6 +1029,8 @@ override bindings__HAS_MOTION: bool = false;
 override bindings__HAS_DEFORMATION: bool = false;
 
 override bindings__HAS_CONTACT: bool = false;
+
+override bindings__HAS_SECTION: bool = false;
 
 override bindings__COUNT_STEPS: bool = false;
 
@@ -2167,6 +2172,8 @@ fn walk__limit_of(ray: tracing__Ray, hit: tracing__Hit, any: bool) -> i32 {
 
 var<private> primitive__runner_up: tracing__Hit;
 
+var<private> primitive__passed: tracing__Hit;
+
 struct primitive__TraversalRay {
 	ray: tracing__Ray,
 	inv: vec3f,
@@ -2187,13 +2194,21 @@ fn primitive__closer_of(at: primitive__TraversalRay, hit: tracing__Hit, candidat
 		is_left = is_left & (at.instance == at.ray.leaving_instance);
 	}
 	let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
-	let counts = candidate.hit & !is_left;
+	let counts = candidate.hit & !is_left & !primitive__is_passed(candidate.t, primitive, at.instance);
 	let wins = counts & ((candidate.t < hit.t) | ties);
 	if (bindings__HAS_CONTACT) {
 		let found = tracing__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
 		primitive__keep_runner_up(hit, found, counts, wins);
 	}
 	return tracing__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+}
+
+fn primitive__is_passed(t: f32, primitive: u32, instance: u32) -> bool {
+	if (!bindings__HAS_SECTION) {
+		return false;
+	}
+	let is_later = instance > primitive__passed.instance || (instance == primitive__passed.instance && primitive > primitive__passed.primitive);
+	return t < primitive__passed.t || (t == primitive__passed.t && !is_later);
 }
 
 fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: bool, wins: bool) {
@@ -2361,7 +2376,7 @@ fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hi
 		let shape = fetch__load_shape(index);
 		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
 		let primitive = types__SHAPE | index;
-		let counts = candidate.hit & (primitive != ray.leaving);
+		let counts = candidate.hit & (primitive != ray.leaving) & !primitive__is_passed(candidate.t, primitive, types__NO_INSTANCE);
 		let wins = counts & (candidate.t < hit.t);
 		let found = tracing__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
 		if (bindings__HAS_CONTACT) {
@@ -3461,9 +3476,8 @@ fn tree_vertex__vertex_at(batch: dispatch__Batch, state: ray_states__RayState, h
 	var own_key = shading__SampleKey(key, sample, 1.0);
 	if (tree_vertex__is_first(state)) {
 		features__see_first(surface, hit, dispatch__way_to_near(batch, state.ray.direction) + hit.t);
-		let glow = ambient + emission - ambient;
-		features__see_albedo(surface.phong.diffuse + glow, surface.n);
-		features__see_light(event.arriving * glow, 0u);
+		features__see_albedo(surface.phong.diffuse + emission, surface.n);
+		features__see_light(event.arriving * emission, 0u);
 	}
 	else {
 		own_key.hash = rng__hash_combine(key, state.node);
@@ -3510,6 +3524,9 @@ fn direct__arriving_light(receiver: direct__Receiver, light: types__PackedLight,
 	if (bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE) {
 		let u = sampling__stratified_2d(receiver.key.index * count + drawn, rng__hash_combine(receiver.key.hash, index));
 		arriving = area_light__area_incident(light, receiver.surface.p, u);
+		if (light.visible != 0u) {
+			arriving = section__uncut(receiver.surface.p, arriving);
+		}
 	}
 	return arriving;
 }
@@ -3557,7 +3574,8 @@ struct shading__Surface {
 	curvature: f32,
 	tangent: vec4f,
 	coat_n: vec3f,
-	color: vec4f
+	color: vec4f,
+	is_cap: bool
 }
 
 struct shading__Footprint {
@@ -3932,10 +3950,13 @@ fn surface__surface_at(ray: tracing__Ray, hit: tracing__Hit, cone: tracing__Cone
 		local = instance__object_ray(ray, space);
 	}
 	var surface: shading__Surface;
-	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
+	if (section__is_cap(hit)) {
+		surface = section__cap_surface(ray, local, hit);
+	}
+	else if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
 		surface = triangle_surface__triangle_surface(ray, hit, triangle_surface__Placing(space, is_placed, deforming__keys_of(instance)), cone);
 	}
-	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+	else if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
 		surface = shape_surface__shape_surface(local, hit);
 		let p = surface.p;
 		if (is_placed) {
@@ -3966,6 +3987,78 @@ fn surface__placed_surface(ray: tracing__Ray, own: shading__Surface, space: moti
 	surface.n = numeric__normalize_or(instance__placed_normal(space, own.n), surface.ng);
 	surface.error = instance__abs_times(space.linear, own.error);
 	return surface;
+}
+
+const section__CAP: f32 = -1.0;
+
+fn section__is_cut(p: vec3f) -> bool {
+	return bindings__HAS_SECTION && dot(bindings__frame.section, p) > bindings__frame.section_offset;
+}
+
+fn section__uncut(p: vec3f, arriving: shading__Incident) -> shading__Incident {
+	var kept = arriving;
+	if (section__is_cut(p + arriving.distance * arriving.direction)) {
+		kept.radiance = vec3f(0.0);
+	}
+	return kept;
+}
+
+fn section__is_cap(hit: tracing__Hit) -> bool {
+	return bindings__HAS_SECTION && hit.b2 == section__CAP;
+}
+
+fn section__cap_surface(ray: tracing__Ray, local: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
+	var index = 0u;
+	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+		index = fetch__load_shape(hit.primitive & ~types__SHAPE).material;
+	}
+	else {
+		index = fetch__load_vertex(fetch__load_triangle(hit.primitive).i0).material;
+	}
+	let material = material__load_material(index);
+	let ng = bindings__frame.section;
+	let reached = ray.origin + hit.t * ray.direction;
+	let p = reached - (dot(ng, reached) - bindings__frame.section_offset) * ng;
+	let side = dot(ng, ray.direction);
+	return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, side)), ng, offset__plane_error(p, bindings__frame.section_offset * ng), types__NONE, side <= 0.0, vec2f(0.0), vec2f(0.0), index, material.phong, 2246822507u * (index + 1u), local.origin + hit.t * local.direction, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), true);
+}
+
+fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
+	let b0 = abs(1.0 - b1 - b2);
+	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
+}
+
+fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
+}
+
+fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
+}
+
+fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
+}
+
+fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
+	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
+}
+
+fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
+	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
+}
+
+fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
+	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
+}
+
+fn offset__mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriving: tracing__Ray, distance: f32, is_flat: bool) -> vec3f {
+	let height = offset__clearance(p, error, ng);
+	let slope = dot(ng, arriving.direction);
+	let back = height / max_f32(abs(slope), 1e-6);
+	let along_normal = p - select(-height, height, slope > 0.0) * ng;
+	let at_most = select(along_normal, arriving.origin, is_flat);
+	return select(p - back * arriving.direction, at_most, back > 0.5 * distance);
 }
 
 var<private> triangle_surface__met_vertices: vec3u;
@@ -4054,7 +4147,7 @@ fn triangle_surface__triangle_surface(ray: tracing__Ray, hit: tracing__Hit, plac
 		}
 	}
 	let flips = material__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction));
-	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips), color);
+	return shading__Surface(corners * weights, select(shading_normal, -shading_normal, flips), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, second_uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)), tangent_space__surface_tangent(frame, shading_normal, flips), select(coat_normal, -coat_normal, flips), color, false);
 }
 
 fn triangle_surface__mix_phong(p0: shading__Phong, p1: shading__Phong, p2: shading__Phong, b0: f32, b1: f32, b2: f32) -> shading__Phong {
@@ -4282,6 +4375,10 @@ fn texture__footprint_in(texture: types__PackedTexture, footprint: shading__Foot
 	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
 }
 
+fn texture__is_bare(texture: types__PackedTexture, surface: shading__Surface) -> bool {
+	return bindings__HAS_SECTION && surface.is_cap && (texture.flags & types__TEXTURE_UV) != 0u;
+}
+
 fn texture__place_in_pattern(texture: types__PackedTexture, surface: shading__Surface) -> vec3f {
 	let uv = select(surface.uv, surface.second_uv, texture__uses_second_uv(texture));
 	let at = select(vec4f(surface.place, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
@@ -4289,7 +4386,7 @@ fn texture__place_in_pattern(texture: types__PackedTexture, surface: shading__Su
 }
 
 fn texture__texture_alpha(texture: types__PackedTexture, surface: shading__Surface, is_mask: bool) -> f32 {
-	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
+	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE && !texture__is_bare(texture, surface)) {
 		let axes = texture__footprint_in(texture, surface.footprint);
 		let size = select(1.0, 0.0, is_mask);
 		return texture__picture_color(texture, texture__place_in_pattern(texture, surface).xy, size * axes).w;
@@ -4302,6 +4399,9 @@ fn texture__texture_color(texture: types__PackedTexture, surface: shading__Surfa
 }
 
 fn texture__texture_value(texture: types__PackedTexture, surface: shading__Surface) -> vec4f {
+	if (texture__is_bare(texture, surface)) {
+		return vec4f(1.0);
+	}
 	let q = texture__place_in_pattern(texture, surface);
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
 		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint));
@@ -4516,44 +4616,6 @@ fn layers__texture_in(own: types__PackedLayers, slot: u32) -> u32 {
 	return (select(low, high, word >= 2u) >> (16u * (slot & 1u))) & 65535u;
 }
 
-fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
-	let b0 = abs(1.0 - b1 - b2);
-	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
-}
-
-fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
-}
-
-fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
-}
-
-fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
-}
-
-fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
-	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
-}
-
-fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
-	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
-}
-
-fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
-	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
-}
-
-fn offset__mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriving: tracing__Ray, distance: f32, is_flat: bool) -> vec3f {
-	let height = offset__clearance(p, error, ng);
-	let slope = dot(ng, arriving.direction);
-	let back = height / max_f32(abs(slope), 1e-6);
-	let along_normal = p - select(-height, height, slope > 0.0) * ng;
-	let at_most = select(along_normal, arriving.origin, is_flat);
-	return select(p - back * arriving.direction, at_most, back > 0.5 * distance);
-}
-
 fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
 	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
 	let reached = ray.origin + hit.t * ray.direction;
@@ -4566,13 +4628,13 @@ fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
+		return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), false);
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
+		return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), false);
 	}
 	let placed = shape_surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -4581,7 +4643,7 @@ fn shape_surface__shape_surface(ray: tracing__Ray, hit: tracing__Hit) -> shading
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0));
+	return shading__Surface(placed.p, select(ng, -ng, material__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), false);
 }
 
 fn shape_surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {

@@ -74,6 +74,7 @@ mod scene;
 mod scene_animation;
 mod scene_motion;
 mod scene_turntable;
+mod section;
 mod shader_albedo;
 mod shader_area_light;
 mod shader_camera;

@@ -1,9 +1,9 @@
 //! Reads the values of flags that place the camera, choose the moment and develop the picture.
 
-use super::overrides::{BackgroundChoice, Exposure};
+use super::overrides::{BackgroundChoice, Exposure, SectionChoice};
 use super::value_forms::{list, within};
 use glam::{DVec3, Vec3};
-use glimray_scene::Shutter;
+use glimray_scene::{Section, Shutter};
 
 /// Largest absolute value of a coordinate.
 pub const MAX_COORDINATE: f64 = 1e9;
@@ -26,6 +26,21 @@ pub fn background(text: &str) -> Result<BackgroundChoice, String> {
         "transparent" => Ok(BackgroundChoice::Transparent),
         _ => color(text).map(BackgroundChoice::Color),
     }
+}
+
+/// `X,Y,Z,OFFSET` or `none`. The first three are a direction of any length, along which the offset is measured.
+pub fn section(text: &str) -> Result<SectionChoice, String> {
+    if text == "none" {
+        return Ok(SectionChoice(None));
+    }
+    let part = |part: &str| within(part, -MAX_COORDINATE, MAX_COORDINATE, "every number");
+    let [x, y, z, offset] = list(text, "X,Y,Z,OFFSET or none", part)?;
+    let normal = match DVec3::new(x, y, z) {
+        // A direction that is already normalised keeps all its digits.
+        unit if (unit.length_squared() - 1.0).abs() <= 8.0 * f64::EPSILON => unit,
+        any => (any.try_normalize()).ok_or("the direction cannot be 0,0,0")?,
+    };
+    Ok(SectionChoice(Some(Section { normal, offset })))
 }
 
 /// `EV`, `auto`, or `auto+EV` and `auto-EV`.

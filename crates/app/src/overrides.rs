@@ -5,7 +5,7 @@ pub use super::settings::PictureOverrides;
 use glam::{DVec3, Vec3};
 use glimray_render::{Integrator, Levels, Quantity, RenderSettings, Shows, Tone};
 use glimray_scene::{
-    Backdrop, Background, Camera, CameraProperty, OutputDefaults, Scene, Shutter, Target,
+    Backdrop, Background, Camera, CameraProperty, OutputDefaults, Scene, Section, Shutter, Target,
     ToneCurve, Transfer,
 };
 
@@ -63,6 +63,8 @@ pub struct CameraOverrides {
     pub up: Option<DVec3>,
     /// Background of rays that hit nothing.
     pub background: Option<BackgroundChoice>,
+    /// The section plane.
+    pub section: Option<SectionChoice>,
     /// Whether a background colour is seen by paths from the camera only, and an environment lights the scene.
     pub has_environment: bool,
 }
@@ -75,6 +77,10 @@ pub enum BackgroundChoice {
     /// See [`Backdrop::Transparent`].
     Transparent,
 }
+
+/// A section plane in place of the scene's, or none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SectionChoice(pub Option<Section>);
 
 /// A moment of an animation: a frame wins over a time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -207,6 +213,9 @@ impl CameraOverrides {
             }
             Some(BackgroundChoice::Color(color)) => scene.background = Background::Color(color),
             None => {}
+        }
+        if let Some(SectionChoice(section)) = self.section {
+            scene.section = section;
         }
         let moved = self.look_from.or(self.look_at).or(self.up).is_some();
         if moved {

@@ -19,7 +19,7 @@ use glimray_app::error::AppError;
 use glimray_app::value_names::{TONES, TRANSFERS};
 use glimray_io::import::{Baking, Options};
 use glimray_render::{Integrator, Tone};
-use glimray_scene::{Attenuation, Background, Camera, Light, LightKind, Scene};
+use glimray_scene::{Attenuation, Background, Camera, Light, LightKind, Scene, Section};
 use std::fmt::{self, Write};
 
 /// Largest number of list items in the text output; JSON lists all.
@@ -84,6 +84,10 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
         background(&scene.background),
         color(scene.ambient)
     )?;
+    if let Some(Section { normal, offset }) = scene.section {
+        let normal = point(normal);
+        writeln!(out, "section    beyond {offset} along {normal} is cut away")?;
+    }
     motion::write_text(out, scene)?;
     deforming::write_text(out, scene)?;
     list(

@@ -166,6 +166,7 @@ impl Writer<'_> {
             background,
             ambient: differing(scene.ambient, Vec3::ZERO),
             shadows: differing(scene.shadows, Shadows::Opaque),
+            section: scene.section.map(Into::into),
             staged: scene.staged.then_some(true),
             camera: cameras.pop_if(|_| scene.cameras.len() == 1),
             cameras,

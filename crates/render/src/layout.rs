@@ -367,8 +367,14 @@ packed! {
         camera: PackedCamera,
         /// Distances of its near and far planes along its viewing direction; 0 for none.
         clip: [f32; 2],
-        /// Unused.
-        _pad0: [u32; 2],
+        /// With a section plane, row of the first range of vertices of a closed mesh.
+        solid_row: u32,
+        /// Number of those ranges: first vertex, and the one after the last.
+        solid_count: u32,
+        /// The unit normal of the section plane, which points to what is cut away; 0 without one.
+        section: [f32; 3],
+        /// Distance of the section plane from the origin of render space along its normal.
+        section_offset: f32,
         /// Linear radiance of rays that hit nothing; gradient: straight down; picture: its factor.
         background: [f32; 3],
         /// Number of lights, at least 1.

@@ -31,6 +31,7 @@ pub fn check(
                 .into_iter()
                 .any(|light| light.kind >= LIGHT_RECTANGLE),
         ),
+        ("a section plane", view.has_section()),
         ("textures", features.textures || features.normal_maps),
         ("holes", features.coverage),
         ("emissive surfaces", features.emission),

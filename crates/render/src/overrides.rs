@@ -205,6 +205,8 @@ overrides! {
         HAS_DEFORMATION: bool = view.deforms();
         // Whether dielectric volumes may touch or overlap.
         HAS_CONTACT: bool = contact;
+        // Whether a plane cuts away a part of the scene.
+        HAS_SECTION: bool = view.has_section();
         // Whether traversal steps are counted.
         COUNT_STEPS: bool = counts_steps;
     }
@@ -238,7 +240,7 @@ overrides! {
         // The number of lanes of a packet: 8 or 16, the size of subgroups.
         PACKET_LANES: u32;
         // Whether the stack is in workgroup memory, where scenes are in buffers.
-        SHARED_STACK: bool;
+        WORKGROUP_STACK: bool;
         // Whether the picture for display is a denoised one, instead of the mean of the film.
         SHOWS_DENOISED: bool;
         // Whether a pass of the denoiser's filter is the first, and whether it multiplies its result by the albedo.

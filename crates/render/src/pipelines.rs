@@ -135,7 +135,7 @@ fn with_stack(
 ) -> Overrides {
     let is_faster = is_cpu || kernel.name != Kernel::TRACE_RAYS.name;
     let is_shared = stack == Stack::Usual && is_faster;
-    overrides.extend(overrides::SHARED_STACK(is_shared));
+    overrides.extend(overrides::WORKGROUP_STACK(is_shared));
     overrides
 }
 
@@ -177,12 +177,13 @@ pub fn portable(fetch: Fetch) -> Variant {
     }
 }
 
-/// Packets if the adapter traces them, the data are in images, and nothing moves while the shutter is open: then
-/// the rays of a packet can share nodes.
+/// Packets if the adapter traces them, the data are in images, nothing moves while the shutter is open, and no section plane
+/// cuts rays: then the rays of a packet can share nodes.
 pub fn tracing_variant(gpu: &Gpu, fetch: Fetch, view: &PackedView) -> Variant {
     let is_still =
         !view.has_moving_instances() && !view.deforms() && view.frame.light_key_count == 1;
-    match fetch == Fetch::Image && is_still && gpu.traces_packets() {
+    let is_alike = is_still && !view.has_section();
+    match fetch == Fetch::Image && is_alike && gpu.traces_packets() {
         true => Variant::Packet,
         false => portable(fetch),
     }

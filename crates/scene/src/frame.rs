@@ -6,8 +6,8 @@ mod material;
 mod texture;
 
 use super::{
-    Background, Beyond, Camera, Curve, Light, Material, NodeProperty, Scene, Target, Texture,
-    Track, Value, Values,
+    Background, Beyond, Camera, Curve, Light, Material, NodeProperty, Scene, Section, Target,
+    Texture, Track, Value, Values,
 };
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 
@@ -23,6 +23,8 @@ pub struct Frame {
     pub background: Background,
     /// Linear radiance of the ambient term, multiplied by [`super::Phong::ambient`].
     pub ambient: Vec3,
+    /// The plane beyond which the scene is cut away.
+    pub section: Option<Section>,
     /// One for each of the scene's nodes.
     pub nodes: Vec<NodeState>,
     /// One for each of the scene's materials if a track animates any; otherwise empty, and the scene's
@@ -61,6 +63,7 @@ impl Scene {
             lights: self.lights_at(time, opened, &nodes),
             background: self.background.clone(),
             ambient: self.ambient,
+            section: self.section,
             materials: self.materials_at(opened),
             textures: self.textures_at(opened),
             weights: self.weights_at(time),

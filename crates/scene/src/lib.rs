@@ -58,6 +58,7 @@ mod physical;
 mod picture;
 mod posed;
 pub mod random;
+mod section;
 mod shape;
 mod sight;
 pub mod sky;
@@ -93,6 +94,7 @@ pub use picture::{
     linear_from_srgb,
 };
 pub use picture::{SMALLEST_TEXEL, fit, scale_of};
+pub use section::Section;
 pub use shape::{CanonicalShape, Geometry, Shape};
 pub use sight::Sight;
 pub use texture::{Minify, Pattern, Space, Texture, UvTransform, Wrap};
@@ -142,6 +144,8 @@ pub struct Scene {
     pub staged: bool,
     /// How transparent surfaces affect shadow rays.
     pub shadows: Shadows,
+    /// The plane beyond which the scene is cut away.
+    pub section: Option<Section>,
     /// Coordinate frames that instances, shapes, lights and cameras may be attached to; parents before
     /// their children.
     pub nodes: Vec<Node>,

@@ -11,7 +11,9 @@ use super::values::{self, BACKENDS, FORMATS, GROUNDS, Up};
 use clap::Args;
 use glam::DVec3;
 use glimray_app::layers::{LAYERS, PictureLayer};
-use glimray_app::overrides::{BackgroundChoice, CameraOverrides, Exposure, ToneOverrides};
+use glimray_app::overrides::{
+    BackgroundChoice, CameraOverrides, Exposure, SectionChoice, ToneOverrides,
+};
 use glimray_app::settings::PictureOverrides;
 use glimray_app::value_names::{TONES, TRANSFERS};
 use glimray_io::import;
@@ -126,6 +128,11 @@ pub struct CameraFlags {
     /// With any background, models get no ground unless --ground asks for one.
     #[arg(long, value_name = "R,G,B|transparent", allow_hyphen_values = true, value_parser = values::background)]
     pub background: Option<BackgroundChoice>,
+    /// Cut away what lies beyond a plane: points p with X·p.x + Y·p.y + Z·p.z > OFFSET, or none
+    ///
+    /// Closed meshes and shapes are solid: the plane shows their inside as a flat face of their material.
+    #[arg(long, value_name = "X,Y,Z,OFFSET|none", allow_hyphen_values = true, value_parser = values::section)]
+    pub section: Option<SectionChoice>,
 }
 
 /// How a scene file is read.
@@ -306,6 +313,7 @@ impl CameraFlags {
                 Some(Up::Model(_)) | None => None,
             },
             background: self.background,
+            section: self.section,
             has_environment: reading.environment.is_some(),
         }
     }

@@ -4,7 +4,7 @@ use crate::args::{ProgressMode, Range, SequenceFormat};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::DVec3;
 pub use glimray_app::flag_values::{
-    background, color, exposure, fov_y, fps, orthographic, shutter, time, vector,
+    background, color, exposure, fov_y, fps, orthographic, section, shutter, time, vector,
 };
 pub use glimray_app::value_forms::crop;
 use glimray_app::value_forms::{list, within};

@@ -31,6 +31,8 @@ pub struct Inspection {
     picture_list: Vec<PictureEntry>,
     background: BackgroundEntry,
     ambient: [f32; 3],
+    /// Null without a section plane.
+    section: Option<SectionEntry>,
     output: OutputEntry,
     animation: MotionEntry,
     clips: Vec<ClipEntry>,
@@ -47,6 +49,15 @@ pub struct Inspection {
 struct BoundsEntry {
     min: [f64; 3],
     max: [f64; 3],
+}
+
+/// The plane beyond which the scene is cut away.
+#[derive(Serialize, JsonSchema)]
+struct SectionEntry {
+    /// The unit direction towards what is cut away.
+    normal: [f64; 3],
+    /// The distance from the origin in that direction.
+    offset: f64,
 }
 
 /// A camera.
@@ -174,6 +185,10 @@ impl Inspection {
                 .collect(),
             background: (&scene.background).into(),
             ambient: scene.ambient.into(),
+            section: scene.section.map(|section| SectionEntry {
+                normal: section.normal.into(),
+                offset: section.offset,
+            }),
             output: (&scene.output).into(),
             animation: scene.into(),
             clips: scene.clips.iter().map(Into::into).collect(),

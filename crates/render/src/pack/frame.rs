@@ -10,8 +10,9 @@ use super::{
     tlas::Tlas,
 };
 use crate::layout::{
-    CAMERA_ROWS, INSTANCE_ROWS, KEY_ROWS, LIGHT_RECTANGLE, LIGHT_ROWS, MOVING, NODE_ROWS,
-    PackedCamera, PackedEmitter, PackedFrame, PackedLight, PackedMaterial, PackedTexture, SHAPE,
+    CAMERA_ROWS, CLUSTER_ROWS, INSTANCE_ROWS, KEY_ROWS, LIGHT_RECTANGLE, LIGHT_ROWS, MOVING,
+    NODE_ROWS, NONE, PackedCamera, PackedEmitter, PackedFrame, PackedLight, PackedMaterial,
+    PackedTexture, SHAPE,
 };
 use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
@@ -45,6 +46,8 @@ pub struct PackedView {
     pub emitter_glows: Vec<[f32; 4]>,
     /// The tree over many lamps and emitters, shared as long as they are the same.
     pub(super) light_tree: Arc<LightTree>,
+    /// With a section plane the vertices of each closed mesh, in ascending order: the first, and the one after the last.
+    solids: Vec<[u32; 4]>,
     /// Whether the camera is orthographic.
     pub orthographic: bool,
     /// Whether there is a light that is not black.
@@ -161,6 +164,13 @@ impl PackedScene {
             0
         };
         let emitter_row = camera_row + CAMERA_ROWS * camera_key_rows;
+        let cluster_row = emitter_row + (emitters.rows.len() + emitters.glows.len()) as u32;
+        let solids = match first.section {
+            Some(_) => self.trees.solids(),
+            None => Vec::new(),
+        };
+        let start = start(&first.camera);
+        let is_kept = first.section.is_none_or(|section| !section.cuts(start));
         Ok(PackedView {
             frame: PackedFrame {
                 camera: cameras[0],
@@ -173,7 +183,11 @@ impl PackedScene {
                 plane_count: self.plane_count,
                 vertex_count: self.vertices.len() as u32,
                 material_count: self.materials.len() as u32,
-                camera_media: media::at_point(&self.volumes, first, start(&first.camera))?,
+                // A ray from beyond the section plane enters volumes through it.
+                camera_media: match is_kept {
+                    true => media::at_point(&self.volumes, first, start)?,
+                    false => [NONE; media::MEDIA_SIZE],
+                },
                 root: if self.features.instances {
                     tlas.first_node | moving
                 } else {
@@ -196,7 +210,16 @@ impl PackedScene {
                 environment_share: environment_share as f32,
                 sun_chance: environment.map_or(0.0, |table| table.sun_chance as f32),
                 albedo_first: self.albedo_first(),
-                cluster_row: emitter_row + (emitters.rows.len() + emitters.glows.len()) as u32,
+                cluster_row,
+                solid_row: cluster_row + CLUSTER_ROWS * light_tree.nodes.len() as u32,
+                solid_count: solids.len() as u32,
+                section: first
+                    .section
+                    .map_or([0.0; 3], |it| it.normal.as_vec3().into()),
+                section_offset: first.section.map_or(Ok(0.0), |section| {
+                    let offset = section.offset - section.normal.dot(self.origin);
+                    in_range(offset).map(|()| offset as f32)
+                })?,
                 light_root: light_tree.root(),
                 lights_share: lights_share as f32,
                 ..self.background(&first.background)
@@ -207,6 +230,7 @@ impl PackedScene {
             emitters: emitters.rows,
             emitter_glows: emitters.glows,
             light_tree,
+            solids,
             has_area_lights: lights.iter().any(|light| light.kind >= LIGHT_RECTANGLE),
             lights,
             cameras: match cameras.len() {
@@ -274,12 +298,13 @@ impl PackedView {
             light_row: moved(frame.light_row),
             emitter_row: moved(frame.emitter_row),
             cluster_row: moved(frame.cluster_row),
+            solid_row: moved(frame.solid_row),
             ..frame
         }
     }
 
     /// The data after the scene's nodes on the GPU: first nodes, then other rows.
-    pub fn node_parts(&self) -> [&[u8]; 8] {
+    pub fn node_parts(&self) -> [&[u8]; 9] {
         [
             cast_slice(&self.tlas.nodes),
             cast_slice(&self.tlas.instances),
@@ -289,6 +314,7 @@ impl PackedView {
             cast_slice(&self.emitters),
             cast_slice(&self.emitter_glows),
             cast_slice(&self.light_tree.nodes),
+            cast_slice(&self.solids),
         ]
     }
 
@@ -341,6 +367,11 @@ impl PackedView {
     pub(super) fn instanced_index(&self, instance: u32) -> Option<usize> {
         let instance = self.tlas.instances.get(instance as usize)?;
         Some(instance.id as usize - 1)
+    }
+
+    /// Whether a plane cuts away a part of the scene.
+    pub fn has_section(&self) -> bool {
+        self.frame.section != [0.0; 3]
     }
 
     /// Whether paths choose lamps and emitters from a tree.

@@ -25,6 +25,7 @@ pub struct CachedMesh {
     colors: OnceLock<Arc<[[f32; 4]]>>,
     shell: OnceLock<Option<Arc<Shell>>>,
     part_count: OnceLock<usize>,
+    is_closed: OnceLock<bool>,
 }
 
 impl CachedMesh {
@@ -40,6 +41,7 @@ impl CachedMesh {
             colors: OnceLock::new(),
             shell: OnceLock::new(),
             part_count: OnceLock::new(),
+            is_closed: OnceLock::new(),
         }
     }
 
@@ -117,6 +119,11 @@ impl CachedMesh {
     /// The number of connected components.
     pub fn part_count(&self) -> usize {
         *(self.part_count).get_or_init(|| shell::part_count(&self.mesh))
+    }
+
+    /// Whether its triangles enclose a volume.
+    pub fn is_closed(&self) -> bool {
+        *(self.is_closed).get_or_init(|| shell::is_closed(&self.mesh))
     }
 }
 

@@ -61,13 +61,37 @@ impl Shell {
     }
 }
 
+/// Whether the triangles of a mesh enclose a volume: along each edge as many of them run in one direction as in the other.
+/// Vertices at the same position are one, as along seams of texture coordinates.
+pub fn is_closed(mesh: &Mesh) -> bool {
+    let same = welded(mesh);
+    let mut balance: HashMap<(usize, usize), i32> = HashMap::new();
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|i| same[i as usize]);
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            if from != to {
+                let edge = (from.min(to), from.max(to));
+                *balance.entry(edge).or_default() += if from < to { 1 } else { -1 };
+            }
+        }
+    }
+    !balance.is_empty() && balance.values().all(|&count| count == 0)
+}
+
+/// For each vertex the first one at the same position.
+fn welded(mesh: &Mesh) -> Vec<usize> {
+    let mut first_at = HashMap::new();
+    // -0 and 0 are one position.
+    let bits = |p: &Vec3| (*p + Vec3::ZERO).to_array().map(f32::to_bits);
+    (mesh.positions.iter().enumerate())
+        .map(|(i, p)| *first_at.entry(bits(p)).or_insert(i))
+        .collect()
+}
+
 /// The number of sets of triangles connected by equal vertex positions.
 pub fn part_count(mesh: &Mesh) -> usize {
-    let mut first_at = HashMap::new();
     // A union-find forest over the vertices: each points to an earlier one of its component, or to itself.
-    let mut leads_to: Vec<usize> = (mesh.positions.iter().enumerate())
-        .map(|(i, p)| *first_at.entry(p.to_array().map(f32::to_bits)).or_insert(i))
-        .collect();
+    let mut leads_to = welded(mesh);
     let root = |leads_to: &mut [usize], mut i: usize| {
         while leads_to[i] != i {
             leads_to[i] = leads_to[leads_to[i]];

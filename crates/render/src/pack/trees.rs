@@ -240,6 +240,17 @@ impl Trees {
         self.own().map(|tree| &*tree.mesh).chain(joint)
     }
 
+    /// The vertices of each closed mesh, in ascending order: the first, and the one after the last.
+    pub fn solids(&self) -> Vec<[u32; 4]> {
+        let mut end = 0;
+        let ranges = self.meshes().map(|mesh| {
+            let first = end;
+            end += mesh.mesh.positions.len() as u32;
+            mesh.is_closed().then_some([first, end, 0, 0])
+        });
+        ranges.flatten().collect()
+    }
+
     /// Whether some BLAS is a draft.
     pub fn has_drafts(&self) -> bool {
         self.own().any(|tree| tree.blas.is_draft)

@@ -11,7 +11,7 @@ use glimray_app::overrides::RenderOverrides;
 use glimray_app::window::ParsePicture;
 use glimray_io::import::{EnvironmentSource, Ground, Staging};
 use glimray_render::{RenderSettings, Tone};
-use glimray_scene::{Background, Camera, Scene, Shutter, Target};
+use glimray_scene::{Background, Camera, Scene, Section, Shutter, Target};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -28,6 +28,8 @@ pub struct Shown<'a> {
     pub camera: &'a Camera,
     /// The background.
     pub background: &'a Background,
+    /// The section plane.
+    pub section: Option<Section>,
     /// The render settings.
     pub settings: &'a RenderSettings,
     /// The tone mapping.
@@ -61,6 +63,8 @@ pub struct Pasted {
     pub camera: Camera,
     /// The background.
     pub background: Background,
+    /// The section plane.
+    pub section: Option<Section>,
     /// The render settings.
     pub settings: RenderSettings,
     /// The tone mapping of a PNG.
@@ -218,6 +222,7 @@ fn resolve(overrides: &RenderOverrides, scene: &Scene) -> Result<Pasted, String>
         path: None,
         camera: scene.frame(time).camera,
         background: scene.background.clone(),
+        section: scene.section,
         tone: (overrides.tone).tone(&scene.output, settings.integrator, false),
         settings,
         time,
@@ -237,6 +242,7 @@ pub fn without_geometry(scene: &Scene) -> Scene {
         cameras: scene.cameras.clone(),
         camera_index: scene.camera_index,
         background: scene.background.clone(),
+        section: scene.section,
         nodes: scene.nodes.clone(),
         tracks,
         output: scene.output.clone(),

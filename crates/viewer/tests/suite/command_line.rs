@@ -10,7 +10,7 @@ use glimray::render::{
 };
 use glimray::scene::{
     Background, Beyond, Camera, CameraProperty, Curve, Easing, Filter, Interpolation, Lens, Node,
-    OutputDefaults, Scene, Shutter, Target, ToneCurve, Track, Transfer, Values,
+    OutputDefaults, Scene, Section, Shutter, Target, ToneCurve, Track, Transfer, Values,
 };
 use glimray_app::overrides::ToneOverrides;
 use glimray_app::settings::SETTINGS;
@@ -27,6 +27,7 @@ struct Screen {
     scene: Scene,
     camera: Camera,
     background: Background,
+    section: Option<Section>,
     settings: RenderSettings,
     tone: Tone,
     time: f64,
@@ -44,6 +45,7 @@ impl Screen {
             options: import::Options::default(),
             camera: scene.frame(0.0).camera,
             background: scene.background.clone(),
+            section: scene.section,
             settings: RenderSettings::from(output),
             tone: Tone::from(output),
             time: 0.0,
@@ -61,6 +63,7 @@ impl Screen {
             scene: &self.scene,
             camera: &self.camera,
             background: &self.background,
+            section: self.section,
             settings: &self.settings,
             tone: self.tone,
             time: self.time,
@@ -89,6 +92,7 @@ impl Screen {
                 ..self.camera.clone()
             },
             background: self.background.clone(),
+            section: self.section,
             settings: self.settings.clone(),
             tone: self.tone,
             time: self.time,
@@ -271,6 +275,21 @@ fn a_background_in_the_line_does_not_take_the_ground_away() {
         let line = screen.check();
         assert_eq!(line.contains("--ground=surface"), ground, "{line}");
     }
+}
+
+#[test]
+fn a_section_plane_is_in_the_line_and_so_is_none() {
+    let section = Section {
+        normal: dvec3(0.6, 0.0, -0.8),
+        offset: 1.0 / 3.0,
+    };
+    let mut screen = Screen::of(scene());
+    screen.section = Some(section);
+    assert!(screen.check().contains("--section"));
+    screen.scene.section = Some(section);
+    assert!(!screen.check().contains("--section"));
+    screen.section = None;
+    assert!(screen.check().contains("--section=none") || screen.check().contains("--section none"));
 }
 
 #[test]

@@ -122,6 +122,7 @@ impl<'a> Builder<'a> {
                 materials,
                 ambient: or(file.ambient, Vec3::ZERO),
                 shadows: or(file.shadows, Shadows::Opaque),
+                section: file.section.map(Into::into),
                 staged: file.staged.unwrap_or_default(),
                 output: output(&file.output),
                 ..Scene::default()

@@ -12,6 +12,7 @@ mod meshes;
 mod nodes;
 mod objects;
 mod physical;
+mod section;
 mod textures;
 
 pub(crate) use super::values::Spanned;
@@ -26,6 +27,7 @@ pub(crate) use meshes::*;
 pub(crate) use nodes::*;
 pub(crate) use objects::*;
 pub(crate) use physical::*;
+pub(crate) use section::*;
 pub(crate) use textures::*;
 
 use super::values::{
@@ -51,6 +53,8 @@ pub(crate) struct SceneFile {
     /// How transparent surfaces affect shadows: they cast full shadows (opaque, the default), or light
     /// passes straight through them (filtered).
     pub shadows: Option<ShadowsName>,
+    /// The plane beyond which the scene is cut away; default none.
+    pub section: Option<SectionTable>,
     /// Whether area lights, background, ambient light and planes only show a bare model, so that a turntable replaces
     /// them; default false.
     pub staged: Option<bool>,

@@ -175,6 +175,7 @@ pub fn copy(session: &mut Session, ctx: &egui::Context) {
         scene: original,
         camera: &camera,
         background: (request.background.as_ref()).unwrap_or(&request.scene.background),
+        section: request.scene.section,
         settings: &request.settings,
         tone: request.tone,
         time: session.playback.time,

@@ -118,6 +118,7 @@ pub fn command(session: &Session, sample: Option<u32>) -> Result<CommandLine, St
         scene,
         camera: &camera,
         background: background.unwrap_or(&scene.background),
+        section: scene.section,
         settings: &settings,
         tone: session.view.tone,
         time: playback.time,

@@ -3,13 +3,13 @@
 use super::{Pasted, Shown, resolve};
 use glam::DVec3;
 use glimray_app::flag_values::{
-    background, exposure, fov_y, fps, orthographic, shutter, time, vector,
+    background, exposure, fov_y, fps, orthographic, section, shutter, time, vector,
 };
 use glimray_app::overrides::RenderOverrides;
 use glimray_app::settings::SETTINGS;
 use glimray_app::value_forms::{Form, joined};
 use glimray_app::value_names::{TONES, TRANSFERS};
-use glimray_scene::{Backdrop, Background, Camera, Scene, Shutter};
+use glimray_scene::{Backdrop, Background, Camera, Scene, Section, Shutter};
 
 /// Flags, and the picture that a line with them shows.
 pub(super) struct Flags<'a> {
@@ -52,6 +52,7 @@ impl<'a> Flags<'a> {
             );
         }
         flags.background(shown);
+        flags.section(shown);
         flags.tone(shown);
         flags.timing(shown);
         Ok(flags)
@@ -188,6 +189,20 @@ impl<'a> Flags<'a> {
             ("--background", text),
             background,
             |overrides| &mut overrides.camera.background,
+        );
+    }
+
+    fn section(&mut self, shown: &Shown) {
+        let text = match shown.section {
+            Some(Section { normal, offset }) => joined([normal.x, normal.y, normal.z, offset]),
+            None => "none".to_owned(),
+        };
+        self.add_one(
+            "the section plane",
+            |picture| picture.section != shown.section,
+            ("--section", Some(text)),
+            section,
+            |overrides| &mut overrides.camera.section,
         );
     }
 
