@@ -49,6 +49,7 @@ fn scene() -> Scene {
         geometry,
         material,
         node: None,
+        name: String::new(),
     };
     Scene {
         materials: vec![
@@ -61,6 +62,7 @@ fn scene() -> Scene {
             mesh: 0,
             placement: DAffine3::from_translation(dvec3(-1.2, 0.0, -1.0)),
             node: None,
+            name: String::new(),
         }],
         shapes: vec![
             shape(

@@ -40,6 +40,7 @@ fn detail_in_a_fifth() -> Scene {
                 },
                 material: 0,
                 node: None,
+                name: String::new(),
             });
         }
     }
@@ -214,6 +215,7 @@ fn blurred_light() -> Scene {
         },
         material: 0,
         node: None,
+        name: String::new(),
     });
     scene
 }

@@ -529,6 +529,7 @@ fn add_placed(scene: &mut Scene, canonical: CanonicalShape, world_from_canonical
         },
         material: 0,
         node: None,
+        name: String::new(),
     });
 }
 

@@ -74,6 +74,7 @@ fn no_mirrored_ray_gets_out_of_a_closed_body() {
             },
             material: 0,
             node: None,
+            name: String::new(),
         });
         scene
     };

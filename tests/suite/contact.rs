@@ -83,6 +83,7 @@ fn add_box(scene: &mut Scene, [min, max]: [DVec3; 2]) {
         geometry,
         material: 0,
         node: None,
+        name: String::new(),
     });
 }
 
@@ -171,6 +172,7 @@ fn add_torus(scene: &mut Scene) {
         mesh: scene.meshes.len() - 1,
         placement: DAffine3::from_rotation_x(0.4),
         node: None,
+        name: String::new(),
     });
 }
 

@@ -128,6 +128,7 @@ pub fn party() -> Scene {
         mesh,
         placement: DAffine3::from_scale(dvec3(1.0, -0.8, 1.5)),
         node: Some(carrier),
+        name: String::new(),
     });
     deform(&mut scene, mesh, None, vec![target]);
     scene

@@ -212,6 +212,7 @@ fn a_lamp_and_a_picture_add_their_light() {
         // The lamp does not shade the plane from the picture.
         visible: false,
         node: None,
+        name: String::new(),
     };
     let with = |picture: f32, lamps: &[Light]| {
         let mut scene = plane_under(grey(16, 8, |x, _| picture * x as f32), DVec3::Y, 0.0);

@@ -818,6 +818,7 @@ fn hits_name_the_same_objects_for_baked_and_instanced_copies() {
         mesh: ball,
         placement: glam::DAffine3::from_scale(DVec3::splat(0.4)),
         node: Some(0),
+        name: String::new(),
     });
     scene.add_sphere(dvec3(0.0, 2.0, 0.0), 0.4, 0);
     scene.lights.push(Light {

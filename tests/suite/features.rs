@@ -72,6 +72,7 @@ fn add_box(scene: &mut Scene, min: DVec3, max: DVec3) {
         },
         material: 0,
         node: None,
+        name: String::new(),
     });
 }
 
@@ -331,6 +332,7 @@ fn light(kind: usize, random: &mut Random) -> Light {
         samples: 2,
         visible: random.below(2) == 0,
         node: None,
+        name: String::new(),
     }
 }
 
@@ -368,6 +370,7 @@ fn random_scene(random: &mut Random, only: Option<usize>) -> Scene {
             },
             material: random.below(count),
             node: None,
+            name: String::new(),
         });
     }
     if scene.shapes.is_empty() || random.below(2) == 0 {
@@ -455,12 +458,14 @@ fn add_moving(scene: &mut Scene, way: DVec3, visible: bool) {
         },
         material: 0,
         node,
+        name: String::new(),
     });
     scene.meshes.push(scenes::quad(0.7, 0).into());
     scene.instances.push(Instance {
         mesh: scene.meshes.len() - 1,
         placement: DAffine3::from_translation(dvec3(1.2, 1.9, -0.5)),
         node,
+        name: String::new(),
     });
 }
 

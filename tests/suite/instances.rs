@@ -67,6 +67,7 @@ pub fn crowd(materials: [Material; 2]) -> Scene {
             mesh: copy % 2,
             placement: DAffine3::from_scale_rotation_translation(scale, turn, place),
             node: None,
+            name: String::new(),
         });
     }
     scene.add_mesh(scenes::quad(9.0, 0), DAffine3::IDENTITY);
@@ -158,6 +159,7 @@ fn instances_need_the_memory_of_one_mesh() {
             mesh: 0,
             placement: DAffine3::from_translation(dvec3(f64::from(i), 0.0, 0.0)),
             node: None,
+            name: String::new(),
         }));
         scene
     };
@@ -183,6 +185,7 @@ fn rays_that_leave_a_triangle_hit_the_same_one_of_another_instance() {
             mesh: 0,
             placement: DAffine3::from_translation(dvec3(0.0, height, 0.0)),
             node: None,
+            name: String::new(),
         })
         .into();
     scene.ambient = Vec3::ZERO;
@@ -211,6 +214,7 @@ fn an_empty_crowd_and_a_hidden_one_are_background() {
             mesh: 0,
             placement: DAffine3::IDENTITY,
             node: None,
+            name: String::new(),
         };
         3
     ];
@@ -251,6 +255,7 @@ fn a_lamp_throws_no_shadow_of_itself_on_instances() {
                 mesh: 0,
                 placement: DAffine3::from_translation(dvec3(x - 40.0, 0.0, 0.0)),
                 node: None,
+                name: String::new(),
             })
             .into();
         scene.lights.push(Light {

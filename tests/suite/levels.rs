@@ -25,6 +25,7 @@ fn ball() -> Scene {
             },
             material: 0,
             node: None,
+            name: String::new(),
         }],
         materials: vec![Material::default()],
         cameras: vec![Camera {

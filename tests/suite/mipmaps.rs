@@ -316,6 +316,7 @@ fn walls(minify: Minify) -> Vec<(&'static str, Scene)> {
                 mesh: 0,
                 placement: place,
                 node: None,
+                name: String::new(),
             });
         }
     });
@@ -332,6 +333,7 @@ fn walls(minify: Minify) -> Vec<(&'static str, Scene)> {
             },
             material,
             node: None,
+            name: String::new(),
         });
     });
     walls

@@ -76,6 +76,7 @@ pub fn carried(geometry: Geometry) -> Scene {
         geometry,
         material: 0,
         node: Some(0),
+        name: String::new(),
     });
     scene
 }
@@ -328,6 +329,7 @@ fn boxes_that_follow_the_movement_lose_nothing() {
                 mesh,
                 placement,
                 node,
+                name: String::new(),
             });
         } else {
             scene.shapes.push(Shape {
@@ -341,6 +343,7 @@ fn boxes_that_follow_the_movement_lose_nothing() {
                 },
                 material,
                 node,
+                name: String::new(),
             });
         }
         let index = i as usize;

@@ -123,6 +123,7 @@ fn a_pattern_moves_with_its_node() {
         mesh: 0,
         placement: facing(),
         node: Some(0),
+        name: String::new(),
     });
     for (name, scene) in [("shape", as_shape), ("mesh", as_mesh)] {
         let settings = sized(SIDE, SIDE);
@@ -180,6 +181,7 @@ fn a_pattern_on_a_static_object_is_static_whatever_else_moves() {
                 dvec3(x, 0.0, 0.0),
             ),
             node: Some(node),
+            name: String::new(),
         });
     }
     let target = Target::Node(1, NodeProperty::Translation);
@@ -208,6 +210,7 @@ fn lamp(visible: bool) -> Scene {
         samples: 1,
         visible,
         node: None,
+        name: String::new(),
     });
     scene
 }
@@ -478,6 +481,7 @@ fn a_moving_camera_is_in_the_medium_around_it() {
         },
         material: 0,
         node: Some(0),
+        name: String::new(),
     });
     let way = vec![DVec3::ZERO, dvec3(0.0, 50.0, 0.0)];
     scene.tracks.push(moves(NodeProperty::Translation, way));

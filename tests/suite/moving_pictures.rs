@@ -106,6 +106,7 @@ fn fair() -> Scene {
         mesh: 0,
         placement: DAffine3::from_rotation_x(0.6),
         node: Some(rider),
+        name: String::new(),
     });
     // Another instance of the mesh, mirrored and growing.
     let other = node(
@@ -126,6 +127,7 @@ fn fair() -> Scene {
         mesh: 0,
         placement: DAffine3::from_rotation_x(1.1),
         node: Some(other),
+        name: String::new(),
     });
 
     let shape = |scene: &mut Scene, geometry, material, node| {
@@ -133,6 +135,7 @@ fn fair() -> Scene {
             geometry,
             material,
             node: Some(node),
+            name: String::new(),
         });
     };
     let flier = node(&mut scene, Node::default());
@@ -234,6 +237,7 @@ fn lamps() -> Scene {
         samples: 64,
         visible: true,
         node,
+        name: String::new(),
     };
     scene.lights.push(area(
         LightKind::Rectangle {
@@ -307,6 +311,7 @@ fn ride() -> Scene {
         },
         material: 0,
         node: Some(seat),
+        name: String::new(),
     });
     scene
 }
@@ -528,6 +533,7 @@ fn adaptive_sampling_spends_more_on_blur_and_comes_near_the_converged_picture() 
         },
         material: glow,
         node: Some(carrier),
+        name: String::new(),
     });
     scene.add_sphere(dvec3(1.6, 0.5, 0.0), 0.5, 0);
     scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.7);
@@ -656,6 +662,7 @@ fn a_wheel_of_glass_does_not_show_in_a_furnace() {
             },
             material: 0,
             node: Some(wheel),
+            name: String::new(),
         });
     }
     let packed = Arc::new(pack::scene(&scene).expect("packed"));

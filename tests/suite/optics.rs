@@ -37,6 +37,7 @@ fn add(scene: &mut Scene, geometry: Geometry, material: Material) {
         geometry,
         material: scene.materials.len(),
         node: None,
+        name: String::new(),
     });
     scene.materials.push(material);
 }
@@ -858,6 +859,7 @@ fn the_media_round_the_camera_are_those_of_the_copy_that_it_is_in() {
         mesh,
         placement,
         node: None,
+        name: String::new(),
     };
     scene.instances = vec![
         copy(

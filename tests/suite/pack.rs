@@ -371,6 +371,7 @@ fn cones_are_packed_as_wide_as_they_are_high() {
         },
         material: 0,
         node: None,
+        name: String::new(),
     });
     let cone = pack::scene(&scene).expect("a scene").shapes[0];
     assert_eq!((cone.size0, cone.size1), (1.0, 0.25));
@@ -389,6 +390,7 @@ fn a_shape_too_thin_for_f32_is_refused() {
         },
         material: 0,
         node: None,
+        name: String::new(),
     });
     let error = pack::scene(&scene).expect_err("too thin");
     insta::assert_snapshot!(error, @"object too small (scaled size): 1e-16 units in one direction is below the range of f32 arithmetic, at least 1e-15. Make it larger, or scale the scene up.");
@@ -406,6 +408,7 @@ fn visible_lights_are_surfaces_that_shine_on_their_front() {
         attenuation: Attenuation::InverseSquare,
         samples: 4,
         node: None,
+        name: String::new(),
     };
     let rectangle = LightKind::Rectangle {
         center,

@@ -194,6 +194,7 @@ fn flock(random: &mut Random) -> (Scene, Vec<Vec<DVec3>>) {
                 mesh: 0,
                 placement,
                 node: Some(child),
+                name: String::new(),
             });
             let positions = &scene.meshes[0].positions;
             points.push(positions.iter().map(|p| p.as_dvec3()).collect());
@@ -226,6 +227,7 @@ fn flock(random: &mut Random) -> (Scene, Vec<Vec<DVec3>>) {
             geometry,
             material: 0,
             node: Some(child),
+            name: String::new(),
         });
         points.push(own);
     }
@@ -360,6 +362,7 @@ fn every_transform_survives_decomposition_into_a_key() {
             mesh: 0,
             placement: DAffine3::IDENTITY,
             node: Some(i),
+            name: String::new(),
         });
     }
     let packed = pack::scene(&scene).expect("packed");
@@ -402,6 +405,7 @@ fn keys_go_the_short_way_round() {
         mesh: 0,
         placement: DAffine3::IDENTITY,
         node: Some(0),
+        name: String::new(),
     });
     let turn = vec![DVec3::ZERO, dvec3(0.0, 3.0 * std::f64::consts::TAU, 0.0)];
     scene.tracks.push(track(0, NodeProperty::Angles, turn));
@@ -546,6 +550,7 @@ fn traversal_of_both_levels_fits_on_the_stack() {
             DVec3::X * place(i),
         ),
         node: None,
+        name: String::new(),
     }));
     scene.add_mesh(
         scene.meshes[0].clone(),

@@ -266,6 +266,7 @@ fn matte_surfaces_look_alike_in_direct_light() {
                     samples: 16,
                     visible,
                     node: None,
+                    name: String::new(),
                 };
                 let scene = lit_floor(matte(0.6), light);
                 let classical = RenderSettings {
@@ -307,6 +308,7 @@ fn lamps_that_paths_can_hit_give_no_more_light_than_hidden_ones() {
                     samples: 1,
                     visible,
                     node: None,
+                    name: String::new(),
                 };
                 let scene = lit_floor(glossy(shininess), light);
                 mean(&scene, &paths(1024, (24, 16), 0))
@@ -379,6 +381,7 @@ fn a_picture_does_not_depend_on_how_it_is_cut_into_slices() {
         samples: 1,
         visible: true,
         node: None,
+        name: String::new(),
     };
     let scene = lit_floor(matte(0.7), light);
     let whole = render(&scene, &paths(32, (40, 24), 8)).0;
@@ -419,6 +422,7 @@ fn glowing_square(scene: &mut Scene, world_from_mesh: DAffine3, radiance: f32) {
         mesh: scene.meshes.len() - 1,
         placement: world_from_mesh,
         node: None,
+        name: String::new(),
     });
 }
 
@@ -442,6 +446,7 @@ fn emissive_meshes_shine_like_lamps_of_the_same_radiance() {
         samples: 1,
         visible: true,
         node: None,
+        name: String::new(),
     };
     let glossy = Material {
         bsdf: Phong {

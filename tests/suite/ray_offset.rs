@@ -28,6 +28,7 @@ fn sunlit(camera: Camera, direction: DVec3) -> Scene {
             samples: 1,
             visible: false,
             node: None,
+            name: String::new(),
         }],
         ..Scene::default()
     }
@@ -58,6 +59,7 @@ fn box_on_a_floor(height: f64, slope: f64) -> Scene {
         },
         material: 0,
         node: None,
+        name: String::new(),
     });
     scene
 }

@@ -39,6 +39,7 @@ fn soft_shadow() -> Scene {
         samples: 1,
         visible: false,
         node: None,
+        name: String::new(),
     }];
     scene
 }

@@ -684,6 +684,7 @@ fn bounds_include_objects_on_nodes() {
         },
         material: 0,
         node: Some(0),
+        name: String::new(),
     }];
     scene.meshes = vec![
         Mesh {
@@ -696,6 +697,7 @@ fn bounds_include_objects_on_nodes() {
         mesh: 0,
         placement: DAffine3::from_translation(DVec3::Y),
         node: Some(0),
+        name: String::new(),
     }];
     // A quarter turn about z takes x to y and y to −x.
     let (min, max) = scene.bounds().expect("bounds");

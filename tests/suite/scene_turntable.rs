@@ -24,6 +24,7 @@ fn scene(positions: Vec<Vec3>) -> Scene {
             mesh: 0,
             placement: DAffine3::IDENTITY,
             node: None,
+            name: String::new(),
         }],
         ..Scene::default()
     }
@@ -152,6 +153,7 @@ fn a_ball_in_the_middle_just_touches_the_margin() {
         },
         material: 0,
         node: Some(0),
+        name: String::new(),
     }];
     for (fov_y, aspect) in [(0.6, 1.5), (0.6, 0.5), (2.0, 1.0)] {
         let options = Turntable {
@@ -232,6 +234,7 @@ fn only_a_ground_that_catches_the_shadow_stays() {
             },
             material: scene.materials.len() - 1,
             node: None,
+            name: String::new(),
         });
         scene.staged = true;
         assert!(turntable(&mut scene, &Turntable::default()));

@@ -668,6 +668,7 @@ fn packed(canonical: CanonicalShape, world_from_canonical: DAffine3) -> Plain<Pa
             geometry,
             material: 0,
             node: None,
+            name: String::new(),
         }],
         ..Scene::default()
     };

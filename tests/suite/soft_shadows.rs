@@ -37,6 +37,7 @@ fn glowing(kind: LightKind) -> Light {
         samples: 64,
         visible: true,
         node: None,
+        name: String::new(),
     }
 }
 
@@ -399,6 +400,7 @@ fn soft_shadows_of_every_kind_of_light_match_an_independent_tracer() {
         samples: 64,
         visible: false,
         node: None,
+        name: String::new(),
     };
     let kinds = [
         (

@@ -45,6 +45,7 @@ fn chain(count: i32, copies: i32) -> Scene {
             DVec3::X * place(i - copies),
         ),
         node: None,
+        name: String::new(),
     }));
     scene
 }

@@ -287,6 +287,7 @@ mod tests {
                 },
                 material: 0,
                 node: None,
+                name: String::new(),
             });
         } else {
             let mesh = Mesh {
@@ -301,6 +302,7 @@ mod tests {
                 mesh: 0,
                 placement: DAffine3::IDENTITY,
                 node: None,
+                name: String::new(),
             });
         }
         scene

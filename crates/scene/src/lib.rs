@@ -20,6 +20,7 @@
 //!         geometry: Geometry::Sphere { center: DVec3::ZERO, radius: 2.0 },
 //!         material: 0,
 //!         node: None,
+//!         name: "ball".to_owned(),
 //!     }],
 //!     lights: vec![Light {
 //!         kind: LightKind::Point { position: dvec3(3.0, 4.0, 5.0) },
@@ -33,6 +34,7 @@
 //! ```
 
 mod animation;
+mod append;
 mod bounds;
 mod bsdf;
 pub mod bytes;
@@ -85,7 +87,7 @@ pub use material::{Coverage, Fresnel, LayerTextures, Material, Mixing, Textures}
 pub use mesh::{Mesh, Repairs, area_normal};
 pub use metallic_roughness::{Lobes, MetallicRoughness, SurfacePoint};
 pub use node::Node;
-pub use object::ObjectRef;
+pub use object::{ObjectRef, is_numbered};
 pub use output::{
     Antialias, Backdrop, Filter, LightTransport, OutputDefaults, Shutter, ToneCurve, Transfer,
 };
@@ -173,6 +175,8 @@ pub struct Instance {
     /// Index into [`Scene::nodes`]; `None` is the world. The skin of a deforming mesh gives positions in the
     /// world: then the node may hide the instance, but does not move it.
     pub node: Option<usize>,
+    /// May be empty: then it goes by the name of its mesh. Copies of one object have the same.
+    pub name: String,
 }
 
 /// Linear radiance of rays that hit nothing.

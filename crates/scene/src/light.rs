@@ -18,6 +18,8 @@ pub struct Light {
     pub visible: bool,
     /// Index into [`super::Scene::nodes`] of the parent node; `None` is the world.
     pub node: Option<usize>,
+    /// May be empty.
+    pub name: String,
 }
 
 impl Default for Light {
@@ -32,6 +34,7 @@ impl Default for Light {
             samples: 1,
             visible: false,
             node: None,
+            name: String::new(),
         }
     }
 }
@@ -88,6 +91,18 @@ pub enum LightKind {
 }
 
 impl LightKind {
+    /// The kind in words, such as "point light".
+    pub fn title(&self) -> &'static str {
+        match self {
+            Self::Point { .. } => "point light",
+            Self::Directional { .. } => "directional light",
+            Self::Spot { .. } => "spot light",
+            Self::Rectangle { .. } => "rectangle light",
+            Self::Disc { .. } => "disc light",
+            Self::Sphere { .. } => "sphere light",
+        }
+    }
+
     /// The radiance that the surface of an area light of `color` 1 emits, in the convention that a
     /// diffuse surface of k_d reflects k_d/π times its irradiance. `None` for a light without extent.
     pub fn radiance(&self) -> Option<f64> {

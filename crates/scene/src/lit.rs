@@ -53,38 +53,58 @@ impl Scene {
     /// emission at any time, and no mirror or glass that could show the background. False for a scene
     /// without surfaces.
     pub fn is_unlit(&self) -> bool {
-        let is_lit = |color: Vec3| color.max_element() > 0.0;
-        let changes = |wanted: fn(&Target) -> bool| {
-            let mut targets = self.tracks.iter().flat_map(|track| &track.targets);
-            targets.any(wanted)
-        };
-        let any_material = |color: fn(&super::Material) -> Vec3| {
-            let mut materials = self.materials.iter();
-            materials.any(|material| is_lit(color(material)))
-        };
-        let has_lights = self.lights.iter().any(|light| is_lit(light.color))
-            || changes(|target| {
-                use LightProperty::{Color, Intensity, On};
-                matches!(target, Target::Light(_, Color | Intensity | On))
-            });
-        let has_ambient = is_lit(self.ambient)
-            && (any_material(|material| material.classical().ambient)
-                || changes(|t| matches!(t, Target::Material(_, MaterialProperty::Ambient))));
-        let emits = (self.materials.iter()).any(|material| self.emits(material))
-            || changes(|target| matches!(target, Target::Material(_, MaterialProperty::Emission)));
         let shows_background = self.background_shines()
-            && (any_material(|material| {
+            && (self.any_material(|material| {
                 let phong = material.classical();
                 phong.reflect + phong.transmit
-            }) || changes(|target| {
+            }) || self.changes(|target| {
                 use MaterialProperty::{Reflect, Transmit};
                 matches!(
                     target,
                     Target::Material(_, Reflect | Transmit) | Target::Layer(..)
                 )
             }));
-        let has_surfaces = !(self.shapes.is_empty() && self.instances.is_empty());
-        has_surfaces && !(has_lights || has_ambient || emits || shows_background)
+        self.has_surfaces() && !(self.has_own_light() || shows_background)
+    }
+
+    /// Whether matt surfaces are lit by the background alone, which only path tracing sees: there are no lights, no ambient
+    /// light and no emission at any time.
+    pub fn is_lit_by_background_alone(&self) -> bool {
+        let is_matt = self.any_material(|material| material.classical().diffuse);
+        self.has_surfaces() && is_matt && self.background_shines() && !self.has_own_light()
+    }
+
+    fn has_surfaces(&self) -> bool {
+        !(self.shapes.is_empty() && self.instances.is_empty())
+    }
+
+    /// Whether there are lights, ambient light or emission at any time.
+    fn has_own_light(&self) -> bool {
+        let has_lights = self.lights.iter().any(|light| is_lit(light.color))
+            || self.changes(|target| {
+                use LightProperty::{Color, Intensity, On};
+                matches!(target, Target::Light(_, Color | Intensity | On))
+            });
+        let has_ambient = is_lit(self.ambient)
+            && (self.any_material(|material| material.classical().ambient)
+                || self.changes(|t| matches!(t, Target::Material(_, MaterialProperty::Ambient))));
+        let emits = (self.materials.iter()).any(|material| self.emits(material))
+            || self.changes(|target| {
+                matches!(target, Target::Material(_, MaterialProperty::Emission))
+            });
+        has_lights || has_ambient || emits
+    }
+
+    /// Whether a track has a target like this.
+    fn changes(&self, is_wanted: fn(&Target) -> bool) -> bool {
+        let mut targets = self.tracks.iter().flat_map(|track| &track.targets);
+        targets.any(is_wanted)
+    }
+
+    fn any_material(&self, color: fn(&Material) -> Vec3) -> bool {
+        self.materials
+            .iter()
+            .any(|material| is_lit(color(material)))
     }
 
     /// The radiance that the lights give a white surface that faces each of them, unshadowed and at time 0: the mean over
@@ -153,4 +173,8 @@ impl Scene {
         let (color, texture) = material.radiance();
         color.max_element() > 0.0 && !texture.is_some_and(is_black)
     }
+}
+
+fn is_lit(color: Vec3) -> bool {
+    color.max_element() > 0.0
 }

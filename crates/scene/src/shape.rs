@@ -12,6 +12,8 @@ pub struct Shape {
     /// Index into [`super::Scene::nodes`] of the parent node; `None` is the world. Planes are always
     /// static.
     pub node: Option<usize>,
+    /// May be empty. Copies of one object have the same.
+    pub name: String,
 }
 
 /// The surface of a [`Shape`], in the space of its node.
@@ -75,6 +77,23 @@ pub enum CanonicalShape {
 }
 
 impl Geometry {
+    /// The kind in words, such as "sphere" or "cylinder".
+    pub fn title(&self) -> &'static str {
+        match self {
+            Self::Sphere { .. } => "sphere",
+            Self::Plane { .. } => "plane",
+            Self::Placed { canonical, .. } => match *canonical {
+                CanonicalShape::Disc { .. } => "disc",
+                CanonicalShape::Rectangle => "rectangle",
+                CanonicalShape::Box => "box",
+                CanonicalShape::Cone { bottom, top, .. } if bottom == top => "cylinder",
+                CanonicalShape::Cone { .. } => "cone",
+                CanonicalShape::Torus { .. } => "torus",
+                CanonicalShape::Ellipsoid => "ellipsoid",
+            },
+        }
+    }
+
     /// The smallest axis-aligned box (min, max) in the space of the geometry; `None` for planes.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         match *self {

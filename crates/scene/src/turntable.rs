@@ -159,6 +159,7 @@ fn light(scene: &mut Scene, node: usize, center: DVec3, radius: f64) {
             samples: 1,
             visible: false,
             node: Some(node),
+            name: String::new(),
         }
     };
     scene.lights.extend([

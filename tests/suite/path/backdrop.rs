@@ -161,6 +161,7 @@ fn floor(occluder: Option<Geometry>, lights: &[DVec3]) -> Scene {
                     geometry: geometry?,
                     material,
                     node: None,
+                    name: String::new(),
                 })
             })
             .collect(),

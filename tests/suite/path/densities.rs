@@ -69,6 +69,7 @@ fn under_shapes(canonical: CanonicalShape, count: usize, random: &mut Random) ->
             },
             material: materials[index % 2],
             node: None,
+            name: String::new(),
         });
     }
     scene
@@ -144,6 +145,7 @@ fn under_lamps(kind: &LightKind, count: usize, random: &mut Random) -> Scene {
             samples: 1,
             visible: true,
             node: None,
+            name: String::new(),
         });
     }
     scene

@@ -120,6 +120,7 @@ fn under(canonical: CanonicalShape, placed: DAffine3, radiance: f32) -> Scene {
         },
         material: 1,
         node: None,
+        name: String::new(),
     });
     scene
 }
@@ -187,6 +188,7 @@ fn a_sphere_that_a_node_stretches_shines_like_an_ellipsoid() {
         },
         material: 1,
         node: Some(0),
+        name: String::new(),
     });
     scene.nodes.push(Node {
         placement: placed(0.3),
@@ -287,6 +289,7 @@ fn glowing_planes_keep_their_light_beside_glowing_shapes() {
             },
             material: dim,
             node: None,
+            name: String::new(),
         });
         let found = mean(&scene, &settings);
         assert!((found / alone - 1.0).abs() < 0.01, "{found}, not {alone}");
@@ -314,6 +317,7 @@ fn areas_of_shapes_decide_how_often_they_are_chosen() {
             },
             material: 1,
             node: None,
+            name: String::new(),
         });
         let packed = pack::scene(&scene).expect("a scene that can be packed");
         let view = packed.frame(&scene.frame(0.0)).expect("a frame");

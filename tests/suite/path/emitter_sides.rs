@@ -205,6 +205,7 @@ fn emitters_that_touch_glass_are_hit_with_their_own_chance() {
                 },
                 material,
                 node: None,
+                name: String::new(),
             });
         }
         glowing_square(&mut scene, lamps[1], 3.0);
@@ -217,6 +218,7 @@ fn emitters_that_touch_glass_are_hit_with_their_own_chance() {
             },
             material: shell,
             node: None,
+            name: String::new(),
         });
         let front = tilted.transform_vector3(DVec3::NEG_Y);
         let expected = mean_irradiance(&scene, |p| {
@@ -276,6 +278,7 @@ fn add_glass(scene: &mut Scene, height: f64) {
         },
         material,
         node: None,
+        name: String::new(),
     });
 }
 

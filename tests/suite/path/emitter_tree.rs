@@ -65,6 +65,7 @@ pub fn mixed(lamps: usize) -> Scene {
             dvec3(-0.4, 0.2, -1.0),
         ),
         node: None,
+        name: String::new(),
     });
     let shapes = scene.add_material(Material {
         two_sided_emission: false,
@@ -86,6 +87,7 @@ pub fn mixed(lamps: usize) -> Scene {
             },
             material: shapes,
             node: None,
+            name: String::new(),
         });
     }
     scene.add_sphere(dvec3(0.2, 1.4, 0.9), 0.1, shapes);

@@ -58,6 +58,7 @@ fn under(kind: &LightKind, floor: &Material, radiance: f64, node: Option<Node>) 
         geometry: surface(kind),
         material,
         node,
+        name: String::new(),
     });
     scene
 }
@@ -88,6 +89,7 @@ fn emissive_shapes_shine_like_lamps_of_the_same_radiance() {
             samples: 1,
             visible: false,
             node: None,
+            name: String::new(),
         };
         let expected = mean(&lit_floor(glossy.clone(), lamp), &paths(1024, (24, 16), 0));
         let moved = Node {

@@ -105,6 +105,7 @@ fn lamp(visible: bool) -> Light {
         samples: 1,
         visible,
         node: None,
+        name: String::new(),
     }
 }
 

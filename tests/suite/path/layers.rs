@@ -160,6 +160,7 @@ fn prism(material: Material) -> Scene {
             mesh: 0,
             placement: DAffine3::IDENTITY,
             node: None,
+            name: String::new(),
         }],
         ..Scene::default()
     }
@@ -345,6 +346,7 @@ fn brushed_metal_is_wider_along_its_direction() {
                 mesh: 0,
                 placement: DAffine3::IDENTITY,
                 node: None,
+                name: String::new(),
             });
             scene.complete_tangents();
             scene.cameras = vec![looking(3.0 * v, DVec3::new(0.05, 0.0, 0.02), 1e-4)];

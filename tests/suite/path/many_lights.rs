@@ -33,6 +33,7 @@ pub fn floor_under(
                 samples: 4,
                 visible: false,
                 node: None,
+                name: String::new(),
             }
         })
         .collect();
@@ -201,6 +202,7 @@ fn many_lamps_that_paths_can_hit_shine_like_balls_of_the_same_radiance() {
             geometry: Geometry::Sphere { center, radius },
             material,
             node: None,
+            name: String::new(),
         });
     }
     let settings = paths(1024, (24, 16), 0);

@@ -103,6 +103,7 @@ fn brushed_white_metal_is_invisible_in_even_light() {
                     mesh: 0,
                     placement: DAffine3::IDENTITY,
                     node: None,
+                    name: String::new(),
                 }],
                 cameras: vec![looking(from, DVec3::ZERO, 1e-3)],
                 ..Scene::default()

@@ -521,6 +521,7 @@ fn ball(eye: DVec3, reflect: f32, transmit: f32, ior: f32) -> Scene {
             },
             material: 0,
             node: None,
+            name: String::new(),
         }],
         materials: vec![material],
         cameras: vec![glimray::scene::Camera {

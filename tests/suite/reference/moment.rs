@@ -57,6 +57,7 @@ pub fn resolve(scene: &Scene, time: f64) -> (Scene, Carriers) {
             geometry,
             material: shape.material,
             node: None,
+            name: String::new(),
         });
         carriers.shapes.push(carrier(shape.node));
     }
@@ -90,6 +91,7 @@ pub fn resolve(scene: &Scene, time: f64) -> (Scene, Carriers) {
             geometry,
             material: still.materials.len() - 1,
             node: None,
+            name: String::new(),
         });
     }
     still.lights.clone_from(&frame.lights);

@@ -261,6 +261,7 @@ pub fn solids() -> Scene {
             },
             material,
             node: None,
+            name: String::new(),
         });
     }
     scene.add_sphere(dvec3(2.6, 0.6, 1.2), 0.3, 0);
@@ -299,6 +300,7 @@ impl Build for Scene {
             geometry: Geometry::Sphere { center, radius },
             material,
             node: None,
+            name: String::new(),
         });
     }
 
@@ -307,6 +309,7 @@ impl Build for Scene {
             geometry: Geometry::Plane { point, normal },
             material,
             node: None,
+            name: String::new(),
         });
     }
 
@@ -316,6 +319,7 @@ impl Build for Scene {
             mesh: self.meshes.len() - 1,
             placement: world_from_object,
             node: None,
+            name: String::new(),
         });
     }
 

@@ -146,6 +146,7 @@ pub fn figure() -> Scene {
         mesh: 0,
         placement: DAffine3::IDENTITY,
         node: None,
+        name: String::new(),
     });
     scene
 }

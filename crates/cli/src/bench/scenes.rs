@@ -105,5 +105,6 @@ fn placed(mesh: usize, placement: DAffine3) -> Instance {
         mesh,
         placement,
         node: None,
+        name: String::new(),
     }
 }

@@ -128,6 +128,7 @@ pub fn thousand() -> Scene {
                     place * 0.03,
                 ),
                 node: None,
+                name: String::new(),
             }
         })
         .collect();
@@ -143,6 +144,7 @@ fn height_field(quads: u32, lights: Vec<Light>) -> Scene {
             mesh: 0,
             placement: DAffine3::IDENTITY,
             node: None,
+            name: String::new(),
         }],
         materials: vec![Material::default()],
         lights,
@@ -204,6 +206,7 @@ fn crowd() -> Scene {
                 mesh: 0,
                 placement: DAffine3::from_scale_rotation_translation(scale, turn, place * 0.12),
                 node: None,
+                name: String::new(),
             }
         })
         .collect();

@@ -74,6 +74,7 @@ fn scene() -> Scene {
             },
             material: 0,
             node: None,
+            name: String::new(),
         }],
         materials: vec![Material::from(Phong {
             diffuse: Vec3::splat(DIFFUSE as f32),

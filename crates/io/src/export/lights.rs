@@ -19,7 +19,7 @@ impl Writer<'_> {
             name: (!name.is_empty()).then(|| name.clone().into()),
             carried_by: self.names.node(light.node),
             // An animated intensity multiplies the plain colour.
-            ..table(light, name.is_empty())
+            ..table(light, !self.names.animated_lights[index])
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::import::native::file::Spanned;
 use glimray_scene::{Scene, Target};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// Names by index in the scene's lists.
 pub(super) struct Names {
@@ -12,8 +12,35 @@ pub(super) struct Names {
     pub nodes: Vec<String>,
     /// Empty if nothing refers to it and it had none.
     pub cameras: Vec<String>,
-    /// Empty if nothing refers to it.
+    /// Empty if nothing refers to it and it had none.
     pub lights: Vec<String>,
+    /// Whether an animation refers to it, by index of the light.
+    pub animated_lights: Vec<bool>,
+    /// Those of objects.
+    pub objects: ObjectNames,
+}
+
+/// The names of objects, which are unique among those of objects and nodes.
+pub(super) struct ObjectNames {
+    taken: HashSet<String>,
+    /// The next number to try for names that are taken.
+    numbers: HashMap<String, usize>,
+}
+
+impl ObjectNames {
+    /// `name` as the name of the next object, with a number if it is taken; `None` if it is empty.
+    pub fn next(&mut self, name: &str) -> Option<Spanned<String>> {
+        if name.is_empty() {
+            return None;
+        }
+        let mut unique = name.to_owned();
+        while !self.taken.insert(unique.clone()) {
+            let number = self.numbers.entry(name.to_owned()).or_insert(1);
+            *number += 1;
+            unique = format!("{name} {number}");
+        }
+        Some(unique.into())
+    }
 }
 
 impl Names {
@@ -28,12 +55,16 @@ impl Names {
                 name.clear();
             }
         }
-        let mut lights = unique("light", scene.lights.iter().map(|_| String::new()));
-        for (index, name) in lights.iter_mut().enumerate() {
-            if !is_lit(index) {
+        let animated_lights: Vec<bool> = (0..scene.lights.len()).map(is_lit).collect();
+        let mut lights = unique("light", scene.lights.iter().map(|l| given(&l.name)));
+        for ((name, light), is_animated) in
+            lights.iter_mut().zip(&scene.lights).zip(&animated_lights)
+        {
+            if light.name.is_empty() && !is_animated {
                 name.clear();
             }
         }
+        let nodes = unique("node", scene.nodes.iter().map(|n| given(&n.name)));
         let materials = unique("material", scene.materials.iter().map(|m| given(&m.name)));
         // A texture is named after the first material that uses it.
         let mut textures = vec![String::new(); scene.textures.len()];
@@ -48,9 +79,14 @@ impl Names {
             textures: unique("texture", textures.into_iter()),
             materials,
             meshes: unique("mesh", scene.meshes.iter().map(|m| given(&m.name))),
-            nodes: unique("node", scene.nodes.iter().map(|n| given(&n.name))),
+            objects: ObjectNames {
+                taken: nodes.iter().cloned().collect(),
+                numbers: HashMap::new(),
+            },
+            nodes,
             cameras,
             lights,
+            animated_lights,
         }
     }
 

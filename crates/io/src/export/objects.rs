@@ -39,7 +39,7 @@ impl Writer<'_> {
         let scene = self.scene;
         let is_alike = |a: &usize, b: &usize| {
             let (a, b) = (&scene.instances[*a], &scene.instances[*b]);
-            a.mesh == b.mesh && a.node == b.node
+            a.mesh == b.mesh && a.node == b.node && a.name == b.name
         };
         let all: Vec<usize> = (0..scene.instances.len()).collect();
         let mut tables = Vec::new();
@@ -61,9 +61,9 @@ impl Writer<'_> {
                 false => places.map(table).collect(),
             };
             tables.extend(run_tables.into_iter().map(|table| {
-                let carried_by = self.names.node(run[0].node);
                 ObjectTable {
-                    carried_by,
+                    name: self.names.objects.next(&run[0].name),
+                    carried_by: self.names.node(run[0].node),
                     ..table
                 }
                 .into()

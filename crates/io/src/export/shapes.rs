@@ -13,7 +13,7 @@ use crate::import::native::shapes::{
 };
 use crate::import::native::values::{Distance, Positive, Vector, differing};
 use glam::{DAffine3, DQuat, DVec3};
-use glimray_scene::{CanonicalShape, Geometry, Shape};
+use glimray_scene::{CanonicalShape, Geometry, Shape, is_numbered};
 
 /// An object with the table of its surface.
 macro_rules! object {
@@ -36,13 +36,16 @@ impl Writer<'_> {
                 Some(places) if run.len() >= LEAST => {
                     let repeat = self.copies("surface", &places);
                     let (table, _) = in_place(run[0].geometry);
-                    vec![ObjectTable { repeat, ..table }]
+                    vec![(own_name(&run[0]), ObjectTable { repeat, ..table })]
                 }
-                _ => run.iter().map(|shape| table(shape.geometry)).collect(),
+                _ => (run.iter())
+                    .map(|shape| (shape.name.as_str(), table(shape.geometry)))
+                    .collect(),
             };
-            tables.extend(of_run.into_iter().map(|table| {
+            tables.extend(of_run.into_iter().map(|(name, table)| {
                 let material = MaterialRef::Name(self.names.materials[run[0].material].clone());
                 let object = ObjectTable {
+                    name: self.names.objects.next(name),
                     material: Some(material.into()),
                     carried_by: self.names.node(run[0].node),
                     ..table
@@ -73,7 +76,16 @@ fn is_alike(a: &Shape, b: &Shape) -> bool {
         (Geometry::Placed { canonical: a, .. }, Geometry::Placed { canonical: b, .. }) => a == b,
         _ => false,
     };
-    is_same_shape && a.material == b.material && a.node == b.node
+    let is_same_name = own_name(a) == own_name(b);
+    is_same_shape && is_same_name && a.material == b.material && a.node == b.node
+}
+
+/// The name of a shape. One that is a number of its kind is not worth an object of its own among many copies.
+fn own_name(shape: &Shape) -> &str {
+    match is_numbered(&shape.name, shape.geometry.title()) {
+        true => "",
+        false => &shape.name,
+    }
 }
 
 /// The transform of the canonical shape, if that keeps all digits.

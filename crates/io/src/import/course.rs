@@ -190,6 +190,7 @@ impl<'s> Reader<'s> {
             },
             material: self.material(&fields) as usize,
             node: None,
+            name: String::new(),
         };
         self.scene.shapes.push(shape);
         Ok(())
@@ -414,6 +415,7 @@ impl<'s> Reader<'s> {
                 mesh: 0,
                 placement: world_from_object,
                 node: None,
+                name: String::new(),
             });
         }
         self.scene.materials = self.palette.into_materials();

@@ -58,6 +58,7 @@ impl Model {
                 mesh: 0,
                 placement: DAffine3::from_translation(self.offset),
                 node: None,
+                name: String::new(),
             });
         } else if scene.shapes.is_empty() {
             scene.skipped.push("the model has no triangles".to_owned());

@@ -288,6 +288,7 @@ impl<'s> Reader<'s> {
             geometry,
             material,
             node: None,
+            name: String::new(),
         });
         Ok(())
     }
@@ -331,6 +332,7 @@ impl<'s> Reader<'s> {
             geometry,
             material,
             node: None,
+            name: String::new(),
         });
         Ok(())
     }

@@ -144,6 +144,7 @@ fn light(scene: &mut Scene, options: &Options) {
                 samples,
                 visible: false,
                 node: None,
+                name: String::new(),
             }
         };
         scene.lights.extend(LAMPS.map(soft));
@@ -188,6 +189,7 @@ fn add_ground(scene: &mut Scene, ground: Ground) {
         },
         material: scene.materials.len() - 1,
         node: None,
+        name: String::new(),
     });
     if ground == Ground::Shadow {
         scene.output.backdrop = Backdrop::Transparent;

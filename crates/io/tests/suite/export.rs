@@ -51,6 +51,9 @@ fn essence(scene: &Scene) -> Scene {
         .iter_mut()
         .for_each(|material| material.name.clear());
     scene.nodes.iter_mut().for_each(|node| node.name.clear());
+    scene.shapes.iter_mut().for_each(|shape| shape.name.clear());
+    (scene.instances.iter_mut()).for_each(|instance| instance.name.clear());
+    scene.lights.iter_mut().for_each(|light| light.name.clear());
     scene
         .cameras
         .iter_mut()

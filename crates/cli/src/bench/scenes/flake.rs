@@ -41,6 +41,7 @@ impl Sphere {
             },
             material: 0,
             node: None,
+            name: String::new(),
         });
         if levels == 0 {
             return;

@@ -71,6 +71,7 @@ pub fn glass(detail: Detail) -> Scene {
                 geometry: Geometry::Sphere { center, radius },
                 material,
                 node: None,
+                name: String::new(),
             });
         };
         ball(0.4, glass);

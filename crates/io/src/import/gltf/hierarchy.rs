@@ -284,6 +284,7 @@ impl Reader<'_> {
                     mesh,
                     placement: DAffine3::IDENTITY,
                     node: deforms.then_some(added),
+                    name: String::new(),
                 });
             } else if let Some(mesh) = mesh {
                 for placement in self.placements(source, here)? {
@@ -297,6 +298,7 @@ impl Reader<'_> {
                         mesh,
                         placement,
                         node: Some(added),
+                        name: String::new(),
                     });
                 }
             }

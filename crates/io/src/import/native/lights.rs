@@ -42,6 +42,7 @@ pub(super) fn lights(
                 return Err(texts.malformed(name.span(), why, "Rename one of them"));
             }
             light.name = Some(name.get_ref().clone());
+            light.light.name.clone_from(name.get_ref());
         }
         if let Some(name) = &table.carried_by {
             light.light.node = Some(nodes.one(name.get_ref(), name.span(), texts)?);
@@ -177,6 +178,7 @@ impl Reader<'_> {
             samples: or(samples, LIGHT_SAMPLES),
             visible: visible.unwrap_or(true),
             node: None,
+            name: String::new(),
         };
         Ok(NamedLight {
             name: None,

@@ -132,6 +132,7 @@ impl Surface {
                 mesh: 0,
                 placement: DAffine3::from_translation(offset),
                 node: None,
+                name: String::new(),
             });
         }
     }

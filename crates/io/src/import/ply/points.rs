@@ -48,6 +48,7 @@ pub(super) fn spheres(content: &Content, materials: &[u32], notes: &mut Notes) -
         },
         material: materials[i * step] as usize,
         node: None,
+        name: String::new(),
     };
     shown.into_iter().enumerate().map(sphere).collect()
 }

@@ -427,6 +427,7 @@ fn light(random: &mut Random, nodes: usize) -> Light {
         },
         visible: has_extent && random.below(2) == 0,
         node: maybe(random, nodes),
+        name: pick(random, &["", "lamp", "lamp"]).to_owned(),
     }
 }
 
@@ -573,12 +574,14 @@ pub fn scene(random: &mut Random) -> Scene {
             mesh: random.below(3),
             placement: placement(random),
             node: maybe(random, 5),
+            name: pick(random, &["", "ball", "arm", "node 2"]).to_owned(),
         });
         let geometry = geometry(random);
         scene.shapes.push(Shape {
             geometry,
             material: random.below(count),
             node: maybe(random, 5),
+            name: pick(random, &["", "ball", "arm", "sphere 7"]).to_owned(),
         });
     }
     scene.shapes.push(Shape {
@@ -588,6 +591,7 @@ pub fn scene(random: &mut Random) -> Scene {
         },
         material: 0,
         node: None,
+        name: String::new(),
     });
     scene.lights = (0..4).map(|_| light(random, 5)).collect();
     for name in ["", "b", "b"] {

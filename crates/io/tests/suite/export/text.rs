@@ -107,6 +107,43 @@ fn missing_and_duplicate_names_become_unique() {
 }
 
 #[test]
+fn names_of_objects_and_lights_come_back_unique() {
+    let mut scene = scene();
+    let names = ["", "ball", "ball", "arm", "sphere 9"];
+    scene.shapes = (names.iter().enumerate())
+        .map(|(index, name)| Shape {
+            geometry: Geometry::Sphere {
+                center: DVec3::X * index as f64,
+                radius: 0.5,
+            },
+            material: 0,
+            node: None,
+            name: (*name).to_owned(),
+        })
+        .collect();
+    scene.nodes = vec![glimray::scene::Node {
+        name: "arm".to_owned(),
+        ..glimray::scene::Node::default()
+    }];
+    let lamp = |name: &str| glimray::scene::Light {
+        color: Vec3::ONE,
+        name: name.to_owned(),
+        ..glimray::scene::Light::default()
+    };
+    scene.lights = ["", "lamp", "lamp"].map(lamp).into();
+    let export = export::native(&scene, "s", &|_, _| false).expect("an export");
+    let (_folder, path) = write(&export, "s");
+    let read = import::load(&path).expect("a scene");
+    let shapes: Vec<_> = read.shapes.iter().map(|it| it.name.as_str()).collect();
+    // Objects and nodes share their names.
+    assert_eq!(shapes, ["", "ball", "ball 2", "arm 2", "sphere 9"]);
+    let lights: Vec<_> = read.lights.iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(lights, ["", "lamp", "lamp 2"]);
+    let again = export::native(&read, "s", &|_, _| false).expect("an export");
+    assert_eq!(again.text, export.text);
+}
+
+#[test]
 fn many_copies_become_one_object_and_a_file_of_placements() {
     let mut scene = scene();
     scene.shapes = (0..5000_u32)
@@ -117,6 +154,7 @@ fn many_copies_become_one_object_and_a_file_of_placements() {
             },
             material: 0,
             node: None,
+            name: String::new(),
         })
         .collect();
     let export = export::native(&scene, "s", &|_, _| false).expect("an export");
@@ -128,6 +166,19 @@ fn many_copies_become_one_object_and_a_file_of_placements() {
     );
     assert_eq!(export.files.len(), 1);
     let (_folder, path) = write(&export, "s");
+    assert_eq!(import::load(&path).expect("a scene").shapes, scene.shapes);
+    // Numbers that the window gave to keep labels are not worth an object each; a name of all is kept.
+    for (index, shape) in (1..).zip(&mut scene.shapes) {
+        shape.name = format!("sphere {index}");
+    }
+    let numbered = export::native(&scene, "s", &|_, _| false).expect("an export");
+    assert_eq!(numbered.text, export.text);
+    for shape in &mut scene.shapes {
+        shape.name = "grain".to_owned();
+    }
+    let named = export::native(&scene, "s", &|_, _| false).expect("an export");
+    assert_eq!(named.text.matches("name = \"grain\"").count(), 1);
+    let (_folder, path) = write(&named, "s");
     assert_eq!(import::load(&path).expect("a scene").shapes, scene.shapes);
 }
 
@@ -144,6 +195,7 @@ fn a_scene_beyond_the_size_limit_is_refused() {
             },
             material: 0,
             node: None,
+            name: String::new(),
         })
         .collect();
     let error = export::native(&scene, "s", &|_, _| false).expect_err("too much");
@@ -200,6 +252,7 @@ fn existing_files_are_kept() {
         mesh: 0,
         placement: DAffine3::IDENTITY,
         node: None,
+        name: String::new(),
     });
     let name = |taken: &dyn Fn(&str, &[u8]) -> bool| {
         let export = export::native(&scene, "s", taken).expect("an export");

@@ -40,7 +40,8 @@ fn a_plain_file_reads_as_written() {
         [Shape {
             geometry,
             material: 0,
-            node: None
+            node: None,
+            name: String::new(),
         }]
     );
     assert_eq!(
@@ -153,6 +154,7 @@ fn area_lights_of_students_are_rectangles_that_do_not_fade() {
         samples: 9,
         visible: false,
         node: None,
+        name: String::new(),
     };
     let sphere = "sphere pos: 0 0 -3 rad: 1 dif: 1 1 1 spe: 0 0 0 shi: 1";
     let texts = [

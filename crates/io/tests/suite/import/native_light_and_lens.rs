@@ -31,7 +31,8 @@ fn missing_keys_of_area_lights_have_their_defaults() {
             attenuation: Attenuation::InverseSquare,
             samples: 16,
             visible: true,
-            node: None
+            node: None,
+            name: String::new(),
         }
     );
 }
@@ -55,7 +56,8 @@ fn every_key_of_area_lights_has_an_effect() {
             attenuation: Attenuation::None,
             samples: 5,
             visible: false,
-            node: None
+            node: None,
+            name: String::new(),
         }
     );
     let got = light("disc = { center = [0, 4, 0], look_at = [0, 4, -9], radius = 2 }");

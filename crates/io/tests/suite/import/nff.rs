@@ -30,6 +30,7 @@ fn sphere(x: f64, radius: f64, material: usize) -> Shape {
         geometry,
         material,
         node: None,
+        name: String::new(),
     }
 }
 

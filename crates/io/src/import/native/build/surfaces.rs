@@ -85,12 +85,20 @@ impl Builder<'_> {
             geometry,
             material,
             node: place.node,
+            name: self.name_of(index),
         });
         Ok(match (geometry, geometry.bounds()) {
             (Geometry::Plane { point, .. }, _) => vec![point],
             (_, Some((min, max))) => vec![min, max],
             (_, None) => Vec::new(),
         })
+    }
+
+    /// The name of the object with this index. A node that it has bears the name instead.
+    fn name_of(&self, index: usize) -> String {
+        let object = self.objects.get(index);
+        let name = object.table.name.as_ref().filter(|_| !object.has_node);
+        name.map_or_else(String::new, |name| name.get_ref().clone())
     }
 
     fn triangle(
@@ -162,6 +170,7 @@ impl Builder<'_> {
             mesh,
             placement,
             node: place.node,
+            name: self.name_of(index),
         });
         let corner = |i: u8| {
             let side = |bit: u8| if i & bit == 0 { -1.0 } else { 1.0 };
@@ -356,6 +365,7 @@ impl Builder<'_> {
                 mesh: index,
                 placement: DAffine3::from_translation(offset),
                 node,
+                name: String::new(),
             });
         }
         notes::of_repairs(&mut self.notes, all);

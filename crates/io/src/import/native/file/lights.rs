@@ -15,7 +15,7 @@ pub(crate) const LIGHT_SAMPLES: u32 = 16;
 #[derive(Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LightTable {
-    /// A unique name, for animations.
+    /// A unique name. The window lists the light by it; animations refer to it.
     pub name: Option<Spanned<String>>,
     /// The name of an object or node that the light is attached to: its position and direction are then
     /// in that object's space.

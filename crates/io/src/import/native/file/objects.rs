@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ObjectTable {
-    /// A unique name, for animations, cameras and lights.
+    /// A unique name. The window lists the object by it; animations, cameras and lights refer to it.
     pub name: Option<Spanned<String>>,
     /// A sphere.
     pub sphere: Option<SphereTable>,
