@@ -6,6 +6,10 @@ use glimray_render::gpu::GpuError;
 use glimray_render::{LongPath, RenderError};
 use std::path::PathBuf;
 
+/// The warning for a scene without light.
+pub const UNLIT: &str = "the scene has no light, so its surfaces are black. Add a light, an ambient \
+                         light, or a material with emission.";
+
 /// The message of a device error, with its remedy.
 pub fn gpu(error: &GpuError) -> String {
     match error {

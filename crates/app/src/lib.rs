@@ -11,6 +11,7 @@ pub mod inputs;
 pub mod layer_picture;
 pub mod layers;
 pub mod legend;
+pub mod new_scene;
 pub mod overrides;
 pub mod picture_file;
 pub mod ray_lines;

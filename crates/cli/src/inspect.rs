@@ -10,10 +10,10 @@ pub use entries::Inspection;
 
 use crate::args::{InspectArgs, PictureFlags};
 use crate::idle_flags;
-use crate::job::UNLIT;
 use crate::report::SceneReport;
 use crate::scene_file;
 use glam::{DVec3, Vec3};
+use glimray_app::advice::UNLIT;
 use glimray_app::console::{self, quoted};
 use glimray_app::error::AppError;
 use glimray_app::value_names::{TONES, TRANSFERS};

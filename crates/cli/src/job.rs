@@ -12,6 +12,7 @@ use crate::report::{
     AnimationReport, AnyReport, Draft, ImageReport, Memory, Report, SceneReport, Seconds,
     SettingsReport,
 };
+use glimray_app::advice::UNLIT;
 use glimray_app::console;
 use glimray_app::console::Console;
 use glimray_app::error::AppError;
@@ -25,10 +26,6 @@ use glimray_scene::bytes::size;
 use glimray_scene::{Backdrop, LightTransport, Scene};
 use std::path::Path;
 use std::time::Instant;
-
-/// The warning for a scene without light.
-pub const UNLIT: &str = "the scene has no light, so its surfaces are black. Add a light, an ambient \
-                         light, or a material with emission.";
 
 /// A scene to render, with the options from the command line.
 pub struct Job<'a> {

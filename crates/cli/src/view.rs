@@ -4,6 +4,7 @@ use super::args::{Cli, Command, ViewArgs};
 use super::job;
 use clap::Parser;
 use glimray_app::error::AppError;
+use glimray_app::new_scene;
 use glimray_app::overrides::{Moment, RenderOverrides};
 use glimray_app::window::{PictureRequest, RecordingRequest, ViewRequest, Window};
 use glimray_io::import::{Baking, Options};
@@ -44,6 +45,7 @@ fn request_of(arguments: &ViewArgs) -> ViewRequest {
         import: Options {
             // The window does it when such an integrator is chosen.
             baking: Baking::Never,
+            instead_of_empty: Some(new_scene::TEXT),
             ..(arguments.camera).import_options(&arguments.reading, &arguments.picture)
         },
         recording: RecordingRequest {

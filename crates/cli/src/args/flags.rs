@@ -240,6 +240,7 @@ impl SceneFlags {
                 strength: self.environment_strength,
                 rotation_deg: self.environment_rotation,
             },
+            instead_of_empty: None,
         }
     }
 }

@@ -75,7 +75,12 @@ pub const SCENE_FORMATS: &[SceneFormat] = &[
         takes: Takes::Overrides,
         max_bytes: native::MAX_BYTES,
         read: |file| {
-            let source = Source::new(SCENE, file.path, file.bytes)?;
+            let instead = file.options.instead_of_empty;
+            let bytes = match instead.filter(|_| file.bytes.trim_ascii().is_empty()) {
+                Some(text) => text.as_bytes().to_vec(),
+                None => file.bytes,
+            };
+            let source = Source::new(SCENE, file.path, bytes)?;
             native::read(&source, file.options, file.files)
         },
     },

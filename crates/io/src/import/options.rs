@@ -39,6 +39,8 @@ pub struct Options {
     pub staging: Staging,
     /// Replaces or changes the background.
     pub environment: Environment,
+    /// The text that an empty native file stands for; `None` refuses it.
+    pub instead_of_empty: Option<&'static str>,
 }
 
 /// Whether [`glimray_scene::Scene::bake_classical_maps`] is called. Only classical shading shows the result.
