@@ -1,5 +1,6 @@
 //! Changes of the session by commands, tools and time.
 
+pub mod adding;
 pub mod answers;
 pub(crate) mod commands;
 pub mod comparing;
@@ -9,6 +10,7 @@ pub mod editing;
 pub mod files;
 pub mod histogram;
 pub mod inspector;
+pub mod lighting;
 pub mod modal;
 pub mod output_defaults;
 pub mod region;

@@ -1,5 +1,6 @@
 //! The window's model: documents, cameras, shortcuts, preferences. Nothing here draws.
 
+pub mod adding;
 pub mod bindings;
 pub mod camera;
 pub mod command_line;

@@ -1,6 +1,6 @@
 //! Dispatches all commands, whether from keys, menus or buttons.
 
-use crate::actions::{comparing, dialogs, editing, files, modal, saving, selecting, tools};
+use crate::actions::{adding, comparing, dialogs, editing, files, modal, saving, selecting, tools};
 use crate::model::bindings::Action;
 use crate::model::camera::{CameraController, Side};
 use crate::model::preferences::Theme;
@@ -8,9 +8,10 @@ use crate::model::tool::Tool;
 use crate::model::view_settings::{GAIN, Sharing};
 use crate::model::viewport::PixelZoom;
 use crate::state::dialogs::Dialog;
+use crate::state::files::Intent;
 use crate::state::layout::{Layout, Panel};
 use crate::state::session::Session;
-use eframe::egui::{self, ViewportCommand};
+use eframe::egui::{self, Event, ViewportCommand};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -37,16 +38,31 @@ pub fn keys(session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
     }
     let bindings = &session.preferences.bindings;
     let (events, flight) = ctx.input(|input| (input.events.clone(), bindings.flight(input)));
+    if session.editing.modal.is_some() {
+        // A widget with the focus would take Enter for a click.
+        ctx.input_mut(|input| {
+            input
+                .events
+                .retain(|event| !matches!(event, Event::Key { .. }))
+        });
+    }
+    let was_flying = (session.controller.as_ref()).is_some_and(CameraController::is_flying);
     if let Some(controller) = &mut session.controller {
         controller.fly(flight);
     }
     for event in &events {
-        if modal::key(session, event) {
+        // During a flight, its keys do nothing else: Shift, which makes it faster, gives other commands to some.
+        if modal::key(session, event) || was_flying && session.preferences.bindings.flies(event) {
             continue;
         }
         if let Some(action) = session.preferences.bindings.pressed_by(event) {
             perform(action, session, layout, ctx);
         }
+    }
+    if egui::Popup::is_any_open(ctx)
+        && let Some(controller) = &mut session.controller
+    {
+        controller.fly(Default::default());
     }
 }
 
@@ -141,6 +157,8 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::ToggleLoop => session.playback.repeats = !session.playback.repeats,
         Action::ToggleMotionBlur => session.playback.blurs = !session.playback.blurs,
         Action::Tool(tool) => tools::activate(session, layout, tool),
+        Action::Add => adding::open_menu(session, ctx),
+        Action::SelectAll => selecting::select_all(session),
         Action::SelectNothing => leave(session),
         Action::ToggleVisible => selecting::toggle_visible(session),
         Action::Rename => {
@@ -151,6 +169,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::Delete => selecting::remove(session),
         Action::Undo => editing::undo(session),
         Action::Redo => editing::redo(session),
+        Action::New => files::intend(session, Intent::New),
         Action::Open => files::ask(session, ctx),
         Action::OpenNext => files::open_next(session, 1),
         Action::OpenPrevious => files::open_next(session, -1),

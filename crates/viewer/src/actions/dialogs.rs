@@ -14,7 +14,8 @@ pub fn take_keys(session: &mut Session, ctx: &egui::Context) -> bool {
         return true;
     }
     let files = &session.files;
-    let is_typing = files.typed.is_some() || session.comparing.typed.is_some();
+    let is_typing =
+        files.typed.is_some() || files.typed_model.is_some() || session.comparing.typed.is_some();
     if files.undecided.is_some() || files.saving.is_some() || is_typing {
         if is_escape {
             close_uppermost(session);
@@ -30,7 +31,10 @@ pub fn close_uppermost(session: &mut Session) -> bool {
     if files.undecided.take().is_some() || files.saving.take().is_some() {
         return true;
     }
-    if files.typed.take().is_some() || session.comparing.typed.take().is_some() {
+    if files.typed.take().is_some() || files.typed_model.take().is_some() {
+        return true;
+    }
+    if session.comparing.typed.take().is_some() {
         return true;
     }
     match session.dialogs.open.pop() {

@@ -2,9 +2,8 @@
 
 use crate::model::document::Document;
 use crate::model::objects;
-use crate::model::objects::{EditError, Id};
+use crate::model::objects::{EditError, Id, Labels};
 use crate::model::outline;
-use crate::model::tool::Tool;
 use crate::state::session::Session;
 use eframe::egui::{self, Key, Modifiers};
 use glimray_app::overrides;
@@ -43,7 +42,9 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     let Some(document) = &mut session.document else {
         return;
     };
-    if !ctx.input(|input| input.pointer.any_down()) && session.editing.grip.is_none() {
+    let editing = &session.editing;
+    let is_held = editing.grip.is_some() || editing.modal.is_some();
+    if !ctx.input(|input| input.pointer.any_down()) && !is_held {
         document.release();
     }
     let scene = document.scene().clone();
@@ -85,7 +86,7 @@ pub fn with_selection(session: &mut Session, act: impl FnOnce(&mut Session, Id))
 
 /// Reverts all changes since the scene was opened, in a step that can be undone.
 pub fn revert(session: &mut Session) {
-    let Some(document) = &mut session.document else {
+    let Some(document) = session.noting_selection() else {
         return;
     };
     if !document.is_changed() {
@@ -111,21 +112,29 @@ pub fn redo(session: &mut Session) {
 }
 
 fn step(session: &mut Session, again: bool) {
+    let selected = session.selected();
     let Some(document) = &mut session.document else {
         return;
     };
     let before = document.scene().clone();
+    document.note_selection(&selected);
     let (done, did, undone) = match again {
         true => (document.redo(), "Redid", "redo"),
         false => (document.undo(), "Undid", "undo"),
     };
     // Indices may refer to different objects now.
     let is_other = done.as_deref().is_some_and(Document::replaces);
-    let after = document.scene();
-    let selected = session.selection.filter(|_| !is_other);
-    session.selection = selected.and_then(|id| objects::same(&before, after, id));
+    let after = document.scene().clone();
+    let mut found = match (done.is_some(), is_other) {
+        (false, _) => selected,
+        // What came back is selected unless something else is.
+        (true, _) if selected.is_empty() => document.selected().to_vec(),
+        (true, true) => Vec::new(),
+        (true, false) => objects::same(&before, &after, &selected),
+    };
+    found.retain(|id| objects::is_there(&after, *id));
+    session.select(found);
     session.editing.renaming = None;
-    session.editing.group = None;
     session.messages.notify(match done {
         Some(name) => format!("{did} {name}"),
         None => format!("Nothing to {undone}"),
@@ -141,7 +150,7 @@ impl Session {
         name: &str,
         change: impl FnOnce(&mut Scene) -> Result<T, EditError>,
     ) -> Option<T> {
-        let changed = self.document.as_mut()?.try_edit(name, change);
+        let changed = self.noting_selection()?.try_edit(name, change);
         self.report(name, changed)
     }
 
@@ -152,8 +161,16 @@ impl Session {
         name: &str,
         change: impl FnOnce(&mut Scene) -> Result<T, EditError>,
     ) -> Option<T> {
-        let changed = self.document.as_mut()?.drag(name, change);
+        let changed = self.noting_selection()?.drag(name, change);
         self.report(name, changed)
+    }
+
+    /// The document, which is told what is selected before it changes.
+    fn noting_selection(&mut self) -> Option<&mut Document> {
+        let selected = self.selected();
+        let document = self.document.as_mut()?;
+        document.note_selection(&selected);
+        Some(document)
     }
 
     fn report<T>(&mut self, name: &str, changed: Result<T, EditError>) -> Option<T> {
@@ -204,46 +221,20 @@ impl Session {
         });
     }
 
-    /// Duplicates something and selects the copy.
-    pub fn duplicate(&mut self, id: Id) {
-        let label = self.label(id);
-        let name = format!("duplicate {label}");
-        if let Some(copy) = self.change(&name, |scene| objects::duplicate(scene, id)) {
-            self.selection = Some(copy);
-            let has_place = matches!(copy, Id::Object(_));
-            self.messages.notify(match has_place {
-                true => "Duplicated in place".to_owned(),
-                false => format!("Duplicated {label}"),
-            });
-            if has_place {
-                self.tool = Tool::Move;
-            }
-        }
-    }
-
-    /// Deletes something.
-    pub fn remove(&mut self, id: Id) {
-        let name = format!("delete {}", self.label(id));
-        if self
-            .change(&name, |scene| objects::remove(scene, id))
-            .is_some()
-        {
-            self.selection = None;
-        }
-    }
-
-    /// Starts to rename the selection, if it has a name.
+    /// Starts to rename the selection.
     pub fn begin_rename(&mut self) {
         if let (Some(id), Some(scene)) = (self.selection, self.scene())
-            && let Some(name) = objects::name(scene, id)
+            && objects::is_there(scene, id)
         {
-            self.editing.renaming = Some((id, name.to_owned()));
-        } else if let Some(id) = self.selection {
-            let notice = format!(
-                "{} has no name of its own. Rename its material or node",
-                self.label(id)
-            );
-            self.messages.notify(notice);
+            self.editing.renaming = Some((id, self.name(id)));
+        }
+    }
+
+    /// The name of something; without one, its label without the material.
+    pub fn name(&self, id: Id) -> String {
+        match self.scene() {
+            Some(scene) => Labels::of(scene).short(scene, id),
+            None => String::new(),
         }
     }
 
@@ -288,7 +279,5 @@ impl Session {
 
 /// A camera in world space at `time`.
 pub fn camera_in_world(scene: &Scene, index: usize, time: f64) -> Camera {
-    let mut scene = scene.clone();
-    scene.camera_index = index;
-    scene.frame(time).camera
+    scene.cameras_at(time).swap_remove(index)
 }

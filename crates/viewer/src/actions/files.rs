@@ -6,6 +6,7 @@ mod dropped;
 pub mod pictures;
 mod screenshot;
 
+use crate::actions::adding;
 use crate::model::file_dialog::{self, Reply, Request, ends_in};
 use crate::model::watch::Change;
 use crate::state::files::Broken;
@@ -14,6 +15,7 @@ use crate::state::session::Session;
 use crate::state::session::opening::Opened;
 use eframe::egui::{self, ViewportCommand};
 use glimray_app::advice;
+use glimray_app::error::AppError;
 use glimray_app::overrides::CameraOverrides;
 use glimray_io::import;
 use std::path::{Path, PathBuf};
@@ -66,6 +68,7 @@ pub fn go_on(session: &mut Session, intent: Intent) {
     session.files.undecided = None;
     match intent {
         Intent::Open(path) => session.open(path),
+        Intent::New => show_without_file(session, Session::show_new),
         // The scene that is being opened replaces it.
         Intent::Reload | Intent::ReloadChanged if session.is_opening() => {}
         Intent::Reload | Intent::ReloadChanged => {
@@ -102,11 +105,23 @@ pub fn cancel_loading(session: &mut Session) {
 
 /// Shows the built-in scene.
 pub fn open_built_in(session: &mut Session) {
-    match session.show_built_in() {
+    show_without_file(session, Session::show_built_in);
+}
+
+fn show_without_file(
+    session: &mut Session,
+    show: impl FnOnce(&mut Session) -> Result<(), AppError>,
+) {
+    // A scene that is still loading would replace it.
+    session.cancel_loading();
+    match show(session) {
         Ok(()) => {
             session.path = None;
             session.files.broken = None;
             session.files.is_gone = false;
+            session.editing.forget_written();
+            // Changes of the files of the scene before are no longer of interest.
+            session.files.to_watch = Some((Vec::new(), SystemTime::now()));
         }
         Err(error) => session.messages.warn(error.to_string()),
     }
@@ -148,6 +163,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
         }
     }
     take_environment(session);
+    adding::update(session);
     reload_changed(session, ctx);
     pictures::update(session);
     screenshot::update(session, ctx);

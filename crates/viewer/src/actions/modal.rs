@@ -13,12 +13,24 @@ use eframe::egui::{Event, Key};
 pub fn activate(session: &mut Session, tool: Tool) {
     session.tool = tool;
     let scene = session.scene().cloned();
-    let time = session.playback.time;
-    let has_place = (session.selection.zip(scene))
-        .is_some_and(|(id, scene)| objects::place(&scene, id, time).is_some());
+    let has_place =
+        scene.is_some_and(|scene| !objects::movable(&scene, &session.selected()).is_empty());
     let is_blender = session.preferences.bindings.preset() == Preset::Blender;
     if is_blender && has_place && session.viewport.is_some() && session.editing.grip.is_none() {
         session.editing.modal = Some(Modal::default());
+    }
+}
+
+/// Lets the selection, which was just made, follow the pointer in the picture as part of the same step. Escape leaves it
+/// where it is.
+pub fn place_new(session: &mut Session) {
+    session.tool = Tool::Move;
+    if let Some(document) = &mut session.document
+        && session.viewport.is_some()
+    {
+        document.go_on();
+        session.editing.grip = None;
+        session.editing.modal = Some(Modal::in_picture());
     }
 }
 

@@ -1,9 +1,10 @@
 //! Selecting several things, and the commands that act on all of them.
 
-use crate::actions::editing;
+use crate::actions::{editing, modal};
 use crate::model::objects::{self, Id};
 use crate::state::editing::Group;
 use crate::state::session::Session;
+use glimray_scene::ObjectRef;
 
 /// The effect of a click in the outline on the selection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,22 +18,21 @@ pub enum Pick {
 }
 
 impl Session {
-    /// All that is selected; [`Session::selection`] comes first.
-    pub fn selected(&self) -> Vec<Id> {
-        let Some(lead) = self.selection else {
-            return Vec::new();
-        };
-        let group = self.editing.group.as_ref();
-        let members = group
-            .filter(|group| group.lead == lead)
-            .map_or(&[][..], |group| &group.members);
-        let others = members.iter().copied().filter(|id| *id != lead);
-        std::iter::once(lead).chain(others).collect()
+    /// Selects exactly these; the first one leads.
+    pub fn select(&mut self, ids: Vec<Id>) {
+        self.selection = ids.first().copied();
+        self.editing.group = None;
+        if let Some(lead) = self.selection {
+            self.group(lead, lead, ids);
+        }
     }
 
-    /// Whether something is selected, alone or among others.
-    pub fn is_selected(&self, id: Id) -> bool {
-        self.selected().contains(&id)
+    /// The label of one thing, or how many there are.
+    pub fn labels(&self, ids: &[Id]) -> String {
+        match ids {
+            [id] => self.label(*id),
+            ids => format!("{} items", ids.len()),
+        }
     }
 
     /// Changes the selection as a click on the line of `id` does.
@@ -86,18 +86,14 @@ impl Session {
         }
         let verb = if visible { "show" } else { "hide" };
         self.change(&format!("{verb} {} items", ids.len()), |scene| {
-            ids.iter()
-                .try_for_each(|id| objects::set_visible(scene, *id, visible))
+            objects::set_all_visible(scene, ids, visible)
         });
     }
 
     /// Moves things to another parent node, or to the top level for `None`, in one step. They keep their
     /// places in the world.
     pub fn set_parent(&mut self, ids: &[Id], parent: Option<usize>) {
-        let what = match ids {
-            [id] => self.label(*id),
-            ids => format!("{} items", ids.len()),
-        };
+        let what = self.labels(ids);
         let to = match parent {
             Some(index) => self.label(Id::Node(index)),
             None => "the top level".to_owned(),
@@ -121,44 +117,45 @@ pub fn toggle_visible(session: &mut Session) {
     });
 }
 
+/// Selects all visible objects and lights.
+pub fn select_all(session: &mut Session) {
+    let Some(scene) = session.scene().cloned() else {
+        return;
+    };
+    let instances = (0..scene.instances.len()).map(ObjectRef::Instance);
+    let shapes = (0..scene.shapes.len()).map(ObjectRef::Shape);
+    let lights = (0..scene.lights.len()).map(ObjectRef::Light);
+    let all = instances.chain(shapes).chain(lights).map(Id::Object);
+    session.select(all.filter(|id| objects::is_visible(&scene, *id)).collect());
+}
+
 /// Deletes all that is selected in one step.
 pub fn remove(session: &mut Session) {
-    editing::with_selection(session, |session, id| {
-        let mut ids = session.selected();
-        if ids.len() == 1 {
-            return session.remove(id);
-        }
-        // From the end of each list, so that the indices of the rest stay valid.
-        ids.sort_unstable_by(|a, b| b.cmp(a));
-        let removed = session.change(&format!("delete {} items", ids.len()), |scene| {
-            ids.iter().try_for_each(|id| objects::remove(scene, *id))
-        });
-        if removed.is_some() {
-            session.selection = None;
-            session.editing.group = None;
+    editing::with_selection(session, |session, _| {
+        let ids = session.selected();
+        let name = format!("delete {}", session.labels(&ids));
+        if (session.change(&name, |scene| objects::remove(scene, &ids))).is_some() {
+            session.select(Vec::new());
         }
     });
 }
 
-/// Duplicates all that is selected in one step, and selects the copies.
+/// Duplicates all that is selected in one step, and selects the copies, which then follow the pointer.
 pub fn duplicate(session: &mut Session) {
-    editing::with_selection(session, |session, id| {
+    editing::with_selection(session, |session, _| {
         let ids = session.selected();
-        if ids.len() == 1 {
-            return session.duplicate(id);
-        }
-        let copies = session.change(&format!("duplicate {} items", ids.len()), |scene| {
+        let what = session.labels(&ids);
+        let copies = session.change(&format!("duplicate {what}"), |scene| {
             let copies = ids.iter().map(|id| objects::duplicate(scene, *id));
             copies.collect::<Result<Vec<_>, _>>()
         });
-        if let Some(copies) = copies
-            && let Some(&lead) = copies.first()
-        {
-            session.selection = Some(lead);
-            session.group(lead, lead, copies);
-            session
-                .messages
-                .notify(format!("Duplicated {} items in place", ids.len()));
+        if let Some(copies) = copies {
+            let is_placed = copies.iter().any(|copy| matches!(copy, Id::Object(_)));
+            session.select(copies);
+            session.messages.notify(format!("Duplicated {what}"));
+            if is_placed {
+                modal::place_new(session);
+            }
         }
     });
 }

@@ -1,6 +1,6 @@
 //! Per-frame updates.
 
-use super::{comparing, editing, files, inspector};
+use super::{comparing, editing, files, inspector, lighting};
 use crate::state::session::Session;
 use eframe::egui;
 
@@ -29,6 +29,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     comparing::update(session);
     inspector::update(session, ctx, seconds);
     editing::update(session, ctx);
+    lighting::update(session);
     session.take_refined();
     session.drop_outdated();
     let time = session.playback.time;

@@ -198,6 +198,17 @@ impl Bindings {
         }
     }
 
+    /// Whether an event presses a key that flies.
+    pub fn flies(&self, event: &Event) -> bool {
+        let Event::Key { key, .. } = event else {
+            return false;
+        };
+        let triggers = self.current.values().flatten();
+        triggers
+            .copied()
+            .any(|trigger| trigger == Trigger::Hold(*key))
+    }
+
     /// Whether a continuous command is active.
     pub fn is_held(&self, action: Action, input: &InputState) -> bool {
         let mods = Mods::from(input.modifiers);

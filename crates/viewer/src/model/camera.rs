@@ -210,7 +210,8 @@ impl CameraController {
         self.now != self.goal || self.velocity != DVec3::ZERO || self.is_flying()
     }
 
-    fn is_flying(&self) -> bool {
+    /// Whether a key that flies is held.
+    pub fn is_flying(&self) -> bool {
         let Flight {
             right, up, forward, ..
         } = self.flight;

@@ -2,6 +2,7 @@
 //!
 //! A step stores the previous scene. This is cheap because meshes and images are shared.
 
+use crate::model::objects::Id;
 use glimray_scene::{Camera, Instance, Light, Material, Mesh, Node, Scene, Shape, Texture, Track};
 use std::mem::size_of;
 use std::sync::Arc;
@@ -23,9 +24,20 @@ pub struct Document {
     saved: Arc<Scene>,
     done: Vec<Step>,
     undone: Vec<Step>,
-    /// Whether the last step is still being dragged: [`Document::drag`] extends it.
-    is_dragging: bool,
+    /// While the last step is still being dragged: [`Document::drag`] extends it.
+    dragged: Option<Dragged>,
+    /// What is selected, so that undo can select it again.
+    selected: Arc<[Id]>,
     max_bytes: usize,
+}
+
+/// The step that is being dragged.
+#[derive(Clone, Debug)]
+struct Dragged {
+    /// The scene that every change of the drag starts from.
+    start: Arc<Scene>,
+    /// Whether the drag began the step. Otherwise it goes on with a step that has an effect of its own.
+    is_own_step: bool,
 }
 
 /// An edit: the scene before it, or after it once it is undone.
@@ -33,6 +45,7 @@ pub struct Document {
 struct Step {
     name: String,
     scene: Arc<Scene>,
+    selected: Arc<[Id]>,
     /// Approximate size in bytes.
     bytes: usize,
 }
@@ -46,7 +59,8 @@ impl Document {
             scene,
             done: Vec::new(),
             undone: Vec::new(),
-            is_dragging: false,
+            dragged: None,
+            selected: Arc::default(),
             max_bytes: MAX_BYTES,
         }
     }
@@ -97,33 +111,60 @@ impl Document {
         name: &str,
         change: impl FnOnce(&mut Scene) -> Result<T, E>,
     ) -> Result<T, E> {
-        let start = match self.done.last() {
-            Some(step) if self.is_dragging => &step.scene,
-            _ => &self.scene,
+        let start = match &self.dragged {
+            Some(dragged) => &dragged.start,
+            None => &self.scene,
         };
         let (scene, result) = changed(start, change);
         let result = result?;
-        if self.is_dragging {
+        if self.dragged.is_some() {
             self.scene = Arc::new(scene);
         } else {
+            let start = self.scene.clone();
             self.push(name, scene);
-            self.is_dragging = true;
+            self.dragged = Some(Dragged {
+                start,
+                is_own_step: true,
+            });
         }
         Ok(result)
     }
 
-    /// Ends a drag: the next change is a new step.
-    pub fn release(&mut self) {
-        self.is_dragging = false;
+    /// Lets a drag go on with the last step: what follows until [`Document::release`] belongs to it.
+    pub fn go_on(&mut self) {
+        self.dragged = Some(Dragged {
+            start: self.scene.clone(),
+            is_own_step: false,
+        });
     }
 
-    /// Reverts the current drag and discards its step.
+    /// Ends a drag: the next change is a new step.
+    pub fn release(&mut self) {
+        self.dragged = None;
+    }
+
+    /// Reverts the current drag, and discards its step if it began with the drag.
     pub fn cancel(&mut self) {
-        if std::mem::take(&mut self.is_dragging)
-            && let Some(step) = self.done.pop()
-        {
-            self.scene = step.scene;
+        match self.dragged.take() {
+            Some(dragged) if dragged.is_own_step => {
+                self.done.pop();
+                self.scene = dragged.start;
+            }
+            Some(dragged) => self.scene = dragged.start,
+            None => {}
         }
+    }
+
+    /// Notes what is selected: a step keeps it with the scene.
+    pub fn note_selection(&mut self, selected: &[Id]) {
+        if *self.selected != *selected {
+            self.selected = selected.into();
+        }
+    }
+
+    /// What was selected when the scene was last as it is now, after [`Document::undo`] or [`Document::redo`].
+    pub fn selected(&self) -> &[Id] {
+        &self.selected
     }
 
     /// Undoes the last step and returns its name; `None` if there is none.
@@ -132,6 +173,7 @@ impl Document {
         let step = self.done.pop()?;
         self.undone.push(Step {
             scene: std::mem::replace(&mut self.scene, step.scene),
+            selected: std::mem::replace(&mut self.selected, step.selected),
             name: step.name.clone(),
             bytes: step.bytes,
         });
@@ -144,6 +186,7 @@ impl Document {
         let step = self.undone.pop()?;
         self.done.push(Step {
             scene: std::mem::replace(&mut self.scene, step.scene),
+            selected: std::mem::replace(&mut self.selected, step.selected),
             name: step.name.clone(),
             bytes: step.bytes,
         });
@@ -210,6 +253,7 @@ impl Document {
             name: name.to_owned(),
             bytes: own_bytes(&before, &self.scene),
             scene: before,
+            selected: self.selected.clone(),
         });
         let mut bytes: usize = self.done.iter().map(|step| step.bytes).sum();
         let mut dropped = 0;

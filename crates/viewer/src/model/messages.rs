@@ -9,6 +9,28 @@ const READING: Duration = Duration::from_millis(60);
 /// Maximum number of messages kept.
 pub const MOST: usize = 200;
 
+/// A way out of what a message reports, as a button.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remedy {
+    /// Add a light to the scene.
+    AddLight,
+    /// Make the background a sky, which path tracing sees.
+    Sky,
+    /// Switch to path tracing.
+    PathTracing,
+}
+
+impl Remedy {
+    /// Label of the button.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::AddLight => "Add a light",
+            Self::Sky => "Sky",
+            Self::PathTracing => "Path tracing",
+        }
+    }
+}
+
 /// A message.
 #[derive(Clone, Debug)]
 pub struct Message {
@@ -16,6 +38,8 @@ pub struct Message {
     pub text: String,
     /// Whether it reports a problem.
     pub is_trouble: bool,
+    /// Ways out. With one, the message stays until it is dismissed.
+    pub remedies: &'static [Remedy],
     /// When it was added.
     pub since: Instant,
     is_read: bool,
@@ -42,15 +66,20 @@ pub struct Messages {
 impl Messages {
     /// Adds a warning. A visible message with the same text is replaced.
     pub fn warn(&mut self, text: String) {
-        self.add(sentence(&text), true);
+        self.add(sentence(&text), true, &[]);
+    }
+
+    /// Adds a warning that stays until it is dismissed, with ways out.
+    pub fn offer(&mut self, text: &str, remedies: &'static [Remedy]) {
+        self.add(sentence(text), true, remedies);
     }
 
     /// Adds a message that is not a warning.
     pub fn notify(&mut self, text: impl Into<String>) {
-        self.add(text.into(), false);
+        self.add(text.into(), false, &[]);
     }
 
-    fn add(&mut self, text: String, is_trouble: bool) {
+    fn add(&mut self, text: String, is_trouble: bool, remedies: &'static [Remedy]) {
         (self.messages).retain(|known| known.text != text || known.rest().is_none());
         if self.messages.len() == MOST {
             self.messages.remove(0);
@@ -58,6 +87,7 @@ impl Messages {
         self.messages.push(Message {
             text,
             is_trouble,
+            remedies,
             since: Instant::now(),
             is_read: false,
         });
@@ -71,7 +101,8 @@ impl Messages {
 
     /// Time until the next visible message expires.
     pub fn next_change(&self) -> Option<Duration> {
-        self.messages.iter().filter_map(Message::rest).min()
+        let expiring = self.messages.iter().filter(|it| it.remedies.is_empty());
+        expiring.filter_map(Message::rest).min()
     }
 
     /// Hides a message.
@@ -90,6 +121,9 @@ impl Messages {
 impl Message {
     /// Remaining time on screen.
     fn rest(&self) -> Option<Duration> {
+        if !self.remedies.is_empty() {
+            return (!self.is_read).then_some(Duration::MAX);
+        }
         let stay = STAY + READING * u32::try_from(self.text.chars().count()).unwrap_or(u32::MAX);
         (!self.is_read)
             .then(|| stay.checked_sub(self.since.elapsed()))

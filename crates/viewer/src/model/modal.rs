@@ -2,7 +2,7 @@
 
 use super::handles::{Handles, Part};
 use super::tool::Tool;
-use eframe::egui::Key;
+use eframe::egui::{Key, Pos2, Rect};
 use glam::DAffine3;
 
 /// A move, rotation or scale started by a key.
@@ -16,9 +16,29 @@ pub struct Modal {
     pub place: Option<DAffine3>,
     /// Whether it ends with the next update.
     pub is_confirmed: bool,
+    /// Whether it begins where the pointer enters the picture, not where it is.
+    waits_for_picture: bool,
 }
 
 impl Modal {
+    /// One that begins where the pointer enters the picture: for what is chosen in a menu.
+    pub fn in_picture() -> Self {
+        Self {
+            waits_for_picture: true,
+            ..Self::default()
+        }
+    }
+
+    /// Where it begins with the pointer at this place of the screen; `None` while it waits.
+    pub fn begins_at(&self, pointer: Option<Pos2>, picture: Rect) -> Option<Pos2> {
+        let waits = self.waits_for_picture && self.typed.is_empty();
+        match pointer {
+            Some(pointer) if !waits || picture.contains(pointer) => Some(pointer),
+            _ if waits => None,
+            pointer => Some(pointer.unwrap_or(picture.center())),
+        }
+    }
+
     /// The equivalent handle. Without that freedom, the handle for all directions.
     pub fn part(&self, handles: &Handles) -> Part {
         let wanted = match (handles.tool, self.limit) {

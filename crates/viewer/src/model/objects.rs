@@ -1,16 +1,21 @@
 //! Edits of one object: transform, visibility, removal, duplication and material.
 
 mod frame;
+mod names;
 mod parent;
 mod place;
 mod scope;
+mod several;
 
 pub use frame::{of_geometry, of_light};
+pub use names::{Labels, name, rename, unused_name};
 pub use parent::set_parent;
-pub use place::{Freedom, Scaling, freedom, place, set_place};
-pub use scope::{bounds, hide_others, is_there, name, rename, same, show_all, subject};
+pub use place::{Freedom, Scaling, freedom, place, place_in, set_place};
+pub use scope::{bounds, hide_others, is_there, same, show_all, subject};
+pub use several::{common_place, movable, transform};
 
-use glimray_scene::{Node, ObjectRef, Scene, Target};
+use glimray_scene::{Node, ObjectRef, Scene, Target, is_numbered};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// A selectable part of a scene. Indices are those of the scene's lists.
@@ -77,12 +82,8 @@ pub fn is_hider(scene: &Scene, index: usize) -> bool {
         visible: false,
         ..Node::default()
     };
-    let is_named = node.name == HIDER || node.name.strip_prefix("hidden ").is_some_and(is_number);
+    let is_named = node.name == HIDER || is_numbered(&node.name, HIDER);
     is_named && *node == plain && !is_animated(scene, index)
-}
-
-fn is_number(text: &str) -> bool {
-    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
 }
 
 fn is_animated(scene: &Scene, node: usize) -> bool {
@@ -129,6 +130,23 @@ pub fn is_visible(scene: &Scene, id: Id) -> bool {
 /// # Errors
 /// The parent is hidden, the visibility is animated, or `id` can never be visible.
 pub fn set_visible(scene: &mut Scene, id: Id, visible: bool) -> Result<(), EditError> {
+    set_all_visible(scene, &[id], visible)
+}
+
+/// Shows or hides several things as [`set_visible`] does.
+///
+/// # Errors
+/// As for [`set_visible`], of one of them. The scene may then be changed in part.
+pub fn set_all_visible(scene: &mut Scene, ids: &[Id], visible: bool) -> Result<(), EditError> {
+    let done = (ids.iter()).try_for_each(|id| set_one_visible(scene, *id, visible));
+    if visible {
+        remove_idle_hiders(scene);
+    }
+    done
+}
+
+/// [`set_visible`], without removing nodes that hide nothing any more.
+fn set_one_visible(scene: &mut Scene, id: Id, visible: bool) -> Result<(), EditError> {
     check(scene, id)?;
     if let Id::Node(index) = id {
         let property = glimray_scene::NodeProperty::Visible;
@@ -157,12 +175,11 @@ pub fn set_visible(scene: &mut Scene, id: Id, visible: bool) -> Result<(), EditE
             let carrier = scene.nodes[index].name.clone();
             return Err(EditError::CarrierHidden { carrier });
         }
-        remove_idle_hiders(scene);
     } else if now == carrier {
         let hides =
             |index: &usize| scene.nodes[*index].parent == carrier && is_hider(scene, *index);
         let hider = (0..scene.nodes.len()).find(hides).unwrap_or_else(|| {
-            let name = unused_name(scene);
+            let name = unused_hider_name(scene);
             scene.nodes.push(Node {
                 name,
                 parent: carrier,
@@ -176,7 +193,7 @@ pub fn set_visible(scene: &mut Scene, id: Id, visible: bool) -> Result<(), EditE
     Ok(())
 }
 
-fn unused_name(scene: &Scene) -> String {
+fn unused_hider_name(scene: &Scene) -> String {
     let is_free = |name: &String| scene.nodes.iter().all(|node| node.name != *name);
     let numbered = (2..).map(|number| format!("{HIDER} {number}"));
     let mut names = std::iter::once(HIDER.to_owned()).chain(numbered);
@@ -227,34 +244,15 @@ fn check(scene: &Scene, id: Id) -> Result<(), EditError> {
     }
 }
 
-/// Removes an object, or a camera if there are others. Later entries of the list move up.
+/// Removes objects, and cameras if others stay. Later entries of the lists move up; the labels of objects stay.
 ///
 /// # Errors
-/// `id` is the last camera, or a node or material, which others use.
-pub fn remove(scene: &mut Scene, id: Id) -> Result<(), EditError> {
-    check(scene, id)?;
-    match id {
-        Id::Object(ObjectRef::Instance(index)) => _ = scene.instances.remove(index),
-        Id::Object(ObjectRef::Shape(index)) => _ = scene.shapes.remove(index),
-        Id::Object(ObjectRef::Light(index)) => {
-            scene.lights.remove(index);
-            retarget(scene, |target| match target {
-                Target::Light(at, property) => Some(Target::Light(without(at, index)?, property)),
-                other => Some(other),
-            });
-        }
-        Id::Camera(index) => {
-            if scene.cameras.len() == 1 {
-                return Err(EditError::Last { what: "camera" });
-            }
-            scene.cameras.remove(index);
-            scene.camera_index = without(scene.camera_index, index).unwrap_or(0);
-            retarget(scene, |target| match target {
-                Target::Camera(at, property) => Some(Target::Camera(without(at, index)?, property)),
-                other => Some(other),
-            });
-        }
-        Id::Node(_) | Id::Material(_) => {
+/// One of them is the last camera, or a node or material, which others use. The scene may then be changed in part.
+pub fn remove(scene: &mut Scene, ids: &[Id]) -> Result<(), EditError> {
+    let removed: BTreeSet<Id> = ids.iter().copied().collect();
+    for id in &removed {
+        check(scene, *id)?;
+        if matches!(id, Id::Node(_) | Id::Material(_)) {
             return Err(EditError::Unable {
                 what: "a node or material in use",
                 done: "removed",
@@ -262,17 +260,46 @@ pub fn remove(scene: &mut Scene, id: Id) -> Result<(), EditError> {
             });
         }
     }
+    names::keep_numbers(scene, &removed);
+    let is_object = |of: fn(usize) -> ObjectRef| {
+        let removed = &removed;
+        move |index| removed.contains(&Id::Object(of(index)))
+    };
+    retain(&mut scene.instances, is_object(ObjectRef::Instance));
+    retain(&mut scene.shapes, is_object(ObjectRef::Shape));
+    let lights = retain(&mut scene.lights, is_object(ObjectRef::Light));
+    let is_camera = |index| removed.contains(&Id::Camera(index));
+    if (0..scene.cameras.len()).all(is_camera) {
+        return Err(EditError::Last { what: "camera" });
+    }
+    let cameras = retain(&mut scene.cameras, is_camera);
+    scene.camera_index = cameras
+        .get(scene.camera_index)
+        .copied()
+        .flatten()
+        .unwrap_or(0);
+    retarget(scene, |target| match target {
+        Target::Light(at, property) => Some(Target::Light(lights[at]?, property)),
+        Target::Camera(at, property) => Some(Target::Camera(cameras[at]?, property)),
+        other => Some(other),
+    });
     remove_idle_hiders(scene);
     Ok(())
 }
 
-/// The index that `at` has after `removed` is gone; `None` for `removed` itself.
-fn without(at: usize, removed: usize) -> Option<usize> {
-    match at.cmp(&removed) {
-        std::cmp::Ordering::Less => Some(at),
-        std::cmp::Ordering::Equal => None,
-        std::cmp::Ordering::Greater => Some(at - 1),
-    }
+/// Removes entries of a list. Returns the index that each of the former ones has now; `None` for those removed.
+fn retain<T>(list: &mut Vec<T>, is_removed: impl Fn(usize) -> bool) -> Vec<Option<usize>> {
+    let mut kept = 0;
+    let now: Vec<Option<usize>> = (0..list.len())
+        .map(|index| {
+            let place = (!is_removed(index)).then_some(kept);
+            kept += usize::from(place.is_some());
+            place
+        })
+        .collect();
+    let mut places = now.iter();
+    list.retain(|_| places.next().is_some_and(Option::is_some));
+    now
 }
 
 /// Renumbers the targets of tracks; tracks without a target are removed.
@@ -306,12 +333,10 @@ pub fn duplicate(scene: &mut Scene, id: Id) -> Result<Id, EditError> {
         }
         Id::Camera(index) => {
             let copy = push(&mut scene.cameras, index);
-            scene.cameras[copy].name.clear();
             Id::Camera(copy)
         }
         Id::Material(index) => {
             let copy = push(&mut scene.materials, index);
-            scene.materials[copy].name.clear();
             Id::Material(copy)
         }
         Id::Node(_) => {
@@ -322,6 +347,11 @@ pub fn duplicate(scene: &mut Scene, id: Id) -> Result<Id, EditError> {
             });
         }
     };
+    let name = name(scene, id).unwrap_or_default().to_owned();
+    if !name.is_empty() {
+        let name = unused_name(scene, &name);
+        rename(scene, copy, &name)?;
+    }
     let same = |target: &Target| match (*target, id, copy) {
         (
             Target::Light(at, property),

@@ -1,8 +1,8 @@
 //! The contents of a scene as rows, indented by hierarchy.
 
 use crate::model::objects;
-use crate::model::objects::Id;
-use glimray_scene::{CanonicalShape, Geometry, LightKind, ObjectRef, Scene};
+use crate::model::objects::{Id, Labels};
+use glimray_scene::{ObjectRef, Scene};
 use std::collections::BTreeMap;
 
 /// The heading of the objects.
@@ -21,8 +21,7 @@ pub struct Entry {
     pub visible: bool,
 }
 
-/// All of a scene: objects by hierarchy, then lights, cameras and materials. Numbers in labels count from 1
-/// within a kind, in the scene's order.
+/// All of a scene: objects by hierarchy, then lights, cameras and materials.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Outline {
     /// From top to bottom; children below their parent.
@@ -119,7 +118,7 @@ impl Outline {
     fn entry(&mut self, scene: &Scene, labels: &Labels, id: Id, depth: usize) {
         self.entries.push(Entry {
             id: Some(id),
-            label: labels.of_id(scene, id),
+            label: labels.whole(scene, id),
             depth,
             visible: objects::is_visible(scene, id),
         });
@@ -132,7 +131,7 @@ fn light(index: usize) -> Id {
 
 /// The label of one item; for many, [`Outline::of`] is faster.
 pub fn label(scene: &Scene, id: Id) -> String {
-    Labels::of(scene).of_id(scene, id)
+    Labels::of(scene).whole(scene, id)
 }
 
 /// The labels of some items; those that are not in the scene have none.
@@ -140,116 +139,6 @@ pub fn labels(scene: &Scene, ids: impl IntoIterator<Item = Id>) -> BTreeMap<Id, 
     let labels = Labels::of(scene);
     ids.into_iter()
         .filter(|id| objects::is_there(scene, *id))
-        .map(|id| (id, labels.of_id(scene, id)))
+        .map(|id| (id, labels.whole(scene, id)))
         .collect()
-}
-
-/// The numbers of items within their kinds.
-struct Labels {
-    shapes: Vec<usize>,
-    instances: Vec<usize>,
-    lights: Vec<usize>,
-}
-
-impl Labels {
-    fn of(scene: &Scene) -> Self {
-        let shapes = scene.shapes.iter().map(|shape| kind_of(&shape.geometry));
-        let instances = scene
-            .instances
-            .iter()
-            .map(|i| kind_of_mesh(&scene.meshes[i.mesh].name));
-        let lights = scene.lights.iter().map(|light| kind_of_light(&light.kind));
-        Self {
-            shapes: numbers(shapes),
-            instances: numbers(instances),
-            lights: numbers(lights),
-        }
-    }
-
-    fn of_id(&self, scene: &Scene, id: Id) -> String {
-        let named = |name: &str, kind: &str, index: usize| match name {
-            "" => format!("{kind} {}", index + 1),
-            name => name.to_owned(),
-        };
-        let material = |index: usize| named(&scene.materials[index].name, "material", index);
-        match id {
-            Id::Object(ObjectRef::Shape(index)) => {
-                let shape = &scene.shapes[index];
-                let kind = kind_of(&shape.geometry);
-                format!(
-                    "{kind} {} ({})",
-                    self.shapes[index],
-                    material(shape.material)
-                )
-            }
-            Id::Object(ObjectRef::Instance(index)) => {
-                let mesh = &scene.meshes[scene.instances[index].mesh];
-                let name = kind_of_mesh(&mesh.name);
-                let number = self.instances[index];
-                let first = mesh.materials.first().copied().unwrap_or(0);
-                match mesh.materials.iter().all(|material| *material == first) {
-                    true => format!("{name} {number} ({})", material(first as usize)),
-                    false => format!("{name} {number} (several materials)"),
-                }
-            }
-            Id::Object(ObjectRef::Light(index)) => {
-                let kind = kind_of_light(&scene.lights[index].kind);
-                format!("{kind} {}", self.lights[index])
-            }
-            Id::Node(index) => named(&scene.nodes[index].name, "node", index),
-            Id::Camera(index) => named(&scene.cameras[index].name, "camera", index),
-            Id::Material(index) => material(index),
-        }
-    }
-}
-
-/// For each entry of `kinds`, how many equal ones there are up to it.
-fn numbers<'a>(kinds: impl Iterator<Item = &'a str>) -> Vec<usize> {
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    kinds
-        .map(|kind| {
-            let count = counts.entry(kind).or_default();
-            *count += 1;
-            *count
-        })
-        .collect()
-}
-
-/// The label of a mesh instance, without its number. Files store a name for every mesh: unnamed ones are
-/// saved as "mesh 2" and the like, which counts as unnamed here so that saving renames nothing.
-fn kind_of_mesh(name: &str) -> &str {
-    let number = name.strip_prefix("mesh ");
-    let is_numbered =
-        number.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()));
-    match name.is_empty() || is_numbered {
-        true => "mesh",
-        false => name,
-    }
-}
-
-fn kind_of(geometry: &Geometry) -> &'static str {
-    match geometry {
-        Geometry::Sphere { .. } => "sphere",
-        Geometry::Plane { .. } => "plane",
-        Geometry::Placed { canonical, .. } => match *canonical {
-            CanonicalShape::Disc { .. } => "disc",
-            CanonicalShape::Rectangle => "rectangle",
-            CanonicalShape::Box => "box",
-            CanonicalShape::Cone { bottom, top, .. } if bottom == top => "cylinder",
-            CanonicalShape::Cone { .. } => "cone",
-            CanonicalShape::Torus { .. } => "torus",
-            CanonicalShape::Ellipsoid => "ellipsoid",
-        },
-    }
-}
-
-fn kind_of_light(kind: &LightKind) -> &'static str {
-    match kind {
-        LightKind::Point { .. } => "point light",
-        LightKind::Directional { .. } => "directional light",
-        LightKind::Spot { .. } => "spot light",
-        LightKind::Rectangle { .. } => "rectangle light",
-        LightKind::Disc { .. } => "disc light",
-        LightKind::Sphere { .. } => "sphere light",
-    }
 }

@@ -7,7 +7,8 @@ use crate::model::modal::Modal;
 use crate::model::objects::Id;
 use eframe::egui::{self, Pos2};
 use glam::DVec3;
-use glimray_scene::{Camera, Mesh, Scene};
+use glimray_render::Integrator;
+use glimray_scene::{Background, Camera, Mesh, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
@@ -20,6 +21,8 @@ pub struct Editing {
     pub grip: Option<(Grip, Pos2)>,
     /// A modal transform, which holds the grip.
     pub modal: Option<Modal>,
+    /// Where on the screen the menu of what can be added is.
+    pub adding_at: Pos2,
     /// The item being renamed and its edited name.
     pub renaming: Option<(Id, String)>,
     /// Multiple selection.
@@ -40,6 +43,10 @@ pub struct Editing {
     pub(crate) home: Option<Camera>,
     /// Whether bounds must still be updated.
     pub(crate) owes_bounds: bool,
+    /// What the last check for light was of: the scene, the integrator, and the background of the view.
+    pub(crate) lit: Option<(Arc<Scene>, Integrator, Option<Background>)>,
+    /// The warning that the scene has no light, while it applies.
+    pub(crate) darkness: Option<&'static str>,
     /// Cached bounds of a mesh.
     pub(crate) mesh_box: Option<(Arc<Mesh>, Bounds)>,
 }
@@ -53,6 +60,7 @@ impl Default for Editing {
             listing: Listing::default(),
             grip: None,
             modal: None,
+            adding_at: Pos2::ZERO,
             renaming: None,
             group: None,
             list_focus: None,
@@ -63,6 +71,8 @@ impl Default for Editing {
             known: None,
             home: None,
             owes_bounds: false,
+            lit: None,
+            darkness: None,
             mesh_box: None,
         }
     }

@@ -8,7 +8,7 @@ use eframe::egui::ColorImage;
 use glimray_app::inputs::Inputs;
 use glimray_io::import::ImportError;
 use glimray_io::output::Format;
-use glimray_scene::Picture;
+use glimray_scene::{Picture, Scene};
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -28,12 +28,18 @@ pub struct Files {
     pub broken: Option<Broken>,
     /// The typed path of a file to open.
     pub typed: Option<String>,
+    /// The typed path of a model to add.
+    pub typed_model: Option<String>,
     /// The dialog for saving the picture.
     pub saving: Option<SaveDialog>,
     /// The action that waits for an answer about unsaved changes.
     pub undecided: Option<Intent>,
     /// The pending reply of the open dialog.
     pub(crate) asked: Option<Receiver<Reply>>,
+    /// The pending reply of the dialog for a model to add.
+    pub(crate) asked_model: Option<Receiver<Reply>>,
+    /// The model to add that is being read.
+    pub(crate) model: Option<(PathBuf, Receiver<Result<Scene, ImportError>>)>,
     /// Scenes to try next if one cannot be read, and the message if one can.
     pub(crate) candidates: VecDeque<PathBuf>,
     pub(crate) notice: Option<String>,
@@ -67,6 +73,8 @@ pub struct Broken {
 pub enum Intent {
     /// Open another scene.
     Open(PathBuf),
+    /// Make a new scene.
+    New,
     /// Reload the scene.
     Reload,
     /// Reload the scene because its file has changed.
@@ -95,6 +103,7 @@ impl Files {
         self.watch.is_busy()
             || self.to_watch.is_some()
             || self.environment.is_some()
+            || self.model.is_some()
             || self.pending.is_writing()
     }
 

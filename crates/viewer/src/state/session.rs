@@ -62,8 +62,10 @@ pub struct Session {
     pub document: Option<Document>,
     /// The scene as read, without flags.
     pub original: Option<Arc<Scene>>,
-    /// The scene's file; `None` for the demo.
+    /// The scene's file; `None` for the demo and for a new scene.
     pub path: Option<PathBuf>,
+    /// Whether the scene without a file is a new one and not the demo.
+    pub is_untitled: bool,
     /// View settings.
     pub view: ViewSettings,
     /// The animation.
@@ -149,6 +151,7 @@ impl Session {
             document: None,
             original: None,
             path: None,
+            is_untitled: false,
             controller: None,
             tool: Tool::default(),
             tool_state: ToolState::default(),
@@ -218,9 +221,32 @@ impl Session {
         self.scene().and_then(|scene| objects::subject(scene))
     }
 
+    /// All that is selected; [`Session::selection`] comes first.
+    pub fn selected(&self) -> Vec<Id> {
+        let Some(lead) = self.selection else {
+            return Vec::new();
+        };
+        let group = self.editing.group.as_ref();
+        let members = group
+            .filter(|group| group.lead == lead)
+            .map_or(&[][..], |group| &group.members);
+        let others = members.iter().copied().filter(|id| *id != lead);
+        std::iter::once(lead).chain(others).collect()
+    }
+
+    /// Whether something is selected, alone or among others.
+    pub fn is_selected(&self, id: Id) -> bool {
+        let group = self.editing.group.as_ref();
+        let group = group.filter(|group| Some(group.lead) == self.selection);
+        self.selection == Some(id) || group.is_some_and(|group| group.members.contains(&id))
+    }
+
     /// Bounds of the selection, in world space.
     pub fn selection_bounds(&self) -> Option<(DVec3, DVec3)> {
-        objects::bounds(self.scene()?, self.selection?, self.playback.time)
+        let (scene, time) = (self.scene()?, self.playback.time);
+        (self.selected().into_iter())
+            .filter_map(|id| objects::bounds(scene, id, time))
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 
     /// The edited scene; `None` before there is one.
@@ -269,7 +295,11 @@ impl Session {
     /// The name of the scene.
     pub fn title(&self) -> String {
         let name = self.path.as_deref().and_then(Path::file_name);
-        name.map_or("demo".into(), |name| name.to_string_lossy().into_owned())
+        match name {
+            Some(name) => name.to_string_lossy().into_owned(),
+            None if self.is_untitled => "untitled".to_owned(),
+            None => "demo".to_owned(),
+        }
     }
 
     /// Whether nothing is moving or loading.

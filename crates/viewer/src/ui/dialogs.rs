@@ -17,6 +17,7 @@ use crate::model::bindings::Action;
 use crate::state::dialogs::Dialog;
 use crate::state::layout::Layout;
 use crate::ui::context::PanelContext;
+use crate::ui::panels::add;
 use eframe::egui;
 use std::path::Path;
 
@@ -40,6 +41,7 @@ pub fn show(ui: &mut egui::Ui, context: &mut PanelContext, layout: &mut Layout) 
         }
     }
     questions::typed(&ctx, context.session);
+    add::at_cursor(&ctx, context.session);
     questions::saving(&ctx, context);
     save_scene::show(ui, context);
     if let Some(intent) = questions::undecided(&ctx, context.session) {

@@ -1,5 +1,6 @@
 //! Editing overlays of the picture: the outline of the selection and its handles.
 
+use crate::actions::editing;
 use crate::model::bindings::Action;
 use crate::model::handles::{Eye, Grip, Handles, Part};
 use crate::model::modal::Modal;
@@ -11,7 +12,7 @@ use crate::state::session::Session;
 use crate::ui::world_painter::{SHADE, WorldPainter};
 use eframe::egui::{self, Color32, Painter, Pos2, Shape, Stroke};
 use glam::{DAffine3, DVec3};
-use glimray_scene::{Camera, Geometry, LightKind, ObjectRef, Scene, corners};
+use glimray_scene::{Camera, Frame, Geometry, LightKind, ObjectRef, Scene, corners};
 
 /// Length of handles, and the distance for hit testing, in points.
 const LENGTH: f32 = 84.0;
@@ -22,6 +23,8 @@ pub(in crate::ui) const COLORS: [Color32; 3] = [
     Color32::from_rgb(96, 178, 30),
     Color32::from_rgb(58, 128, 246),
 ];
+/// Most things that are outlined one by one.
+const MOST_OUTLINES: usize = 256;
 const ALL: Color32 = Color32::from_gray(235);
 const HOT: Color32 = Color32::from_rgb(255, 214, 64);
 const SELECTED: Color32 = Color32::from_rgb(255, 160, 32);
@@ -33,20 +36,16 @@ pub fn overlay(
     painter: &Painter,
     viewport: Viewport,
 ) -> bool {
-    let scene = session.scene().cloned();
-    let is_there = |id: &Id| {
-        scene
-            .as_ref()
-            .is_some_and(|scene| objects::is_there(scene, *id))
-    };
-    let (Some(id), Some(scene), Some(camera)) = (
-        session.selection.filter(is_there),
-        scene.clone(),
-        session.camera(),
-    ) else {
+    let (Some(scene), Some(camera)) = (session.scene().cloned(), session.camera()) else {
         let_go(session);
         return false;
     };
+    let mut selected = session.selected();
+    selected.retain(|id| objects::is_there(&scene, *id));
+    if selected.is_empty() {
+        let_go(session);
+        return false;
+    }
     if !session.shows_overlays && session.editing.modal.is_none() {
         return false;
     }
@@ -60,15 +59,15 @@ pub fn overlay(
         viewport,
         eye,
     };
-    view.lines(&edges(session, &scene, id, time), SELECTED);
-    let place = objects::place(&scene, id, time);
+    view.lines(&outlines(session, &scene, &selected, time), SELECTED);
+    let moved = objects::movable(&scene, &selected);
     let tool = session.tool;
-    let (Some(place), true) = (place, tool.entry().has_handles) else {
+    let common = objects::common_place(&scene, &moved, time);
+    let (Some((place, free)), true) = (common, tool.entry().has_handles) else {
         let_go(session);
         return false;
     };
     let pixels = |points: f32| viewport.length(egui::vec2(points, 0.0)).x;
-    let free = objects::freedom(&scene, id);
     let Some(handles) = Handles::new(tool, place, free, eye, pixels(LENGTH)) else {
         session.editing.modal = None;
         return false;
@@ -92,10 +91,22 @@ pub fn overlay(
         let grip = Grip::new(part, handles.clone(), place, viewport.position(pressed));
         session.editing.grip = Some((grip, pressed));
     }
-    if session.editing.modal.is_some() && session.editing.grip.is_none() {
-        let from = pointer.unwrap_or(viewport.rect.center());
+    if let Some(modal) = &session.editing.modal
+        && session.editing.grip.is_none()
+        && let Some(from) = modal.begins_at(pointer, viewport.rect)
+    {
         let grip = Grip::new(Part::All, handles.clone(), place, viewport.position(from));
         session.editing.grip = Some((grip, from));
+    }
+    if session.editing.grip.is_none()
+        && session
+            .editing
+            .modal
+            .as_ref()
+            .is_some_and(|m| m.is_confirmed)
+    {
+        // It is confirmed before it began.
+        session.editing.modal = None;
     }
     let Some((mut grip, last)) = session.editing.grip.take() else {
         let hovered = pointer.filter(|_| response.hovered()).and_then(part_at);
@@ -128,9 +139,11 @@ pub fn overlay(
                 Tool::Rotate => "rotate",
                 _ => "scale",
             };
-            let name = format!("{verb} {}", session.label(id));
-            session.drag_change(&name, |scene| {
-                objects::set_place(scene, id, dragged.place, time)
+            let name = format!("{verb} {}", session.labels(&moved));
+            let change = dragged.place * grip.start.inverse();
+            session.drag_change(&name, |scene| match moved.as_slice() {
+                [id] => objects::set_place(scene, *id, dragged.place, time),
+                several => objects::transform(scene, several, change, time),
             });
         }
         shown.origin = dragged.place.translation;
@@ -242,9 +255,28 @@ fn draw_handle(view: &WorldPainter, handles: &Handles, part: Part, is_hot: bool)
     }
 }
 
+/// The outlines of what is selected, in world space; one box around all if they are too many to tell apart.
+fn outlines(session: &mut Session, scene: &Scene, ids: &[Id], time: f64) -> Vec<[DVec3; 2]> {
+    let frame = scene.frame(time);
+    if ids.len() <= MOST_OUTLINES {
+        return (ids.iter())
+            .flat_map(|id| edges(session, scene, &frame, *id))
+            .collect();
+    }
+    let places = ids
+        .iter()
+        .filter_map(|id| objects::place_in(scene, &frame, *id));
+    let corners = places.map(|place| place.translation);
+    let boxed = corners.fold(None, |bounds: Option<(DVec3, DVec3)>, point| {
+        let (min, max) = bounds.unwrap_or((point, point));
+        Some((min.min(point), max.max(point)))
+    });
+    boxed.map_or(Vec::new(), |bounds| cuboid(bounds, DAffine3::IDENTITY))
+}
+
 /// The outline of something, in world space.
-fn edges(session: &mut Session, scene: &Scene, id: Id, time: f64) -> Vec<[DVec3; 2]> {
-    let place = objects::place(scene, id, time);
+fn edges(session: &mut Session, scene: &Scene, frame: &Frame, id: Id) -> Vec<[DVec3; 2]> {
+    let place = objects::place_in(scene, frame, id);
     match (id, place) {
         (Id::Object(ObjectRef::Instance(index)), Some(place)) => {
             let mesh = &scene.meshes[scene.instances[index].mesh];
@@ -266,7 +298,6 @@ fn edges(session: &mut Session, scene: &Scene, id: Id, time: f64) -> Vec<[DVec3;
             unit.map_or(Vec::new(), |bounds| cuboid(bounds, place))
         }
         (Id::Object(ObjectRef::Light(index)), Some(_)) => {
-            let frame = scene.frame(time);
             frame.lights.get(index).map_or(Vec::new(), |light| {
                 lamp(&light.kind, eye_distance(session, &light.kind))
             })
@@ -278,9 +309,7 @@ fn edges(session: &mut Session, scene: &Scene, id: Id, time: f64) -> Vec<[DVec3;
                 .collect()
         }
         (Id::Camera(index), _) => {
-            let mut scene = scene.clone();
-            scene.camera_index = index;
-            let camera = scene.frame(time).camera;
+            let camera = editing::camera_in_world(scene, index, session.playback.time);
             let is_seen_through = session.camera().is_some_and(|seen| seen == camera);
             match is_seen_through {
                 true => Vec::new(),

@@ -1,5 +1,6 @@
 //! The panels: one file and one function each.
 
+pub(super) mod add;
 mod broken;
 mod icon;
 mod menu;

@@ -446,18 +446,16 @@ fn conflicts_are_found_and_the_earlier_command_wins() {
         [Action::Help]
     );
     bindings.reset(Action::Quit);
-    // A key that is held, with Shift or without, is no key to press.
-    for text in ["W", "Shift+W"] {
-        bindings
-            .set(Action::Quit, vec![trigger(text)])
-            .expect("a key");
-        assert_eq!(bindings.conflicts().len(), 1, "{text}");
-        assert_eq!(
-            bindings.taken_by(&trigger(text), Action::Quit),
-            [Action::FlyForward]
-        );
-    }
-    for text in ["Ctrl+W", "Alt+W"] {
+    // A key that is held is no key to press. With Shift it is: that makes a flight faster, but begins none.
+    bindings
+        .set(Action::Quit, vec![trigger("W")])
+        .expect("a key");
+    assert_eq!(bindings.conflicts().len(), 1);
+    assert_eq!(
+        bindings.taken_by(&trigger("W"), Action::Quit),
+        [Action::FlyForward]
+    );
+    for text in ["Shift+W", "Ctrl+W", "Alt+W"] {
         bindings
             .set(Action::Quit, vec![trigger(text)])
             .expect("a key");

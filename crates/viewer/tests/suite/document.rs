@@ -127,6 +127,7 @@ fn old_steps_are_forgotten_where_they_take_too_much_memory_but_never_the_last() 
             },
             material: 0,
             node: None,
+            name: String::new(),
         };
         1000
     ];
@@ -160,6 +161,7 @@ fn steps_share_meshes() {
         mesh: 0,
         placement: DAffine3::from_quat(DQuat::IDENTITY),
         node: None,
+        name: String::new(),
     });
     let mut document = Document::new(with_mesh).with_memory(1 << 20);
     for to in 1..=50_u8 {

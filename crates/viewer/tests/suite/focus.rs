@@ -39,7 +39,7 @@ fn click_field(window: &mut Window, label: &str) {
 }
 
 /// Keys as a keyboard sends them: each letter is a key and a text.
-fn type_text(window: &mut Window, text: &str) {
+pub fn type_text(window: &mut Window, text: &str) {
     for letter in text.chars() {
         let key = Key::from_name(&letter.to_uppercase().to_string());
         let press = |pressed| {

@@ -17,6 +17,7 @@ mod layers;
 mod loading;
 mod look;
 mod looks;
+mod making;
 mod material;
 mod modal;
 mod names;

@@ -35,6 +35,7 @@ fn scene() -> Scene {
         geometry,
         material: 1,
         node: None,
+        name: String::new(),
     };
     Scene {
         materials: ["", "glass"]
@@ -50,11 +51,13 @@ fn scene() -> Scene {
                 mesh: 0,
                 placement: DAffine3::from_translation(DVec3::X),
                 node: Some(0),
+                name: String::new(),
             },
             Instance {
                 mesh: 0,
                 placement: DAffine3::IDENTITY,
                 node: None,
+                name: String::new(),
             },
         ],
         shapes: vec![
@@ -319,7 +322,7 @@ fn what_would_leave_nothing_or_is_not_there_is_refused() {
         set_place(&mut scene, gone, DAffine3::IDENTITY, 0.0),
         Err(EditError::Gone)
     );
-    assert_eq!(remove(&mut scene, gone), Err(EditError::Gone));
+    assert_eq!(remove(&mut scene, &[gone]), Err(EditError::Gone));
     assert_eq!(set_visible(&mut scene, gone, false), Err(EditError::Gone));
     assert_eq!(scene, before);
 }
@@ -374,19 +377,19 @@ fn what_hangs_on_something_hidden_says_so() {
 #[test]
 fn what_is_removed_takes_its_tracks_along_and_others_keep_theirs() {
     let mut scene = scene();
-    remove(&mut scene, Id::Object(ObjectRef::Light(0))).expect("removed");
+    remove(&mut scene, &[Id::Object(ObjectRef::Light(0))]).expect("removed");
     assert_eq!(
         scene.tracks[1].targets,
         [Target::Light(1, LightProperty::Position)]
     );
-    remove(&mut scene, Id::Object(ObjectRef::Light(1))).expect("removed");
+    remove(&mut scene, &[Id::Object(ObjectRef::Light(1))]).expect("removed");
     assert_eq!((scene.lights.len(), scene.tracks.len()), (4, 1));
     scene.camera_index = 1;
-    remove(&mut scene, Id::Camera(0)).expect("removed");
+    remove(&mut scene, &[Id::Camera(0)]).expect("removed");
     assert_eq!(scene.camera_index, 0);
     let last = EditError::Last { what: "camera" };
-    assert_eq!(remove(&mut scene, Id::Camera(0)), Err(last));
-    remove(&mut scene, SHAPE).expect("removed");
+    assert_eq!(remove(&mut scene, &[Id::Camera(0)]), Err(last));
+    remove(&mut scene, &[SHAPE]).expect("removed");
     assert_eq!(scene.shapes.len(), 2);
 }
 
@@ -528,6 +531,7 @@ fn the_bounds_of_many_instances_are_those_of_all_their_vertices() {
                 }
                 .affine(),
                 node: None,
+                name: String::new(),
             })
             .collect();
         let points = scene.instances.iter().flat_map(|instance| {
@@ -589,6 +593,7 @@ fn a_sphere_moved_into_a_rotated_node_stays_a_sphere() {
                 geometry: sphere,
                 material: 0,
                 node: None,
+                name: String::new(),
             }],
             ..Scene::default()
         };

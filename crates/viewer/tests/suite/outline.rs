@@ -3,7 +3,7 @@
 use super::focus::click_at;
 use crate::harness::Window;
 use eframe::egui::{Modifiers, PointerButton, Pos2, Role, pos2};
-use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::kittest::Queryable;
 use glam::{DVec3, dvec3};
 use glimray::scene::{ObjectRef, Scene};
 use glimray_viewer::model::bindings::Action;
@@ -168,7 +168,10 @@ fn several_lines_are_deleted_hidden_and_duplicated_in_one_step() {
     click_with(&mut window, NAMES[1], Modifiers::SHIFT);
     assert_eq!(window.session().selected(), [ball(1), ball(0)]);
     perform(&mut window, Action::Delete);
-    assert_eq!(scene(&window).shapes, before.shapes[2..]);
+    // Its number stays.
+    let mut third = before.shapes[2].clone();
+    third.name = "sphere 3".to_owned();
+    assert_eq!(scene(&window).shapes, [third]);
     assert_eq!(window.session().selected(), []);
     perform(&mut window, Action::Undo);
     assert_eq!(scene(&window), before);
@@ -212,19 +215,15 @@ fn a_line_dropped_on_a_node_or_on_the_heading_changes_its_parent_and_keeps_its_p
 }
 
 #[test]
-fn the_menu_of_a_line_renames_what_has_a_name() {
+fn the_menu_of_a_line_renames_it() {
     let (_folder, mut window) = open();
-    for (label, has_name) in [("arm", true), (NAMES[0], false)] {
+    for (label, name) in [("arm", "arm"), (NAMES[0], "sphere 1")] {
         let at = center(&window, label);
         click_at(&mut window, at, PointerButton::Secondary);
-        let entry = window.harness.get_by_label("Rename");
-        assert_eq!(!entry.accesskit_node().is_disabled(), has_name, "{label}");
-        if has_name {
-            entry.click();
-            window.settle();
-            assert!(window.session().editing.renaming.is_some());
-            window.session().editing.renaming = None;
-        }
+        window.harness.get_by_label("Rename").click();
+        window.settle();
+        let renaming = window.session().editing.renaming.take();
+        assert_eq!(renaming.map(|(_, name)| name).as_deref(), Some(name));
         window.settle();
     }
 }

@@ -195,6 +195,8 @@ actions! {
         Select "select" Press "Select the object under the cursor",
         SnapHandles "snap-handles" Hold "Snap while dragging a handle",
         FineHandles "fine-handles" Hold "Drag a handle at a tenth of the speed",
+        Add "add" Press "Add an object, a light, a camera or a model",
+        SelectAll "select-all" Press "Select all objects and lights",
         SelectNothing "select-nothing" Press "Leave the tool, or deselect",
         ToggleVisible "toggle-visible" Press "Hide or show the selection",
         Rename "rename" Press "Rename the selection",
@@ -204,6 +206,7 @@ actions! {
         Redo "redo" Press "Redo",
     }
     Files {
+        New "new" Press "Make a new scene",
         Open "open" Press "Open a scene, a model or an environment image",
         OpenNext "open-next" Press "Open the next scene in the folder",
         OpenPrevious "open-previous" Press "Open the previous scene in the folder",

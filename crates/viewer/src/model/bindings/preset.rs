@@ -141,6 +141,8 @@ pub(super) const GLIMRAY: &str = "
     select: Click left
     snap-handles: Hold Ctrl
     fine-handles: Hold Shift
+    add: Shift+A
+    select-all: Ctrl+A
     select-nothing: Escape
     toggle-visible: V
     rename: F2
@@ -148,6 +150,7 @@ pub(super) const GLIMRAY: &str = "
     delete: Delete, Backspace
     undo: Ctrl+Z
     redo: Ctrl+Shift+Z, Ctrl+Y
+    new: Ctrl+N
     open: Ctrl+O
     open-next: Ctrl+PageDown
     open-previous: Ctrl+PageUp
@@ -211,6 +214,7 @@ pub(super) const BLENDER: &str = "
     first-frame: Shift+Left
     last-frame: Shift+Right
     toggle-visible: H
+    select-all: A, Ctrl+A
     duplicate: Shift+D
     delete: X, Delete
     help: F1

@@ -94,8 +94,9 @@ impl Trigger {
     /// Whether two triggers are ambiguous.
     pub(super) fn collides(&self, other: &Self) -> bool {
         let key = |trigger: &Self, held: &Self| match (trigger, held) {
+            // Shift makes a flight faster once it has begun. A key that is pressed with it begins none.
             (Self::Key(mods, pressed), Self::Hold(key)) => {
-                pressed == key && !mods.command && !mods.alt
+                pressed == key && !mods.command && !mods.alt && !mods.shift
             }
             _ => false,
         };

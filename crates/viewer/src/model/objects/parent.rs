@@ -77,10 +77,7 @@ fn sphere_in(
     place: DAffine3,
     time: f64,
 ) -> Option<Geometry> {
-    let shape = &scene.shapes[index];
-    let mut textures = scene.materials[shape.material].texture_indices();
-    let is_mapped = textures.any(|at| scene.textures[at].space != Space::World);
-    if is_mapped || !matches!(shape.geometry, Geometry::Sphere { .. }) {
+    if !looks_alike_turned(scene, index) {
         return None;
     }
     let own = match parent {
@@ -93,4 +90,12 @@ fn sphere_in(
         center: own.translation,
         radius,
     })
+}
+
+/// Whether a shape is a sphere without a texture that would show its rotation.
+pub(super) fn looks_alike_turned(scene: &Scene, index: usize) -> bool {
+    let shape = &scene.shapes[index];
+    let mut textures = scene.materials[shape.material].texture_indices();
+    let is_mapped = textures.any(|at| scene.textures[at].space != Space::World);
+    !is_mapped && matches!(shape.geometry, Geometry::Sphere { .. })
 }

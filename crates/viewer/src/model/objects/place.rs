@@ -3,7 +3,9 @@
 use crate::model::objects::frame::{geometry_in, light_in, of_geometry, of_light};
 use crate::model::objects::{EditError, Id, check};
 use glam::{DAffine3, DVec3};
-use glimray_scene::{Geometry, LightKind, LightProperty, NodeProperty, ObjectRef, Scene, Target};
+use glimray_scene::{
+    Frame, Geometry, LightKind, LightProperty, NodeProperty, ObjectRef, Scene, Target,
+};
 
 /// Larger numbers overflow on the GPU.
 const LARGEST: f64 = f32::MAX as f64;
@@ -77,7 +79,11 @@ pub fn freedom(scene: &Scene, id: Id) -> Freedom {
 /// The transform from the object's own space to the world at `time` seconds; `None` if it has no transform
 /// or is not in the scene. Lights shine along the +y of their own space; shapes are canonical in theirs.
 pub fn place(scene: &Scene, id: Id, time: f64) -> Option<DAffine3> {
-    let frame = scene.frame(time);
+    place_in(scene, &scene.frame(time), id)
+}
+
+/// [`place`] in a frame of the scene.
+pub fn place_in(scene: &Scene, frame: &Frame, id: Id) -> Option<DAffine3> {
     let world_from = |node: Option<usize>| match node {
         Some(node) => frame.nodes[node].world_from_node,
         None => DAffine3::IDENTITY,
@@ -109,8 +115,19 @@ pub fn place(scene: &Scene, id: Id, time: f64) -> Option<DAffine3> {
 /// The object lacks the required freedom, an animation sets the property, or the result would be degenerate.
 /// The scene then stays unchanged.
 pub fn set_place(scene: &mut Scene, id: Id, wanted: DAffine3, time: f64) -> Result<(), EditError> {
+    let frame = scene.frame(time);
+    set_place_in(scene, &frame, id, wanted)
+}
+
+/// [`set_place`] in a frame of the scene, which may be from before changes of things that do not carry this one.
+pub(super) fn set_place_in(
+    scene: &mut Scene,
+    frame: &Frame,
+    id: Id,
+    wanted: DAffine3,
+) -> Result<(), EditError> {
     check(scene, id)?;
-    let old = place(scene, id, time).ok_or(EditError::Unable {
+    let old = place_in(scene, frame, id).ok_or(EditError::Unable {
         what: "a camera or material",
         done: "transformed",
         todo: "Edit its properties",
@@ -119,7 +136,6 @@ pub fn set_place(scene: &mut Scene, id: Id, wanted: DAffine3, time: f64) -> Resu
         return Err(EditError::Flat);
     }
     refuse_what_is_not_free(scene, id, old, wanted)?;
-    let frame = scene.frame(time);
     let into = |node: Option<usize>| match node {
         Some(node) => chain(frame.nodes[node].world_from_node.inverse(), wanted),
         None => wanted,
@@ -156,7 +172,7 @@ pub fn set_place(scene: &mut Scene, id: Id, wanted: DAffine3, time: f64) -> Resu
                 }
             };
         }
-        Id::Node(index) => set_node(scene, index, old, wanted, time)?,
+        Id::Node(index) => set_node(scene, frame, index, [old, wanted])?,
         Id::Camera(_) | Id::Material(_) => {}
     }
     Ok(())
@@ -164,12 +180,10 @@ pub fn set_place(scene: &mut Scene, id: Id, wanted: DAffine3, time: f64) -> Resu
 
 fn set_node(
     scene: &mut Scene,
+    frame: &Frame,
     index: usize,
-    old: DAffine3,
-    wanted: DAffine3,
-    time: f64,
+    [old, wanted]: [DAffine3; 2],
 ) -> Result<(), EditError> {
-    let frame = scene.frame(time);
     let node = &scene.nodes[index];
     let above = match node.parent {
         Some(parent) => frame.nodes[parent].world_from_node * node.placement,

@@ -1,44 +1,14 @@
-//! Names, and operations on several objects.
+//! Operations on several objects.
 
-use crate::model::objects::{EditError, Id, check, is_visible, set_visible};
+use crate::model::objects::{
+    Id, check, is_visible, remove_idle_hiders, set_one_visible, set_visible,
+};
 use glam::DVec3;
 use glimray_scene::{ObjectRef, Scene};
 
 /// Whether something is in the scene.
 pub fn is_there(scene: &Scene, id: Id) -> bool {
     check(scene, id).is_ok()
-}
-
-/// The name of something; may be empty. Objects have no names of their own.
-pub fn name(scene: &Scene, id: Id) -> Option<&str> {
-    match id {
-        Id::Object(_) => None,
-        Id::Node(index) => scene.nodes.get(index).map(|node| node.name.as_str()),
-        Id::Camera(index) => scene.cameras.get(index).map(|camera| camera.name.as_str()),
-        Id::Material(index) => (scene.materials.get(index)).map(|material| material.name.as_str()),
-    }
-}
-
-/// Renames something.
-///
-/// # Errors
-/// `id` has no name, or is not in the scene.
-pub fn rename(scene: &mut Scene, id: Id, name: &str) -> Result<(), EditError> {
-    check(scene, id)?;
-    let slot = match id {
-        Id::Node(index) => &mut scene.nodes[index].name,
-        Id::Camera(index) => &mut scene.cameras[index].name,
-        Id::Material(index) => &mut scene.materials[index].name,
-        Id::Object(_) => {
-            return Err(EditError::Unable {
-                what: "an object",
-                done: "renamed",
-                todo: "Rename its material or its node",
-            });
-        }
-    };
-    name.trim().clone_into(slot);
-    Ok(())
 }
 
 /// Hides all meshes and shapes except this one, or except those below a node. Objects that cannot be hidden
@@ -68,9 +38,10 @@ pub fn show_all(scene: &mut Scene) {
     }
     for id in objects.into_iter().map(Id::Object) {
         if !is_visible(scene, id) {
-            let _ = set_visible(scene, id, true);
+            let _ = set_one_visible(scene, id, true);
         }
     }
+    remove_idle_hiders(scene);
 }
 
 /// The axis-aligned bounding box (min, max) in the world at `time` seconds, of a node with its descendants;
@@ -113,40 +84,75 @@ fn is_carried_by(scene: &Scene, object: ObjectRef, node: usize) -> bool {
     std::iter::successors(own, |&index| scene.nodes[index].parent).any(|index| index == node)
 }
 
-/// The counterpart of `id` in a scene that differs by one step. In a list that changed its length, entries
-/// before and after the change are matched; `None` if it is gone or ambiguous.
-pub fn same(before: &Scene, after: &Scene, id: Id) -> Option<Id> {
-    Some(match id {
-        Id::Object(ObjectRef::Shape(index)) => {
-            let index = index_after(&before.shapes, &after.shapes, index)?;
-            Id::Object(ObjectRef::Shape(index))
-        }
-        Id::Object(ObjectRef::Instance(index)) => {
-            let index = index_after(&before.instances, &after.instances, index)?;
-            Id::Object(ObjectRef::Instance(index))
-        }
-        Id::Object(ObjectRef::Light(index)) => {
-            let index = index_after(&before.lights, &after.lights, index)?;
-            Id::Object(ObjectRef::Light(index))
-        }
-        Id::Node(index) => Id::Node(index_after(&before.nodes, &after.nodes, index)?),
-        Id::Camera(index) => Id::Camera(index_after(&before.cameras, &after.cameras, index)?),
-        Id::Material(index) => {
-            Id::Material(index_after(&before.materials, &after.materials, index)?)
-        }
-    })
+/// The counterparts of `ids` in a scene that differs by one step. In a list that changed its length, entries
+/// before and after the change are matched; those that are gone or ambiguous are left out.
+pub fn same(before: &Scene, after: &Scene, ids: &[Id]) -> Vec<Id> {
+    let shapes = Kept::of(&before.shapes, &after.shapes, |a, b| {
+        (a.geometry, a.material, a.node) == (b.geometry, b.material, b.node)
+    });
+    let instances = Kept::of(&before.instances, &after.instances, |a, b| {
+        (a.mesh, a.placement, a.node) == (b.mesh, b.placement, b.node)
+    });
+    let lights = Kept::of(&before.lights, &after.lights, |a, b| {
+        (a.kind, a.color, a.node) == (b.kind, b.color, b.node)
+    });
+    let nodes = Kept::of(&before.nodes, &after.nodes, PartialEq::eq);
+    let cameras = Kept::of(&before.cameras, &after.cameras, PartialEq::eq);
+    let materials = Kept::of(&before.materials, &after.materials, PartialEq::eq);
+    let counterpart = |id: &Id| {
+        Some(match *id {
+            Id::Object(ObjectRef::Shape(index)) => {
+                Id::Object(ObjectRef::Shape(shapes.index(index)?))
+            }
+            Id::Object(ObjectRef::Instance(index)) => {
+                Id::Object(ObjectRef::Instance(instances.index(index)?))
+            }
+            Id::Object(ObjectRef::Light(index)) => {
+                Id::Object(ObjectRef::Light(lights.index(index)?))
+            }
+            Id::Node(index) => Id::Node(nodes.index(index)?),
+            Id::Camera(index) => Id::Camera(cameras.index(index)?),
+            Id::Material(index) => Id::Material(materials.index(index)?),
+        })
+    };
+    ids.iter().filter_map(counterpart).collect()
 }
 
-fn index_after<T: PartialEq>(before: &[T], after: &[T], index: usize) -> Option<usize> {
-    if before.len() == after.len() {
-        return Some(index);
+/// The entries that two versions of a list have in common, at its start and at its end.
+struct Kept {
+    lengths: [usize; 2],
+    first: usize,
+    last: usize,
+}
+
+impl Kept {
+    /// Names do not count: they change where others are removed.
+    fn of<T>(before: &[T], after: &[T], is_same: impl Fn(&T, &T) -> bool) -> Self {
+        let lengths = [before.len(), after.len()];
+        if before.len() == after.len() {
+            let first = before.len();
+            return Self {
+                lengths,
+                first,
+                last: 0,
+            };
+        }
+        let same = |pair: &(&T, &T)| is_same(pair.0, pair.1);
+        let first = before.iter().zip(after).take_while(same).count();
+        let rest = (before[first..].iter().rev()).zip(after[first..].iter().rev());
+        let last = rest.take_while(same).count();
+        Self {
+            lengths,
+            first,
+            last,
+        }
     }
-    let same = |pair: &(&T, &T)| pair.0 == pair.1;
-    let first = before.iter().zip(after).take_while(same).count();
-    if index < first {
-        return Some(index);
+
+    fn index(&self, index: usize) -> Option<usize> {
+        let [before, after] = self.lengths;
+        match index < self.first {
+            true => Some(index),
+            false => (index + self.last >= before).then(|| index + after - before),
+        }
     }
-    let rest = (before[first..].iter().rev()).zip(after[first..].iter().rev());
-    let last = rest.take_while(same).count();
-    (index + last >= before.len()).then(|| index + after.len() - before.len())
 }

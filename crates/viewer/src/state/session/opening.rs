@@ -12,6 +12,7 @@ use crate::state::session::Session;
 use crate::worker::request::PreparedScene;
 use glimray_app::clock::Clock;
 use glimray_app::error::AppError;
+use glimray_app::new_scene;
 use glimray_app::overrides::{CameraOverrides, Moment, picture_size};
 use glimray_app::showcase;
 use glimray_render::RenderSettings;
@@ -80,6 +81,10 @@ impl Session {
         if !is_own {
             options.overrides.clear();
         }
+        // An empty file that was shown before is still being written.
+        if again {
+            options.instead_of_empty = None;
+        }
         match Loader::new(path, options, again) {
             Ok(mut loader) => {
                 loader.is_own = is_own;
@@ -100,9 +105,21 @@ impl Session {
         self.show(showcase::scene()?)
     }
 
+    /// Shows a new scene without a file.
+    ///
+    /// # Errors
+    /// The new scene is broken.
+    pub fn show_new(&mut self) -> Result<(), AppError> {
+        self.forget_scene_overrides();
+        self.show(new_scene::scene()?)?;
+        self.is_untitled = true;
+        Ok(())
+    }
+
     /// Shows a loaded scene with its own camera and settings.
     pub(super) fn show(&mut self, original: Scene) -> Result<(), AppError> {
         self.refinement = None;
+        self.is_untitled = false;
         let mut scene = original.clone();
         self.request.overrides.camera.apply(&mut scene)?;
         let settings = self.settings_of(&scene);

@@ -1,5 +1,6 @@
 //! Questions that must be answered first: file names and unsaved changes.
 
+use crate::actions::adding;
 use crate::actions::comparing;
 use crate::actions::files;
 use crate::actions::files::pictures;
@@ -24,6 +25,10 @@ pub fn typed(ctx: &egui::Context, session: &mut Session) {
     let hint = "A scene, a folder of scenes, or an environment image";
     if let Some(path) = path(ctx, "Open a path", hint, &mut session.files.typed) {
         files::open(session, vec![path]);
+    }
+    let hint = "A model or a scene";
+    if let Some(path) = path(ctx, "Add a model", hint, &mut session.files.typed_model) {
+        adding::add_model(session, path);
     }
     let (title, hint) = (
         "Open a reference picture",
@@ -195,6 +200,11 @@ pub fn undecided(ctx: &egui::Context, session: &mut Session) -> Option<Choice> {
                 files::short(path)
             ),
             "Open without saving",
+            "Cancel",
+        ),
+        Intent::New => (
+            format!("{name} has unsaved changes. Save them before making a new scene?"),
+            "New without saving",
             "Cancel",
         ),
         Intent::Reload => (

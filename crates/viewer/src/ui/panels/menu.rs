@@ -11,6 +11,7 @@ use crate::model::view_settings::Sharing;
 use crate::state::dialogs::Dialog;
 use crate::state::layout::{Layout, Panel};
 use crate::ui::context::PanelContext;
+use crate::ui::panels::add;
 use eframe::egui::{self, Button, RichText, Ui};
 
 /// Draws the menu bar.
@@ -31,6 +32,7 @@ pub fn menu(ui: &mut Ui, context: &mut PanelContext, layout: &mut Layout) {
                     layout,
                 })
             });
+            ui.menu_button("Add", |ui| add::entries(ui, context.session));
             ui.menu_button("View", |ui| {
                 view(&mut Menu {
                     ui,
@@ -120,6 +122,7 @@ impl Menu<'_, '_> {
 fn file(menu: &mut Menu) {
     let session = &menu.context.session;
     let (has_file, has_scene) = (session.path.is_some(), session.scene().is_some());
+    menu.entry("New", A::New);
     menu.entry("Open…", A::Open);
     let by_path = menu.ui.button("Open path…");
     if by_path
@@ -189,6 +192,7 @@ fn edit(menu: &mut Menu) {
     menu.entry_if(has_selection, "Duplicate", A::Duplicate);
     menu.entry_if(has_selection, "Delete", A::Delete);
     menu.entry_if(has_selection, "Hide or show", A::ToggleVisible);
+    menu.entry("Select all", A::SelectAll);
     menu.entry_if(has_selection, "Deselect", A::SelectNothing);
     menu.line();
     menu.tools(ToolMenu::Edit);

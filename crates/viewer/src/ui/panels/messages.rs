@@ -1,5 +1,6 @@
 //! Shows messages until they expire.
 
+use crate::actions::lighting;
 use crate::ui::context::PanelContext;
 use eframe::egui::{self, Align2, Area, Frame, Id, RichText};
 
@@ -37,6 +38,13 @@ pub fn messages(ui: &mut egui::Ui, context: &mut PanelContext) {
                             }
                             ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| {
                                 ui.add(egui::Label::new(&notice.text).wrap());
+                                ui.horizontal(|ui| {
+                                    for &remedy in notice.remedies {
+                                        if ui.button(remedy.title()).clicked() {
+                                            lighting::remedy(context.session, remedy);
+                                        }
+                                    }
+                                });
                             });
                         });
                     });

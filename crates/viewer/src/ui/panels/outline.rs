@@ -229,7 +229,7 @@ fn line(
             memory.set_focus_lock_filter(response.id, filter);
         });
     }
-    response.context_menu(|ui| menu(ui, scene, id, entry.visible, wishes));
+    response.context_menu(|ui| menu(ui, id, entry.visible, wishes));
     if can_hide {
         let verb = if entry.visible { "Hide" } else { "Show" };
         let at = Rect::from_center_size(right.center(), vec2(ICON, ICON));
@@ -318,7 +318,7 @@ fn accept(
     }
 }
 
-fn menu(ui: &mut egui::Ui, scene: &Scene, id: Id, visible: bool, wishes: &mut Vec<Wish>) {
+fn menu(ui: &mut egui::Ui, id: Id, visible: bool, wishes: &mut Vec<Wish>) {
     let mut item = |ui: &mut egui::Ui, text: &str, wish: Wish| {
         if ui.button(text).clicked() {
             wishes.push(wish);
@@ -330,10 +330,7 @@ fn menu(ui: &mut egui::Ui, scene: &Scene, id: Id, visible: bool, wishes: &mut Ve
         Id::Material(_) => {}
         _ => item(ui, "Frame", Wish::Frame(id)),
     }
-    let has_name = objects::name(scene, id).is_some();
-    ui.add_enabled_ui(has_name, |ui| item(ui, "Rename", Wish::Rename(id)))
-        .response
-        .on_disabled_hover_text("Objects and lights have no name of their own");
+    item(ui, "Rename", Wish::Rename(id));
     if !matches!(id, Id::Node(_)) {
         item(ui, "Duplicate", Wish::Do(id, Action::Duplicate));
     }
@@ -365,10 +362,7 @@ fn grant(session: &mut Session, wish: Wish) {
             session.begin_rename();
         }
         Wish::Renamed(id, name) => {
-            let is_other = (session.scene()).is_some_and(|scene| {
-                objects::name(scene, id).is_some_and(|old| old != name.trim())
-            });
-            if is_other {
+            if session.name(id) != name.trim() {
                 let step = format!("rename {}", session.label(id));
                 session.change(&step, |scene| objects::rename(scene, id, &name));
             }

@@ -2,6 +2,7 @@
 
 use crate::actions::files;
 use crate::model::bindings::Action;
+use crate::state::files::Intent;
 use crate::state::session::Session;
 use eframe::egui::{self, Align2, Button, Rect, RichText, Vec2};
 use std::path::PathBuf;
@@ -14,6 +15,7 @@ const WIDTH: f32 = 300.0;
 /// A wish of the person who starts.
 enum Wish {
     Browse,
+    New,
     Open(PathBuf),
     BuiltIn,
 }
@@ -27,7 +29,7 @@ pub fn start(ui: &mut egui::Ui, session: &mut Session, space: Rect) {
         .collect();
     let key = session.preferences.bindings.label(Action::Open);
     // The height that the rows below take, so that they stand in the middle.
-    let rows = 4 + recent.len() + usize::from(!recent.is_empty());
+    let rows = 5 + recent.len() + usize::from(!recent.is_empty());
     let row = ui.spacing().interact_size.y + ui.spacing().item_spacing.y;
     let size = Vec2::new(width, rows as f32 * row + 16.0);
     let area = Align2::CENTER_CENTER.align_size_within_rect(size, space);
@@ -42,6 +44,13 @@ pub fn start(ui: &mut egui::Ui, session: &mut Session, space: Rect) {
             .clicked()
         {
             wish = Some(Wish::Browse);
+        }
+        let key = session.preferences.bindings.label(Action::New);
+        if ui
+            .add(wide(Button::new("New scene").shortcut_text(key)))
+            .clicked()
+        {
+            wish = Some(Wish::New);
         }
         if !recent.is_empty() {
             ui.add_space(4.0);
@@ -65,6 +74,7 @@ pub fn start(ui: &mut egui::Ui, session: &mut Session, space: Rect) {
     });
     match wish {
         Some(Wish::Browse) => files::ask(session, ui.ctx()),
+        Some(Wish::New) => files::go_on(session, Intent::New),
         Some(Wish::Open(path)) => files::open(session, vec![path]),
         Some(Wish::BuiltIn) => files::open_built_in(session),
         None => {}

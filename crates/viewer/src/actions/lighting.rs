@@ -1,0 +1,85 @@
+//! Warnings of scenes without light, and the ways out of them.
+
+use crate::actions::adding;
+use crate::model::adding::Addition;
+use crate::model::messages::{Remedy, sentence};
+use crate::state::session::Session;
+use glimray_app::advice::UNLIT;
+use glimray_render::Integrator;
+use glimray_scene::sky::{SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG};
+use glimray_scene::{Background, Scene};
+use std::sync::Arc;
+
+/// The warning for a scene that is lit by its background, in a classical picture.
+const CLASSICAL: &str = "the scene is lit by its environment alone, which only path tracing sees: the classical picture is \
+                         dark. Switch to path tracing, or add a light.";
+
+/// Warns once the scene has no light in the picture that is shown, and takes the warning back when it has.
+pub fn update(session: &mut Session) {
+    let (Some(scene), integrator) = (session.scene(), session.view.settings.integrator) else {
+        return;
+    };
+    let background = session.view.background.as_ref();
+    let is_known = (session.editing.lit.as_ref()).is_some_and(|known| {
+        Arc::ptr_eq(&known.0, scene) && known.1 == integrator && known.2.as_ref() == background
+    });
+    if is_known {
+        return;
+    }
+    let now = (scene.clone(), integrator, background.cloned());
+    let trouble = trouble(&now.0, integrator, background);
+    session.editing.lit = Some(now);
+    if session.editing.darkness == trouble {
+        return;
+    }
+    if let Some(before) = std::mem::replace(&mut session.editing.darkness, trouble) {
+        session.messages.dismiss(&sentence(before));
+    }
+    match trouble {
+        Some(UNLIT) => (session.messages).offer(UNLIT, &[Remedy::AddLight, Remedy::Sky]),
+        Some(text) => (session.messages).offer(text, &[Remedy::PathTracing, Remedy::AddLight]),
+        None => {}
+    }
+}
+
+/// Why the picture is dark, if its scene has no light.
+fn trouble(
+    scene: &Scene,
+    integrator: Integrator,
+    background: Option<&Background>,
+) -> Option<&'static str> {
+    let other;
+    let scene = match background {
+        None => scene,
+        Some(background) => {
+            other = Scene {
+                background: background.clone(),
+                ..scene.clone()
+            };
+            &other
+        }
+    };
+    match integrator {
+        Integrator::Path => (scene.is_unlit() && !scene.background_shines()).then_some(UNLIT),
+        Integrator::Whitted if scene.is_lit_by_background_alone() => Some(CLASSICAL),
+        Integrator::Whitted => scene.is_unlit().then_some(UNLIT),
+        _ => None,
+    }
+}
+
+/// Takes a way out.
+pub fn remedy(session: &mut Session, remedy: Remedy) {
+    match remedy {
+        Remedy::AddLight => _ = adding::place(session, Addition::PointLight),
+        Remedy::PathTracing => session.view.settings.integrator = Integrator::Path,
+        Remedy::Sky => {
+            let [elevation, azimuth] = [SUN_ELEVATION_DEG, SUN_AZIMUTH_DEG].map(f64::to_radians);
+            session.change("add a sky", |scene| {
+                scene.set_sky(elevation, azimuth);
+                Ok(())
+            });
+            session.view.background = None;
+            session.view.settings.integrator = Integrator::Path;
+        }
+    }
+}
