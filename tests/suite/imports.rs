@@ -357,6 +357,8 @@ fn only_a_few_files_of_the_library_need_more_than_a_browser_has() {
         "crates/io/src/import/folder.rs",
         "crates/render/src/gpu/blocking.rs",
         "crates/render/src/gpu/early.rs",
+        // No thread of a browser waits there.
+        "crates/render/src/gpu/gate.rs",
         "crates/render/src/gpu/shader.rs",
         "crates/scene/src/threads.rs",
         "shaders/src/files.rs",
@@ -393,6 +395,8 @@ fn only_a_few_files_of_the_library_wait_for_the_device() {
     const FILES: &[&str] = &[
         "crates/render/src/blocking.rs",
         "crates/render/src/gpu/blocking.rs",
+        // This waits for the thread of a window, not for the device.
+        "crates/render/src/gpu/gate.rs",
         // A browser does without it.
         "crates/render/src/gpu/lanes.rs",
         "src/picture.rs",

@@ -12,6 +12,7 @@ mod buffer;
 mod early;
 mod error;
 mod fault;
+mod gate;
 mod guard;
 #[cfg(not(target_arch = "wasm32"))]
 mod lanes;
@@ -36,6 +37,7 @@ pub use shader::Overrides;
 pub(crate) use timer::Timer;
 pub use trusted::runtime_checks;
 
+use gate::Gate;
 use limits::limits_for;
 use std::{
     pin::pin,
@@ -77,6 +79,7 @@ pub struct Gpu {
     lanes_proved: Arc<AtomicBool>,
     /// Called before a pipeline is compiled.
     on_compilation: Option<Arc<dyn Fn() + Send + Sync>>,
+    gate: Arc<Gate>,
 }
 
 /// Storage images of a kernel that reads the scene from images. WebGPU guarantees four.
@@ -169,7 +172,9 @@ impl Gpu {
         let stray_error = Arc::new(Mutex::new(None));
         let slot = stray_error.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            if let Ok(mut slot) = slot.lock() {
+            if !error::is_busy_surface(&error)
+                && let Ok(mut slot) = slot.lock()
+            {
                 slot.get_or_insert(error::stray(&error));
             }
         }));
@@ -207,6 +212,7 @@ impl Gpu {
             early: Arc::default(),
             lanes_proved: Arc::default(),
             on_compilation: None,
+            gate: Arc::default(),
         }
     }
 
@@ -348,7 +354,19 @@ impl Gpu {
         if fault::should_fail(fault::Site::Device) {
             self.lose();
         }
-        guard::catch(|| self.queue.submit([commands])).map_err(|()| GpuError::Lost)
+        let submit = || self.queue.submit([commands]);
+        guard::catch(|| self.gate.pass(submit)).map_err(|()| GpuError::Lost)
+    }
+
+    /// Lets only the current thread submit work, until [`Gpu::release_submissions`]: for a window that draws with this device
+    /// and is about to configure its surface. wgpu refuses that while others submit.
+    pub fn hold_submissions(&self) {
+        self.gate.hold();
+    }
+
+    /// Lets all threads submit work again.
+    pub fn release_submissions(&self) {
+        self.gate.release();
     }
 
     /// Returns any error that was not reported where it occurred.

@@ -10,12 +10,15 @@ use crate::state::session::Session;
 use crate::window::viewer::Viewer;
 use eframe::UserEvent;
 use eframe::egui;
-use eframe::egui_wgpu::{RendererOptions, WgpuConfiguration, WgpuSetup, WgpuSetupExisting};
+use eframe::egui_wgpu::{
+    RendererOptions, SurfaceErrorAction, WgpuConfiguration, WgpuSetup, WgpuSetupExisting,
+};
 use glimray_app::error::AppError;
 use glimray_app::{console, scene_file, storage};
 use glimray_render::gpu::{AdapterChoice, Gpu, GpuError};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::event_loop::EventLoop;
 
@@ -76,14 +79,24 @@ fn rescued(session: &Session, error: AppError) -> AppError {
 /// Configures eframe to draw with our device.
 pub fn configuration(gpu: &Gpu) -> WgpuConfiguration {
     let (instance, adapter, device, queue) = gpu.handles();
+    let usual = WgpuConfiguration::default();
+    let (gpu, react) = (gpu.clone(), usual.on_surface_status);
     WgpuConfiguration {
+        // A surface that no longer suits is configured at once. The event loop lets others submit again afterwards.
+        on_surface_status: Arc::new(move |status| {
+            let action = react(status);
+            if matches!(action, SurfaceErrorAction::Reconfigure) {
+                gpu.hold_submissions();
+            }
+            action
+        }),
         wgpu_setup: WgpuSetup::Existing(WgpuSetupExisting {
             instance,
             adapter,
             device,
             queue,
         }),
-        ..Default::default()
+        surface: usual.surface,
     }
 }
 

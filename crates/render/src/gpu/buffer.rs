@@ -87,7 +87,7 @@ impl Gpu {
                 self.queue
                     .write_buffer(buffer, offset + (i * STAGED) as u64, part);
                 if part.len() == STAGED {
-                    self.queue.submit([]);
+                    self.gate.pass(|| self.queue.submit([]));
                 }
             }
         })
@@ -226,7 +226,7 @@ impl Gpu {
                 (self.queue).write_texture(target, now, layout, extent(columns, rows));
                 staged += now.len();
                 if staged >= STAGED / 2 {
-                    self.queue.submit([]);
+                    self.gate.pass(|| self.queue.submit([]));
                     staged = 0;
                 }
                 (x, y, rest) = (

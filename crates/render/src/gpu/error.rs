@@ -129,6 +129,13 @@ pub fn stray(error: &wgpu::Error) -> GpuError {
     }
 }
 
+/// Whether an error outside of error scopes only says that a window found the device busy when it configured its surface. The
+/// window draws on with the old surface and tries again.
+pub fn is_busy_surface(error: &wgpu::Error) -> bool {
+    let text = error.to_string();
+    text.contains("Surface::configure") && text.contains("come idle")
+}
+
 /// The error of a driver that fails to open the adapter. wgpu reports a lack of memory only in the text.
 pub fn no_device(adapter: &str, why: &str) -> GpuError {
     match why.contains("Not enough memory") {
@@ -139,5 +146,26 @@ pub fn no_device(adapter: &str, why: &str) -> GpuError {
             adapter: adapter.into(),
             why: why.trim_end_matches('.').into(),
         },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_busy_surface;
+
+    #[test]
+    fn a_surface_that_waits_for_a_busy_device_is_no_fault() {
+        let error = |text: &str| wgpu::Error::Validation {
+            source: Box::new(std::fmt::Error),
+            description: text.to_owned(),
+        };
+        let busy = "In Surface::configure, Failed to wait for GPU to come idle before reconfiguring the Surface";
+        assert!(is_busy_surface(&error(busy)));
+        for other in [
+            "In Surface::configure, Invalid surface",
+            "In Queue::submit, a buffer is destroyed",
+        ] {
+            assert!(!is_busy_surface(&error(other)), "{other}");
+        }
     }
 }

@@ -24,6 +24,7 @@ pub fn run(
         app,
         gpu,
         is_lost: false,
+        unsettled: 0,
     };
     events.run_app_on_demand(&mut guarded)?;
     let Guarded { app, is_lost, .. } = guarded;
@@ -38,7 +39,12 @@ struct Guarded<'a> {
     app: EframeWinitApplication<'a>,
     gpu: &'a Gpu,
     is_lost: bool,
+    /// Number of frames that may configure the surface once more after a change of size.
+    unsettled: u32,
 }
+
+/// Number of frames after a change of size in which egui may find that the surface no longer suits.
+const UNSETTLED: u32 = 3;
 
 impl<'a> Guarded<'a> {
     fn hand(
@@ -53,6 +59,25 @@ impl<'a> Guarded<'a> {
         if gpu::surviving_loss(self.gpu, || act(app, events)).is_err() {
             self.is_lost = true;
             events.exit();
+        }
+        self.gpu.release_submissions();
+    }
+
+    /// Keeps other threads from submitting during an event that may configure the surface.
+    fn keep_still(&mut self, event: &WindowEvent) {
+        let may_configure = match event {
+            WindowEvent::Resized(_) => {
+                self.unsettled = UNSETTLED;
+                true
+            }
+            WindowEvent::RedrawRequested => self.unsettled > 0,
+            _ => false,
+        };
+        if may_configure && !self.is_lost {
+            self.gpu.hold_submissions();
+        }
+        if matches!(event, WindowEvent::RedrawRequested) {
+            self.unsettled = self.unsettled.saturating_sub(1);
         }
     }
 }
@@ -71,6 +96,7 @@ impl ApplicationHandler<UserEvent> for Guarded<'_> {
     }
 
     fn window_event(&mut self, events: &ActiveEventLoop, window: WindowId, event: WindowEvent) {
+        self.keep_still(&event);
         self.hand(events, |app, events| {
             app.window_event(events, window, event)
         });

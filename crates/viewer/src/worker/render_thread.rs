@@ -113,6 +113,7 @@ impl<A> Shared<A> {
 pub struct RenderThread<A: Send + 'static> {
     shared: Arc<Shared<A>>,
     thread: Option<JoinHandle<()>>,
+    gpu: Gpu,
 }
 
 impl<A: Send + 'static> RenderThread<A> {
@@ -145,6 +146,7 @@ impl<A: Send + 'static> RenderThread<A> {
                 wakes();
             }
         });
+        let own = gpu.clone();
         let thread = std::thread::Builder::new()
             .name("render".into())
             .spawn(move || {
@@ -164,6 +166,7 @@ impl<A: Send + 'static> RenderThread<A> {
         Ok(Self {
             shared,
             thread: Some(thread),
+            gpu: own,
         })
     }
 
@@ -240,6 +243,8 @@ impl<A: Send + 'static> Drop for RenderThread<A> {
     fn drop(&mut self) {
         self.shared.lock().is_closing = true;
         self.shared.news.notify_one();
+        // The thread is not to wait for the one that waits for it.
+        self.gpu.release_submissions();
         if let Some(thread) = self.thread.take() {
             // A thread that panicked publishes nothing more.
             let _ = thread.join();
