@@ -15,7 +15,7 @@ use crate::{
 };
 use glimray_scene::clock::Instant;
 
-/// Paths that a lane traces in one submission.
+/// Most paths that a lane traces in one submission that covers a part of the picture.
 const PATHS_PER_LANE: u32 = 32;
 
 /// The state of the work that [`Renderer::submit`] submitted.
@@ -154,10 +154,10 @@ impl Renderer {
         if self.cursor.group == 0 {
             let left = tile.samples.end - self.cursor.sample;
             let in_block = SAMPLE_BLOCK - self.cursor.sample % SAMPLE_BLOCK;
-            // A lane whose path ends goes on with its next sample: with more of them lanes wait less for each other.
-            // The first picture does not wait for that.
+            // A lane whose path ends goes on with its next sample: with more of them lanes wait less for each other. A sweep
+            // at most doubles the samples, so that no part of the picture is much noisier than the others meanwhile.
             let wanted = match self.settings.integrator {
-                Integrator::Path if self.cursor.sample > 0 => PATHS_PER_LANE,
+                Integrator::Path => self.cursor.sample.clamp(1, PATHS_PER_LANE),
                 _ => 1,
             };
             self.cursor.sweep_samples =

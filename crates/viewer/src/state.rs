@@ -10,3 +10,4 @@ pub mod histogram;
 pub mod inspector;
 pub mod layout;
 pub mod session;
+pub mod time_left;

@@ -12,6 +12,8 @@ pub struct HistogramView {
     /// The presentation that was asked about last, and whether the answer is still to come.
     asked: Option<u64>,
     is_awaited: bool,
+    /// Whether the answer may still be about another scene.
+    is_outdated: bool,
 }
 
 impl HistogramView {
@@ -19,6 +21,13 @@ impl HistogramView {
     pub fn reopened(&mut self) {
         self.asked = None;
         self.is_awaited = false;
+        self.is_outdated = false;
+    }
+
+    /// Forgets the histogram of another scene.
+    pub(crate) fn forget(&mut self) {
+        self.latest = None;
+        self.is_outdated = self.is_awaited;
     }
 
     /// Whether the presentation with this number is to be measured now: only the newest is, one at a time.
@@ -34,7 +43,8 @@ impl HistogramView {
     /// Takes the answer.
     pub(crate) fn set(&mut self, histogram: Option<Box<Histogram>>) {
         self.is_awaited = false;
-        if histogram.is_some() {
+        let is_outdated = std::mem::take(&mut self.is_outdated);
+        if histogram.is_some() && !is_outdated {
             self.latest = histogram;
         }
     }

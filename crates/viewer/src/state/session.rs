@@ -26,6 +26,7 @@ use crate::state::editing::Editing;
 use crate::state::files::Files;
 use crate::state::histogram::HistogramView;
 use crate::state::inspector::Inspector;
+use crate::state::time_left::TimeLeft;
 use crate::worker::progressive_image::FrameRenderer;
 use crate::worker::render_thread::Question;
 use crate::worker::request::PreparedScene;
@@ -98,6 +99,8 @@ pub struct Session {
     pub comparing: Comparing,
     /// The histogram of the picture.
     pub histogram: HistogramView,
+    /// The time until the picture is done.
+    pub time_left: TimeLeft,
     /// The state of files.
     pub files: Files,
     /// The state of editing.
@@ -166,6 +169,7 @@ impl Session {
             shows_path: true,
             comparing: Comparing::default(),
             histogram: HistogramView::default(),
+            time_left: TimeLeft::default(),
             files: Files::default(),
             editing: Editing::default(),
             inspector: Inspector::default(),

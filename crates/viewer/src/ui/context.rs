@@ -27,6 +27,12 @@ impl PanelContext<'_> {
         self.render.shown(place)
     }
 
+    /// Whether anything is drawn of the main picture, be it coarse or of the last scene.
+    pub fn has_picture(&self) -> bool {
+        let shown = self.shown(PictureSlot::Main);
+        shown.is_some_and(|it| it.screen.is_some() || it.under.is_some() || it.whole.is_some())
+    }
+
     /// The stage of loading a scene or of preparing its first picture.
     pub fn activity(&self) -> Option<Activity> {
         match &self.session.loader {

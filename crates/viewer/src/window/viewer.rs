@@ -140,6 +140,9 @@ impl eframe::App for Viewer {
         let progress = shown.map(|shown| shown.progress).unwrap_or_default();
         pictures::finish(&mut session, progress.is_done);
         cursor::update(&mut session, &progress);
+        tools::aim(&mut session, &progress);
+        let paused = session.view.paused;
+        session.time_left.update(&progress, paused);
         session.set_spent(match progress.is_coarse {
             true => 0.0,
             false => progress.trace_seconds,

@@ -28,6 +28,7 @@ mod panels;
 mod picture;
 mod pixels;
 mod preferences;
+mod progress;
 mod rays;
 mod reference;
 mod replay;

@@ -137,6 +137,7 @@ impl Session {
         let camera = scene.frame(self.playback.time).camera;
         self.controller = Some(CameraController::new(&camera, scene.bounds()));
         self.selection = None;
+        self.histogram.forget();
         self.tool_state = ToolState::default();
         let inspector = std::mem::take(&mut self.inspector);
         // A pending export belongs to rays of the previous scene.

@@ -147,7 +147,8 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
         if let Some(progress) = progress.filter(|_| !is_done && !dialog.overlays) {
             ui.label(format!(
                 "{} of {} samples so far.",
-                progress.samples, progress.target
+                progress.samples_so_far(),
+                progress.target
             ));
         }
         ui.add_space(6.0);

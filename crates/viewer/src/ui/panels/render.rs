@@ -6,7 +6,7 @@ mod histogram;
 mod size;
 mod statistics;
 
-pub use statistics::{remaining, seconds};
+pub use statistics::seconds;
 
 use crate::model::view_settings::ViewSettings;
 use crate::ui::context::PanelContext;

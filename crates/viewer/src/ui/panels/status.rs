@@ -3,7 +3,7 @@
 use crate::state::cursor::Surface;
 use crate::ui::context::PanelContext;
 use crate::ui::panels::picture::loading;
-use crate::ui::panels::render::{remaining, seconds};
+use crate::ui::panels::render::seconds;
 use crate::worker::progressive_image::PictureSlot;
 use eframe::egui;
 use glimray_app::legend::number;
@@ -31,13 +31,14 @@ pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
             ui.label(format!("{width}×{height}"))
                 .on_hover_text("Width and height of the picture in pixels");
             ui.separator();
-            ui.label(format!("{} of {} samples", progress.samples, progress.target))
+            let samples = progress.samples_so_far();
+            ui.label(format!("{samples} of {} samples", progress.target))
                 .on_hover_text("Samples per pixel so far, and the target");
             cursor(ui, context);
             if !context.session.shows_statistics {
                 return;
             }
-            let left = remaining(&progress)
+            let left = (context.session.time_left.seconds())
                 .map(|left| format!(", {} left", seconds(left)))
                 .unwrap_or_default();
             ui.separator();

@@ -36,6 +36,8 @@ pub struct Shown {
 pub struct Progress {
     /// Samples that every pixel has.
     pub samples: u32,
+    /// Mean samples of a pixel: more than [`Progress::samples`] while a pass over the picture goes on.
+    pub mean_samples: f64,
     /// Samples that it is to get.
     pub target: u32,
     /// Share of the work that is done, in 0..=1.
@@ -53,6 +55,18 @@ pub struct Progress {
     pub is_coarse: bool,
     /// Whether it has all its samples.
     pub is_done: bool,
+}
+
+impl Progress {
+    /// The samples so far: `17`, or `17.3` while a pass over the picture goes on.
+    pub fn samples_so_far(&self) -> String {
+        // Rounded down, so that no count is named too soon.
+        let tenths = (self.mean_samples * 10.0 + 1e-6).floor();
+        match tenths > f64::from(self.samples) * 10.0 && !self.is_coarse && !self.is_done {
+            true => format!("{:.1}", tenths / 10.0),
+            false => self.samples.to_string(),
+        }
+    }
 }
 
 impl ProgressiveImage {
@@ -73,6 +87,7 @@ impl ProgressiveImage {
             range: self.range,
             progress: Progress {
                 samples: renderer.samples_done(),
+                mean_samples: renderer.progress() * f64::from(request.settings.samples),
                 target: request.settings.samples,
                 share: renderer.progress(),
                 trace_seconds: seconds,

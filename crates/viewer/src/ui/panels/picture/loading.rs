@@ -25,9 +25,11 @@ pub fn heading(context: &PanelContext) -> String {
     }
 }
 
-/// Draws the stage, the elapsed time and the button that cancels loading.
+/// Draws the stage, the elapsed time and the button that cancels loading. Over a picture this is only drawn while another scene
+/// is loaded: the status bar tells the rest.
 pub fn loading(ui: &egui::Ui, context: &mut PanelContext, space: Rect) {
-    let Some(activity) = context.noticeable_activity() else {
+    let is_covered = context.session.loader.is_none() && context.has_picture();
+    let Some(activity) = context.noticeable_activity().filter(|_| !is_covered) else {
         return;
     };
     if context.session.files.is_posing() {

@@ -58,9 +58,7 @@ pub fn progress(ui: &mut Ui, context: &mut PanelContext) {
 
 /// The text of the progress bar.
 fn state(progress: &Progress, paused: bool) -> String {
-    let Progress {
-        samples, target, ..
-    } = progress;
+    let (samples, target) = (progress.samples_so_far(), progress.target);
     match (progress.is_done, paused) {
         (true, _) if !progress.is_coarse => format!("Done: {target} samples"),
         (_, true) => format!("Paused at {samples} of {target} samples"),
@@ -74,14 +72,15 @@ pub fn statistics(ui: &mut Ui, context: &mut PanelContext) {
     let Some(shown) = context.shown(PictureSlot::Main) else {
         return;
     };
-    for (name, tip, value) in rows(&shown) {
+    for (name, tip, value) in rows(&shown, context.session.time_left.seconds()) {
         ui.label(name).on_hover_text(tip);
         ui.label(value).on_hover_text(tip);
         ui.end_row();
     }
 }
 
-fn rows(shown: &Shown) -> Vec<(&'static str, &'static str, String)> {
+/// `left`: estimated seconds until the picture is done.
+fn rows(shown: &Shown, left: Option<f64>) -> Vec<(&'static str, &'static str, String)> {
     let Shown {
         progress,
         stats,
@@ -97,7 +96,7 @@ fn rows(shown: &Shown) -> Vec<(&'static str, &'static str, String)> {
         (
             "Remaining",
             "Estimated seconds of tracing until the picture is done",
-            remaining(progress).map_or("–".into(), seconds),
+            left.map_or("–".into(), seconds),
         ),
         (
             "Speed",
@@ -146,12 +145,6 @@ fn rows(shown: &Shown) -> Vec<(&'static str, &'static str, String)> {
         ));
     }
     rows
-}
-
-/// Estimated seconds left; `None` without an estimate, and at the end.
-pub fn remaining(progress: &Progress) -> Option<f64> {
-    let is_known = !progress.is_coarse && !progress.is_done && progress.share > 0.0;
-    is_known.then(|| progress.trace_seconds * (1.0 - progress.share) / progress.share)
 }
 
 /// Formats a duration as `12.3 s` or `2 min 5 s`.
