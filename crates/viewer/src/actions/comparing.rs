@@ -38,17 +38,22 @@ fn snapshot(frame: &mut FrameRenderer) -> Answer {
     let (request, region) = (frame.request, frame.renderer.region());
     let entry = request.settings.integrator.entry();
     let is_radiance = entry.shows == Shows::Radiance;
+    let is_denoised = is_radiance && frame.renderer.denoises(&request.tone);
     let tone = match is_radiance {
-        true => Tone::LINEAR,
+        true => Tone {
+            denoise: is_denoised,
+            ..Tone::LINEAR
+        },
         false => request.tone,
     };
+    let how = if is_denoised { ", denoised" } else { "" };
     match frame.image(&tone) {
         Ok((image, samples)) => Answer::Snapshot(Box::new(Snapshot {
             image,
             region,
             size: request.settings.size,
             is_radiance,
-            detail: format!("{}, {samples} samples", entry.title),
+            detail: format!("{}, {samples} samples{how}", entry.title),
         })),
         Err(error) => Answer::Failed(advice::render(&error)),
     }

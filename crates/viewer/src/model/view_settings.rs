@@ -58,6 +58,8 @@ pub enum Source {
     Integrator(Integrator),
     /// A snapshot, or a reference picture from a file.
     Still(StillId),
+    /// The picture itself without denoising.
+    Raw,
 }
 
 /// The layout of a comparison.
@@ -72,11 +74,11 @@ pub enum Sharing {
 }
 
 impl Comparison {
-    /// The view mode of the second picture, unless it is a still.
+    /// The view mode of the second picture, if it is rendered beside the first.
     pub fn integrator(&self) -> Option<Integrator> {
         match self.source {
             Source::Integrator(integrator) => Some(integrator),
-            Source::Still(_) => None,
+            Source::Still(_) | Source::Raw => None,
         }
     }
 

@@ -113,13 +113,13 @@ impl Compared {
         Ok(())
     }
 
-    /// Updates the difference of the main picture and the second one, which is the still if there is one. `gain`
-    /// is `None` if no difference is wanted.
+    /// Updates the difference of the main picture and the second one, which is the still if there is one, or else given with
+    /// the number of its presentations. `gain` is `None` if no difference is wanted.
     pub fn compare(
         &mut self,
         gain: Option<f32>,
         main: &ProgressiveImage,
-        beside: &ProgressiveImage,
+        (beside, beside_shown): (Option<Shown>, u64),
     ) -> Result<(), RenderError> {
         let Some((gain, shown)) = gain.zip(main.shown()) else {
             self.subject = None;
@@ -128,7 +128,7 @@ impl Compared {
         };
         let subject = Subject {
             gain,
-            states: [main.frames_shown(), beside.frames_shown(), self.stills],
+            states: [main.frames_shown(), beside_shown, self.stills],
             region: shown.region,
             size: shown.size,
         };
@@ -145,7 +145,7 @@ impl Compared {
         &self,
         gain: f32,
         shown: &Shown,
-        beside: &ProgressiveImage,
+        beside: Option<Shown>,
     ) -> Result<Option<ShownDifference>, RenderError> {
         let Some(first) = self.read(shown)? else {
             return Ok(None);
@@ -154,7 +154,7 @@ impl Compared {
             image: &first,
             edges: edges(shown.region, shown.size),
         };
-        let other = match (&self.still, beside.shown()) {
+        let other = match (&self.still, beside) {
             (None, Some(shown)) => self.read(&shown)?.map(|image| (image, shown)),
             _ => None,
         };

@@ -59,6 +59,9 @@ pub struct ProgressiveImage {
     screen: Option<Screen>,
     coarse: Option<Screen>,
     whole: Option<Screen>,
+    /// The picture without denoising, if it is wanted and differs.
+    raw: Option<Screen>,
+    shows_raw: bool,
     /// The displayed range of the last presentation.
     range: Option<[f32; 2]>,
     is_shown: bool,
@@ -106,6 +109,8 @@ impl ProgressiveImage {
             screen: None,
             coarse: None,
             whole: None,
+            raw: None,
+            shows_raw: false,
             range: None,
             is_shown: true,
             last_look: None,
@@ -225,6 +230,17 @@ impl ProgressiveImage {
             }
             _ => renderer.show(&request.tone, screen)?,
         };
+        self.raw = match self.shows_raw && is_denoised && !self.is_coarse {
+            true => {
+                let screen = match self.raw.take() {
+                    Some(screen) if screen.size() == (width, height) => screen,
+                    _ => renderer.new_screen()?,
+                };
+                renderer.show(&raw(&request.tone), &screen)?;
+                Some(screen)
+            }
+            false => None,
+        };
         self.look_time = look.elapsed();
         self.busy += started.elapsed().as_secs_f64();
         if self.is_coarse && self.last_look.is_none() {
@@ -248,13 +264,17 @@ impl ProgressiveImage {
             && request.settings.antialias != Antialias::None;
         if is_estimable && self.noise.is_due(samples) {
             // Neighbours share the noise of a denoised picture.
-            let tone = Tone {
-                denoise: false,
-                ..request.tone
-            };
-            self.noise.look(&renderer.develop(&tone)?, samples);
+            let image = renderer.develop(&raw(&request.tone))?;
+            self.noise.look(&image, samples);
         }
         Ok(())
+    }
+
+    /// Whether the picture is also shown without denoising.
+    pub fn show_raw(&mut self, raw: bool) {
+        if std::mem::replace(&mut self.shows_raw, raw) != raw && raw {
+            self.is_shown = false;
+        }
     }
 
     /// For questions; `None` while the renderer's film holds the preview.
@@ -266,5 +286,13 @@ impl ProgressiveImage {
             screen: self.screen.as_ref().filter(|_| self.last_look.is_some()),
             outside: None,
         })
+    }
+}
+
+/// The tone without denoising.
+fn raw(tone: &Tone) -> Tone {
+    Tone {
+        denoise: false,
+        ..*tone
     }
 }

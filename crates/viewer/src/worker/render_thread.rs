@@ -25,6 +25,8 @@ pub struct RenderRequests {
     pub prepared: Option<PreparedScene>,
     /// The still of a comparison, in place of [`PictureSlot::Beside`].
     pub still: Option<StillRequest>,
+    /// Whether the second picture is the main one without denoising.
+    pub raw: bool,
     /// The gain of the difference of both pictures, 1 or more; `None` if it is not shown.
     pub difference: Option<f32>,
     /// Whether something moves, so that a preview is preferred to a full-resolution picture.
@@ -49,7 +51,7 @@ impl RenderRequests {
     fn shows_same(&self, other: &Self) -> bool {
         self.pictures == other.pictures
             && self.still == other.still
-            && self.difference == other.difference
+            && (self.difference, self.raw) == (other.difference, other.raw)
     }
 }
 
@@ -296,6 +298,9 @@ impl RenderWorker {
             for (image, place) in self.images.iter().zip(PictureSlot::ALL) {
                 state.shown[place as usize] = image.shown();
             }
+            if requests.raw {
+                state.shown[PictureSlot::Beside as usize] = self.images[2].shown_raw();
+            }
             state.still = self.compared.still();
             state.difference = self.compared.difference();
             match outcome {
@@ -340,6 +345,7 @@ impl RenderWorker {
             let prepared = requests.prepared.as_ref();
             outcome = outcome.and(image.set_request(request, requests.coarse, prepared));
         }
+        self.images[2].show_raw(requests.raw);
         outcome.and(
             self.compared
                 .set_request(requests.still.as_ref())
@@ -394,7 +400,11 @@ impl RenderWorker {
             is_busy = self.images.iter().any(has_work);
         }
         let [_, beside, main] = &self.images;
-        if let Err(error) = self.compared.compare(requests.difference, main, beside) {
+        let second = match requests.raw {
+            true => (main.shown_raw(), main.frames_shown()),
+            false => (beside.shown(), beside.frames_shown()),
+        };
+        if let Err(error) = self.compared.compare(requests.difference, main, second) {
             return (Err(ImageError::from(error).into()), unanswered, answers);
         }
         (Ok(is_busy), unanswered, answers)

@@ -351,3 +351,38 @@ fn the_histogram_tells_what_is_clipped_and_is_measured_once() {
     let black = "Histogram: 100.0 % of the pixels are black, 0.0 % are clipped to white, mean luminance 0.0 %";
     assert_eq!(told(&window), [black]);
 }
+
+#[test]
+fn a_snapshot_of_a_denoised_picture_is_denoised_and_it_compares_with_the_raw_one() {
+    use glimray::render::Integrator;
+    use glimray_viewer::worker::progressive_image::PictureSlot;
+    let (_folder, mut window) = balls();
+    {
+        let mut session = window.session();
+        session.view.settings.integrator = Integrator::Path;
+        session.view.set_samples(4);
+        session.view.settings.features = true;
+    }
+    window.settle();
+    let raw = picture_pixels(&window);
+    window.session().view.tone.denoise = true;
+    window.settle();
+    let denoised = picture_pixels(&window);
+    assert!(denoised != raw, "denoising has no effect");
+    keep(&mut window);
+    let detail = window.session().comparing.gallery.all()[0].detail.clone();
+    assert!(detail.ends_with("denoised"), "{detail}");
+    compare(&mut window, Sharing::Difference(100.0));
+    let shown = difference(&window);
+    assert_eq!((shown.rmse, shown.mean), (0.0, 0.0));
+    still_pixels(&window).assert_same(&denoised, "the snapshot");
+
+    window.session().view.compare_with(Source::Raw);
+    window.settle();
+    let render = window.harness.state().render_thread();
+    let beside = render.shown(PictureSlot::Beside).expect("a picture");
+    let screen = beside.screen.expect("a screen");
+    pixels::on(&screen, &window.gpu).assert_same(&raw, "the picture without denoising");
+    picture_pixels(&window).assert_same(&denoised, "the picture");
+    assert!(difference(&window).rmse > 0.0);
+}

@@ -33,6 +33,7 @@ impl Session {
                     .and_then(|integrator| self.render_request(integrator));
                 requests.still = self.still().map(|still| self.still_request(still));
                 requests.difference = comparison.gain();
+                requests.raw = comparison.source == Source::Raw;
             }
         }
         requests.pictures[PictureSlot::Outside as usize] = self.outside_request();
@@ -58,7 +59,7 @@ impl Session {
     pub fn still(&self) -> Option<&Still> {
         match self.view.comparison?.source {
             Source::Still(id) => self.comparing.gallery.get(id),
-            Source::Integrator(_) => None,
+            Source::Integrator(_) | Source::Raw => None,
         }
     }
 

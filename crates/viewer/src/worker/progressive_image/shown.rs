@@ -102,4 +102,16 @@ impl ProgressiveImage {
             adapter: self.adapter.clone(),
         })
     }
+
+    /// The picture to draw without denoising.
+    pub fn shown_raw(&self) -> Option<Shown> {
+        let shown = self.shown()?;
+        Some(match shown.screen.is_some() {
+            true => Shown {
+                screen: self.raw.clone().or(shown.screen),
+                ..shown
+            },
+            false => shown,
+        })
+    }
 }

@@ -53,7 +53,7 @@ pub fn second(
             let id = context.textures.id(&difference.screen, !is_crisp);
             painter.image(id, rect, WHOLE, Color32::WHITE);
         }
-    } else if comparison.integrator().is_some() {
+    } else if !matches!(comparison.source, Source::Still(_)) {
         if let Some(shown) = context.shown(PictureSlot::Beside) {
             draw(&painter, context, &shown, viewport);
         }
@@ -127,6 +127,7 @@ pub fn overlay(
 fn second_name(session: &Session) -> String {
     match session.view.comparison.map(|comparison| comparison.source) {
         Some(Source::Integrator(integrator)) => title(INTEGRATORS.name(&integrator)),
+        Some(Source::Raw) => "Without denoising".to_owned(),
         _ => session.still().map_or(String::new(), |still| {
             let (width, height) = still.size();
             match still.size() == session.picture_size() {

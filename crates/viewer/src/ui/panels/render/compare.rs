@@ -13,6 +13,9 @@ use glimray_app::value_names::INTEGRATORS;
 /// Width of the second picture's name, in points: a button stands beside it.
 const SECOND: f32 = 92.0;
 
+/// The picture without denoising.
+const RAW: &str = "Without denoising";
+
 /// The layout of the comparison, its second picture, and what belongs to both.
 pub fn compare(ui: &mut Ui, context: &mut PanelContext) {
     layout(ui, context);
@@ -95,7 +98,7 @@ fn set_gain(ui: &mut Ui, context: &mut PanelContext, mut gain: f32) {
 /// The second picture: a view mode or a still.
 fn second(ui: &mut Ui, context: &mut PanelContext, comparison: Comparison) {
     let swap = with_key(context, "Swap comparison sides", Action::SwapSides);
-    let tip = "A view mode of the scene, a snapshot or a reference picture";
+    let tip = "A view mode of the scene, the picture without denoising, a snapshot or a reference picture";
     let label = ui.label("Compared with").on_hover_text(tip);
     let session = &mut *context.session;
     let chosen = match comparison.source {
@@ -104,6 +107,7 @@ fn second(ui: &mut Ui, context: &mut PanelContext, comparison: Comparison) {
             .still()
             .map(|still| still.name.clone())
             .unwrap_or_default(),
+        Source::Raw => RAW.to_owned(),
     };
     let mut source = comparison.source;
     ui.horizontal(|ui| {
@@ -119,6 +123,10 @@ fn second(ui: &mut Ui, context: &mut PanelContext, comparison: Comparison) {
                         ui.selectable_value(&mut source, value, title(word))
                             .on_hover_text(*help);
                     }
+                }
+                if session.view.tone.denoise || source == Source::Raw {
+                    ui.selectable_value(&mut source, Source::Raw, RAW)
+                        .on_hover_text("The picture as it is before it is denoised");
                 }
                 for still in session.comparing.gallery.all() {
                     ui.selectable_value(&mut source, Source::Still(still.id), &still.name)
@@ -136,6 +144,7 @@ fn second(ui: &mut Ui, context: &mut PanelContext, comparison: Comparison) {
                 }
             }
             Source::Still(id) => remove(ui, session, id),
+            Source::Raw => {}
         }
     });
     ui.end_row();
