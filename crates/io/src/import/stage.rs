@@ -52,7 +52,7 @@ fn choose_camera(scene: &mut Scene, options: &Options, is_dark: bool) {
     let size = options.size.unwrap_or(scene.output.size);
     if staging.fit || staging.camera && scene.cameras.is_empty() {
         scene.camera_index = scene.cameras.len();
-        scene.cameras.push(camera(scene, size));
+        scene.cameras.push(framed_camera(scene, size));
     } else if scene.cameras.is_empty() {
         scene.cameras.push(Camera::default());
     } else if staging.camera {
@@ -65,7 +65,7 @@ fn choose_camera(scene: &mut Scene, options: &Options, is_dark: bool) {
         if first == cameras.len() {
             scene.cameras.push(Camera {
                 name: "framed".to_owned(),
-                ..camera(scene, size)
+                ..framed_camera(scene, size)
             });
         }
         scene.camera_index = first;
@@ -75,7 +75,7 @@ fn choose_camera(scene: &mut Scene, options: &Options, is_dark: bool) {
 
 /// A camera that sees all of `scene` from the front, a little from the right and from above, for a picture of this size;
 /// the course's camera if nothing in the scene is bounded.
-pub(super) fn camera(scene: &Scene, (width, height): (u32, u32)) -> Camera {
+pub fn framed_camera(scene: &Scene, (width, height): (u32, u32)) -> Camera {
     let size = (scene.bounds_over_time()).map_or(DVec3::ONE, |(min, max)| max - min);
     let flatness = 1.0 - (2.0 * size.y / size.x.max(size.z)).clamp(0.0, 1.0);
     let [least, most] = ELEVATION_DEG;
@@ -87,6 +87,19 @@ pub(super) fn camera(scene: &Scene, (width, height): (u32, u32)) -> Camera {
         margin: MARGIN,
     };
     scene.framed(&framing).unwrap_or_default()
+}
+
+/// Whether the default camera of `scene` frames it for a picture of this size, because its file had no camera that suits.
+pub fn is_framed(scene: &Scene, size: (u32, u32)) -> bool {
+    let own = scene.cameras.get(scene.camera_index);
+    // Others are told apart without a look at all vertices.
+    own.filter(|own| own.fov_y == FOV_Y && own.node.is_none())
+        .is_some_and(|own| {
+            *own == Camera {
+                name: own.name.clone(),
+                ..framed_camera(scene, size)
+            }
+        })
 }
 
 /// Distance of the lamps from the model, in its radii: so far away that they light all of the ground alike.

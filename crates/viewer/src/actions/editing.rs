@@ -54,9 +54,9 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
         editing.known = Some(scene.clone());
         editing.owes_bounds = true;
         session.playback.set_scene(&scene);
-        let camera = scene.frame(session.playback.time).camera;
-        if let Some(controller) = &mut session.controller
-            && session.editing.home.as_ref() != Some(&camera)
+        let camera = session.home_camera();
+        if let (Some(controller), Some(camera)) = (&mut session.controller, &camera)
+            && session.editing.home.as_ref() != Some(camera)
         {
             controller.set_home(&camera);
         }
@@ -248,11 +248,12 @@ impl Session {
             return;
         };
         if let Id::Camera(index) = id {
-            controller.go_to(&camera_in_world(
-                document.scene(),
-                index,
-                self.playback.time,
-            ));
+            let scene = document.scene();
+            let camera = camera_in_world(scene, index, self.playback.time);
+            match scene.cameras[index].has_aim() {
+                true => controller.go_to(&camera),
+                false => controller.go_to_without_aim(&camera),
+            }
         } else if let Some(bounds) = bounds {
             controller.frame(bounds, aspect);
         }
@@ -268,8 +269,7 @@ impl Session {
             overrides::set_camera(scene, &camera);
             Ok(())
         });
-        if let (Some(controller), Some(document)) = (&mut self.controller, &self.document) {
-            let camera = document.scene().frame(self.playback.time).camera;
+        if let (Some(camera), Some(controller)) = (self.home_camera(), &mut self.controller) {
             controller.set_home(&camera);
             controller.go_home();
             controller.arrive();

@@ -183,6 +183,24 @@ fn pick(session: &mut Session, action: Action, pixel: [u32; 2]) {
     session.ask(move |frame| surface_at(frame, pixel, purpose));
 }
 
+/// Asks once what the middle of the picture shows, for the pivot of a camera that aims at no point. The first sample comes
+/// first: the answer may need a kernel that is not compiled yet.
+pub fn aim(session: &mut Session, progress: &Progress) {
+    let is_home = (session.controller.as_ref()).is_some_and(CameraController::is_home);
+    let is_seen = progress.samples > 0 && !progress.is_coarse;
+    if !is_seen || !is_home || session.is_moving() || !std::mem::take(&mut session.owes_aim) {
+        return;
+    }
+    session.ask(|frame| {
+        let (width, height) = frame.settings().size;
+        match surface_at(frame, [width / 2, height / 2], Purpose::Aim) {
+            // The middle lies outside the rendered region.
+            Answer::Failed(_) => Answer::Nothing,
+            answer => answer,
+        }
+    });
+}
+
 /// Finds the nearest surface in a pixel of the picture.
 fn surface_at(frame: &mut FrameRenderer, pixel: [u32; 2], purpose: Purpose) -> Answer {
     match frame.renderer.explain(pixel, 0..1) {

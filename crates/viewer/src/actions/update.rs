@@ -37,10 +37,15 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     if session.playback.time != time {
         session.last_motion = now;
     }
-    if let (Some(controller), Some(document)) = (&mut session.controller, &session.document) {
-        let scene = document.scene();
-        if controller.is_home() && scene.is_animated() {
-            controller.set_home(&scene.frame(session.playback.time).camera);
+    let is_animated = session.scene().is_some_and(|scene| scene.is_animated());
+    let is_home = (session.controller.as_ref()).is_some_and(CameraController::is_home);
+    let home = match is_animated && is_home {
+        true => session.home_camera(),
+        false => None,
+    };
+    if let Some(controller) = &mut session.controller {
+        if let Some(home) = home {
+            controller.set_home(&home);
         }
         if controller.advance(seconds) || controller.is_moving() {
             session.last_motion = now;

@@ -119,6 +119,31 @@ impl CameraController {
         }
     }
 
+    /// [`CameraController::new`] for a camera whose file names no point to look at: the pivot is in the middle of the geometry
+    /// in front of it, until [`CameraController::aim_at`] knows better.
+    pub fn without_aim(camera: &Camera, bounds: Option<(DVec3, DVec3)>) -> Self {
+        let mut controller = Self::new(camera, bounds);
+        controller.take_reach(pivot::reach(camera, bounds));
+        controller
+    }
+
+    /// Moves the pivot of a camera without aim to the depth of `point`, which the middle of its picture shows. The view stays
+    /// as it is. This has no effect after the camera has been moved, or if the point lies far behind the geometry.
+    pub fn aim_at(&mut self, point: DVec3) {
+        let camera = &self.home.camera;
+        let reach = (point - camera.look_from).dot(forward(camera));
+        let is_sensible = reach > 0.0 && reach <= pivot::farthest(camera, self.bounds);
+        if self.home.reach.is_some() && self.is_home() && is_sensible {
+            self.take_reach(reach);
+        }
+    }
+
+    fn take_reach(&mut self, reach: f64) {
+        self.home = Known::new(&self.upright, &self.home.camera.clone(), Some(reach));
+        self.now = self.home.pose;
+        self.goal = self.home.pose;
+    }
+
     /// The current camera, in world space.
     pub fn camera(&self) -> Camera {
         self.camera_at(&self.now)

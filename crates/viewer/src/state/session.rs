@@ -37,7 +37,7 @@ use glimray_app::showcase;
 use glimray_app::window::ViewRequest;
 use glimray_render::{Integrator, RenderSettings};
 use glimray_scene::{Camera, Scene};
-use room::Room;
+use room::{Fitted, Room};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -125,6 +125,7 @@ pub struct Session {
     /// Number of restarts of the picture.
     pub(crate) restarts: u32,
     room: Room,
+    fitted: Option<Fitted>,
     /// Time of the last motion, and the current time of egui.
     pub(crate) last_motion: f64,
     pub(crate) now: f64,
@@ -183,6 +184,7 @@ impl Session {
             left: None,
             restarts: 0,
             room: Room::default(),
+            fitted: None,
             last_motion: f64::NEG_INFINITY,
             now: 0.0,
             is_device_lost: false,
@@ -314,6 +316,7 @@ impl Session {
             && !self.files.is_busy()
             && !self.comparing.is_busy()
             && !self.is_moving()
+            && self.until_fitted().is_none()
             && !self.playback.is_playing
             && !self.recording.is_playing()
     }
@@ -335,6 +338,9 @@ impl Session {
         }
         if self.loader.is_some() || self.files.is_busy() || self.comparing.is_busy() {
             return Some(LOOK);
+        }
+        if let Some(seconds) = self.until_fitted() {
+            return Some(Duration::from_secs_f64(seconds.max(0.0)).max(FRAME));
         }
         // Not while a button is held.
         let settles = self.last_motion + SETTLE - self.now;

@@ -8,6 +8,7 @@ mod document;
 mod edit;
 mod files;
 mod first_picture;
+mod fitting;
 mod focus;
 mod handles;
 mod hands;

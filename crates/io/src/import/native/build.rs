@@ -49,7 +49,7 @@ pub(super) fn scene(
     let (cameras, camera_index) = cameras::cameras(&file, &nodes, texts)?;
     scene.camera_index = camera_index;
     scene.cameras = if cameras.is_empty() {
-        vec![stage::camera(&scene, scene.output.size)]
+        vec![stage::framed_camera(&scene, scene.output.size)]
     } else {
         cameras
     };

@@ -1,6 +1,7 @@
 //! Saves the picture to a file, as `glimray render` would.
 
 use crate::actions::files::{NO_DIALOG, short};
+use crate::model::camera::CameraController;
 use crate::model::file_dialog::{self, PICTURES, Reply, Request};
 use crate::state::answer::Answer;
 use crate::state::files::Captured;
@@ -144,6 +145,10 @@ fn render(session: &mut Session, mut target: Target, size: (u32, u32)) {
         return;
     };
     request.settings = session.view.settings_at(size, integrator);
+    if (session.controller.as_ref()).is_some_and(CameraController::is_home) {
+        // A camera that frames a model in the window does so in no picture of another size.
+        request.camera = None;
+    }
     target.opacity = request.settings.has_opacity();
     let linear = (session.request.overrides.tone).tone(&request.scene.output, integrator, true);
     let tone = tone_of(&target, request.tone, linear);

@@ -9,6 +9,7 @@ use crate::model::tool::ToolState;
 use crate::model::view_settings::ViewSettings;
 use crate::state::files::Intent;
 use crate::state::session::Session;
+use crate::state::session::room::Fitted;
 use crate::worker::request::PreparedScene;
 use glimray_app::clock::Clock;
 use glimray_app::error::AppError;
@@ -134,15 +135,20 @@ impl Session {
         let time = clock.time(&self.request.overrides.moment);
         self.playback = Playback::new(clock, time);
         self.playback.set_scene(&scene);
-        let camera = scene.frame(self.playback.time).camera;
-        self.controller = Some(CameraController::new(&camera, scene.bounds()));
+        let (bounds, has_aim) = (
+            scene.bounds(),
+            (scene.cameras.get(scene.camera_index)).is_none_or(Camera::has_aim),
+        );
         self.selection = None;
         self.histogram.forget();
         self.tool_state = ToolState::default();
         let inspector = std::mem::take(&mut self.inspector);
         // A pending export belongs to rays of the previous scene.
         self.inspector.export = inspector.export;
-        self.original = Some(Arc::new(original));
+        let original = Arc::new(original);
+        let size = (self.request.import.size).unwrap_or(original.output.size);
+        self.fitted = Fitted::new(&original, &scene, size);
+        self.original = Some(original);
         self.document = Some(Document::new(scene));
         Ok(())
     }
@@ -295,6 +301,9 @@ impl Session {
             // Earlier steps can still be undone.
             document.reload(Scene::clone(&scene));
             self.document = Some(document);
+        }
+        if let Some(home) = self.home_camera() {
+            controller.set_home(&home);
         }
         self.controller = Some(controller);
         let own = std::mem::replace(&mut self.view, look);

@@ -45,7 +45,7 @@ impl Session {
         Some(RenderRequest {
             scene: scene.clone(),
             restarts: self.restarts,
-            camera: (!controller.is_home()).then(|| controller.camera()),
+            camera: (self.is_fitted() || !controller.is_home()).then(|| controller.camera()),
             background: self.view.background.clone(),
             shutter_interval: self.playback.shutter_interval(),
             settings: self.view.settings_in(self.room.taken, integrator),

@@ -10,6 +10,7 @@ mod start;
 
 use crate::actions::region;
 use crate::actions::tools;
+use crate::model::camera::CameraController;
 use crate::model::view_settings::{Comparison, Sharing};
 use crate::model::viewport::Viewport;
 use crate::state::cursor::REST;
@@ -86,7 +87,7 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
         legends(ui, context, space, viewports);
         frames(ui, context, space, viewports);
     }
-    if is_scaled && !context.session.files.is_posing() {
+    if is_scaled && context.session.until_fitted().is_none() && !context.session.files.is_posing() {
         scaled(ui, context, space);
     }
     loading::loading(ui, context, space);
@@ -140,7 +141,10 @@ fn legends(ui: &egui::Ui, context: &PanelContext, space: Rect, viewports: [Viewp
 /// Shows the scene's framing where the picture has the proportions of the window.
 fn frames(ui: &egui::Ui, context: &PanelContext, space: Rect, viewports: [Viewport; 2]) {
     let session = &context.session;
-    if !session.view.fits || session.scene().is_none() {
+    let is_home = (session.controller.as_ref()).is_some_and(CameraController::is_home);
+    // A picture of the scene's size has another camera.
+    let is_fitted = is_home && session.is_fitted();
+    if !session.view.fits || session.scene().is_none() || is_fitted {
         return;
     }
     let painter = ui.painter_at(space);
