@@ -8,7 +8,7 @@ use crate::model::tool::Tool;
 use crate::model::viewport::Viewport;
 use crate::state::answer::Answer;
 use crate::state::inspector::{Hidden, Inspected};
-use crate::state::layout::{Layout, Panel};
+use crate::state::layout::Layout;
 use crate::state::session::Session;
 use crate::worker::progressive_image::{FrameRenderer, PictureSlot};
 use crate::worker::request::RenderRequest;
@@ -22,9 +22,7 @@ const READABLE: f32 = 420.0;
 /// Activates the inspector and shows its panels.
 pub fn open(session: &mut Session, layout: &mut Layout) {
     session.tool = Tool::Inspect;
-    layout.set_visible(Panel::Rays, true);
-    layout.set_visible(Panel::Outside, true);
-    layout.widen(Panel::Rays, READABLE);
+    layout.show_rays(READABLE);
 }
 
 /// Repeats the request of a lost renderer.

@@ -74,6 +74,9 @@ pub struct Layout {
     /// The layout before all panels were hidden.
     #[serde(default)]
     before: Option<Box<Self>>,
+    /// The layout before the ray inspector showed its panels.
+    #[serde(default)]
+    before_rays: Option<Box<Self>>,
     /// Whether the time panel was hidden because nothing moves.
     #[serde(default)]
     is_time_folded: bool,
@@ -123,6 +126,7 @@ impl Default for Layout {
             room: Some(USUAL),
             preferred_sizes: Vec::new(),
             before: None,
+            before_rays: None,
             is_time_folded: false,
             is_animated: None,
         }
@@ -234,6 +238,39 @@ impl Layout {
                     self.tree.set_visible(id, true);
                 }
             });
+        }
+    }
+
+    /// Shows the panels of the ray inspector, wide enough to be read.
+    pub fn show_rays(&mut self, width: f32) {
+        if self.before_rays.is_none() {
+            self.before_rays = Some(Box::new(self.clone()));
+        }
+        self.set_visible(Panel::Rays, true);
+        self.set_visible(Panel::Outside, true);
+        self.widen(Panel::Rays, width);
+    }
+
+    /// Restores the layout from before [`Layout::show_rays`]. Other panels that were shown or hidden since stay so.
+    pub fn hide_rays(&mut self) {
+        let Some(before) = self.before_rays.take() else {
+            return;
+        };
+        let others = Panel::ALL.into_iter();
+        let others =
+            others.filter(|panel| !matches!(panel, Panel::Rays | Panel::Outside | Panel::Render));
+        let now: Vec<_> = others
+            .map(|panel| (panel, self.is_visible(panel)))
+            .collect();
+        let room = self.room;
+        *self = *before;
+        for (panel, is_visible) in now {
+            if self.is_visible(panel) != is_visible {
+                self.set_visible(panel, is_visible);
+            }
+        }
+        if let Some(room) = room {
+            self.resize(room);
         }
     }
 

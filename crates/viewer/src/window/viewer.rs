@@ -3,7 +3,8 @@
 use crate::actions::commands;
 use crate::actions::cursor;
 use crate::actions::files::pictures;
-use crate::actions::{settings, update};
+use crate::actions::{settings, tools, update};
+use crate::model::tool::Tool;
 use crate::state::answer::Answer;
 use crate::state::layout::Layout;
 use crate::state::session::Session;
@@ -135,6 +136,9 @@ impl eframe::App for Viewer {
         } else {
             commands::keys(&mut session, &mut self.layout, ctx);
             update::update(&mut session, ctx);
+        }
+        if session.tool != Tool::Inspect {
+            self.layout.hide_rays();
         }
         let shown = self.render.shown(PictureSlot::Main);
         let progress = shown.map(|shown| shown.progress).unwrap_or_default();
