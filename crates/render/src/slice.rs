@@ -207,7 +207,10 @@ impl Planner {
     /// Samples per pixel of the next sweep: `wanted`, or more if a slice covers the whole film tile, which saves
     /// submissions.
     pub fn sweep_samples(&self, group_count: u32, wanted: u32, samples_left: u32) -> u32 {
-        let fitting = (self.budget / f64::from(group_count)) as u32;
+        let fitting = match group_count <= self.slicing.max_groups {
+            true => (self.budget / f64::from(group_count)) as u32,
+            false => wanted,
+        };
         let most = self.max_samples;
         fitting.clamp(wanted.min(most), most).min(samples_left)
     }

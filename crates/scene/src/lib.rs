@@ -268,6 +268,12 @@ pub struct Lens {
 impl Camera {
     /// The planes of a camera that sees all that is in front of it.
     pub const UNCLIPPED: (f64, f64) = (0.0, f64::INFINITY);
+
+    /// Whether `look_at` is more than a direction: formats whose cameras have no such point leave both ends as they are by
+    /// default.
+    pub fn has_aim(&self) -> bool {
+        self.target.is_some() || (self.look_from, self.look_at) != (DVec3::ZERO, DVec3::NEG_Z)
+    }
 }
 
 impl Default for Camera {

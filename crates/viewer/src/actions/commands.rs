@@ -215,8 +215,7 @@ fn camera(session: &mut Session, change: impl FnOnce(&mut CameraController)) {
 
 /// Frames a box in world space.
 fn frame(session: &mut Session, bounds: Option<(DVec3, DVec3)>) {
-    let (width, height) = session.picture_size();
-    let aspect = f64::from(width) / f64::from(height.max(1));
+    let aspect = aspect(session);
     if let Some(bounds) = bounds {
         camera(session, |it| it.frame(bounds, aspect));
     }

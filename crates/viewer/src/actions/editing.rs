@@ -58,9 +58,9 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
         if let (Some(controller), Some(camera)) = (&mut session.controller, &camera)
             && session.editing.home.as_ref() != Some(camera)
         {
-            controller.set_home(&camera);
+            controller.set_home(camera);
         }
-        session.editing.home = Some(camera);
+        session.editing.home = camera;
         if (session.selection).is_some_and(|id| !objects::is_there(&scene, id)) {
             session.selection = None;
         }

@@ -9,7 +9,7 @@ use crate::model::viewport::Viewport;
 use crate::state::answer::Answer;
 use crate::state::layout::Layout;
 use crate::state::session::Session;
-use crate::worker::progressive_image::FrameRenderer;
+use crate::worker::progressive_image::{FrameRenderer, Progress};
 use eframe::egui::{self, LayerId, PointerButton, Pos2, Vec2};
 use glam::{DVec2, DVec3};
 use glimray_app::advice;
@@ -222,6 +222,11 @@ pub fn picked(session: &mut Session, purpose: Purpose, hit: Option<(DVec3, Optio
         (Purpose::Pivot, Some((point, _))) => {
             if let Some(controller) = &mut session.controller {
                 controller.recentre(point);
+            }
+        }
+        (Purpose::Aim, hit) => {
+            if let (Some(controller), Some((point, _))) = (&mut session.controller, hit) {
+                controller.aim_at(point);
             }
         }
         (Purpose::Focus, Some((point, _))) => {

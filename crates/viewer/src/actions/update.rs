@@ -1,6 +1,7 @@
 //! Per-frame updates.
 
 use super::{comparing, editing, files, inspector, lighting};
+use crate::model::camera::CameraController;
 use crate::state::session::Session;
 use eframe::egui;
 

@@ -9,6 +9,7 @@
 
 mod goals;
 mod motion;
+mod pivot;
 mod pose;
 mod project;
 
@@ -91,6 +92,23 @@ pub struct CameraController {
 struct Known {
     camera: Camera,
     pose: Pose,
+    /// The distance of the pivot from a camera that aims at no point.
+    reach: Option<f64>,
+}
+
+/// The viewing direction, of unit length.
+fn forward(camera: &Camera) -> DVec3 {
+    (camera.look_at - camera.look_from).normalize_or(DVec3::NEG_Z)
+}
+
+impl Known {
+    fn new(upright: &Upright, camera: &Camera, reach: Option<f64>) -> Self {
+        Self {
+            pose: upright.pose_with(camera, reach),
+            camera: camera.clone(),
+            reach,
+        }
+    }
 }
 
 impl CameraController {
@@ -113,6 +131,7 @@ impl CameraController {
             home: Known {
                 camera: camera.clone(),
                 pose,
+                reach: None,
             },
             visited: None,
             bounds,
@@ -176,6 +195,7 @@ impl CameraController {
         let Known {
             camera,
             pose: place,
+            ..
         } = known;
         let projection = (camera.fov_y, camera.orthographic_height.is_some());
         pose == place
@@ -254,11 +274,12 @@ impl CameraController {
     }
 
     /// Sets the scene's own camera, after a change of time or an edit. A controller at home follows it; one
-    /// that has been moved stays.
+    /// that has been moved stays. One without aim keeps the distance of its pivot.
     pub fn set_home(&mut self, camera: &Camera) {
         if self.home.camera == *camera {
             return;
         }
+        let reach = self.home.reach;
         if self.is_home() {
             // A flight that is about to start is not held back.
             *self = Self {
@@ -266,12 +287,11 @@ impl CameraController {
                 flight: self.flight,
                 ..Self::new(camera, self.bounds)
             };
+            if let Some(reach) = reach {
+                self.take_reach(reach);
+            }
         } else {
-            let pose = self.upright.pose(camera);
-            self.home = Known {
-                camera: camera.clone(),
-                pose,
-            };
+            self.home = Known::new(&self.upright, camera, reach);
         }
     }
 
@@ -285,7 +305,7 @@ impl CameraController {
         };
         self.now = self.goal;
         // Exact cameras were stored relative to the old axis.
-        self.home.pose = self.upright.pose(&self.home.camera);
+        self.home = Known::new(&self.upright, &self.home.camera.clone(), self.home.reach);
         self.visited = None;
     }
 
@@ -305,8 +325,7 @@ impl CameraController {
     /// Focuses on the depth of `point`. Without a lens this has no effect.
     pub fn focus_on(&mut self, point: DVec3) {
         let camera = self.camera();
-        let forward = (camera.look_at - camera.look_from).normalize_or(DVec3::NEG_Z);
-        let distance = (point - camera.look_from).dot(forward);
+        let distance = (point - camera.look_from).dot(forward(&camera));
         if let Some(lens) = &mut self.lens
             && distance > f64::from(f32::MIN_POSITIVE)
         {

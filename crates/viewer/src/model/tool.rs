@@ -157,6 +157,8 @@ impl ToolState {
 pub enum Purpose {
     /// Set the pivot.
     Pivot,
+    /// Set the pivot of a camera without aim, which keeps its view.
+    Aim,
     /// Set the focus.
     Focus,
     /// Select it.

@@ -122,6 +122,8 @@ pub struct Session {
     pub(crate) refinement: Option<Refinement>,
     /// The scene that may be replaced by the one being opened.
     pub(crate) left: Option<Arc<Scene>>,
+    /// Whether the pivot of the scene's camera waits for what the middle of the picture shows.
+    pub(crate) owes_aim: bool,
     /// Number of restarts of the picture.
     pub(crate) restarts: u32,
     room: Room,
@@ -182,6 +184,7 @@ impl Session {
             prepared: None,
             refinement: None,
             left: None,
+            owes_aim: false,
             restarts: 0,
             room: Room::default(),
             fitted: None,

@@ -27,6 +27,7 @@ mod objects;
 mod outline;
 mod panels;
 mod picture;
+mod pivot;
 mod pixels;
 mod preferences;
 mod progress;

@@ -29,6 +29,8 @@ pub struct View {
     pub camera: Camera,
     /// Whether it is a bookmark.
     pub is_bookmark: bool,
+    /// Whether it looks at a point: see [`Camera::has_aim`].
+    pub has_aim: bool,
 }
 
 /// The scene's cameras at the current time, then the bookmarks.
@@ -48,6 +50,7 @@ pub fn all(session: &Session) -> Vec<View> {
             name,
             camera,
             is_bookmark: false,
+            has_aim: scene.cameras[index].has_aim(),
         }
     });
     let mut cameras: Vec<_> = own.collect();
@@ -56,6 +59,7 @@ pub fn all(session: &Session) -> Vec<View> {
         name: saved.name.clone(),
         camera: saved.camera.clone(),
         is_bookmark: true,
+        has_aim: true,
     }));
     cameras
 }
@@ -110,10 +114,13 @@ pub fn delete(session: &mut Session, name: &str) {
     session.preferences.remove_camera(&key, name);
 }
 
-/// Moves to a camera, animated.
-pub fn go(session: &mut Session, camera: &Camera) {
+/// Moves to a view, animated.
+pub fn go(session: &mut Session, view: &View) {
     if let Some(controller) = &mut session.controller {
-        controller.go_to(camera);
+        match view.has_aim {
+            true => controller.go_to(&view.camera),
+            false => controller.go_to_without_aim(&view.camera),
+        }
     }
     session.moved();
 }
@@ -143,7 +150,7 @@ pub fn step(session: &mut Session, places: isize) {
     };
     if let Some(place) = cameras.get(next as usize) {
         session.messages.notify(place.name.clone());
-        go(session, &place.camera);
+        go(session, place);
     }
 }
 
@@ -222,5 +229,8 @@ pub fn paste(session: &mut Session, text: &str) {
     };
     session.messages.notify(notice);
     session.playback.time = pasted.time.max(0.0);
-    go(session, &pasted.camera);
+    if let Some(controller) = &mut session.controller {
+        controller.go_to(&pasted.camera);
+    }
+    session.moved();
 }

@@ -1,6 +1,6 @@
 //! Animated jumps of the camera.
 
-use crate::model::camera::{CameraController, Known, MARGIN, NEAREST, Pose, Side};
+use crate::model::camera::{CameraController, Known, MARGIN, NEAREST, Pose, Side, pivot};
 use glam::DVec3;
 use glimray_scene::Camera;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -89,21 +89,32 @@ impl CameraController {
 
     /// Returns to the scene's own camera.
     pub fn go_home(&mut self) {
-        self.home.pose = self.go(&self.home.camera.clone());
+        self.home.pose = self.go(&self.home.camera.clone(), self.home.reach);
     }
 
     /// Moves to `camera`, which is in world space, and matches it exactly on arrival.
     pub fn go_to(&mut self, camera: &Camera) {
-        let pose = self.go(camera);
+        let reach = self.home.reach.filter(|_| *camera == self.home.camera);
+        self.visit(camera, reach);
+    }
+
+    /// [`CameraController::go_to`] for a camera whose file names no point to look at.
+    pub fn go_to_without_aim(&mut self, camera: &Camera) {
+        self.visit(camera, Some(pivot::reach(camera, self.bounds)));
+    }
+
+    pub(super) fn visit(&mut self, camera: &Camera, reach: Option<f64>) {
+        let pose = self.go(camera, reach);
         self.visited = Some(Known {
             camera: camera.clone(),
             pose,
+            reach,
         });
     }
 
-    fn go(&mut self, camera: &Camera) -> Pose {
+    fn go(&mut self, camera: &Camera, reach: Option<f64>) -> Pose {
         self.stop();
-        let pose = self.upright.pose(camera).unwound(&self.now);
+        let pose = (self.upright).pose_with(camera, reach).unwound(&self.now);
         let orthographic = camera.orthographic_height.is_some();
         if orthographic && !self.orthographic {
             self.now.height = 2.0 * self.tangent() * self.now.distance;

@@ -1,5 +1,6 @@
 //! The pose of a camera as angles around a pivot, which can be dragged without roll or gimbal lock.
 
+use super::forward;
 use glam::{DMat3, DQuat, DVec3};
 use glimray_scene::Camera;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -102,6 +103,17 @@ impl Upright {
             roll,
             height,
         }
+    }
+
+    /// [`Upright::pose`] with the pivot at this distance from the eye, if given.
+    pub(super) fn pose_with(&self, camera: &Camera, reach: Option<f64>) -> Pose {
+        let Some(reach) = reach else {
+            return self.pose(camera);
+        };
+        self.pose(&Camera {
+            look_at: camera.look_from + reach * forward(camera),
+            ..camera.clone()
+        })
     }
 
     /// The camera's axes in world space: right, up and back.

@@ -18,7 +18,7 @@ use glimray_app::overrides::{CameraOverrides, Moment, picture_size};
 use glimray_app::showcase;
 use glimray_render::RenderSettings;
 use glimray_render::pack::PackedScene;
-use glimray_scene::Scene;
+use glimray_scene::{Camera, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::SystemTime;
@@ -297,7 +297,6 @@ impl Session {
         if let (Some(scene), Some(mut document)) = (self.scene().cloned(), document) {
             self.playback.set_scene(&scene);
             controller.set_bounds(scene.bounds());
-            controller.set_home(&scene.frame(self.playback.time).camera);
             // Earlier steps can still be undone.
             document.reload(Scene::clone(&scene));
             self.document = Some(document);

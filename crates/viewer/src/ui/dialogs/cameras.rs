@@ -32,7 +32,7 @@ pub fn show(ctx: &egui::Context, session: &mut Session) -> bool {
                         let button = ui.button(verb).on_hover_text(hover);
                         let button = button.accessible_name(format!("{verb}: {name}"));
                         match (button.clicked(), verb) {
-                            (true, "Go") => cameras::go(session, &view.camera),
+                            (true, "Go") => cameras::go(session, view),
                             (true, _) => cameras::delete(session, name),
                             (false, _) => {}
                         }

@@ -228,7 +228,7 @@ fn view(menu: &mut Menu) {
         for view in &views {
             if ui.button(&view.name).clicked() {
                 ui.close();
-                cameras::go(menu.context.session, &view.camera);
+                cameras::go(menu.context.session, view);
             }
         }
         ui.separator();
