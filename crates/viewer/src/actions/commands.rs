@@ -97,17 +97,17 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::RollLeft => camera(session, |it| it.roll(TURN)),
         Action::RollRight => camera(session, |it| it.roll(-TURN)),
         Action::Level => camera(session, CameraController::level),
-        Action::FrameSelection => {
-            let bounds = session.selection_bounds();
-            frame(session, bounds.or_else(|| session.subject()));
-        }
-        Action::FrameAll => frame(session, session.subject()),
-        Action::ViewFront => camera(session, |it| it.look_from(Side::Front)),
-        Action::ViewBack => camera(session, |it| it.look_from(Side::Back)),
-        Action::ViewRight => camera(session, |it| it.look_from(Side::Right)),
-        Action::ViewLeft => camera(session, |it| it.look_from(Side::Left)),
-        Action::ViewTop => camera(session, |it| it.look_from(Side::Top)),
-        Action::ViewBottom => camera(session, |it| it.look_from(Side::Bottom)),
+        Action::FrameSelection => match session.selection_bounds() {
+            Some(bounds) => frame(session, Some(bounds)),
+            None => frame_all(session),
+        },
+        Action::FrameAll => frame_all(session),
+        Action::ViewFront => view(session, Side::Front),
+        Action::ViewBack => view(session, Side::Back),
+        Action::ViewRight => view(session, Side::Right),
+        Action::ViewLeft => view(session, Side::Left),
+        Action::ViewTop => view(session, Side::Top),
+        Action::ViewBottom => view(session, Side::Bottom),
         Action::ToggleOrthographic => camera(session, CameraController::toggle_orthographic),
         Action::Home => camera(session, CameraController::go_home),
         Action::SaveCamera => files::cameras::bookmark(session),
@@ -221,7 +221,22 @@ fn frame(session: &mut Session, bounds: Option<(DVec3, DVec3)>) {
     }
 }
 
-/// Escape closes the uppermost dialog, else it cancels a drag, else it leaves the tool, else it clears the
+/// Frames the whole scene from a direction in which no lamp hides it.
+fn frame_all(session: &mut Session) {
+    let (aspect, time) = (aspect(session), session.playback.time);
+    let lights = session.scene().map(|scene| scene.frame(time).lights);
+    if let (Some(bounds), Some(lights)) = (session.subject(), lights) {
+        camera(session, |it| it.frame_past(bounds, aspect, &lights));
+    }
+}
+
+/// Width of the picture over its height.
+fn aspect(session: &Session) -> f64 {
+    let (width, height) = session.picture_size();
+    f64::from(width) / f64::from(height.max(1))
+}
+
+/// Escape closes the uppermost dialog, else it cancels a drag or a focus by click, else it leaves the tool, else it clears the
 /// selection.
 fn leave(session: &mut Session) {
     if dialogs::close_uppermost(session) {
