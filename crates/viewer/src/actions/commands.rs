@@ -2,7 +2,7 @@
 
 use crate::actions::{adding, comparing, dialogs, editing, files, modal, saving, selecting, tools};
 use crate::model::bindings::Action;
-use crate::model::camera::{CameraController, Side};
+use crate::model::camera::{CameraController, CameraHistory, Side};
 use crate::model::preferences::Theme;
 use crate::model::tool::Tool;
 use crate::model::view_settings::{GAIN, Sharing};
@@ -68,6 +68,9 @@ pub fn keys(session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
 
 /// Performs a command.
 pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
+    if let Some(controller) = &session.controller {
+        session.camera_history.note(controller, true);
+    }
     match action {
         // Drags, wheels and held keys are handled where they apply.
         Action::Orbit
@@ -110,6 +113,8 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::ViewBottom => view(session, Side::Bottom),
         Action::ToggleOrthographic => camera(session, CameraController::toggle_orthographic),
         Action::Home => camera(session, CameraController::go_home),
+        Action::UndoView => step_view(session, CameraHistory::undo, "undo"),
+        Action::RedoView => step_view(session, CameraHistory::redo, "redo"),
         Action::SaveCamera => files::cameras::bookmark(session),
         Action::NextCamera => files::cameras::step(session, 1),
         Action::PreviousCamera => files::cameras::step(session, -1),
@@ -211,6 +216,30 @@ fn camera(session: &mut Session, change: impl FnOnce(&mut CameraController)) {
         change(controller);
         session.moved();
     }
+}
+
+/// Undoes or redoes a movement of the camera.
+fn step_view(
+    session: &mut Session,
+    step: fn(&mut CameraHistory, &mut CameraController) -> bool,
+    verb: &str,
+) {
+    let Some(controller) = &mut session.controller else {
+        return;
+    };
+    match step(&mut session.camera_history, controller) {
+        true => session.moved(),
+        false => {
+            let told = format!("No camera movement to {verb}");
+            session.messages.notify(told);
+        }
+    }
+}
+
+/// Shows the selection, or else the whole scene, from one side.
+fn view(session: &mut Session, side: Side) {
+    camera(session, |it| it.look_from(side));
+    frame(session, session.selection_bounds().or(session.subject()));
 }
 
 /// Frames a box in world space.

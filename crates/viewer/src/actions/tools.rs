@@ -55,6 +55,7 @@ pub fn navigate(session: &mut Session, response: &egui::Response, viewport: View
             && let (Some(from), Some(action)) = (pointer, bindings.drag(button, modifiers))
         {
             session.drag = Some(Drag { action, from });
+            session.camera_history.end_gesture();
         }
         if response.double_clicked_by(button) {
             click(session, bindings.double_click(button, modifiers), pointer);

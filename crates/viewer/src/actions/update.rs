@@ -51,6 +51,8 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
         if controller.advance(seconds) || controller.is_moving() {
             session.last_motion = now;
         }
+        let rests = !controller.is_moving() && session.drag.is_none();
+        session.camera_history.note(controller, rests);
     }
 }
 

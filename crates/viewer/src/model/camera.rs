@@ -8,11 +8,14 @@
 //!   orthographic camera clips what is behind it.
 
 mod goals;
+mod history;
+mod lamps;
 mod motion;
 mod pivot;
 mod pose;
 mod project;
 
+pub use history::CameraHistory;
 pub use pose::{Pose, Upright};
 pub use project::{project, project_line, ray_through};
 

@@ -5,7 +5,7 @@ mod requests;
 mod room;
 
 use crate::model::bindings::{Action, Drag};
-use crate::model::camera::CameraController;
+use crate::model::camera::{CameraController, CameraHistory};
 use crate::model::document::Document;
 use crate::model::loader::Loader;
 use crate::model::messages::Messages;
@@ -73,6 +73,8 @@ pub struct Session {
     pub playback: Playback,
     /// The interactive camera.
     pub controller: Option<CameraController>,
+    /// The views that undo and redo of the camera lead to.
+    pub camera_history: CameraHistory,
     /// The active tool.
     pub tool: Tool,
     /// The state of tools.
@@ -159,6 +161,7 @@ impl Session {
             path: None,
             is_untitled: false,
             controller: None,
+            camera_history: CameraHistory::default(),
             tool: Tool::default(),
             tool_state: ToolState::default(),
             drag: None,

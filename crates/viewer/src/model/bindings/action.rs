@@ -141,6 +141,8 @@ actions! {
         ViewBottom "view-bottom" Press "Bottom view",
         ToggleOrthographic "toggle-orthographic" Press "Switch between perspective and orthographic",
         Home "home" Press "Return to the scene's camera",
+        UndoView "undo-view" Press "Undo the last camera movement",
+        RedoView "redo-view" Press "Redo a camera movement",
         SaveCamera "save-camera" Press "Bookmark view",
         NextCamera "next-camera" Press "Next camera or bookmark",
         PreviousCamera "previous-camera" Press "Previous camera or bookmark",

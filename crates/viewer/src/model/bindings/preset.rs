@@ -95,6 +95,8 @@ pub(super) const GLIMRAY: &str = "
     view-bottom: Ctrl+7
     toggle-orthographic: 5
     home: Home
+    undo-view: Alt+Z
+    redo-view: Shift+Alt+Z
     save-camera: K
     next-camera: CloseBracket
     previous-camera: OpenBracket

@@ -1,6 +1,6 @@
 //! Loads a scene and shows it.
 
-use crate::model::camera::CameraController;
+use crate::model::camera::{CameraController, CameraHistory};
 use crate::model::document::Document;
 use crate::model::loader::{Imported, Loader, Trouble};
 use crate::model::playback::Playback;
@@ -150,6 +150,13 @@ impl Session {
         self.fitted = Fitted::new(&original, &scene, size);
         self.original = Some(original);
         self.document = Some(Document::new(scene));
+        self.fit_camera();
+        self.owes_aim = !has_aim;
+        self.camera_history = CameraHistory::default();
+        self.controller = self.home_camera().map(|camera| match has_aim {
+            true => CameraController::new(&camera, bounds),
+            false => CameraController::without_aim(&camera, bounds),
+        });
         Ok(())
     }
 
@@ -290,7 +297,9 @@ impl Session {
         };
         let (look, playback) = (self.view.clone(), self.playback.clone());
         let document = self.document.clone();
+        let history = std::mem::take(&mut self.camera_history);
         self.show(scene)?;
+        self.camera_history = history;
         let clock = self.playback.clock;
         self.playback = playback;
         self.playback.clock = clock;

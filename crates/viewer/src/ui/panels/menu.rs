@@ -222,6 +222,8 @@ fn view(menu: &mut Menu) {
     menu.entry("Reduce pixels", A::PixelZoomOut);
     menu.entry("Reset pixel zoom", A::PixelZoomReset);
     menu.entry("Level horizon", A::Level);
+    menu.entry("Undo camera movement", A::UndoView);
+    menu.entry("Redo camera movement", A::RedoView);
     menu.line();
     menu.ui.menu_button("Cameras", |ui| {
         let views = cameras::all(menu.context.session);
