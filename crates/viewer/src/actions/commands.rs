@@ -275,6 +275,9 @@ fn leave(session: &mut Session) {
         modal::cancel(session);
         return;
     }
+    if session.tool_state.focuses.take().is_some() {
+        return;
+    }
     if session.tool == Tool::Select {
         session.selection = None;
     }

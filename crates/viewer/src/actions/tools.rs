@@ -1,5 +1,6 @@
 //! The mouse in the picture: the active tool, and camera navigation.
 
+use crate::actions::editing::camera_in_world;
 use crate::actions::{inspector, modal};
 use crate::model::bindings::{Action, Drag};
 use crate::model::camera::CameraController;
@@ -167,10 +168,15 @@ fn is_pick(action: Action) -> bool {
 }
 
 fn pick(session: &mut Session, action: Action, pixel: [u32; 2]) {
-    let purpose = match action {
-        Action::SetPivot => Purpose::Pivot,
-        Action::FocusHere => Purpose::Focus,
-        _ => match session.tool {
+    let focuses = match action {
+        Action::Select => session.tool_state.focuses.take(),
+        _ => None,
+    };
+    let purpose = match (action, focuses) {
+        (Action::SetPivot, _) => Purpose::Pivot,
+        (Action::FocusHere, _) => Purpose::Focus,
+        (_, Some(index)) => Purpose::FocusOf(index),
+        (_, None) => match session.tool {
             Tool::Inspect => {
                 inspector::inspect(session, pixel);
                 return;
@@ -235,6 +241,7 @@ pub fn picked(session: &mut Session, purpose: Purpose, hit: Option<(DVec3, Optio
                 controller.focus_on(point);
             }
         }
+        (Purpose::FocusOf(index), Some((point, _))) => focus(session, index, point),
         (Purpose::Select, hit) => {
             session.selection = hit.and_then(|(_, object)| object).map(Id::Object);
         }
@@ -247,4 +254,25 @@ pub fn picked(session: &mut Session, purpose: Purpose, hit: Option<(DVec3, Optio
         }
         (_, None) => session.messages.notify("Nothing is under the cursor"),
     }
+}
+
+/// Focuses a camera of the scene on the depth of a point in world space.
+fn focus(session: &mut Session, index: usize, point: DVec3) {
+    let Some(scene) = session.scene().filter(|scene| index < scene.cameras.len()) else {
+        return;
+    };
+    let camera = camera_in_world(scene, index, session.playback.time);
+    let forward = (camera.look_at - camera.look_from).normalize_or(DVec3::NEG_Z);
+    let distance = (point - camera.look_from).dot(forward);
+    if distance <= 0.0 {
+        (session.messages).notify("The point is behind the camera");
+        return;
+    }
+    session.change("change focus of the camera", |scene| {
+        if let (Some(own), Some(lens)) = (&mut scene.cameras[index].lens, camera.lens) {
+            // Nodes may scale.
+            own.focus_distance *= distance / lens.focus_distance;
+        }
+        Ok(())
+    });
 }

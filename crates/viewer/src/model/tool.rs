@@ -135,6 +135,8 @@ pub struct ToolState {
     pub region: Option<region::Grip>,
     /// The measured points in world space, at most two.
     pub measured: Vec<DVec3>,
+    /// The index of the camera whose focus the next click sets.
+    pub focuses: Option<usize>,
 }
 
 impl ToolState {
@@ -161,6 +163,8 @@ pub enum Purpose {
     Aim,
     /// Set the focus.
     Focus,
+    /// Set the focus of the scene's camera with this index.
+    FocusOf(usize),
     /// Select it.
     Select,
     /// Measure the distance from or to it.

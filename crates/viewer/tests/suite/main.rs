@@ -15,6 +15,7 @@ mod hands;
 mod harness;
 mod histogram;
 mod layers;
+mod lens;
 mod loading;
 mod look;
 mod looks;

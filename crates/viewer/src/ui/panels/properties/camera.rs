@@ -10,6 +10,13 @@ use glimray_scene::{Camera, CameraProperty, Lens, Scene, Target};
 const MAX_LENS: f64 = 1e9;
 const MAX_RATIO: f64 = 1e6;
 
+/// Half the height of a picture on 35 mm film, in millimetres.
+const HALF_FILM: f64 = 12.0;
+/// The focal lengths of the fields of view that can be entered, in millimetres.
+const FOCAL_LENGTHS: [f64; 2] = [0.105, 13_750.0];
+/// Millimetres of a scene unit, which is a metre for f-stops.
+const UNIT: f64 = 1000.0;
+
 /// Draws all properties of a camera.
 pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
     let camera = fields.scene.cameras[index].clone();
@@ -81,7 +88,7 @@ pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
         fields.note("It tracks a node.");
     }
     projection(fields, index, &camera);
-    lens(fields, index, &camera);
+    lens(fields, &mut session.tool_state.focuses, index, &camera);
 }
 
 /// A change of a camera.
@@ -123,8 +130,27 @@ fn projection(fields: &mut Fields, index: usize, camera: &Camera) {
                 limits,
                 set,
             );
+            let tip = "Focal length of a 35 mm camera, whose picture is 24 mm high, with this field of view, in millimetres.";
+            let limits = Limits {
+                unit: " mm",
+                ..Limits::between(FOCAL_LENGTHS[0], FOCAL_LENGTHS[1])
+            };
+            let set = with(index, |camera, to: f64| {
+                camera.fov_y = 2.0 * (HALF_FILM / to).atan();
+            });
+            fields.driven_by(Target::Camera(index, P::FovY)).number(
+                ("Focal length", tip),
+                focal_length(camera),
+                limits,
+                set,
+            );
         }
     }
+}
+
+/// The focal length in millimetres of a 35 mm camera with the same field of view.
+fn focal_length(camera: &Camera) -> f64 {
+    HALF_FILM / (camera.fov_y / 2.0).tan()
 }
 
 /// Whether `look_at` and `up` pass the native importer's check.
@@ -134,7 +160,8 @@ fn looks_somewhere(camera: &Camera) -> bool {
     forward.cross(up).length() >= 1e-6
 }
 
-fn lens(fields: &mut Fields, index: usize, camera: &Camera) {
+/// `focuses`: the camera whose focus the next click in the picture sets.
+fn lens(fields: &mut Fields, focuses: &mut Option<usize>, index: usize, camera: &Camera) {
     use CameraProperty as P;
     fields.heading("Lens");
     let tip = "Use a thin lens with depth of field instead of a pinhole.";
@@ -151,26 +178,42 @@ fn lens(fields: &mut Fields, index: usize, camera: &Camera) {
     let Some(lens) = camera.lens else {
         return;
     };
-    let with = move |change: fn(&mut Lens, f64)| {
-        move |scene: &mut Scene, to: f64| {
-            if let Some(lens) = &mut scene.cameras[index].lens {
-                change(lens, to);
-            }
-        }
-    };
     let tip = "Aperture radius in scene units, above 0.";
-    let set = with(|lens, to| lens.radius = to.min(MAX_LENS).min(MAX_RATIO * lens.focus_distance));
+    let set = with_lens(index, |lens, to| {
+        lens.radius = to.min(MAX_LENS).min(MAX_RATIO * lens.focus_distance)
+    });
     fields
         .driven_by(Target::Camera(index, P::LensRadius))
         .number(("Radius", tip), lens.radius, Limits::SIZE, set);
+    if camera.orthographic_height.is_none() {
+        let tip = "Focal length over the diameter of the aperture. A scene unit counts as a metre, and the focal length is that \
+                   of a 35 mm camera.";
+        let focal_length = focal_length(camera);
+        let set = with_lens(index, move |lens, to| {
+            let radius = focal_length / to / 2.0 / UNIT;
+            lens.radius = radius.min(MAX_RATIO * lens.focus_distance);
+        });
+        let stop = focal_length / (2.0 * lens.radius * UNIT);
+        fields
+            .driven_by(Target::Camera(index, P::LensRadius))
+            .number(("F-stop", tip), stop, Limits::SIZE, set);
+    }
     let tip = "Focus distance along the viewing direction in scene units, above 0.";
-    let set = with(|lens, to| lens.focus_distance = to.max(lens.radius / MAX_RATIO));
+    let set = with_lens(index, |lens, to| {
+        lens.focus_distance = to.max(lens.radius / MAX_RATIO)
+    });
     fields
         .driven_by(Target::Camera(index, P::FocusDistance))
         .number(("Focus", tip), lens.focus_distance, Limits::SIZE, set);
+    let is_chosen = *focuses == Some(index);
+    let tip = "Click in the picture on what is to be sharp.";
+    let button = (fields.ui).selectable_label(is_chosen, "Focus by click");
+    if button.on_hover_text(tip).clicked() {
+        *focuses = (!is_chosen).then_some(index);
+    }
     let tip = "Number of aperture blades, at least 3; 0 for a circular aperture.";
     let limits = Limits::between(0.0, 64.0).with_speed(0.1);
-    let set = with(|lens, to| {
+    let set = with_lens(index, |lens, to| {
         let count = to.round() as u32;
         lens.blade_count = match (count, lens.blade_count) {
             // Skips 1 and 2, which are not valid numbers of blades.
@@ -182,8 +225,17 @@ fn lens(fields: &mut Fields, index: usize, camera: &Camera) {
     fields.number(("Blades", tip), f64::from(lens.blade_count), limits, set);
     if lens.blade_count > 0 {
         let tip = "Rotation of the first blade from the right, in degrees counter-clockwise.";
-        let set = with(|lens, to| lens.blade_rotation = to.to_radians());
+        let set = with_lens(index, |lens, to| lens.blade_rotation = to.to_radians());
         let degrees = lens.blade_rotation.to_degrees();
         fields.number(("Blade rotation", tip), degrees, Limits::ANGLE, set);
+    }
+}
+
+/// A change of a camera's lens.
+fn with_lens(index: usize, change: impl FnOnce(&mut Lens, f64)) -> impl FnOnce(&mut Scene, f64) {
+    move |scene, to| {
+        if let Some(lens) = &mut scene.cameras[index].lens {
+            change(lens, to);
+        }
     }
 }
