@@ -223,6 +223,7 @@ fn the_innermost_solid_has_the_face() {
         scene.add_sphere(DVec3::ZERO, 1.0, 0);
         scene.add_sphere(DVec3::ZERO, 0.6, 1);
         scene.shapes.push(Shape {
+            name: String::new(),
             geometry: Geometry::Placed {
                 canonical: CanonicalShape::Box,
                 world_from_canonical: DAffine3::from_scale(DVec3::splat(0.2)),
