@@ -19,6 +19,7 @@ const FINE: Slicing = Slicing {
     max_groups: 5,
     max_samples: 7,
     tile_side: 2048,
+    even_passes: false,
 };
 
 type Case = (&'static str, RenderSettings, ExecutionPolicy);

@@ -106,6 +106,9 @@ pub struct Slicing {
     pub max_samples: u32,
     /// Maximum side of a film tile, the part of the picture that is on the GPU at a time, in pixels; 8 to 2048.
     pub tile_side: u32,
+    /// Whether a pass over a path-traced picture that can be watched, because it takes a while, at most doubles the samples, so
+    /// that no part is much noisier than another. On some adapters this costs a few percent of the time.
+    pub even_passes: bool,
 }
 
 impl Default for Slicing {
@@ -115,6 +118,7 @@ impl Default for Slicing {
             max_groups: u32::MAX,
             max_samples: 32,
             tile_side: 2048,
+            even_passes: false,
         }
     }
 }

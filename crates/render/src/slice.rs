@@ -21,6 +21,8 @@ const TWICE: f64 = 2.0;
 const HARDLY_LONGER: f64 = 1.4;
 /// Maximum duration, in seconds, up to which submissions grow for that reason: watchdogs allow a little more.
 const LONGEST_WAIT: f64 = 1.5;
+/// A pass that takes at most this long, in seconds, is hardly seen to go over the picture.
+const UNSEEN: f64 = 0.25;
 /// Maximum number of workgroups along x: with a second dimension both stay below the 65,535 of WebGPU.
 const GRID_WIDTH: u32 = 256;
 
@@ -201,6 +203,16 @@ impl Planner {
             end_group: first_group + groups,
             first_sample,
             end_sample: first_sample + sweep_samples,
+        }
+    }
+
+    /// Samples per pixel of the next pass over a film tile: `most`, or where it would be watched for long, as many as there are.
+    pub fn pass_samples(&self, group_count: u32, most: u32, done: u32) -> u32 {
+        let work = f64::from(group_count) * f64::from(most);
+        let seconds = work / self.budget * self.slicing.target_seconds;
+        match self.slicing.even_passes && seconds > UNSEEN {
+            true => done.min(most),
+            false => most,
         }
     }
 

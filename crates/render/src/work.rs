@@ -154,10 +154,12 @@ impl Renderer {
         if self.cursor.group == 0 {
             let left = tile.samples.end - self.cursor.sample;
             let in_block = SAMPLE_BLOCK - self.cursor.sample % SAMPLE_BLOCK;
-            // A lane whose path ends goes on with its next sample: with more of them lanes wait less for each other. A sweep
-            // at most doubles the samples, so that no part of the picture is much noisier than the others meanwhile.
+            // A lane whose path ends goes on with its next sample: with more of them lanes wait less for each other.
+            // The first picture does not wait for that.
             let wanted = match self.settings.integrator {
-                Integrator::Path => self.cursor.sample.clamp(1, PATHS_PER_LANE),
+                Integrator::Path if self.cursor.sample > 0 => {
+                    (self.planner).pass_samples(group_count, PATHS_PER_LANE, self.cursor.sample)
+                }
                 _ => 1,
             };
             self.cursor.sweep_samples =

@@ -23,12 +23,13 @@ fn passes_over_a_path_traced_picture_at_most_double_its_samples() {
         integrator: Integrator::Path,
         samples: 64,
         antialias: Antialias::Stratified,
-        ..sized(128, 96)
+        ..sized(256, 192)
     };
     let policy = ExecutionPolicy {
         slicing: Slicing {
             // A part of the picture in each submission.
             max_groups: 16,
+            even_passes: true,
             ..Slicing::default()
         },
         host_copy: false,
@@ -167,4 +168,24 @@ fn no_box_lies_over_a_picture_that_is_there() {
         }
     }
     window.harness.key_press(Key::Escape);
+}
+
+#[test]
+fn nothing_is_submitted_while_a_window_configures_its_surface() {
+    let scene = "assets/scenes/sphere.scene";
+    let mut window = Window::open(&[scene, "--size", "64x48", "--samples", "2"]);
+    window.settle();
+    let submissions = |window: &Window| window.shown().stats.submissions;
+    let before = submissions(&window);
+    window.gpu.hold_submissions();
+    window.session().restart();
+    for _ in 0..100 {
+        window.harness.step();
+        std::thread::yield_now();
+    }
+    assert_eq!(submissions(&window), before);
+    window.gpu.release_submissions();
+    window.settle();
+    assert!(submissions(&window) > before);
+    assert!(window.shown().progress.is_done);
 }

@@ -111,6 +111,7 @@ pub fn policy(gpu: &Gpu, policy: ExecutionPolicy) -> ExecutionPolicy {
         slicing: Slicing {
             target_seconds: slice.as_secs_f64(),
             tile_side: MAX_SIDE,
+            even_passes: true,
             ..policy.slicing
         },
         host_copy: false,
