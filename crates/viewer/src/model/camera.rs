@@ -161,7 +161,7 @@ impl CameraController {
     }
 
     fn take_reach(&mut self, reach: f64) {
-        self.home = Known::new(&self.upright, &self.home.camera.clone(), Some(reach));
+        self.home = Known::new(&self.upright, &self.home.camera, Some(reach));
         self.now = self.home.pose;
         self.goal = self.home.pose;
     }
@@ -308,7 +308,7 @@ impl CameraController {
         };
         self.now = self.goal;
         // Exact cameras were stored relative to the old axis.
-        self.home = Known::new(&self.upright, &self.home.camera.clone(), self.home.reach);
+        self.home = Known::new(&self.upright, &self.home.camera, self.home.reach);
         self.visited = None;
     }
 
