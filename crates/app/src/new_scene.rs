@@ -13,7 +13,7 @@ background = \"sky\"
 integrator = \"path\"
 
 [camera]
-look_from = [3.0, 2.4, 6.0]
+look_from = [2.5, 1.2, 7.0]
 look_at = [0.0, 0.0, 0.0]
 fov_y_deg = 40
 ";

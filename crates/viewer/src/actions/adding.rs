@@ -1,6 +1,6 @@
 //! Adding things to the scene: surfaces, lights, cameras and models.
 
-use crate::actions::files::short;
+use crate::actions::files::{NO_DIALOG, short};
 use crate::actions::modal;
 use crate::model::adding::{self, Addition, Spot};
 use crate::model::file_dialog::{self, Reply, Request};
@@ -97,7 +97,7 @@ pub fn update(session: &mut Session) {
     match file_dialog::take_reply(&mut session.files.asked_model) {
         Some(Reply::Chosen(path)) => add_model(session, path),
         Some(Reply::Unavailable) => {
-            (session.messages).warn(crate::actions::files::NO_DIALOG.to_owned());
+            session.messages.warn(NO_DIALOG.to_owned());
             session.files.typed_model = Some(String::new());
         }
         Some(Reply::Cancelled) | None => {}

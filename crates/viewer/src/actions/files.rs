@@ -6,7 +6,6 @@ mod dropped;
 pub mod pictures;
 mod screenshot;
 
-use crate::actions::adding;
 use crate::model::file_dialog::{self, Reply, Request, ends_in};
 use crate::model::watch::Change;
 use crate::state::files::Broken;
@@ -163,7 +162,6 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
         }
     }
     take_environment(session);
-    adding::update(session);
     reload_changed(session, ctx);
     pictures::update(session);
     screenshot::update(session, ctx);

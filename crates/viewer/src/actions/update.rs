@@ -1,7 +1,7 @@
 //! Per-frame updates.
 
-use super::{comparing, editing, files, inspector, lighting};
 use crate::model::camera::CameraController;
+use super::{adding, comparing, editing, files, inspector, lighting};
 use crate::state::session::Session;
 use eframe::egui;
 
@@ -27,6 +27,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     session.now = now;
     take_scene(session);
     files::update(session, ctx);
+    adding::update(session);
     comparing::update(session);
     inspector::update(session, ctx, seconds);
     editing::update(session, ctx);

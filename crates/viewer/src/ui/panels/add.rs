@@ -3,6 +3,7 @@
 use crate::actions::adding;
 use crate::model::adding::Addition;
 use crate::state::session::Session;
+use eframe::egui::containers::menu::menu_style;
 use eframe::egui::{self, LayerId, Popup, PopupKind, Ui};
 
 /// The entries of the menu.
@@ -38,6 +39,7 @@ pub fn at_cursor(ctx: &egui::Context, session: &mut Session) {
         LayerId::background(),
     )
     .kind(PopupKind::Menu)
+    .style(menu_style)
     .layout(egui::Layout::top_down_justified(egui::Align::Min))
     .open_memory(None)
     .accessible_name("Add")

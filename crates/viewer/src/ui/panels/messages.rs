@@ -1,6 +1,8 @@
 //! Shows messages until they expire.
 
 use crate::actions::lighting;
+use crate::model::messages::Remedy;
+use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use eframe::egui::{self, Align2, Area, Frame, Id, RichText};
 
@@ -38,17 +40,24 @@ pub fn messages(ui: &mut egui::Ui, context: &mut PanelContext) {
                             }
                             ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| {
                                 ui.add(egui::Label::new(&notice.text).wrap());
-                                ui.horizontal(|ui| {
-                                    for &remedy in notice.remedies {
-                                        if ui.button(remedy.title()).clicked() {
-                                            lighting::remedy(context.session, remedy);
-                                        }
-                                    }
-                                });
+                                if !notice.remedies.is_empty() {
+                                    remedies(ui, context.session, notice.remedies);
+                                }
                             });
                         });
                     });
                 });
             }
         });
+}
+
+/// The ways out of what a message reports.
+fn remedies(ui: &mut egui::Ui, session: &mut Session, remedies: &[Remedy]) {
+    ui.horizontal(|ui| {
+        for &remedy in remedies {
+            if ui.button(remedy.title()).clicked() {
+                lighting::remedy(session, remedy);
+            }
+        }
+    });
 }

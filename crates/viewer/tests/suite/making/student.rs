@@ -88,7 +88,10 @@ fn a_student_builds_the_scene_of_the_exercise_in_two_minutes() {
         Some((Key::X, &[Key::Num1, Key::Period, Key::Num2])),
     );
     student.paint([0.1, 0.1, 0.7]);
-    student.add("Triangle", Some((Key::Z, &[Key::Minus, Key::Num3])));
+    student.add(
+        "Triangle",
+        Some((Key::Y, &[Key::Num1, Key::Period, Key::Num5])),
+    );
     student.paint([0.7, 0.7, 0.1]);
     student.add("Point light", None);
     // The picture of the exercise.
@@ -144,14 +147,14 @@ fn a_student_builds_the_scene_of_the_exercise_in_two_minutes() {
     let [red, blue] = centers.map(|center| color(towards(center)));
     assert!(red[0] > 3.0 * red[1].max(red[2]), "{red:?} is not red");
     assert!(blue[2] > 3.0 * blue[0].max(blue[1]), "{blue:?} is not blue");
-    // The triangle stands between the balls, 3 behind them.
-    let yellow = color(dvec3(0.0, 0.4, -3.0));
+    // The triangle stands above the balls.
+    let yellow = color(dvec3(0.0, 1.3, 0.0));
     assert!(
         yellow[0] > 3.0 * yellow[2] && yellow[1] > 3.0 * yellow[2],
         "{yellow:?} is not yellow"
     );
-    // Where the lamp sees the red ball in front of the ground, there is its shadow.
-    let way = centers[0] - lamp;
+    // Where the lamp sees the red ball in front of the ground, there is its shadow: beside the ball, for the camera.
+    let way = centers[0] + dvec3(0.0, 0.8, 0.0) - lamp;
     let shadow = lamp + way * ((ground.y - lamp.y) / way.y);
     let lit = dvec3(0.0, ground.y, 2.0);
     let (dark, bright) = (color(shadow), color(lit));
