@@ -4,19 +4,11 @@
 //! Frames are first written to files. A run renders the frames that are missing or out of date and then
 //! encodes all of them. So runs are resumable, and a video whose frames are kept can be encoded again without rendering.
 
-mod encode;
-mod fingerprint;
 mod frame_renderer;
-mod journal;
-mod pattern;
 mod plan;
-
 mod target;
 mod timeline;
 
-pub use encode::encode;
-#[cfg(feature = "archive")]
-pub use pattern::Pattern;
 pub use target::Target;
 pub use timeline::Timeline;
 
@@ -24,21 +16,24 @@ use crate::args::{AnimateArgs, LogFlags, SequenceFlags};
 use crate::idle_flags;
 use crate::interrupt::Interrupt;
 use crate::job::{Job, Outcome};
-use crate::lock::Lock;
 use crate::progress::FrameProgress;
 use crate::report::{AnimationReport, Draft};
 use frame_renderer::{FrameRenderer, Sink};
 use glimray_app::clock::Clock;
+use glimray_app::console;
 use glimray_app::error::AppError;
+use glimray_app::lock::Lock;
 use glimray_app::overrides::picture_size;
+use glimray_app::sequence::Files;
+use glimray_app::sequence::encode::encode;
+use glimray_app::sequence::journal::Journal;
 use glimray_io::output::video::{FrameRate, VideoOptions};
 use glimray_render::Stats;
-use journal::Journal;
 use plan::Plan;
 use std::fs;
 use std::path::Path;
 use std::time::Instant;
-use target::{Files, Video};
+use target::Video;
 
 pub fn run(arguments: &AnimateArgs, started: Instant) -> Result<(), AppError> {
     let AnimateArgs {
@@ -114,7 +109,7 @@ pub struct Sequence<'a> {
 }
 
 /// The result of rendering the frames.
-struct Frames {
+struct Rendered {
     plan: Plan,
     rendered: usize,
     /// Time for rendering, developing and writing them, in seconds.
@@ -160,8 +155,8 @@ impl<'a> Sequence<'a> {
         let _deferred = interrupt.defer();
         let lock = files.map(|files| Lock::of_folder(files.pattern.folder()));
         let lock = lock.transpose()?;
-        let mut journal = files.map(|files| Journal::open(&files.pattern));
-        let origin = |number| Ok(renderer.origin(&renderer.view(number)?));
+        let mut journal = files.map(|files| Journal::open(&files.pattern, console::warning));
+        let origin = |number| renderer.origin(number);
         let plan = Plan::new(self, origin, journal.as_ref(), &interrupt)?;
         plan.protect(self, &draft.inputs)?;
         let sink = match (&self.target.video, &video) {
@@ -232,14 +227,11 @@ impl<'a> Sequence<'a> {
         let mut progress = FrameProgress::encoding(self.job.log, count);
         let numbers = self.timeline.numbers();
         let paths: Vec<_> = numbers.map(|number| files.pattern.path(number)).collect();
-        let encoded = encode(
-            &self.target.path,
-            *format,
-            options,
-            &paths,
-            interrupt,
-            |index| progress.encoded(index),
-        );
+        let encoded = encode(&self.target.path, *format, options, &paths, |index| {
+            interrupt.check()?;
+            progress.encoded(index);
+            Ok(())
+        });
         match encoded {
             Ok(()) => Ok(started.elapsed().as_secs_f64()),
             Err(error) => Err(AppError::Stopped {
@@ -253,7 +245,7 @@ impl<'a> Sequence<'a> {
     }
 
     /// Prints what was written.
-    fn print_summary(&self, frames: &Frames, total: f64, encode_seconds: f64) {
+    fn print_summary(&self, frames: &Rendered, total: f64, encode_seconds: f64) {
         let console = self.job.console();
         let count = self.timeline.count;
         let rate = match frames.per_second() {
@@ -283,7 +275,7 @@ impl<'a> Sequence<'a> {
         }
     }
 
-    fn report(&self, frames: &Frames, encode_seconds: f64) -> AnimationReport {
+    fn report(&self, frames: &Rendered, encode_seconds: f64) -> AnimationReport {
         let Timeline {
             clock, first, step, ..
         } = self.timeline;
@@ -308,7 +300,7 @@ impl<'a> Sequence<'a> {
     }
 }
 
-impl Frames {
+impl Rendered {
     /// Rendered frames per second; `None` if no frame was rendered.
     fn per_second(&self) -> Option<f64> {
         (self.rendered > 0 && self.seconds > 0.0).then(|| self.rendered as f64 / self.seconds)

@@ -3,12 +3,12 @@
 
 use crate::args::CheckpointFlags;
 use crate::interrupt::Interrupt;
-use crate::lock::Lock;
 use crate::report::Draft;
 use glimray_app::console;
 use glimray_app::console::Console;
 use glimray_app::error::AppError;
 use glimray_app::inputs::is_same;
+use glimray_app::lock::Lock;
 use glimray_io::output::{self, OutputError};
 use glimray_render::{CheckpointError, Renderer};
 use std::fs::{self, File};

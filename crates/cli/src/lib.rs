@@ -22,7 +22,6 @@ mod inspect;
 mod interrupt;
 mod job;
 mod layers;
-mod lock;
 mod man;
 mod memory;
 mod merge;

@@ -101,7 +101,7 @@ pub use shape::{CanonicalShape, Geometry, Shape};
 pub use sight::Sight;
 pub use texture::{Minify, Pattern, Space, Texture, UvTransform, Wrap};
 pub use transform::{Transform, angles, rotation};
-pub use turntable::{MAX_ELEVATION, Turntable, turntable};
+pub use turntable::{MAX_ELEVATION, Turntable, orbit, turntable};
 
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
@@ -155,6 +155,10 @@ pub struct Scene {
     pub tracks: Vec<Track>,
     /// The clips of the file that it was read from.
     pub clips: Vec<Clip>,
+    /// Names of the material variants of that file, one of which can be chosen when it is read.
+    pub variants: Vec<String>,
+    /// Names of the scenes of that file if it has several, empty where it gives none; this is one of them.
+    pub alternatives: Vec<String>,
     /// The file's output settings; command-line flags override them.
     pub output: OutputDefaults,
     /// Parts of the file that the importer skipped or repaired: the first few of each kind, a sentence each, and how

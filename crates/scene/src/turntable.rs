@@ -63,51 +63,24 @@ pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
     };
     let axis = options.axis.normalize_or(DVec3::Y);
     let center = min.midpoint(max);
-    let placement =
-        DAffine3::from_rotation_translation(DQuat::from_rotation_arc(DVec3::Y, axis), center);
+    let placement = about(axis, center);
     let swept = Swept::new(scene, placement.inverse());
     let elevation = options.elevation.clamp(-MAX_ELEVATION, MAX_ELEVATION);
     let view = swept.view(elevation, options);
 
-    let node = scene.nodes.len();
-    scene.nodes.push(Node {
-        name: "turntable".to_owned(),
-        placement,
-        ..Node::default()
-    });
-    for track in &mut scene.tracks {
-        let is_camera = |target: &Target| matches!(target, Target::Camera(..));
-        track.targets.retain(|target| !is_camera(target));
-    }
-    scene.tracks.retain(|track| !track.targets.is_empty());
-    // The scene turns in the opposite direction to the camera.
-    let turn = if options.clockwise { TAU } else { -TAU };
-    scene.tracks.push(Track {
-        targets: vec![Target::Node(node, NodeProperty::Angles)],
-        curve: Curve {
-            times: vec![0.0, options.seconds],
-            values: Values::Vector(vec![DVec3::ZERO, DVec3::Y * turn]),
-            interpolation: Interpolation::Linear,
-            easing: Easing::None,
-            beyond: Beyond::Repeat,
-        },
-    });
     let look_at = DVec3::Y * view.height;
     // Never 0, not even for a single point far from the origin.
     let radius = swept.radius(view.height);
     let radius = radius.max(1e-6 * center.abs().max_element().max(1e-6));
     let (sin, cos) = elevation.sin_cos();
-    scene.cameras = vec![Camera {
+    let camera = Camera {
         name: "turntable".to_owned(),
         look_from: look_at + view.distance.max(1e-3 * radius) * DVec3::new(0.0, sin, cos),
         look_at,
         fov_y: options.fov_y,
-        node: Some(node),
         ..Camera::default()
-    }];
-    scene.camera_index = 0;
-    scene.blind_cameras = 0;
-    scene.output.duration = Some(options.seconds);
+    };
+    let node = circle(scene, camera, placement, options.seconds, options.clockwise);
     if scene.staged {
         let Scene {
             shapes, materials, ..
@@ -140,6 +113,83 @@ pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
     }
     scene.staged = false;
     true
+}
+
+/// Lets `camera`, which is in world space, circle the axis through `around`, a point and a direction of any length but 0,
+/// once in `seconds` (above 0). It takes the place of all cameras. The scene appears to turn `clockwise` or not, seen from
+/// the tip of the axis.
+pub fn orbit(
+    scene: &mut Scene,
+    camera: &Camera,
+    around: (DVec3, DVec3),
+    seconds: f64,
+    clockwise: bool,
+) {
+    let (center, axis) = around;
+    let placement = about(axis.normalize_or(DVec3::Y), center);
+    let inverse = placement.inverse();
+    let camera = Camera {
+        look_from: inverse.transform_point3(camera.look_from),
+        look_at: inverse.transform_point3(camera.look_at),
+        up: inverse.transform_vector3(camera.up),
+        ..camera.clone()
+    };
+    circle(scene, camera, placement, seconds, clockwise);
+}
+
+impl Scene {
+    /// Lets the scene be seen by this camera alone, which is in world space and stands still.
+    pub fn hold_camera(&mut self, camera: Camera) {
+        for track in &mut self.tracks {
+            let is_camera = |target: &Target| matches!(target, Target::Camera(..));
+            track.targets.retain(|target| !is_camera(target));
+        }
+        self.tracks.retain(|track| !track.targets.is_empty());
+        self.cameras = vec![camera];
+        self.camera_index = 0;
+        self.blind_cameras = 0;
+    }
+}
+
+/// The space whose y axis goes through `center` along `axis`, which is a unit vector.
+fn about(axis: DVec3, center: DVec3) -> DAffine3 {
+    DAffine3::from_rotation_translation(DQuat::from_rotation_arc(DVec3::Y, axis), center)
+}
+
+/// Replaces the cameras with one that circles the y axis of the space `placement`, in which it is given, once in
+/// `seconds`. Returns the index of its node.
+fn circle(
+    scene: &mut Scene,
+    camera: Camera,
+    placement: DAffine3,
+    seconds: f64,
+    clockwise: bool,
+) -> usize {
+    let node = scene.nodes.len();
+    scene.nodes.push(Node {
+        name: "turntable".to_owned(),
+        placement,
+        ..Node::default()
+    });
+    scene.hold_camera(Camera {
+        node: Some(node),
+        target: None,
+        ..camera
+    });
+    // The scene turns in the opposite direction to the camera.
+    let turn = if clockwise { TAU } else { -TAU };
+    scene.tracks.push(Track {
+        targets: vec![Target::Node(node, NodeProperty::Angles)],
+        curve: Curve {
+            times: vec![0.0, seconds],
+            values: Values::Vector(vec![DVec3::ZERO, DVec3::Y * turn]),
+            interpolation: Interpolation::Linear,
+            easing: Easing::None,
+            beyond: Beyond::Repeat,
+        },
+    });
+    scene.output.duration = Some(seconds);
+    node
 }
 
 /// A soft key light from the front right above, a fill light from the front left and a back light, for

@@ -1,46 +1,33 @@
 //! Renders frames. All of them share one renderer, so that only moving geometry is uploaded per frame.
 
-use crate::animate::fingerprint;
-use crate::animate::fingerprint::Fingerprint;
-use crate::animate::journal::{Journal, Origin};
 use crate::animate::plan::Plan;
-use crate::animate::target::Files;
-use crate::animate::{Frames, Sequence};
-use crate::args::LayerFlags;
+use crate::animate::{Rendered, Sequence};
 use crate::device;
 use crate::interrupt::Interrupt;
 use crate::layers::Finished;
 use crate::progress::FrameProgress;
 use crate::report::FetchReport;
 use glimray_app::error::AppError;
+use glimray_app::sequence::frames::{self, Frames};
+use glimray_app::sequence::journal::{Journal, Origin};
 use glimray_app::storage;
+use glimray_io::output::OutputError;
 use glimray_io::output::video::{self, Picture8, VideoOptions, Y4mWriter};
-use glimray_io::output::{self, Format, OutputError};
-use glimray_render::gpu::{AdapterReport, Gpu};
-use glimray_render::pack::{self, PackedScene, PackedView};
-use glimray_render::{
-    self as render, CatcherLight, ExecutionPolicy, RenderSettings, Renderer, Stats, Tone,
-};
+use glimray_render::gpu::Gpu;
+use glimray_render::pack::PackedView;
+use glimray_render::{CatcherLight, ExecutionPolicy, RenderSettings, Stats, Tone};
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::Instant;
 
 /// Renders, develops and saves the frames of a sequence.
 pub struct FrameRenderer<'a> {
     sequence: &'a Sequence<'a>,
-    settings: RenderSettings,
+    frames: Frames<'a>,
     tone: Tone,
-    scene: Arc<PackedScene>,
-    adapter: Option<AdapterReport>,
-    /// The adapter until the renderer takes it; always `None` if nothing may be rendered.
-    gpu: Option<Gpu>,
-    renderer: Option<Renderer>,
     /// The number of frames to be rendered.
     missing: usize,
-    /// Fingerprints of the scene and of the settings.
-    fingerprints: (Fingerprint, Fingerprint),
     write_seconds: f64,
     denoise_seconds: f64,
     catcher_light: CatcherLight,
@@ -57,25 +44,19 @@ impl<'a> FrameRenderer<'a> {
         settings: RenderSettings,
         gpu: Option<Gpu>,
     ) -> Result<Self, AppError> {
-        let scene = Arc::new(pack::scene(&sequence.job.scene)?);
         let tone = (sequence.job).tone(&settings, sequence.target.is_linear());
+        let layers = &sequence.job.layers.layers;
+        let layers = match layers.is_empty() {
+            false => format!(" {layers:?}"),
+            true => String::new(),
+        };
+        let files = sequence.target.frames.as_ref();
+        let fingerprint = frames::of_settings(&settings, &tone, files, &layers);
+        let (scene, clock) = (&sequence.job.scene, sequence.timeline.clock);
         Ok(Self {
-            fingerprints: (
-                render::Fingerprint::of_scene(&scene).to_string(),
-                of_settings(
-                    &settings,
-                    &tone,
-                    sequence.target.frames.as_ref(),
-                    sequence.job.layers,
-                ),
-            ),
-            adapter: gpu.as_ref().map(|gpu| gpu.adapter().clone()),
+            frames: Frames::new(scene, clock, settings, fingerprint, gpu)?,
             sequence,
-            settings,
             tone,
-            scene,
-            gpu,
-            renderer: None,
             missing: 0,
             write_seconds: 0.0,
             denoise_seconds: 0.0,
@@ -86,12 +67,12 @@ impl<'a> FrameRenderer<'a> {
     }
 
     pub fn settings(&self) -> &RenderSettings {
-        &self.settings
+        self.frames.settings()
     }
 
     /// Time to build the BVHs, in seconds.
     pub fn build_seconds(&self) -> f64 {
-        self.scene.build_seconds
+        self.frames.build_seconds()
     }
 
     /// Time to write frames, in seconds.
@@ -114,32 +95,9 @@ impl<'a> FrameRenderer<'a> {
         self.fetch.clone()
     }
 
-    /// The packed view of a frame: camera, lights and moving geometry during its exposure.
-    pub fn view(&self, number: u32) -> Result<PackedView, AppError> {
-        let (open, close) = self.sequence.timeline.clock.frame(number);
-        Ok(self
-            .scene
-            .view(&self.sequence.job.scene.motion_samples(open, close))?)
-    }
-
-    /// The origin of a frame with this view.
-    pub fn origin(&self, view: &PackedView) -> Origin {
-        let (scene, settings) = self.fingerprints.clone();
-        Origin {
-            scene,
-            view: render::Fingerprint::of_view(view).to_string(),
-            settings,
-            renderer: self.adapter.as_ref().map(|adapter| {
-                let AdapterReport {
-                    name,
-                    backend,
-                    driver,
-                    ..
-                } = adapter;
-                let version = env!("CARGO_PKG_VERSION");
-                format!("glimray {version}, {backend}, {name}, {driver}")
-            }),
-        }
+    /// The origin of frame `number`.
+    pub fn origin(&self, number: u32) -> Result<Origin, AppError> {
+        Ok(self.frames.origin(&self.frames.view(number)?))
     }
 
     /// Renders every frame that is not done, and sends all of them to `sink`.
@@ -152,15 +110,15 @@ impl<'a> FrameRenderer<'a> {
         mut journal: Option<&mut Journal>,
         mut sink: Option<Sink>,
         interrupt: &Interrupt,
-    ) -> Result<Frames, AppError> {
+    ) -> Result<Rendered, AppError> {
         let (count, reused) = (plan.count(), plan.done_count());
         self.missing = count - reused;
-        if let Some(adapter) = self.adapter.as_ref().filter(|_| reused < count) {
+        if let Some(adapter) = self.frames.adapter().filter(|_| reused < count) {
             let what = match count - reused {
                 1 => "1 frame of ".to_owned(),
                 missing => format!("{missing} frames of "),
             };
-            (self.sequence.job).announce(&what, &self.settings, adapter);
+            (self.sequence.job).announce(&what, self.settings(), adapter);
         }
         let started = Instant::now();
         let mut progress = FrameProgress::new(self.sequence.job.log, count, reused);
@@ -169,7 +127,7 @@ impl<'a> FrameRenderer<'a> {
             let mut step = || {
                 interrupt.check()?;
                 if !done {
-                    let view = self.view(number)?;
+                    let view = self.frames.view(number)?;
                     let picture = self.frame(number, &view, &mut progress, interrupt)?;
                     self.save(number, &view, &picture, journal.as_deref_mut())?;
                     rendered += 1;
@@ -195,12 +153,12 @@ impl<'a> FrameRenderer<'a> {
             sink.finish()?;
         }
         if rendered > 0 && self.black == rendered {
-            (self.sequence.job).warn_of_darkness(&self.tone, &self.settings);
+            (self.sequence.job).warn_of_darkness(&self.tone, self.settings());
         }
-        Ok(Frames {
+        Ok(Rendered {
             rendered,
             seconds: started.elapsed().as_secs_f64(),
-            adapter: self.adapter.clone(),
+            adapter: self.frames.adapter().cloned(),
             stats: self.stats(),
             plan,
         })
@@ -213,25 +171,16 @@ impl<'a> FrameRenderer<'a> {
         progress: &mut FrameProgress,
         interrupt: &Interrupt,
     ) -> Result<Finished, AppError> {
-        let renderer = match (&mut self.renderer, self.gpu.take()) {
-            (Some(renderer), _) => {
-                renderer.set_frame(view)?;
-                renderer
-            }
-            (empty, Some(gpu)) => {
-                let settings = self.settings.clone();
-                let picture_count = u32::try_from(self.missing.max(1)).unwrap_or(u32::MAX);
-                let policy = storage::with_requested(ExecutionPolicy {
-                    picture_count,
-                    ..self.sequence.job.policy()
-                })?;
-                let scene = self.scene.clone();
-                let renderer = Renderer::new(gpu, scene, view, settings, policy)?;
-                self.fetch = Some(device::fetch_report(&renderer)?);
-                empty.insert(renderer)
-            }
-            (None, None) => return Err(AppError::Internal("there is no adapter".into())),
-        };
+        let (job, missing) = (&self.sequence.job, self.missing.max(1));
+        let renderer = self.frames.begin(view, || {
+            storage::with_requested(ExecutionPolicy {
+                picture_count: u32::try_from(missing).unwrap_or(u32::MAX),
+                ..job.policy()
+            })
+        })?;
+        if self.fetch.is_none() {
+            self.fetch = Some(device::fetch_report(renderer)?);
+        }
         while !renderer.is_done() {
             interrupt.check()?;
             renderer.step()?;
@@ -241,7 +190,7 @@ impl<'a> FrameRenderer<'a> {
         let takes_layers = self.sequence.target.takes_layers();
         let picture = (self.sequence.job).finish(renderer, &self.tone, takes_layers)?;
         self.denoise_seconds += picture.denoise_seconds().unwrap_or_default();
-        let is_black = (self.sequence.job).is_black(&picture.image, &self.tone, &self.settings);
+        let is_black = (self.sequence.job).is_black(&picture.image, &self.tone, self.settings());
         self.black += usize::from(is_black);
         Ok(picture)
     }
@@ -257,21 +206,17 @@ impl<'a> FrameRenderer<'a> {
             return Ok(());
         };
         let started = Instant::now();
-        let path = files.pattern.path(number);
-        if journal.is_unfinished(number) {
-            // Removes the partial file of a run that was killed while writing this frame.
-            let image = &picture.image;
-            output::check(&path, &files.options, image.width, image.height)?;
-        }
-        journal.record_start(number)?;
-        picture.save(&path, &files.options)?;
-        journal.record_finish(&files.pattern, number, self.origin(view))?;
+        let (origin, image) = (self.frames.origin(view), &picture.image);
+        let size = (image.width, image.height);
+        journal.write(files, number, origin, size, |path| {
+            picture.save(path, &files.options)
+        })?;
         self.write_seconds += started.elapsed().as_secs_f64();
         Ok(())
     }
 
     fn stats(&self) -> Stats {
-        (self.renderer.as_ref()).map_or_else(Stats::default, |renderer| renderer.stats().clone())
+        (self.frames.renderer()).map_or_else(Stats::default, |renderer| renderer.stats().clone())
     }
 }
 
@@ -321,27 +266,6 @@ fn write_error(path: &Path, source: io::Error) -> OutputError {
             source,
         },
     }
-}
-
-/// The fingerprint of everything except scene and view that affects a frame's file.
-fn of_settings(
-    settings: &RenderSettings,
-    tone: &Tone,
-    files: Option<&Files>,
-    layers: &LayerFlags,
-) -> Fingerprint {
-    let format = match files {
-        // Quality affects only lossy formats.
-        Some(files) if files.format == Format::Jpeg => format!("JPEG {}", files.options.quality),
-        Some(files) => files.format.to_string(),
-        None => String::new(),
-    };
-    let (settings, tone) = (settings.fingerprint(), tone.fingerprint());
-    let layers = match layers.layers.is_empty() {
-        false => format!(" {layers:?}"),
-        true => String::new(),
-    };
-    fingerprint::of_text(&format!("{settings} {tone} {format}{layers}"))
 }
 
 /// Adds to an error at frame `number` how to resume: `kept` frames are in files, or, without files, `sent`

@@ -1,11 +1,11 @@
 //! Decides which existing frames are reused and which are rendered.
 
 use crate::animate::Sequence;
-use crate::animate::journal::{Journal, Origin, State};
 use crate::interrupt::Interrupt;
 use crate::report::Redone;
 use glimray_app::error::AppError;
 use glimray_app::inputs::Inputs;
+use glimray_app::sequence::journal::{Journal, Origin, State};
 use glimray_io::output;
 
 /// Largest number of frame ranges in a message.
@@ -55,7 +55,7 @@ impl Plan {
                 output::check_no_link(&path)?;
             }
             if *state != State::Done || !sequence.target.keeps_frames {
-                inputs.refuse_overwrite(&path, "frame", files.flag(&sequence.target))?;
+                inputs.refuse_overwrite(&path, "frame", sequence.target.frames_flag())?;
             }
         }
         Ok(())

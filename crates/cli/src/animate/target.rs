@@ -1,13 +1,14 @@
 //! Where an animation is written: frame files, a video, or a stream.
 
-use crate::animate::pattern::Pattern;
 use crate::args::{LogFlags, SequenceFlags, SequenceFormat};
-use crate::{destination, job, lock};
+use crate::{destination, job};
 use glimray_app::error::AppError;
 use glimray_app::inputs::Inputs;
+use glimray_app::lock;
+use glimray_app::sequence::pattern::Pattern;
+use glimray_app::sequence::{Files, frames_folder};
 use glimray_io::output::video::{self, VideoFormat, VideoOptions};
-use glimray_io::output::{self, Format, OutputError, SaveOptions};
-use std::ffi::OsString;
+use glimray_io::output::{self, Format, OutputError};
 use std::path::{Path, PathBuf};
 
 /// The output of an animation.
@@ -19,13 +20,6 @@ pub struct Target {
     /// Whether the frames stay when all is written.
     pub keeps_frames: bool,
     pub video: Option<Video>,
-}
-
-/// One file per frame.
-pub struct Files {
-    pub pattern: Pattern,
-    pub format: Format,
-    pub options: SaveOptions,
 }
 
 /// The video that the frames are encoded to.
@@ -80,17 +74,13 @@ impl Target {
                         VideoFormat::ENDINGS
                     ))
                 })?;
-                Some((pattern, format))
+                Some(Files::new(pattern, format, flags.quality))
             }
-            (_, Some(Video::Stream)) => (flags.frames_dir.as_deref()).map(kept_frames),
-            _ => {
-                let beside = || {
-                    let mut folder = OsString::from(&path);
-                    folder.push(".frames");
-                    folder.into()
-                };
-                let folder = flags.frames_dir.clone().unwrap_or_else(beside);
-                Some(kept_frames(&folder))
+            (_, video) => {
+                let beside = || frames_folder(&path);
+                let usual = (!matches!(video, Some(Video::Stream))).then(beside);
+                let folder = flags.frames_dir.clone().or(usual);
+                folder.map(|folder| Files::of_video(&folder, flags.quality))
             }
         };
         for (given, flag) in [
@@ -111,21 +101,18 @@ impl Target {
             video.is_none() || flags.keep_frames || flags.frames_dir.is_some() || flags.encode_only;
         Ok(Self {
             keeps_frames: is_asked_for && !flags.discard_frames,
-            frames: frames.map(|(pattern, format)| Files {
-                pattern,
-                format,
-                options: SaveOptions {
-                    format: Some(format),
-                    quality: flags.quality,
-                    clobber: true,
-                    follow_links: false,
-                    place: None,
-                    opacity: false,
-                },
-            }),
+            frames,
             path,
             video,
         })
+    }
+
+    /// The flag that names where the frames are.
+    pub fn frames_flag(&self) -> &'static str {
+        match self.video {
+            Some(_) => "--frames-dir",
+            None => "-o",
+        }
     }
 
     /// Whether the frames store linear radiance rather than display values.
@@ -166,7 +153,8 @@ impl Target {
             )));
         }
         let beside = [files.pattern.journal(), lock::path(files.pattern.folder())];
-        (beside.iter()).try_for_each(|path| inputs.refuse_overwrite(path, "file", files.flag(self)))
+        (beside.iter())
+            .try_for_each(|path| inputs.refuse_overwrite(path, "file", self.frames_flag()))
     }
 
     /// Finds errors of writing the output before rendering starts, and creates the folder of the frames if
@@ -210,16 +198,6 @@ impl Target {
     }
 }
 
-impl Files {
-    /// The flag that names their location.
-    pub fn flag(&self, target: &Target) -> &'static str {
-        match target.video {
-            Some(_) => "--frames-dir",
-            None => "-o",
-        }
-    }
-}
-
 /// Whether `path` is standard output, a pipe or a device.
 fn is_stream(path: &Path) -> bool {
     let found = || path.metadata();
@@ -259,11 +237,6 @@ fn format_of(path: &Path) -> Result<SequenceFormat, AppError> {
                 Format::ENDINGS
             ))
         })
-}
-
-/// Pattern and format of the kept frames of a video.
-fn kept_frames(folder: &Path) -> (Pattern, Format) {
-    (Pattern::in_folder(folder, "frame_", ".png"), Format::Png)
 }
 
 /// Creates the last folder of a path, but not its parents.

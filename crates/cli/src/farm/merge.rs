@@ -3,12 +3,14 @@
 use super::manifest::{Frames, Manifest};
 use super::results::{Depth, State, foreign, frame_files, state, unfinished};
 use super::{Folder, frames, numbered};
-use crate::animate::{Pattern, encode, rate};
+use crate::animate::rate;
 use crate::args::FarmMergeArgs;
 use crate::interrupt::Interrupt;
 use glimray_app::console;
 use glimray_app::console::Console;
 use glimray_app::error::AppError;
+use glimray_app::sequence::encode::encode;
+use glimray_app::sequence::pattern::Pattern;
 use glimray_io::output;
 use glimray_io::output::video::{VideoFormat, VideoOptions};
 use std::collections::{BTreeMap, BTreeSet};
@@ -189,7 +191,7 @@ impl Merge<'_> {
             clobber: true,
         };
         let _deferred = interrupt.defer();
-        encode(output, format, &options, files, interrupt, |_| ())
+        encode(output, format, &options, files, |_| interrupt.check())
     }
 
     fn frames(

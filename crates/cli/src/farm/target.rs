@@ -1,10 +1,11 @@
 //! The output of a farm, checked before rendering: plans refuse what `render` and `animate` refuse.
 
-use crate::animate::{Pattern, Timeline, rate};
+use crate::animate::{Timeline, rate};
 use crate::args::{FarmPlanArgs, MomentFlags};
 use crate::job::Job;
 use glimray_app::error::AppError;
 use glimray_app::overrides::picture_size;
+use glimray_app::sequence::pattern::Pattern;
 use glimray_io::output::video::{self, VideoFormat, VideoOptions};
 use glimray_io::output::{self, Format, SaveOptions};
 use std::path::Path;

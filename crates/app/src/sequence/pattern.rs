@@ -1,6 +1,6 @@
 //! Name patterns of numbered files: `walk_%04d.png` or `walk_####.png`.
 
-use glimray_app::inputs::is_same;
+use crate::inputs::is_same;
 use std::path::{Path, PathBuf};
 
 /// A file name with a placeholder for a number, in a folder.

@@ -1,8 +1,8 @@
 //! Allows one run at a time per folder of frames and per checkpoint. The system releases the lock when a process ends,
 //! however it ends, so a killed run blocks nobody.
 
-use glimray_app::console;
-use glimray_app::error::AppError;
+use super::console;
+use super::error::AppError;
 use glimray_io::output::{self, OutputError, RemoveOnExit};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind};

@@ -3,11 +3,10 @@
 //! last line is ignored. A run that ends rewrites the file in frame order, so that the same frames give the
 //! same journal, in whatever order they were rendered.
 
-use crate::animate::fingerprint;
-use crate::animate::fingerprint::Fingerprint;
-use crate::animate::pattern::Pattern;
-use glimray_app::console;
-use glimray_app::error::AppError;
+use super::Files;
+use super::fingerprint::{self, Fingerprint};
+use super::pattern::Pattern;
+use crate::error::AppError;
 use glimray_io::output::{self, OutputError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -39,8 +38,11 @@ struct Line {
 pub struct Record {
     /// File name in the folder.
     pub file: String,
+    /// Length of the file.
     pub bytes: u64,
+    /// Fingerprint of the file.
     pub content: Fingerprint,
+    /// What it was rendered from.
     #[serde(flatten)]
     pub origin: Origin,
 }
@@ -81,11 +83,11 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Reads the journal, if there is one. A file that is not a journal causes a warning and is ignored.
-    pub fn open(pattern: &Pattern) -> Self {
+    /// Reads the journal, if there is one. A file that is not a journal is ignored, and `warn` is told so.
+    pub fn open(pattern: &Pattern, warn: impl FnOnce(String)) -> Self {
         let path = pattern.journal();
         let frames = read(&path).unwrap_or_else(|why| {
-            console::warning(format_args!(
+            warn(format!(
                 "cannot use the frame journal ({}): {why}. All frames are rendered again.",
                 path.display()
             ));
@@ -100,6 +102,9 @@ impl Journal {
 
     /// The state of a frame's file for a run that would render it from `origin`, which is computed only if
     /// needed.
+    ///
+    /// # Errors
+    /// That of `origin`.
     pub fn state(
         &self,
         pattern: &Pattern,
@@ -141,24 +146,27 @@ impl Journal {
         })
     }
 
-    /// Whether an earlier run ended while writing a frame's file.
-    pub fn is_unfinished(&self, number: u32) -> bool {
-        matches!(self.frames.get(&number), Some(None))
-    }
-
-    /// Records that a frame's file is about to be written.
-    pub fn record_start(&mut self, number: u32) -> Result<(), AppError> {
-        self.add(number, None)
-    }
-
-    /// Records that a frame's file is complete, with its fingerprint.
-    pub fn record_finish(
+    /// Writes a frame's file with `save`, which gets its path, between two lines. `size` is its width and height in
+    /// pixels.
+    ///
+    /// # Errors
+    /// Those of `save`, and of writing the journal.
+    pub fn write(
         &mut self,
-        pattern: &Pattern,
+        files: &Files,
         number: u32,
         origin: Origin,
+        size: (u32, u32),
+        save: impl FnOnce(&Path) -> Result<(), OutputError>,
     ) -> Result<(), AppError> {
+        let pattern = &files.pattern;
         let path = pattern.path(number);
+        if matches!(self.frames.get(&number), Some(None)) {
+            // Removes the partial file of a run that was killed while writing this frame.
+            output::check(&path, &files.options, size.0, size.1)?;
+        }
+        self.add(number, None)?;
+        save(&path)?;
         let (bytes, content) = fingerprint::of_file(&path).map_err(|source| OutputError::Io {
             path: path.clone(),
             source,
