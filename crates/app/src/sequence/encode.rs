@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// Encodes the frames in these files. `before` is told the index of each frame before it is read, and may end the work.
 ///
 /// # Errors
-/// That of `before`; those of reading frames and of writing the video, which is then absent.
+/// `before` failed, a frame cannot be read, or the video cannot be written; the video is then absent.
 pub fn encode(
     path: &Path,
     format: VideoFormat,

@@ -70,7 +70,7 @@ impl<'a> Frames<'a> {
     /// The packed view of a frame: camera, lights and moving geometry during its exposure.
     ///
     /// # Errors
-    /// It cannot be packed.
+    /// The view cannot be packed.
     pub fn view(&self, number: u32) -> Result<PackedView, AppError> {
         let (open, close) = self.clock.frame(number);
         Ok(self.packed.view(&self.scene.motion_samples(open, close))?)
@@ -99,7 +99,7 @@ impl<'a> Frames<'a> {
     /// The renderer at the start of a frame with this view. `policy` is asked for at the first one.
     ///
     /// # Errors
-    /// That of `policy`; the frame cannot be rendered, or there is no adapter.
+    /// `policy` failed, the frame cannot be rendered, or there is no adapter.
     pub fn begin(
         &mut self,
         view: &PackedView,

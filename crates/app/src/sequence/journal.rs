@@ -42,7 +42,7 @@ pub struct Record {
     pub bytes: u64,
     /// Fingerprint of the file.
     pub content: Fingerprint,
-    /// What it was rendered from.
+    /// Fingerprints of the inputs.
     #[serde(flatten)]
     pub origin: Origin,
 }
@@ -104,7 +104,7 @@ impl Journal {
     /// needed.
     ///
     /// # Errors
-    /// That of `origin`.
+    /// `origin` failed.
     pub fn state(
         &self,
         pattern: &Pattern,
@@ -150,7 +150,7 @@ impl Journal {
     /// pixels.
     ///
     /// # Errors
-    /// Those of `save`, and of writing the journal.
+    /// `save` failed, or the journal cannot be written.
     pub fn write(
         &mut self,
         files: &Files,

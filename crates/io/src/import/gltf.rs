@@ -250,6 +250,12 @@ pub(super) fn read(
         seconds: None,
     });
     reader.scene.clips = all.collect();
+    let variants = document.extensions.variants.iter();
+    let variants = variants.flat_map(|it| &it.variants);
+    reader.scene.variants = variants.map(|variant| variant.name.clone()).collect();
+    let scenes = document.scenes.iter().filter(|_| document.scenes.len() > 1);
+    let scenes = scenes.map(|scene| scene.name.clone().unwrap_or_default());
+    reader.scene.alternatives = scenes.collect();
     for clip in clips {
         reader.tracks(clip)?;
     }
