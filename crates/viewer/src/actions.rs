@@ -13,6 +13,7 @@ pub mod inspector;
 pub mod lighting;
 pub mod modal;
 pub mod output_defaults;
+pub mod pixel_values;
 pub mod region;
 pub mod saving;
 pub mod selecting;

@@ -2,6 +2,9 @@
 
 pub mod classical;
 pub mod comparison;
+pub mod film;
+pub mod free_name;
+pub mod job;
 pub mod progressive_image;
 pub mod render_thread;
 pub mod request;

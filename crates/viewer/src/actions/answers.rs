@@ -3,6 +3,7 @@
 use crate::actions::comparing;
 use crate::actions::files::pictures;
 use crate::actions::inspector;
+use crate::actions::pixel_values;
 use crate::actions::tools;
 use crate::state::answer::Answer;
 use crate::state::session::Session;
@@ -16,8 +17,10 @@ impl Session {
             Answer::Rays(outcome) => inspector::handle_rays(self, outcome),
             Answer::Hidden(parts) => self.inspector.hidden.set(parts),
             Answer::Histogram(histogram) => self.histogram.set(histogram),
+            Answer::PixelValues(pixels) => pixel_values::read(self, pixels),
             Answer::Snapshot(snapshot) => comparing::kept(self, *snapshot),
             Answer::Nothing => {}
+            Answer::Copied(image) => self.files.copied = Some(image),
             Answer::Picture(picture) => pictures::captured(self, *picture),
             Answer::Failed(why) => self.messages.warn(why),
         }

@@ -88,7 +88,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         | Action::FlyFaster
         | Action::SnapHandles
         | Action::FineHandles => {}
-        Action::SetPivot | Action::FocusHere | Action::Select => {
+        Action::SetPivot | Action::FocusHere | Action::Select | Action::PictureMenu => {
             tools::pick_under_cursor(session, action, ctx);
         }
         Action::OrbitLeft => camera(session, |it| it.orbit_by(-TURN, 0.0)),
@@ -139,6 +139,8 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::ShowDifference => session.view.compare(Sharing::Difference(GAIN)),
         Action::SwapSides => session.view.swap_sides(),
         Action::KeepSnapshot => comparing::keep_snapshot(session),
+        Action::FlipKept => comparing::flip(session),
+        Action::NextKept => comparing::flip_to_next(session),
         Action::OpenReference => comparing::ask_reference(session, ctx),
         Action::ExposureUp => session.view.tone.exposure_ev += EXPOSURE_STEP,
         Action::ExposureDown => session.view.tone.exposure_ev -= EXPOSURE_STEP,
@@ -152,6 +154,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::RestartRender => session.restart(),
         Action::MoreSamples => session.view.scale_samples(2.0),
         Action::FewerSamples => session.view.scale_samples(0.5),
+        Action::Film => files::film::open(session),
         Action::PlayPause => session.playback.toggle(),
         Action::StepForward => session.playback.step(1),
         Action::StepBack => session.playback.step(-1),
@@ -183,6 +186,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::SaveScene => saving::save(session),
         Action::SaveSceneAs => saving::ask(session),
         Action::SavePicture => files::pictures::open(session, false),
+        Action::CopyPicture => files::pictures::copy(session),
         Action::SavePictureWithOverlays if session.viewport.is_none() => {
             session
                 .messages

@@ -2,7 +2,7 @@
 
 use crate::model::file_dialog::{self, Reply, Request};
 use crate::model::gallery::{MOST, Snapshot, StillId};
-use crate::model::view_settings::Source;
+use crate::model::view_settings::{Comparison, Sharing, Source};
 use crate::state::answer::Answer;
 use crate::state::comparing::Reading;
 use crate::state::session::Session;
@@ -68,6 +68,64 @@ pub fn kept(session: &mut Session, snapshot: Snapshot) {
     session.view.proposed = Some(Source::Still(still.id));
     let told = format!("Kept {}. Choose a comparison to see it", still.name);
     session.messages.notify(told);
+}
+
+/// Shows the kept picture in place of the present one, or the present one again: the one that was compared with last, or
+/// else the last one that was kept.
+pub fn flip(session: &mut Session) {
+    match flipped(session) {
+        Some(_) => session.view.comparison = None,
+        None => {
+            let proposed = session
+                .view
+                .proposed
+                .or(session.view.comparison.map(|it| it.source));
+            let still = match proposed {
+                Some(Source::Still(id)) => Some(id),
+                _ => session.comparing.gallery.all().last().map(|still| still.id),
+            };
+            show(session, still);
+        }
+    }
+}
+
+/// Shows the kept picture after the one that is shown, or the first.
+pub fn flip_to_next(session: &mut Session) {
+    let all = session.comparing.gallery.all();
+    let now = flipped(session);
+    let now = now.and_then(|id| all.iter().position(|still| still.id == id));
+    let next = now.map_or(0, |index| (index + 1) % all.len());
+    show(session, all.get(next).map(|still| still.id));
+}
+
+/// The kept picture that is shown in place of the present one.
+fn flipped(session: &Session) -> Option<StillId> {
+    match session.view.comparison? {
+        Comparison {
+            source: Source::Still(id),
+            sharing: Sharing::Wipe(share),
+        } if share <= 0.0 => Some(id),
+        _ => None,
+    }
+}
+
+/// Shows a kept picture in place of the present one.
+fn show(session: &mut Session, still: Option<StillId>) {
+    let Some(id) = still else {
+        session
+            .messages
+            .notify("No picture is kept yet. Keep a snapshot first");
+        return;
+    };
+    let source = Source::Still(id);
+    session.view.proposed = Some(source);
+    // A wipe whose line is at the left edge.
+    let sharing = Sharing::Wipe(0.0);
+    session.view.comparison = Some(Comparison { source, sharing });
+    if let Some(still) = session.comparing.gallery.get(id) {
+        let name = still.name.clone();
+        session.messages.notify(format!("Showing {name}"));
+    }
 }
 
 /// Forgets a still and ends its comparison.

@@ -3,15 +3,18 @@
 pub mod cameras;
 mod closing;
 mod dropped;
+pub mod film;
+pub mod parts;
 pub mod pictures;
 mod screenshot;
 
 use crate::model::file_dialog::{self, Reply, Request, ends_in};
 use crate::model::watch::Change;
 use crate::state::files::Broken;
-use crate::state::files::Intent;
+use crate::state::files::{Intent, Part};
 use crate::state::session::Session;
-use crate::state::session::opening::Opened;
+use crate::state::session::opening::{Opened, forget_parts};
+pub use crate::worker::free_name::short;
 use eframe::egui::{self, ViewportCommand};
 use glimray_app::advice;
 use glimray_app::error::AppError;
@@ -77,11 +80,20 @@ pub fn go_on(session: &mut Session, intent: Intent) {
             session.files.watch.accept();
             session.reload();
         }
+        Intent::Choose(part, name) => {
+            let options = &mut session.request.import;
+            match part {
+                Part::Clip => options.clip = name,
+                Part::Variant => options.variant = name,
+                Part::Scene => options.scene = name,
+            }
+            session.reload();
+        }
         Intent::Close if session.files.waits_to_save() => {
             session.files.undecided = Some(Intent::CloseUnfinished);
         }
         Intent::Close | Intent::CloseUnfinished => {
-            pictures::cancel(session);
+            session.files.jobs.cancel_lasting();
             session.files.may_close = true;
         }
     }
@@ -163,7 +175,8 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     }
     take_environment(session);
     reload_changed(session, ctx);
-    pictures::update(session);
+    pictures::update(session, ctx);
+    film::update(session);
     screenshot::update(session, ctx);
     closing::close(session, ctx);
     name(session, ctx);
@@ -289,7 +302,7 @@ pub fn saved(session: &mut Session, files: Vec<PathBuf>) {
     // The file contains the overrides of the command line now.
     session.original = session.scene().cloned();
     session.request.overrides.camera = CameraOverrides::default();
-    session.request.import.overrides.clear();
+    forget_parts(&mut session.request.import);
     session.path = files.last().cloned();
     session.files.broken = None;
     session.files.is_gone = false;
@@ -348,12 +361,6 @@ fn name(session: &mut Session, ctx: &egui::Context) {
         ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
         session.files.title = title;
     }
-}
-
-/// The file name without its folder, for messages.
-pub fn short(path: &Path) -> String {
-    let name = path.file_name().unwrap_or(path.as_os_str());
-    name.to_string_lossy().into_owned()
 }
 
 /// Whether the file name is that of a scene.

@@ -9,6 +9,7 @@ use crate::model::tool::{Purpose, Tool};
 use crate::model::viewport::Viewport;
 use crate::state::answer::Answer;
 use crate::state::layout::Layout;
+use crate::state::picture_menu::PictureMenu;
 use crate::state::session::Session;
 use crate::worker::progressive_image::{FrameRenderer, Progress};
 use eframe::egui::{self, LayerId, PointerButton, Pos2, Vec2};
@@ -144,8 +145,9 @@ pub fn move_camera(
 pub fn pick_under_cursor(session: &mut Session, action: Action, ctx: &egui::Context) {
     let pointer = ctx.pointer_hover_pos();
     let pointer = pointer.filter(|point| ctx.layer_id_at(*point) == Some(LayerId::background()));
-    match (pointer.zip(session.viewport)).and_then(|(point, view)| view.pixel(point)) {
-        Some(pixel) => pick(session, action, pixel),
+    let pixel = (pointer.zip(session.viewport)).and_then(|(point, view)| view.pixel(point));
+    match pointer.zip(pixel) {
+        Some((point, pixel)) => pick(session, action, point, pixel),
         None => (session.messages).notify("Move the cursor over the picture first"),
     }
 }
@@ -153,8 +155,10 @@ pub fn pick_under_cursor(session: &mut Session, action: Action, ctx: &egui::Cont
 /// The command of a click; a click without modifiers belongs to the tool.
 fn click(session: &mut Session, action: Option<Action>, pointer: Option<Pos2>) {
     let pixel = (pointer.zip(session.viewport)).and_then(|(point, view)| view.pixel(point));
-    match (action, pixel) {
-        (Some(action), Some(pixel)) if is_pick(action) => pick(session, action, pixel),
+    match (action, pointer.zip(pixel)) {
+        (Some(action), Some((point, pixel))) if is_pick(action) => {
+            pick(session, action, point, pixel);
+        }
         (Some(action), _) if !is_pick(action) => session.clicked.push(action),
         _ => {}
     }
@@ -163,16 +167,21 @@ fn click(session: &mut Session, action: Option<Action>, pointer: Option<Pos2>) {
 fn is_pick(action: Action) -> bool {
     matches!(
         action,
-        Action::SetPivot | Action::FocusHere | Action::Select
+        Action::SetPivot | Action::FocusHere | Action::Select | Action::PictureMenu
     )
 }
 
-fn pick(session: &mut Session, action: Action, pixel: [u32; 2]) {
+/// Performs a command at a point of the screen, which shows that pixel.
+fn pick(session: &mut Session, action: Action, point: Pos2, pixel: [u32; 2]) {
     let focuses = match action {
         Action::Select => session.tool_state.focuses.take(),
         _ => None,
     };
     let purpose = match (action, focuses) {
+        (Action::PictureMenu, _) => {
+            session.picture_menu = Some(PictureMenu::new(point, pixel));
+            Purpose::Menu
+        }
         (Action::SetPivot, _) => Purpose::Pivot,
         (Action::FocusHere, _) => Purpose::Focus,
         (_, Some(index)) => Purpose::FocusOf(index),
@@ -244,6 +253,16 @@ pub fn picked(session: &mut Session, purpose: Purpose, hit: Option<(DVec3, Optio
         (Purpose::FocusOf(index), Some((point, _))) => focus(session, index, point),
         (Purpose::Select, hit) => {
             session.selection = hit.and_then(|(_, object)| object).map(Id::Object);
+        }
+        (Purpose::Menu, hit) => {
+            let object = hit.and_then(|(_, object)| object).map(Id::Object);
+            // A menu of one of several that are selected is about all of them.
+            if let Some(id) = object.filter(|id| !session.is_selected(*id)) {
+                session.selection = Some(id);
+            }
+            if let Some(menu) = &mut session.picture_menu {
+                menu.point = hit.map(|(point, _)| point);
+            }
         }
         (Purpose::Measure, Some((point, _))) => {
             session.tool_state.measure(point);

@@ -1,7 +1,8 @@
 //! Per-frame updates.
 
-use crate::model::camera::CameraController;
 use super::{adding, comparing, editing, files, inspector, lighting};
+use crate::model::camera::CameraController;
+use crate::state::pixel_values::PixelValues;
 use crate::state::session::Session;
 use eframe::egui;
 
@@ -12,6 +13,8 @@ pub fn reopened(session: &mut Session) {
     session.questions.clear();
     session.comparing.asked = None;
     session.histogram.reopened();
+    session.pixel_values = PixelValues::default();
+    session.picture_menu = None;
     inspector::reopened(session);
     session.drag = None;
     session.tool_state.region = None;

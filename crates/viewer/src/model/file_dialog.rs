@@ -15,6 +15,12 @@ pub type Kind = (&'static str, &'static [&'static str]);
 /// The formats of saved pictures.
 pub const PICTURES: Kind = ("Pictures", &["png", "jpg", "jpeg", "exr", "hdr"]);
 
+/// The formats of films: videos, and pictures for single frames.
+pub const FILMS: Kind = (
+    "Films",
+    &["mp4", "gif", "y4m", "png", "jpg", "jpeg", "exr", "hdr"],
+);
+
 /// Scenes that can be saved.
 pub const SCENES: Kind = ("Scenes", &["toml"]);
 

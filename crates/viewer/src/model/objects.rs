@@ -373,6 +373,26 @@ pub fn duplicate(scene: &mut Scene, id: Id) -> Result<Id, EditError> {
     Ok(copy)
 }
 
+/// The materials of an object, each once; none of a light.
+pub fn materials_of(scene: &Scene, object: ObjectRef) -> Vec<usize> {
+    match object {
+        ObjectRef::Shape(index) => vec![scene.shapes[index].material],
+        ObjectRef::Instance(index) => {
+            let mesh = &scene.meshes[scene.instances[index].mesh];
+            let mut used: Vec<usize> = Vec::new();
+            let mut last = None;
+            for &material in &mesh.materials {
+                if last.replace(material) != Some(material) && !used.contains(&(material as usize))
+                {
+                    used.push(material as usize);
+                }
+            }
+            used
+        }
+        ObjectRef::Light(_) => Vec::new(),
+    }
+}
+
 /// Assigns a material to a whole object. A mesh that is shared is copied first.
 ///
 /// # Errors

@@ -169,4 +169,6 @@ pub enum Purpose {
     Select,
     /// Measure the distance from or to it.
     Measure,
+    /// Tell what the menu is about.
+    Menu,
 }

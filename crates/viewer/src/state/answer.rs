@@ -6,8 +6,10 @@ use crate::model::tool::Purpose;
 use crate::state::cursor::Probe;
 use crate::state::files::Captured;
 use crate::state::inspector::{Inspected, Parts};
+use crate::state::pixel_values::ReadPixels;
 use glam::DVec3;
 use glimray_scene::ObjectRef;
+use glimray_scene::image::ScreenImage;
 
 /// The result of a question to the render thread.
 #[derive(Debug)]
@@ -27,10 +29,14 @@ pub enum Answer {
     Hidden(Option<Parts>),
     /// The histogram of the picture; `None` if there is no picture.
     Histogram(Option<Box<Histogram>>),
+    /// The displayed values of the picture; `None` if there is no picture.
+    PixelValues(Option<Box<ReadPixels>>),
     /// A snapshot of the picture.
     Snapshot(Box<Snapshot>),
     /// No result.
     Nothing,
+    /// The picture as the window shows it, for the clipboard.
+    Copied(Box<ScreenImage>),
     /// The picture so far, for a file.
     Picture(Box<Captured>),
     /// An error message.

@@ -18,6 +18,8 @@ pub enum Dialog {
     Messages,
     /// Bookmarked views.
     Cameras,
+    /// Files that are being rendered or written.
+    Jobs,
 }
 
 /// The open dialogs and their state.

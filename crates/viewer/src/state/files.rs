@@ -3,17 +3,20 @@
 use crate::model::file_dialog::{FileDialogs, Reply};
 use crate::model::loader::Trouble;
 use crate::model::watch::Watch;
+use crate::state::film::FilmDialog;
+use crate::state::jobs::{JobId, JobOutcome, Jobs};
+use crate::state::target::Target;
 use crate::worker::still::Still;
 use eframe::egui::ColorImage;
 use glimray_app::inputs::Inputs;
 use glimray_io::import::ImportError;
 use glimray_io::output::Format;
+use glimray_scene::image::ScreenImage;
 use glimray_scene::{Picture, Scene};
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-use std::sync::mpsc::Receiver;
+use std::sync::mpsc::{Receiver, Sender};
 use std::time::SystemTime;
 
 /// An image, or why it cannot be read.
@@ -32,6 +35,12 @@ pub struct Files {
     pub typed_model: Option<String>,
     /// The dialog for saving the picture.
     pub saving: Option<SaveDialog>,
+    /// A picture for the clipboard.
+    pub(crate) copied: Option<Box<ScreenImage>>,
+    /// The dialog for a film.
+    pub film: Option<FilmDialog>,
+    /// Files that are being rendered or written, and those that were.
+    pub jobs: Jobs,
     /// The action that waits for an answer about unsaved changes.
     pub undecided: Option<Intent>,
     /// The pending reply of the open dialog.
@@ -68,6 +77,48 @@ pub struct Broken {
     pub trouble: Trouble,
 }
 
+/// A part of a model's file of which one is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// An animation.
+    Clip,
+    /// A variant of the materials.
+    Variant,
+    /// A scene.
+    Scene,
+}
+
+impl Part {
+    /// Label in the window.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Clip => "Clip",
+            Self::Variant => "Variant",
+            Self::Scene => "Scene",
+        }
+    }
+
+    /// The choice that leaves it to the file.
+    pub fn left_to_the_file(self) -> &'static str {
+        match self {
+            Self::Clip => "All that fit together",
+            Self::Variant => "Without variant",
+            Self::Scene => "The file's own",
+        }
+    }
+
+    /// Explains the choice.
+    pub fn tip(self) -> &'static str {
+        match self {
+            Self::Clip => {
+                "The animation that is played. Of several that move the same, the first is played"
+            }
+            Self::Variant => "The variant of the model's materials",
+            Self::Scene => "The scene of the file that is shown",
+        }
+    }
+}
+
 /// An action that discards unsaved changes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Intent {
@@ -79,6 +130,8 @@ pub enum Intent {
     Reload,
     /// Reload the scene because its file has changed.
     ReloadChanged,
+    /// Read the scene again with another choice of a part, by name or number; `None` leaves it to the file.
+    Choose(Part, Option<String>),
     /// Close the window.
     Close,
     /// Close the window although a picture waits to be saved.
@@ -104,7 +157,12 @@ impl Files {
             || self.to_watch.is_some()
             || self.environment.is_some()
             || self.model.is_some()
-            || self.pending.is_writing()
+            || self.pending.is_posing()
+    }
+
+    /// Whether a picture is being fetched, rendered or written.
+    pub fn is_writing(&self) -> bool {
+        self.pending.is_posing() || self.jobs.is_busy()
     }
 
     /// Whether a file of the scene has changed and was not reloaded yet.
@@ -122,25 +180,10 @@ impl Files {
         self.pending.is_posing()
     }
 
-    /// Whether a picture is to be saved when it is finished.
+    /// Whether a file is being rendered, or a picture is to be saved when it is finished.
     pub fn waits_to_save(&self) -> bool {
-        self.pending.waits()
+        self.jobs.lasting().next().is_some()
     }
-}
-
-/// The target of a saved picture.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Target {
-    /// The file.
-    pub path: PathBuf,
-    /// The format, from the extension.
-    pub format: Format,
-    /// JPEG quality, 1 to 100.
-    pub quality: u8,
-    /// Whether an existing file may be replaced.
-    pub replaces: bool,
-    /// Whether the picture has opacity, whatever its pixels are.
-    pub opacity: bool,
 }
 
 /// The size of a picture that is saved.
@@ -167,14 +210,6 @@ impl SaveSize {
             Self::Twice => "Scene size ×2",
         }
     }
-}
-
-/// A picture that is rendered for a file.
-pub struct Rendering {
-    /// The outcome: a message, `None` if it was cancelled, or an error.
-    pub(crate) receiver: Receiver<Result<Option<String>, String>>,
-    /// Set to cancel it.
-    pub(crate) is_cancelled: Arc<AtomicBool>,
 }
 
 /// The state of the dialog for saving the picture.
@@ -206,47 +241,30 @@ pub struct Captured {
     pub(crate) target: Target,
     /// For a picture that waits: the index of its scene.
     pub(crate) waits: Option<u32>,
+    /// The job, and the way to end it.
+    pub(crate) job: JobId,
+    pub(crate) sender: Sender<JobOutcome>,
 }
 
 /// Pictures on their way to the disk.
 #[derive(Default)]
 pub struct Pending {
-    /// Pictures to be saved when finished.
-    pub(crate) waiting: Vec<Target>,
     /// Index of the current scene.
     pub(crate) turn: u32,
-    /// Number of requests to the render thread.
-    pub(crate) asked: u32,
     pub(crate) pose: Option<Pose>,
-    pub(crate) writing: Vec<Receiver<Result<String, String>>>,
-    pub(crate) rendering: Vec<Rendering>,
     pub(crate) quality: Option<u8>,
     pub(crate) folder: Option<PathBuf>,
 }
 
 impl Pending {
-    /// Drops the requests of the previous renderer.
+    /// Drops the screenshot of the previous window.
     pub fn reopened(&mut self) {
-        self.asked = 0;
         self.pose = None;
-    }
-
-    /// Whether a picture is being fetched or written.
-    pub fn is_writing(&self) -> bool {
-        !self.writing.is_empty()
-            || !self.rendering.is_empty()
-            || self.asked > 0
-            || self.pose.is_some()
     }
 
     /// Whether the window is about to be captured.
     pub fn is_posing(&self) -> bool {
         self.pose.is_some()
-    }
-
-    /// Whether a picture is to be saved when it is finished.
-    pub fn waits(&self) -> bool {
-        !self.waiting.is_empty() || !self.rendering.is_empty()
     }
 }
 

@@ -1,6 +1,7 @@
 //! The histogram in the window.
 
 use crate::model::histogram::Histogram;
+use crate::state::asked::Asked;
 
 /// The histogram of the main picture.
 #[derive(Debug, Default)]
@@ -9,9 +10,7 @@ pub struct HistogramView {
     pub latest: Option<Box<Histogram>>,
     /// Whether the height of its bars is logarithmic.
     pub is_logarithmic: bool,
-    /// The presentation that was asked about last, and whether the answer is still to come.
-    asked: Option<u64>,
-    is_awaited: bool,
+    asked: Asked,
     /// Whether the answer may still be about another scene.
     is_outdated: bool,
 }
@@ -19,30 +18,24 @@ pub struct HistogramView {
 impl HistogramView {
     /// Drops the request to the previous renderer.
     pub fn reopened(&mut self) {
-        self.asked = None;
-        self.is_awaited = false;
+        self.asked = Asked::default();
         self.is_outdated = false;
     }
 
     /// Forgets the histogram of another scene.
     pub(crate) fn forget(&mut self) {
         self.latest = None;
-        self.is_outdated = self.is_awaited;
+        self.is_outdated = self.asked.is_awaited();
     }
 
     /// Whether the presentation with this number is to be measured now: only the newest is, one at a time.
     pub(crate) fn is_due(&mut self, look: u64) -> bool {
-        let is_due = !self.is_awaited && self.asked != Some(look);
-        if is_due {
-            self.asked = Some(look);
-            self.is_awaited = true;
-        }
-        is_due
+        self.asked.is_due(look)
     }
 
     /// Takes the answer.
     pub(crate) fn set(&mut self, histogram: Option<Box<Histogram>>) {
-        self.is_awaited = false;
+        self.asked.answered();
         let is_outdated = std::mem::take(&mut self.is_outdated);
         if histogram.is_some() && !is_outdated {
             self.latest = histogram;

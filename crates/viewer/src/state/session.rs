@@ -26,6 +26,8 @@ use crate::state::editing::Editing;
 use crate::state::files::Files;
 use crate::state::histogram::HistogramView;
 use crate::state::inspector::Inspector;
+use crate::state::picture_menu::PictureMenu;
+use crate::state::pixel_values::PixelValues;
 use crate::state::time_left::TimeLeft;
 use crate::worker::progressive_image::FrameRenderer;
 use crate::worker::render_thread::Question;
@@ -48,8 +50,8 @@ const SETTLE: f64 = 0.12;
 /// Minimum interval between frames during motion, and between polls of other threads.
 const FRAME: Duration = Duration::from_millis(8);
 const LOOK: Duration = Duration::from_millis(50);
-/// The interval between polls for better BVHs, which may take a while and need all cores.
-const REFINED: Duration = Duration::from_millis(250);
+/// The interval between polls for better BVHs and for jobs, which may take a while and need all cores.
+const SLOW: Duration = Duration::from_millis(250);
 
 /// The state of the window, except for GPU resources.
 pub struct Session {
@@ -79,6 +81,8 @@ pub struct Session {
     pub tool: Tool,
     /// The state of tools.
     pub tool_state: ToolState,
+    /// The open menu of a point of the picture.
+    pub picture_menu: Option<PictureMenu>,
     /// The current drag in the picture.
     pub drag: Option<Drag>,
     /// The selection.
@@ -103,6 +107,8 @@ pub struct Session {
     pub histogram: HistogramView,
     /// The time until the picture is done.
     pub time_left: TimeLeft,
+    /// The values in magnified pixels.
+    pub pixel_values: PixelValues,
     /// The state of files.
     pub files: Files,
     /// The state of editing.
@@ -164,6 +170,7 @@ impl Session {
             camera_history: CameraHistory::default(),
             tool: Tool::default(),
             tool_state: ToolState::default(),
+            picture_menu: None,
             drag: None,
             selection: None,
             clicked: Vec::new(),
@@ -176,6 +183,7 @@ impl Session {
             comparing: Comparing::default(),
             histogram: HistogramView::default(),
             time_left: TimeLeft::default(),
+            pixel_values: PixelValues::default(),
             files: Files::default(),
             editing: Editing::default(),
             inspector: Inspector::default(),
@@ -320,6 +328,7 @@ impl Session {
             && self.refinement.is_none()
             && self.questions.is_empty()
             && !self.files.is_busy()
+            && !self.files.jobs.is_busy()
             && !self.comparing.is_busy()
             && !self.is_moving()
             && self.until_fitted().is_none()
@@ -353,7 +362,7 @@ impl Session {
         if settles > 0.0 && self.drag.is_none() {
             return Some(Duration::from_secs_f64(settles.min(SETTLE)).max(FRAME));
         }
-        self.refinement.as_ref().map(|_| REFINED)
+        (self.refinement.is_some() || self.files.jobs.is_busy()).then_some(SLOW)
     }
 
     /// Requests that the window is opened again on a new device.

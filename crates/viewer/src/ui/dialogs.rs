@@ -2,7 +2,9 @@
 //! bookmarks and questions.
 
 mod cameras;
+mod film;
 mod first_steps;
+mod jobs;
 mod messages;
 mod preferences;
 mod questions;
@@ -34,6 +36,7 @@ pub fn show(ui: &mut egui::Ui, context: &mut PanelContext, layout: &mut Layout) 
             Dialog::Hint => first_steps::show(&ctx, context.session),
             Dialog::Messages => messages::show(&ctx, context.session),
             Dialog::Cameras => cameras::show(&ctx, context.session),
+            Dialog::Jobs => jobs::show(&ctx, context),
         };
         if !stays {
             context.session.dialogs.close(dialog);
@@ -43,6 +46,7 @@ pub fn show(ui: &mut egui::Ui, context: &mut PanelContext, layout: &mut Layout) 
     questions::typed(&ctx, context.session);
     add::at_cursor(&ctx, context.session);
     questions::saving(&ctx, context);
+    film::show(&ctx, context.session);
     save_scene::show(ui, context);
     if let Some(intent) = questions::undecided(&ctx, context.session) {
         match intent {

@@ -3,13 +3,15 @@
 pub(super) mod add;
 mod broken;
 mod icon;
+pub(super) mod jobs;
 mod menu;
 mod messages;
 mod outline;
+mod parts;
 mod picture;
 mod properties;
 pub(super) mod rays;
-mod render;
+pub(super) mod render;
 mod setting_rows;
 mod status;
 mod time;

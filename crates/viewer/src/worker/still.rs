@@ -1,14 +1,17 @@
 //! Pictures for files: what the window shows, or one that is rendered beside it.
 
 use crate::worker::classical::ShownScenes;
+use crate::worker::job::JobControl;
 use crate::worker::progressive_image::{ImageError, packing, policy};
 use crate::worker::request::RenderRequest;
+use glimray_app::layers::beside_raw;
+use glimray_io::output::{self, LayeredImage, OutputError, SaveOptions};
 use glimray_render::gpu::Gpu;
 use glimray_render::pack;
 use glimray_render::{RenderError, Renderer, Tone};
 use glimray_scene::image::Image;
+use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A picture for a file.
 #[derive(Clone, Debug)]
@@ -38,9 +41,26 @@ impl Still {
         let raw = has_raw.then(|| renderer.develop(&tone)).transpose()?;
         Ok(Self { image, raw })
     }
+
+    /// Writes the picture to a file. A raw picture is a layer beside the denoised one.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<(), OutputError> {
+        let Some(raw) = &self.raw else {
+            return output::save_with(path, &self.image, options);
+        };
+        let layers = LayeredImage {
+            width: raw.width,
+            height: raw.height,
+            layers: beside_raw(&self.image, raw, options.opacity),
+            in_parts: false,
+        };
+        output::save_layers(path, &layers, options)
+    }
 }
 
-/// Renders all samples of a request in slices that keep the window responsive. Returns `None` once `is_cancelled` is set.
+/// Renders all samples of a request in slices that keep the window responsive. Returns `None` once `control` is cancelled.
 ///
 /// # Errors
 /// The scene cannot be rendered with these settings, or the device failed.
@@ -49,7 +69,7 @@ pub fn render(
     request: &RenderRequest,
     tone: &Tone,
     keeps_raw: bool,
-    is_cancelled: &AtomicBool,
+    control: &JobControl,
 ) -> Result<Option<Still>, ImageError> {
     let scene = ShownScenes::default().of(request);
     let packed = Arc::new(pack::scene(&scene)?);
@@ -59,9 +79,10 @@ pub fn render(
     let policy = policy(&gpu, request.policy);
     let mut renderer = Renderer::new(gpu, packed, &view, request.settings.clone(), policy)?;
     while !renderer.is_done() {
-        if is_cancelled.load(Ordering::Relaxed) {
+        if control.is_cancelled() {
             return Ok(None);
         }
+        control.report(renderer.progress());
         renderer.step()?;
     }
     Ok(Some(Still::developed(&mut renderer, tone, keeps_raw)?))

@@ -194,7 +194,7 @@ fn a_picture_that_is_rendered_for_a_file_can_be_given_up() {
         assert!(session.files.waits_to_save());
     }
     window.harness.run_steps(3);
-    pictures::cancel(&mut window.session());
+    window.session().files.jobs.cancel_lasting();
     window.settle();
     assert!(!window.session().files.waits_to_save());
     assert!(!path.exists());

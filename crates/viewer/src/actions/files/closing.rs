@@ -4,13 +4,13 @@ use crate::state::files::Intent;
 use crate::state::session::Session;
 use eframe::egui::{self, ViewportCommand};
 
-/// Asks about unsaved changes before closing, and waits for pictures that are being written unless the user
+/// Asks about unsaved changes before closing, and waits for files that are being written unless the user
 /// closes again.
 pub(super) fn close(session: &mut Session, ctx: &egui::Context) {
     if session.is_device_lost() {
         return;
     }
-    let is_writing = session.files.pending.is_writing();
+    let is_writing = session.files.is_writing();
     let is_asked = ctx.input(|input| input.viewport().close_requested());
     if !is_asked || session.files.may_close {
         if session.files.may_close && !is_writing {

@@ -6,20 +6,19 @@ use crate::model::file_dialog::{self, PICTURES, Reply, Request};
 use crate::state::answer::Answer;
 use crate::state::files::Captured;
 use crate::state::files::SaveDialog;
-use crate::state::files::Target;
-use crate::state::files::{Pose, Rendering, SaveSize};
+use crate::state::files::{Pose, SaveSize};
+use crate::state::jobs::{JobBegun, JobOutcome, Written};
 use crate::state::session::Session;
+use crate::state::target::Target;
+use crate::worker::free_name;
 use crate::worker::progressive_image::{FrameRenderer, PictureSlot};
 use crate::worker::still::{self, Still};
 use eframe::egui;
 use glimray_app::advice;
-use glimray_app::layers::beside_raw;
-use glimray_io::output::{self, LayeredImage, SaveOptions};
+use glimray_io::output::SaveOptions;
 use glimray_render::Tone;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{TryRecvError, channel};
+use std::sync::mpsc::Sender;
 
 /// Opens the dialog with a free name.
 pub fn open(session: &mut Session, overlays: bool) {
@@ -27,7 +26,7 @@ pub fn open(session: &mut Session, overlays: bool) {
         session.messages.notify("There is no picture yet");
         return;
     }
-    let path = free_name(session).to_string_lossy().into_owned();
+    let path = free_name(session, ".png").to_string_lossy().into_owned();
     session.files.saving = Some(SaveDialog {
         path,
         quality: session.files.pending.quality.unwrap_or(90),
@@ -40,23 +39,18 @@ pub fn open(session: &mut Session, overlays: bool) {
     });
 }
 
-/// The scene's name with the lowest free number, in the folder of the last picture.
-fn free_name(session: &Session) -> PathBuf {
+/// The scene's name with the lowest number that no file has and no job will write, in the folder of the last picture.
+pub(super) fn free_name(session: &Session, ending: &str) -> PathBuf {
     let scene = session.path.as_deref();
     let stem = scene.and_then(Path::file_stem).unwrap_or("demo".as_ref());
     let folder = (session.files.pending.folder.as_deref())
         .or(scene.and_then(Path::parent))
         .unwrap_or(Path::new(""));
-    let name = |number: u32| {
-        let mut name = stem.to_owned();
-        name.push(format!("_{number}.png"));
-        folder.join(name)
-    };
-    let mut number = 1;
-    while name(number).exists() && number < 10_000 {
-        number += 1;
-    }
-    name(number)
+    let mut name = stem.to_owned();
+    name.push(format!("_1{ending}"));
+    free_name::free(folder.join(name), |path| {
+        path.exists() || session.files.jobs.is_reserved(path)
+    })
 }
 
 /// Opens a file dialog for the name.
@@ -94,28 +88,20 @@ pub fn save(session: &mut Session, waits: bool) {
         session
             .messages
             .notify(format!("{name} will be saved when the picture is finished"));
-        let waiting = &mut session.files.pending.waiting;
-        waiting.retain(|other| other.path != target.path);
-        waiting.push(target);
+        session.files.jobs.wait(target);
     } else {
-        ask(session, target, None);
+        let job = session.files.jobs.begin(target.path.clone(), false);
+        ask(session, target, job, None);
     }
 }
 
-/// Cancels pictures that wait to be finished or are being rendered for a file.
-pub fn cancel(session: &mut Session) {
-    for rendering in session.files.pending.rendering.drain(..) {
-        rendering.is_cancelled.store(true, Ordering::Relaxed);
-    }
-    session.files.pending.waiting.clear();
-}
-
-/// Cancels them because another scene was opened, with a message for each.
+/// Ends the jobs that wait for the picture because another scene was opened, with a message for each.
 pub(super) fn abandon(session: &mut Session) {
-    for target in &session.files.pending.waiting {
-        session.messages.warn(not_finished(target));
+    while let Some((id, target)) = session.files.jobs.waiting() {
+        let why = not_finished(target);
+        session.messages.warn(why.clone());
+        session.files.jobs.fail(id, why);
     }
-    session.files.pending.waiting.clear();
     session.files.pending.turn += 1;
 }
 
@@ -152,12 +138,7 @@ fn render(session: &mut Session, mut target: Target, size: (u32, u32)) {
     target.opacity = request.settings.has_opacity();
     let linear = (session.request.overrides.tone).tone(&request.scene.output, integrator, true);
     let tone = tone_of(&target, request.tone, linear);
-    let (sender, receiver) = channel();
-    let is_cancelled = Arc::new(AtomicBool::new(false));
-    session.files.pending.rendering.push(Rendering {
-        receiver,
-        is_cancelled: is_cancelled.clone(),
-    });
+    let job = session.files.jobs.begin(target.path.clone(), true);
     let (width, height) = size;
     let name = short(&target.path);
     session
@@ -167,13 +148,13 @@ fn render(session: &mut Session, mut target: Target, size: (u32, u32)) {
         let gpu = frame.renderer.gpu().clone();
         let work = move || {
             let keeps_raw = target.format.has_layers();
-            let outcome = match still::render(gpu, &request, &tone, keeps_raw, &is_cancelled) {
-                Ok(Some(still)) => write_file(&still, &target, "").map(Some),
+            let outcome = match still::render(gpu, &request, &tone, keeps_raw, &job.control) {
+                Ok(Some(still)) => write_file(&still, &target, ""),
                 Ok(None) => Ok(None),
                 Err(error) => Err(error.to_string()),
             };
             // The window may have been closed meanwhile.
-            let _ = sender.send(outcome);
+            let _ = job.sender.send(outcome);
         };
         match std::thread::Builder::new().name("save".into()).spawn(work) {
             Ok(_) => Answer::Nothing,
@@ -193,8 +174,9 @@ fn tone_of(target: &Target, shown: Tone, linear: Tone) -> Tone {
     }
 }
 
-/// Writes a picture. The outcome is a message.
-fn write_file(still: &Still, target: &Target, how_far: &str) -> Result<String, String> {
+/// Writes a picture. If its name has been taken since, the next one that is free is used: nothing that was rendered is
+/// thrown away.
+fn write_file(still: &Still, target: &Target, how_far: &str) -> JobOutcome {
     let options = SaveOptions {
         format: Some(target.format),
         quality: target.quality,
@@ -202,45 +184,48 @@ fn write_file(still: &Still, target: &Target, how_far: &str) -> Result<String, S
         opacity: target.opacity,
         ..SaveOptions::default()
     };
-    let saved = match &still.raw {
-        None => output::save_with(&target.path, &still.image, &options),
-        Some(raw) => {
-            let layers = LayeredImage {
-                width: raw.width,
-                height: raw.height,
-                layers: beside_raw(&still.image, raw, target.opacity),
-                in_parts: false,
-            };
-            output::save_layers(&target.path, &layers, &options)
-        }
-    };
-    match saved {
-        Ok(()) => Ok(format!("Saved {}{how_far}", target.path.display())),
+    let save = |path: &Path| still.save(path, &options);
+    match free_name::write(&target.path, save) {
+        Ok(path) => Ok(Some(Written {
+            message: saved(&path, &target.path, how_far),
+            path,
+        })),
         Err(error) => Err(error.to_string()),
     }
 }
 
+/// The message about a file that was written to `path` instead of `wanted` if that was taken. `how_far` tells how far it
+/// is finished.
+pub(super) fn saved(path: &Path, wanted: &Path, how_far: &str) -> String {
+    let message = format!("Saved {}{how_far}", path.display());
+    match path == wanted {
+        true => message,
+        false => format!("{message}, because {} exists by now", short(wanted)),
+    }
+}
+
 /// Requests the picture from the render thread.
-fn ask(session: &mut Session, target: Target, waits: Option<u32>) {
+fn ask(session: &mut Session, target: Target, job: JobBegun, waits: Option<u32>) {
     let integrator = session.view.settings.integrator;
     let Some(scene) = session.scene() else {
         return;
     };
     let linear = (session.request.overrides.tone).tone(&scene.output, integrator, true);
-    session.files.pending.asked += 1;
-    session.ask(move |frame| capture(frame, target, waits, linear));
-}
-
-fn capture(frame: &mut FrameRenderer, target: Target, waits: Option<u32>, linear: Tone) -> Answer {
-    let of = frame.settings().samples;
-    let mut captured = Captured {
+    let captured = Captured {
         still: Ok(None),
         samples: 0,
-        of,
+        of: 0,
         target,
         waits,
+        job: job.id,
+        sender: job.sender,
     };
-    if waits.is_some() && !frame.renderer.is_done() {
+    session.ask(move |frame| capture(frame, captured, linear));
+}
+
+fn capture(frame: &mut FrameRenderer, mut captured: Captured, linear: Tone) -> Answer {
+    captured.of = frame.settings().samples;
+    if captured.waits.is_some() && !frame.renderer.is_done() {
         return Answer::Picture(Box::new(captured));
     }
     let tone = tone_of(&captured.target, frame.request.tone, linear);
@@ -256,22 +241,49 @@ fn capture(frame: &mut FrameRenderer, target: Target, waits: Option<u32>, linear
     Answer::Picture(Box::new(captured))
 }
 
-/// Handles the picture from the render thread.
-pub fn captured(session: &mut Session, captured: Captured) {
-    let pending = &mut session.files.pending;
-    pending.asked = pending.asked.saturating_sub(1);
-    // Another scene may be open by now.
-    if captured.waits.is_some_and(|turn| turn != pending.turn) {
-        session.messages.warn(not_finished(&captured.target));
+/// Copies the picture as the window shows it to the clipboard, once the render thread has read it.
+pub fn copy(session: &mut Session) {
+    if session.scene().is_none() {
+        session.messages.notify("There is no picture yet");
         return;
     }
+    session.ask(|frame| match frame.screen_image() {
+        Ok(Some(image)) => Answer::Copied(Box::new(image)),
+        Ok(None) => Answer::Failed("There is no picture yet.".to_owned()),
+        Err(error) => Answer::Failed(advice::render(&error)),
+    });
+}
+
+/// Passes a picture to the clipboard.
+fn pass_copied(session: &mut Session, ctx: &egui::Context) {
+    let Some(image) = session.files.copied.take() else {
+        return;
+    };
+    let size = [image.width as usize, image.height as usize];
+    ctx.copy_image(egui::ColorImage::from_rgba_premultiplied(
+        size,
+        image.pixels.as_flattened(),
+    ));
+    let (width, height) = (image.width, image.height);
+    let message = format!("Copied the picture, {width}×{height} pixels");
+    session.messages.notify(message);
+}
+
+/// Handles the picture from the render thread.
+pub fn captured(session: &mut Session, captured: Captured) {
+    let files = &mut session.files;
+    // Another scene may be open by now.
+    let is_other = (captured.waits).is_some_and(|turn| turn != files.pending.turn);
     let still = match captured.still {
-        Ok(Some(still)) => still,
-        Ok(None) => {
-            pending.waiting.push(captured.target);
-            return;
-        }
+        _ if is_other => Err(not_finished(&captured.target)),
+        Ok(None) => return files.jobs.wait_again(captured.job, captured.target),
+        Ok(Some(still)) => Ok(still),
+        Err(why) => Err(why),
+    };
+    let still = match still {
+        Ok(still) => still,
         Err(why) => {
+            files.jobs.fail(captured.job, why.clone());
             session.messages.warn(why);
             return;
         }
@@ -280,67 +292,48 @@ pub fn captured(session: &mut Session, captured: Captured) {
         true => format!(" ({} of {} samples)", captured.samples, captured.of),
         false => String::new(),
     };
-    write(session, still, captured.target, how_far);
+    write(session, still, captured.target, captured.sender, how_far);
 }
 
-/// Writes on a separate thread.
-pub(super) fn write(session: &mut Session, still: Still, target: Target, how_far: String) {
-    let (sender, receiver) = channel();
+/// Writes on a separate thread, which sends the outcome.
+pub(super) fn write(
+    session: &mut Session,
+    still: Still,
+    target: Target,
+    sender: Sender<JobOutcome>,
+    how_far: String,
+) {
     let work = move || {
         let outcome = write_file(&still, &target, &how_far);
         // The window may have been closed meanwhile.
         let _ = sender.send(outcome);
     };
-    match std::thread::Builder::new().name("save".into()).spawn(work) {
-        Ok(_) => session.files.pending.writing.push(receiver),
-        Err(error) => session
+    if let Err(error) = std::thread::Builder::new().name("save".into()).spawn(work) {
+        session
             .messages
-            .warn(format!("Cannot save the picture: {error}.")),
+            .warn(format!("Cannot save the picture: {error}."));
     }
 }
 
 /// Handles results of saving since the last frame.
-pub(super) fn update(session: &mut Session) {
+pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
     take_reply(session);
+    pass_copied(session, ctx);
     let messages = &mut session.messages;
-    session.files.pending.writing.retain(|receiver| {
-        match receiver.try_recv() {
-            Ok(Ok(notice)) => messages.notify(notice),
-            Ok(Err(why)) => messages.warn(why),
-            Err(TryRecvError::Empty) => return true,
-            Err(TryRecvError::Disconnected) => {
-                messages
-                    .warn("Internal error while saving a picture. Please report it.".to_owned());
-            }
-        }
-        false
-    });
-    (session.files.pending.rendering).retain(|rendering| match rendering.receiver.try_recv() {
-        Err(TryRecvError::Empty) => true,
-        Ok(Ok(notice)) => {
-            notice
-                .into_iter()
-                .for_each(|notice| messages.notify(notice));
-            false
-        }
-        Ok(Err(why)) => {
-            messages.warn(why);
-            false
-        }
-        // The device was lost, or the scene left before the question was put.
-        Err(TryRecvError::Disconnected) => {
-            messages.warn("A picture was not written: its rendering was interrupted.".to_owned());
-            false
-        }
+    session.files.jobs.update(|outcome| match outcome {
+        Ok(message) => messages.notify(message),
+        Err(why) => messages.warn(why),
     });
 }
 
 /// Saves the next waiting picture when the current one is finished.
 pub fn finish(session: &mut Session, is_done: bool) {
-    let pending = &mut session.files.pending;
-    if is_done && pending.asked == 0 && !pending.waiting.is_empty() {
-        let (target, turn) = (pending.waiting.remove(0), pending.turn);
-        ask(session, target, Some(turn));
+    let jobs = &mut session.files.jobs;
+    let waiting = jobs.waiting().filter(|_| is_done);
+    if let Some((id, target)) = waiting.map(|(id, target)| (id, target.clone())) {
+        let job = jobs.run(id);
+        let turn = session.files.pending.turn;
+        ask(session, target, job, Some(turn));
     }
 }
 

@@ -37,7 +37,8 @@ pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
             };
             let image = cut(&image, view.rect, ctx.pixels_per_point());
             let still = Still { image, raw: None };
-            pictures::write(session, still, pose.target, String::new());
+            let job = (session.files.jobs).begin(pose.target.path.clone(), false);
+            pictures::write(session, still, pose.target, job.sender, String::new());
         }
         Err(TryRecvError::Empty) => session.files.pending.pose = Some(pose),
         Err(TryRecvError::Disconnected) => {

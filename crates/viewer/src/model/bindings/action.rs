@@ -165,6 +165,8 @@ actions! {
         ShowDifference "show-difference" Press "Show the difference of two pictures",
         SwapSides "swap-sides" Press "Swap comparison sides",
         KeepSnapshot "keep-snapshot" Press "Keep a snapshot of the picture to compare with",
+        FlipKept "flip-kept" Press "Flip between the picture and the one that was kept",
+        NextKept "next-kept" Press "Show the next kept picture in place of this one",
         OpenReference "open-reference" Press "Open a reference picture to compare with",
         ExposureUp "exposure-up" Press "Increase exposure by a third of a stop",
         ExposureDown "exposure-down" Press "Decrease exposure by a third of a stop",
@@ -181,6 +183,7 @@ actions! {
         RestartRender "restart-render" Press "Restart rendering",
         MoreSamples "more-samples" Press "Double the target samples",
         FewerSamples "fewer-samples" Press "Halve the target samples",
+        Film "film" Press "Render a film",
     }
     Time {
         PlayPause "play-pause" Press "Play or pause",
@@ -199,6 +202,7 @@ actions! {
         FineHandles "fine-handles" Hold "Drag a handle at a tenth of the speed",
         Add "add" Press "Add an object, a light, a camera or a model",
         SelectAll "select-all" Press "Select all objects and lights",
+        PictureMenu "picture-menu" Press "Show the menu of the point under the cursor",
         SelectNothing "select-nothing" Press "Leave the tool, or deselect",
         ToggleVisible "toggle-visible" Press "Hide or show the selection",
         Rename "rename" Press "Rename the selection",
@@ -217,6 +221,7 @@ actions! {
         SaveScene "save-scene" Press "Save the scene",
         SaveSceneAs "save-scene-as" Press "Save the scene as a new file",
         SavePicture "save-picture" Press "Save the picture",
+        CopyPicture "copy-picture" Press "Copy the picture to the clipboard",
         SavePictureWithOverlays "save-picture-with-overlays" Press "Save the picture with overlays",
     }
     Window {

@@ -117,6 +117,8 @@ pub(super) const GLIMRAY: &str = "
     show-difference: Y
     swap-sides: Alt+X
     keep-snapshot: Shift+K
+    flip-kept: F6
+    next-kept: Shift+F6
     open-reference: Ctrl+Shift+O
     exposure-up: Equals, Plus, Shift+Plus
     exposure-down: Minus
@@ -131,6 +133,7 @@ pub(super) const GLIMRAY: &str = "
     restart-render: Shift+P
     more-samples: M
     fewer-samples: Shift+M
+    film: Ctrl+F12
     play-pause: Space
     step-forward: Period
     step-back: Comma
@@ -141,6 +144,7 @@ pub(super) const GLIMRAY: &str = "
     toggle-loop: L
     toggle-motion-blur: U
     select: Click left
+    picture-menu: Click right
     snap-handles: Hold Ctrl
     fine-handles: Hold Shift
     add: Shift+A
@@ -161,6 +165,7 @@ pub(super) const GLIMRAY: &str = "
     save-scene: Ctrl+S
     save-scene-as: Ctrl+Shift+S
     save-picture: F12, Ctrl+P
+    copy-picture: Ctrl+Shift+P
     save-picture-with-overlays: Shift+F12
     help: H, F1
     preferences: Ctrl+Comma

@@ -16,6 +16,7 @@ use glimray_app::error::AppError;
 use glimray_app::new_scene;
 use glimray_app::overrides::{CameraOverrides, Moment, picture_size};
 use glimray_app::showcase;
+use glimray_io::import::Options;
 use glimray_render::RenderSettings;
 use glimray_render::pack::PackedScene;
 use glimray_scene::{Camera, Scene};
@@ -51,6 +52,14 @@ pub struct Opened {
     pub shown: Result<(), Trouble>,
 }
 
+/// Forgets what was chosen in a file, and changed of it.
+pub fn forget_parts(options: &mut Options) {
+    options.overrides.clear();
+    options.scene = None;
+    options.clip = None;
+    options.variant = None;
+}
+
 impl Session {
     /// Starts to load a scene; the current one stays until it is ready.
     pub fn open(&mut self, path: PathBuf) {
@@ -80,7 +89,7 @@ impl Session {
     pub(super) fn load(&mut self, path: PathBuf, again: bool, is_own: bool) {
         let mut options = self.request.import.clone();
         if !is_own {
-            options.overrides.clear();
+            forget_parts(&mut options);
         }
         // An empty file that was shown before is still being written.
         if again {
@@ -195,7 +204,7 @@ impl Session {
         let request = &mut self.request;
         request.overrides.camera = CameraOverrides::default();
         request.overrides.moment = Moment::default();
-        request.import.overrides.clear();
+        forget_parts(&mut request.import);
     }
 
     /// Shows a scene that has finished loading. `actions::files` handles the result.

@@ -5,6 +5,7 @@ use crate::actions::comparing;
 use crate::actions::files;
 use crate::actions::files::pictures;
 use crate::state::files::{Intent, SaveSize};
+use crate::state::jobs::Job;
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use crate::worker::progressive_image::PictureSlot;
@@ -180,6 +181,19 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
     }
 }
 
+/// The files that closing the window would leave unwritten.
+fn unfinished(session: &Session) -> String {
+    let names: Vec<_> = session.files.jobs.lasting().map(Job::name).collect();
+    match names.as_slice() {
+        [name] => format!("{name} is not written yet."),
+        names => format!(
+            "{} files are not written yet: {}.",
+            names.len(),
+            names.join(", ")
+        ),
+    }
+}
+
 /// The question about unsaved changes.
 pub fn undecided(ctx: &egui::Context, session: &mut Session) -> Option<Choice> {
     let intent = session.files.undecided.clone()?;
@@ -191,7 +205,7 @@ pub fn undecided(ctx: &egui::Context, session: &mut Session) -> Option<Choice> {
             "Cancel",
         ),
         Intent::CloseUnfinished => (
-            "A picture is still waiting to be saved when it is finished.".to_owned(),
+            unfinished(session),
             "Close without saving it",
             "Continue rendering",
         ),
@@ -208,7 +222,7 @@ pub fn undecided(ctx: &egui::Context, session: &mut Session) -> Option<Choice> {
             "New without saving",
             "Cancel",
         ),
-        Intent::Reload => (
+        Intent::Reload | Intent::Choose(..) => (
             format!("{name} has unsaved changes. Reloading discards them."),
             "Reload",
             "Cancel",

@@ -164,12 +164,17 @@ fn file(menu: &mut Menu) {
     menu.entry_if(has_scene, "Revert", A::Revert);
     menu.line();
     menu.entry_if(has_scene, "Save picture…", A::SavePicture);
+    menu.entry_if(has_scene, "Copy picture", A::CopyPicture);
     let overlays = A::SavePictureWithOverlays;
     menu.entry_if(has_scene, "Save picture with overlays…", overlays);
-    if menu.context.session.files.waits_to_save()
-        && menu.ui.button("Cancel saving when finished").clicked()
+    if menu
+        .ui
+        .button("Jobs")
+        .on_hover_text("Files that are being rendered or written")
+        .clicked()
     {
-        files::pictures::cancel(menu.context.session);
+        menu.ui.close();
+        menu.context.session.dialogs.open(Dialog::Jobs);
     }
     menu.line();
     menu.entry("Quit", A::Quit);
@@ -291,6 +296,8 @@ fn render(menu: &mut Menu) {
     let can_swap = comparison.is_some_and(|comparison| comparison.integrator().is_some());
     menu.entry_if(can_swap, "Swap sides", A::SwapSides);
     menu.entry_if(has_scene, "Keep snapshot", A::KeepSnapshot);
+    menu.entry("Flip to kept picture", A::FlipKept);
+    menu.entry("Next kept picture", A::NextKept);
     menu.entry_if(has_scene, "Open reference picture…", A::OpenReference);
     menu.line();
     menu.entry("Increase exposure", A::ExposureUp);
@@ -304,6 +311,9 @@ fn render(menu: &mut Menu) {
     menu.tools(ToolMenu::Render);
     menu.entry("Double samples", A::MoreSamples);
     menu.entry("Halve samples", A::FewerSamples);
+    menu.line();
+    let has_scene = menu.context.session.scene().is_some();
+    menu.entry_if(has_scene, "Film…", A::Film);
 }
 
 fn window(menu: &mut Menu) {

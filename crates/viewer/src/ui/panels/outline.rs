@@ -6,9 +6,10 @@ use crate::model::bindings::Action;
 use crate::model::objects;
 use crate::model::objects::Id;
 use crate::model::outline::{self, Entry};
+use crate::state::files::Part;
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
-use crate::ui::panels::icon;
+use crate::ui::panels::{icon, parts};
 use eframe::egui::{
     self, Color32, DragAndDrop, Key, Rect, RichText, Sense, StrokeKind, WidgetInfo, WidgetText,
     vec2,
@@ -52,6 +53,10 @@ pub fn outline(ui: &mut egui::Ui, context: &mut PanelContext) {
             .desired_width(f32::INFINITY);
         let search = ui.add(search).on_hover_text("Filter by name");
         icon::named(&search, "Search the outline");
+        for part in [Part::Scene, Part::Variant] {
+            parts::part(ui, session, part);
+        }
+        parts::camera(ui, session);
         ui.add_space(2.0);
         // The rows do not change during a drag.
         let is_dragging = ui.input(|input| input.pointer.any_down());

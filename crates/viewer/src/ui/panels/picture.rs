@@ -6,7 +6,9 @@ mod compare;
 mod framing;
 mod legend;
 pub mod loading;
+mod menu;
 mod start;
+mod values;
 
 use crate::actions::region;
 use crate::actions::tools;
@@ -35,6 +37,7 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     let space = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(space, egui::Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Rendered picture"));
+    menu::menu(ui, context.session);
     let comparison = context.session.view.comparison;
     let spaces = compare::spaces(comparison, space);
     let pixels = (spaces[0].size() * pixels_per_point).max(Vec2::splat(1.0));
@@ -60,6 +63,9 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
             checker::checker(&painter, viewports[0].rect.intersect(space));
         }
         draw(&painter, context, &shown, viewports[0]);
+        if comparison.is_none() {
+            values::values(&painter, context, &shown, viewports[0]);
+        }
     }
     if let Some(comparison) = comparison {
         compare::second(&painter, context, comparison, space, viewports[1]);

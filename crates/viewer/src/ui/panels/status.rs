@@ -2,6 +2,7 @@
 
 use crate::state::cursor::Surface;
 use crate::ui::context::PanelContext;
+use crate::ui::panels::jobs;
 use crate::ui::panels::picture::loading;
 use crate::ui::panels::render::seconds;
 use crate::worker::progressive_image::PictureSlot;
@@ -12,6 +13,7 @@ use glimray_app::legend::number;
 pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
     egui::Panel::bottom("status").show(ui, |ui| {
         ui.horizontal(|ui| {
+            jobs::line(ui, context);
             if context.activity().is_some() {
                 ui.ctx().request_repaint_after(loading::INTERVAL);
             }

@@ -4,7 +4,9 @@ mod icon;
 
 use crate::model::bindings::Action;
 use crate::model::playback::{MAX_SPEED, Playback};
+use crate::state::files::Part;
 use crate::ui::context::PanelContext;
+use crate::ui::panels::parts;
 use crate::ui::panels::setting_rows::number;
 use eframe::egui::{self, Ui};
 use glimray_scene::Shutter;
@@ -37,6 +39,7 @@ pub fn time(ui: &mut Ui, context: &mut PanelContext) {
     let before = context.session.playback.clone();
     egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         egui::Frame::NONE.inner_margin(6.0).show(ui, |ui| {
+            parts::part(ui, context.session, Part::Clip);
             let playback = &mut context.session.playback;
             let is_animated = playback.duration() > 0.0;
             ui.add_enabled_ui(is_animated, |ui| {

@@ -212,22 +212,10 @@ fn texture_heading(fields: &mut Fields) {
 /// The material of an object, and its properties if all parts share it.
 pub fn of_object(fields: &mut Fields, session: &mut Session, object: ObjectRef) {
     let scene = fields.scene;
-    let used: Vec<usize> = match object {
-        ObjectRef::Shape(index) => vec![scene.shapes[index].material],
-        ObjectRef::Instance(index) => {
-            let mesh = &scene.meshes[scene.instances[index].mesh];
-            let mut used: Vec<usize> = Vec::new();
-            let mut last = None;
-            for &material in &mesh.materials {
-                if last.replace(material) != Some(material) && !used.contains(&(material as usize))
-                {
-                    used.push(material as usize);
-                }
-            }
-            used
-        }
-        ObjectRef::Light(_) => return,
-    };
+    if matches!(object, ObjectRef::Light(_)) {
+        return;
+    }
+    let used = objects::materials_of(scene, object);
     fields.heading("Material");
     let options: Vec<(usize, String)> = (0..scene.materials.len())
         .map(|index| (index, session.label(Id::Material(index))))

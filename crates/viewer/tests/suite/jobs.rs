@@ -1,0 +1,180 @@
+//! Jobs: pictures that are rendered for files, one after the other and beside each other.
+
+use crate::harness::Window;
+use crate::support::PATIENCE;
+use eframe::egui::{self, Key};
+use egui_kittest::kittest::{Queryable, by};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const BALL: &str = "ambient = [0.2, 0.2, 0.2]\n\n[camera]\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\n\n\
+    [[lights]]\npoint = { position = [2, 3, 4], color = [1, 1, 1], intensity = 30 }\n\n\
+    [materials.red]\nphong = { diffuse = [0.8, 0.1, 0.1] }\n\n\
+    [[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\nmaterial = \"red\"\n\n\
+    [output]\nsize = [48, 32]\nsamples = 2\n";
+
+/// Enough samples for a render to last longer than a few frames of the window.
+const LONG: u32 = 2048;
+
+/// More than a render could finish while a test runs.
+const ENDLESS: u32 = 65_536;
+
+struct Place {
+    folder: TempDir,
+    window: Window,
+}
+
+impl Place {
+    /// A window with a ball, in a folder of its own.
+    fn open() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("one.toml");
+        fs::write(&path, BALL).expect("a file");
+        let mut window = Window::open(&[path.to_str().expect("a name")]);
+        window.settle();
+        Self { folder, window }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn click(&mut self, label: &str) {
+        self.window.harness.get_by_label(label).click();
+        self.window.harness.run_steps(2);
+    }
+
+    /// Renders a picture of twice the scene's size, which is another than that of the window.
+    fn save_twice_the_size(&mut self, samples: u32) {
+        self.window.session().view.paused = true;
+        self.window.session().view.set_samples(samples);
+        self.window.harness.key_press(Key::F12);
+        self.window.harness.run_steps(2);
+        self.click("Scene size ×2");
+        self.window.harness.get_by_label("Save").click();
+        self.window.harness.step();
+    }
+
+    /// The name in the sheet that asks for one.
+    fn proposed(&mut self) -> String {
+        self.window.harness.key_press(Key::F12);
+        self.window.harness.run_steps(2);
+        let session = self.window.session();
+        let sheet = session.files.saving.as_ref().expect("a sheet");
+        sheet.path.clone()
+    }
+
+    fn has(&self, words: &str) -> bool {
+        let mut found = self.window.harness.query_all(by().label_contains(words));
+        found.next().is_some()
+    }
+
+    fn wait(&mut self, what: &str, is_so: impl Fn(&Self) -> bool) {
+        let start = Instant::now();
+        while !is_so(self) {
+            assert!(start.elapsed() < PATIENCE, "{what}");
+            self.window.harness.step();
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    fn has_notice(&self, words: &str) -> bool {
+        let session = self.window.session.borrow();
+        let mut all = session.messages.all().iter();
+        all.any(|notice| notice.text.contains(words))
+    }
+}
+
+fn is_png(path: &Path) -> bool {
+    fs::read(path).is_ok_and(|bytes| bytes.starts_with(b"\x89PNG"))
+}
+
+#[test]
+fn the_name_of_a_picture_that_is_being_rendered_is_not_proposed_again() {
+    let mut place = Place::open();
+    place.save_twice_the_size(ENDLESS);
+    let first = place.path("one_1.png");
+    assert!(!first.exists(), "the picture took no time");
+    assert_eq!(
+        place.proposed(),
+        place.path("one_2.png").to_str().expect("a name")
+    );
+    place.window.session().files.jobs.cancel_lasting();
+    place.window.settle();
+}
+
+#[test]
+fn a_finished_picture_whose_name_is_taken_is_written_under_the_next() {
+    let mut place = Place::open();
+    place.save_twice_the_size(LONG);
+    let (first, second) = (place.path("one_1.png"), place.path("one_2.png"));
+    assert!(!first.exists(), "the picture took no time");
+    fs::write(&first, "mine").expect("a file");
+    place.wait("it is written", |place| is_png(&place.path("one_2.png")));
+    place.window.settle();
+    assert_eq!(fs::read(&first).expect("a file"), b"mine");
+    assert_eq!(image::open(&second).expect("a picture").width(), 96);
+    assert!(place.has_notice("one_2.png, because one_1.png exists by now"));
+}
+
+#[test]
+fn the_status_bar_tells_of_a_render_and_cancels_it() {
+    let mut place = Place::open();
+    place.save_twice_the_size(ENDLESS);
+    place.wait("it has begun", |place| {
+        let session = place.window.session.borrow();
+        let progress = session.files.jobs.active().next().expect("a job");
+        progress.control.progress().share > 0.0
+    });
+    place.window.harness.step();
+    assert!(place.has("one_1.png: ") && place.has(" %"));
+    place.click("Cancel one_1.png");
+    place.window.settle();
+    assert!(!place.has("one_1.png: "));
+    assert!(!place.path("one_1.png").exists());
+}
+
+#[test]
+fn the_list_of_jobs_has_what_runs_and_what_is_done() {
+    let mut place = Place::open();
+    place.save_twice_the_size(2);
+    place.window.settle();
+    place.save_twice_the_size(ENDLESS);
+    place.window.harness.run_steps(2);
+    place.click("File");
+    place.click("Jobs");
+    assert!(place.has("saved: ") && place.has("one_1.png"));
+    place
+        .window
+        .harness
+        .get_by_label("Copy path: one_1.png")
+        .click();
+    place.window.harness.step();
+    let commands = (place.window.harness.output().platform_output.commands).clone();
+    let path = place.path("one_1.png").display().to_string();
+    assert!(
+        commands.contains(&egui::OutputCommand::CopyText(path)),
+        "{commands:?}"
+    );
+    place.click("Cancel: one_2.png");
+    place.window.settle();
+    assert!(place.has("cancelled: "));
+    place.click("Clear list");
+    assert!(place.has("No jobs yet"));
+}
+
+#[test]
+fn closing_asks_about_a_picture_that_is_being_rendered() {
+    let mut place = Place::open();
+    place.save_twice_the_size(ENDLESS);
+    let viewports = &mut place.window.harness.input_mut().viewports;
+    let root = viewports.get_mut(&egui::ViewportId::ROOT);
+    (root.expect("a window").events).push(egui::ViewportEvent::Close);
+    place.window.harness.run_steps(3);
+    assert!(place.has("one_1.png is not written yet."));
+    place.click("Close without saving it");
+    place.window.settle();
+    assert!(!place.path("one_1.png").exists());
+}
