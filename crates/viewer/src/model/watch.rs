@@ -182,6 +182,7 @@ fn absolute(file: &Path) -> PathBuf {
 fn reason(error: &notify::Error) -> String {
     match &error.kind {
         notify::ErrorKind::Io(error) => glimray_io::output::reason(error),
+        notify::ErrorKind::PathNotFound => "the folder does not exist".to_owned(),
         notify::ErrorKind::MaxFilesWatch => {
             "the system's limit of watched files is reached".to_owned()
         }
