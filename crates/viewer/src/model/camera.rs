@@ -315,8 +315,9 @@ impl CameraController {
     /// Sets the vertical field of view in radians, in (0, π). The size of objects at the pivot is preserved.
     pub fn set_fov_y(&mut self, fov_y: f64) {
         let before = self.tangent();
-        // Rounded to the unit of files and flags, so that copies are exact.
-        let degrees = fov_y.to_degrees().clamp(0.1, 170.0);
+        // Rounded in the unit of files and flags, so that copies are exact and 60° stays 60°.
+        let degrees = (fov_y.to_degrees() * 1e12).round() / 1e12;
+        let degrees = degrees.clamp(0.1, 170.0);
         self.fov_y = degrees.to_radians();
         let factor = before / self.tangent();
         if !self.orthographic {
