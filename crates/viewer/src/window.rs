@@ -145,7 +145,13 @@ fn show(
         session.borrow_mut().lost_device();
         return Ok(());
     }
-    opened.replace(Ok(())).map_err(|why| no_display(&why))
+    opened.replace(Ok(())).map_err(|why| {
+        let adapter = gpu.adapter();
+        match adapter.backend == "gl" && adapter.is_cpu() {
+            true => AppError::NoDisplay(NO_VULKAN.to_owned()),
+            false => no_display(&why),
+        }
+    })
 }
 
 /// Restores the window's position and size.
@@ -181,6 +187,10 @@ fn bring_in(context: &eframe::CreationContext) {
         context.egui_ctx.send_viewport_cmd(corner);
     }
 }
+
+/// Why no window opens although there is a display.
+const NO_VULKAN: &str = "cannot open a window: there is no Vulkan driver that can show pictures. Install one, such as \
+    Mesa's: mesa-vulkan-drivers (Debian, Ubuntu, Fedora), vulkan-swrast (Arch) or mesa-vulkan-swrast (Alpine).";
 
 /// Without one of these variables the connection fails, with a less helpful message.
 fn check_display() -> Result<(), AppError> {
