@@ -83,7 +83,7 @@ pub const TABLE: [IntegratorEntry; 9] = [
         has_layers: true,
         ..debug_view(
             Integrator::Whitted,
-            ("whitted", "Full render"),
+            ("whitted", "Classical (Whitted)"),
             "Phong shading with shadows, reflection and refraction",
             VIEW_NORMALS,
         )

@@ -20,7 +20,7 @@ pub const MAX_GAIN: f32 = 100.0;
 pub struct ViewSettings {
     /// Render settings; size and region apply only if [`ViewSettings::fits`] is off.
     pub settings: RenderSettings,
-    /// Tone mapping of the full render; debug views ignore it.
+    /// Tone mapping of lit pictures; debug views ignore it.
     pub tone: Tone,
     /// The layer of the picture that is shown; debug views have no layers.
     pub layer: PictureLayer,

@@ -150,7 +150,7 @@ actions! {
         PasteCamera "paste-camera" Press "Paste the camera from a command line",
     }
     ViewSettings {
-        IntegratorWhitted "integrator-whitted" Press "Show the full render",
+        IntegratorWhitted "integrator-whitted" Press "Show the classical picture",
         IntegratorPath "integrator-path" Press "Show the path-traced picture",
         IntegratorNormals "integrator-normals" Press "Show shading normals",
         IntegratorDepth "integrator-depth" Press "Show depth",
