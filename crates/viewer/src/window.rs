@@ -1,6 +1,7 @@
 //! The native window: opened with our device, and reopened when the device is lost.
 
 mod events;
+mod fonts;
 mod presses;
 pub mod viewer;
 

@@ -12,6 +12,7 @@ use crate::ui::context::PanelContext;
 use crate::ui::dialogs;
 use crate::ui::textures::Textures;
 use crate::ui::{panels, shield, tabs};
+use crate::window::fonts::{self, Fallbacks};
 use crate::window::presses::Presses;
 use crate::worker::progressive_image::PictureSlot;
 use crate::worker::progressive_image::wait_limit;
@@ -36,6 +37,7 @@ pub struct Viewer {
     layout: Layout,
     wanted: Pictures,
     presses: Presses,
+    fallbacks: Fallbacks,
     /// Whether the window is cleared with [`eframe::App::clear_color`] first.
     is_cleared: bool,
     /// Index of the last frame drawn.
@@ -52,7 +54,7 @@ impl Viewer {
         gpu: Gpu,
         session: Rc<RefCell<Session>>,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
-        context.egui_ctx.set_fonts(fonts());
+        context.egui_ctx.set_fonts(fonts::own());
         let state = context.wgpu_render_state.clone();
         let ctx = context.egui_ctx.clone();
         let wanted = Pictures {
@@ -70,6 +72,7 @@ impl Viewer {
             layout,
             wanted,
             presses: Presses::default(),
+            fallbacks: Fallbacks::default(),
             is_cleared: context.winit_window().is_some(),
             last_pass: None,
         })
@@ -188,6 +191,7 @@ impl eframe::App for Viewer {
         shield::show(ui.ctx(), context.session);
         dialogs::show(ui, &mut context, &mut self.layout);
         panels::messages(ui, &mut context);
+        self.fallbacks.update(ui.ctx(), context.session);
         self.textures.end();
         // Input of this frame is shown in this frame.
         if self.wanted.submit(&self.render, &session) {
@@ -230,17 +234,4 @@ impl Pictures {
         }
         is_there
     }
-}
-
-/// egui's fonts. Glyphs missing in the text font, such as arrows, come from the monospace font first, which
-/// fits better than the symbol fonts.
-fn fonts() -> egui::FontDefinitions {
-    let mut fonts = egui::FontDefinitions::default();
-    let code = (fonts.families.get(&egui::FontFamily::Monospace)).cloned();
-    let text = (fonts.families.entry(egui::FontFamily::Proportional)).or_default();
-    if let Some(font) = code.unwrap_or_default().into_iter().next() {
-        text.retain(|other| *other != font);
-        text.insert(text.len().min(1), font);
-    }
-    fonts
 }
