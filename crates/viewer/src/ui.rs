@@ -8,5 +8,6 @@ pub(crate) mod region;
 pub(crate) mod shield;
 pub(crate) mod tabs;
 pub(crate) mod textures;
+pub(crate) mod theme;
 pub(crate) mod tools;
 pub(crate) mod world_painter;

@@ -11,7 +11,7 @@ use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use crate::ui::dialogs;
 use crate::ui::textures::Textures;
-use crate::ui::{panels, shield, tabs};
+use crate::ui::{panels, shield, tabs, theme};
 use crate::window::fonts::{self, Fallbacks};
 use crate::window::presses::Presses;
 use crate::worker::progressive_image::PictureSlot;
@@ -55,6 +55,7 @@ impl Viewer {
         session: Rc<RefCell<Session>>,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         context.egui_ctx.set_fonts(fonts::own());
+        theme::install(&context.egui_ctx);
         let state = context.wgpu_render_state.clone();
         let ctx = context.egui_ctx.clone();
         let wanted = Pictures {

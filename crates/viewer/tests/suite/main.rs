@@ -4,6 +4,7 @@ mod bindings;
 mod canvas;
 mod command_line;
 mod compare;
+mod contrast;
 mod document;
 mod edit;
 mod files;
