@@ -10,6 +10,7 @@ pub mod editing;
 pub mod files;
 pub mod histogram;
 pub mod inspector;
+mod keyboard;
 pub mod lighting;
 pub mod modal;
 pub mod output_defaults;

@@ -2,6 +2,7 @@
 
 pub(crate) mod context;
 pub(crate) mod dialogs;
+pub(crate) mod focus_ring;
 pub(crate) mod overlay;
 pub(crate) mod panels;
 pub(crate) mod region;

@@ -1,8 +1,9 @@
 //! Dispatches all commands, whether from keys, menus or buttons.
 
+use crate::actions::keyboard::Keyboard;
 use crate::actions::{adding, comparing, dialogs, editing, files, modal, saving, selecting, tools};
 use crate::model::bindings::Action;
-use crate::model::camera::{CameraController, CameraHistory, Side};
+use crate::model::camera::{CameraController, CameraHistory, Flight, Side};
 use crate::model::preferences::Theme;
 use crate::model::tool::Tool;
 use crate::model::view_settings::{GAIN, Sharing};
@@ -11,7 +12,7 @@ use crate::state::dialogs::Dialog;
 use crate::state::files::Intent;
 use crate::state::layout::{Layout, Panel};
 use crate::state::session::Session;
-use eframe::egui::{self, Event, ViewportCommand};
+use eframe::egui::{self, Event, Popup, ViewportCommand};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -20,24 +21,19 @@ const TURN: f64 = PI / 12.0;
 /// Exposure step, in stops.
 const EXPOSURE_STEP: f32 = 1.0 / 3.0;
 
-/// Performs the commands of clicks and keys. Keys are ignored while text is edited, a question is asked or a
-/// menu is open.
+/// Performs the commands of clicks and keys, except those keys that a question or the widget with the focus takes.
 pub fn keys(session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
     for action in std::mem::take(&mut session.clicked) {
         perform(action, session, layout, ctx);
     }
-    if session.editing.modal.is_none()
-        && (egui::Popup::is_any_open(ctx)
-            || dialogs::take_keys(session, ctx)
-            || ctx.egui_wants_keyboard_input() && !editing::keys(session, ctx))
-    {
-        if let Some(controller) = &mut session.controller {
-            controller.fly(Default::default());
-        }
-        return;
-    }
+    let keyboard = Keyboard::of(session, ctx);
+    let are_taken = session.editing.modal.is_none() && dialogs::take_keys(session, ctx);
     let bindings = &session.preferences.bindings;
-    let (events, flight) = ctx.input(|input| (input.events.clone(), bindings.flight(input)));
+    let flight = match are_taken || keyboard == Keyboard::Text {
+        true => Flight::default(),
+        false => ctx.input(|input| bindings.flight(input)),
+    };
+    let events = ctx.input(|input| input.events.clone());
     if session.editing.modal.is_some() {
         // A widget with the focus would take Enter for a click.
         ctx.input_mut(|input| {
@@ -50,13 +46,29 @@ pub fn keys(session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
     if let Some(controller) = &mut session.controller {
         controller.fly(flight);
     }
+    if are_taken {
+        return;
+    }
     for event in &events {
         // During a flight, its keys do nothing else: Shift, which makes it faster, gives other commands to some.
-        if modal::key(session, event) || was_flying && session.preferences.bindings.flies(event) {
+        if !keyboard.passes(event)
+            || modal::key(session, event)
+            || was_flying && session.preferences.bindings.flies(event)
+        {
             continue;
         }
-        if let Some(action) = session.preferences.bindings.pressed_by(event) {
-            perform(action, session, layout, ctx);
+        let Some(action) = session.preferences.bindings.pressed_by(event) else {
+            continue;
+        };
+        match keyboard {
+            // The text is entered before the command, and menus close.
+            Keyboard::Text => {
+                Popup::close_all(ctx);
+                ctx.memory_mut(|memory| memory.stop_text_input());
+                session.clicked.push(action);
+                ctx.request_repaint();
+            }
+            Keyboard::Commands | Keyboard::Widget => perform(action, session, layout, ctx),
         }
     }
     if egui::Popup::is_any_open(ctx)

@@ -3,12 +3,13 @@
 use crate::model::bindings::{Action, Trigger};
 use crate::state::dialogs::Dialog;
 use crate::state::session::Session;
-use eframe::egui::{self, Key};
+use eframe::egui::{self, Key, Popup};
 
 /// Whether keys belong to a dialog or leave a field, so that they perform no commands. Escape closes a
 /// question.
 pub fn take_keys(session: &mut Session, ctx: &egui::Context) -> bool {
-    let is_escape = ctx.input(|input| input.key_pressed(Key::Escape));
+    // An open menu is closed first.
+    let is_escape = ctx.input(|input| input.key_pressed(Key::Escape)) && !Popup::is_any_open(ctx);
     // These handle Escape themselves.
     if session.editing.is_asking() || session.dialogs.bindings.awaits() {
         return true;

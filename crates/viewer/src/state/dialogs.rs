@@ -2,7 +2,7 @@
 
 use crate::model::bindings::Action;
 use crate::model::preferences::{Preferences, Theme};
-use eframe::egui::Rect;
+use eframe::egui::{Id, Rect};
 use std::collections::BTreeMap;
 
 /// A dialog over the window.
@@ -32,6 +32,8 @@ pub struct Dialogs {
     pub(crate) is_resetting: bool,
     /// Whether a field had the keyboard in the last frame: egui clears the focus before Escape is seen.
     pub(crate) had_keyboard: bool,
+    /// The widget that had the focus when the last frame began.
+    pub(crate) focused: Option<Id>,
     pub(crate) preferences_file: PreferencesFile,
 }
 

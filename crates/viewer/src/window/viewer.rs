@@ -11,7 +11,7 @@ use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use crate::ui::dialogs;
 use crate::ui::textures::Textures;
-use crate::ui::{panels, shield, tabs, theme};
+use crate::ui::{focus_ring, panels, shield, tabs, theme};
 use crate::window::fonts::{self, Fallbacks};
 use crate::window::presses::Presses;
 use crate::worker::progressive_image::PictureSlot;
@@ -192,6 +192,7 @@ impl eframe::App for Viewer {
         shield::show(ui.ctx(), context.session);
         dialogs::show(ui, &mut context, &mut self.layout);
         panels::messages(ui, &mut context);
+        focus_ring::show(ui.ctx());
         self.fallbacks.update(ui.ctx(), context.session);
         self.textures.end();
         // Input of this frame is shown in this frame.

@@ -14,7 +14,7 @@ use glimray_viewer::state::dialogs::Dialog;
 use glimray_viewer::state::files::Intent;
 
 /// Roles of interactive controls.
-const CONTROLS: [Role; 18] = [
+pub const CONTROLS: [Role; 18] = [
     Role::Button,
     Role::CheckBox,
     Role::ColorWell,

@@ -40,7 +40,7 @@ enum Wish {
     ShowAll,
 }
 
-/// The outline, and below it the problems of the import.
+/// The outline, and below it the notes of the import.
 pub fn outline(ui: &mut egui::Ui, context: &mut PanelContext) {
     let session = &mut *context.session;
     let Some(scene) = session.scene().cloned() else {
@@ -98,8 +98,10 @@ fn lines(
         session.editing.listing.reveal(id);
     }
     let row = selection.and_then(|id| session.editing.listing.row_of(id));
+    let mut follows = false;
     if session.editing.scrolled_to != selection {
         session.editing.scrolled_to = selection;
+        follows = editing::holds_focus(session.editing.list_focus, ui.ctx());
         let stride = row_height + ui.spacing().item_spacing.y;
         if let Some(row) = row {
             let top = row as f32 * stride;
@@ -113,7 +115,7 @@ fn lines(
     if count == 0 {
         ui.weak("No matches");
     }
-    let had_focus = session.editing.list_focus.take();
+    session.editing.list_focus = None;
     let output = area.show_rows(ui, row_height, count, |ui, range| {
         let entries: Vec<Entry> = session
             .editing
@@ -124,7 +126,7 @@ fn lines(
         for (row, entry) in range.zip(entries) {
             let fold = session.editing.listing.fold(row);
             ui.push_id(row, |ui| {
-                let left = line(ui, session, scene, &entry, had_focus, wishes);
+                let left = line(ui, session, scene, &entry, follows, wishes);
                 if let Some(is_folded) = fold
                     && triangle(ui, left, is_folded, &entry.label).clicked()
                 {
@@ -137,13 +139,14 @@ fn lines(
     session.editing.visible_range = egui::Rangef::new(top, top + output.inner_rect.height());
 }
 
-/// Draws one line. All of it can be clicked and dragged. Returns where its triangle goes.
+/// Draws one line. All of it can be clicked and dragged. `follows` says that the focus goes to a newly selected line.
+/// Returns where its triangle goes.
 fn line(
     ui: &mut egui::Ui,
     session: &mut Session,
     scene: &Scene,
     entry: &Entry,
-    had_focus: Option<egui::Id>,
+    follows: bool,
     wishes: &mut Vec<Wish>,
 ) -> Rect {
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
@@ -217,11 +220,9 @@ fn line(
         };
         DragAndDrop::set_payload(ui.ctx(), Dragged(ids));
     }
-    // Arrow keys continue from the clicked row. The focus follows the selection and is never taken from a
-    // widget outside the list.
-    let leads = session.selection == Some(id);
-    let follows = leads && editing::holds_focus(had_focus, ui.ctx());
-    if response.clicked() || follows && !response.has_focus() {
+    // Arrow keys continue from the clicked row. The focus follows the selection, and is taken neither from a widget
+    // outside the list nor from a line that Tab reached.
+    if response.clicked() || follows && session.selection == Some(id) {
         response.request_focus();
     }
     if response.has_focus() {
@@ -384,7 +385,7 @@ fn grant(session: &mut Session, wish: Wish) {
     }
 }
 
-/// The problems of the import.
+/// The notes of the import: what was left out, repaired or decided.
 fn skipped(ui: &mut egui::Ui, skipped: &[String]) {
     let title = match skipped.len() {
         1 => "1 part is missing or was repaired".to_owned(),
