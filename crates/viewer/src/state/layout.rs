@@ -117,7 +117,7 @@ impl Default for Layout {
         let middle = tiles.insert_container(Container::Linear(middle));
         let left = tiles.insert_vertical_tile(vec![outline, properties]);
         let mut root = Linear::new(LinearDir::Horizontal, vec![left, middle, side]);
-        for (tile, width) in [(left, 264.0), (middle, 730.0), (side, 286.0)] {
+        for (tile, width) in [(left, 280.0), (middle, 714.0), (side, 286.0)] {
             root.shares.set_share(tile, width);
         }
         let root = tiles.insert_container(Container::Linear(root));

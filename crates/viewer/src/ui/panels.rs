@@ -12,6 +12,7 @@ mod picture;
 mod properties;
 pub(super) mod rays;
 pub(super) mod render;
+mod row;
 mod setting_rows;
 mod status;
 mod time;

@@ -4,7 +4,7 @@ use crate::harness::Window;
 use crate::reference::compare::render;
 use eframe::egui::{Key, Pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
-use glam::{DVec3, dvec3, vec3};
+use glam::{DAffine3, DVec3, dvec3, vec3};
 use glimray::import;
 use glimray::render::Tone;
 use glimray::scene::{Background, Geometry, ObjectRef, Scene};
@@ -897,6 +897,11 @@ fn ambient_follows_diffuse_until_it_is_unlinked() {
 fn a_uniform_scale_keeps_the_ratios_of_its_factors() {
     let (_folder, path) = file();
     let mut window = open(&path, "64x48");
+    // A sphere has a radius instead; with other proportions it is an ellipsoid.
+    let stretched = DAffine3::from_scale(dvec3(0.5, 0.75, 0.75));
+    window.session().edit("stretch", |scene| {
+        objects::set_place(scene, RED, stretched, 0.0).expect("it can be stretched");
+    });
     window.session().selection = Some(RED);
     window.settle();
     let scale = |window: &Window| {

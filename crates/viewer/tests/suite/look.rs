@@ -23,6 +23,15 @@ fn click(window: &mut Window, label: &str) {
     window.settle();
 }
 
+/// Unfolds a section of the panel.
+pub fn unfold(window: &mut Window, title: &str) {
+    let role = egui::Role::DisclosureTriangle;
+    (window.harness.get_by_role_and_label(role, title)).scroll_to_me();
+    window.settle();
+    window.harness.get_by_role_and_label(role, title).click();
+    window.settle();
+}
+
 /// Where a share of the picture's width and height is on the screen.
 fn at(window: &Window, x: f64, y: f64) -> Pos2 {
     let viewport = window.session().viewport.expect("a picture");
@@ -83,6 +92,9 @@ fn a_changed_value_has_a_way_back_to_the_scene() {
     click(&mut window, "Reset exposure");
     assert_eq!(window.session().view.tone.exposure_ev, scene);
     assert!(window.harness.query_by_label("Reset exposure").is_none());
+    unfold(&mut window, "Rays");
+    (window.harness.get_by_label("Reset max depth")).scroll_to_me();
+    window.settle();
     click(&mut window, "Reset max depth");
     let look = window.session().view.clone();
     assert_eq!(look.settings, look.scene_settings);
@@ -90,7 +102,9 @@ fn a_changed_value_has_a_way_back_to_the_scene() {
 
 #[test]
 fn every_setting_of_the_picture_is_in_the_panel_under_its_name() {
-    let window = open();
+    let mut window = open();
+    unfold(&mut window, "Sampling");
+    unfold(&mut window, "Rays");
     for name in [
         "View mode",
         "Compare",
@@ -111,7 +125,7 @@ fn every_setting_of_the_picture_is_in_the_panel_under_its_name() {
         "Exposure",
         "Tone curve",
         "Transfer",
-        "Background",
+        "Denoise",
     ] {
         let widgets = window.harness.get_all_by_label(name);
         let count = widgets
@@ -234,7 +248,9 @@ fn a_region_is_drawn_with_the_mouse_its_edges_are_moved_and_it_ends() {
     close(&window, [0.25, 0.25, 0.9, 0.75]);
     assert_eq!(window.camera().look_from, camera, "the camera moved too");
     window.harness.get_by_label("Left edge");
-    click(&mut window, "Reset region");
+    window.harness.get_by_label("Clear region").scroll_to_me();
+    window.settle();
+    click(&mut window, "Clear region");
     assert!(window.session().view.region.is_none());
     assert_eq!(window.shown().region, [0, 0, 64, 48]);
 }

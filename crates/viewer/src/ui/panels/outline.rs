@@ -9,6 +9,7 @@ use crate::model::outline::{self, Entry};
 use crate::state::files::Part;
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
+use crate::ui::panels::row::write_heading;
 use crate::ui::panels::{icon, parts};
 use eframe::egui::{
     self, Color32, DragAndDrop, Key, Rect, RichText, Sense, StrokeKind, WidgetInfo, WidgetText,
@@ -160,8 +161,7 @@ fn line(
         response
             .widget_info(|| WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), &entry.label));
         background(ui, &response, is_selected);
-        let text = RichText::new(&entry.label).strong().small();
-        write(ui, middle, text, ui.visuals().strong_text_color());
+        write_heading(ui, middle, &entry.label);
         return triangle;
     };
     if let Some((renamed, name)) = &mut session.editing.renaming
@@ -387,10 +387,7 @@ fn grant(session: &mut Session, wish: Wish) {
 
 /// The notes of the import: what was left out, repaired or decided.
 fn skipped(ui: &mut egui::Ui, skipped: &[String]) {
-    let title = match skipped.len() {
-        1 => "1 part is missing or was repaired".to_owned(),
-        count => format!("{count} parts are missing or were repaired"),
-    };
+    let title = format!("Notes ({})", skipped.len());
     let color = ui.visuals().warn_fg_color;
     ui.separator();
     ui.menu_button(RichText::new(format!("⚠ {title}")).color(color), |ui| {

@@ -1,106 +1,103 @@
 //! Render settings: view mode, sampling, size and tone mapping.
 
-mod background;
+mod backdrop;
 mod compare;
 mod histogram;
 mod size;
 mod statistics;
+pub mod view_mode;
 
 pub use statistics::seconds;
 
 use crate::model::view_settings::ViewSettings;
 use crate::ui::context::PanelContext;
+use crate::ui::panels::row::{self, heading, section};
 use crate::ui::panels::setting_rows::{self, choice, line};
 use eframe::egui::{self, Ui};
-use glimray_app::layers::{LAYERS, PictureLayer};
-use glimray_app::settings::{SETTINGS, Section};
-use glimray_app::value_names::{INTEGRATORS, TONES, TRANSFERS};
+use glimray_app::settings::{SETTINGS, Section, Setting};
+use glimray_app::value_names::{TONES, TRANSFERS};
 use glimray_render::{Integrator, RenderSettings};
 
-/// Width of the label column, in points, so that all sections line up.
-const NAMES: f32 = 96.0;
+/// The setting whose row stands among the everyday ones.
+const SAMPLES: &str = "samples";
 
-/// Draws all settings that are not part of the scene.
+/// Draws all settings that are not part of the scene: everyday ones above, those of experts folded.
 pub fn render(ui: &mut Ui, context: &mut PanelContext) {
-    egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+    row::scrolled(ui, |ui| {
         egui::Frame::NONE.inner_margin(6.0).show(ui, |ui| {
             statistics::progress(ui, context);
-            ui.separator();
-            section(ui, "Display", |ui| shown(ui, context));
-            section(ui, "Sampling", |ui| samples(ui, &mut context.session.view));
-            section(ui, "Rays", |ui| rays(ui, &mut context.session.view));
-            section(ui, "Size", |ui| size::size(ui, context));
-            section(ui, "Tone mapping", |ui| {
+            heading(ui, "Picture");
+            ui.add_enabled_ui(context.session.scene().is_some(), |ui| {
+                everyday(ui, &mut context.session.view);
+            });
+            section(ui, "Comparison", true, |ui| compare::compare(ui, context));
+            section(ui, "Histogram", true, |ui| {
+                histogram::histogram(ui, context)
+            });
+            section(ui, "Tone mapping", true, |ui| {
                 developing(ui, &mut context.session.view)
             });
-            plain_section(ui, "Histogram", |ui| histogram::histogram(ui, context));
-            section(ui, "Environment", |ui| {
-                background::background(ui, context);
-                background::backdrop(ui, context);
+            section(ui, "Size", true, |ui| size::size(ui, context));
+            let look = &mut context.session.view;
+            if look.settings.integrator == Integrator::Path {
+                section(ui, "Backdrop", true, |ui| backdrop::backdrop(ui, look));
+            }
+            section(ui, "Sampling", false, |ui| {
+                samples(ui, look, |setting| setting.name != SAMPLES)
             });
-            section(ui, "Statistics", |ui| statistics::statistics(ui, context));
+            section(ui, "Rays", false, |ui| {
+                rows(ui, look, Section::Rays, |_| true)
+            });
+            section(ui, "Statistics", false, |ui| {
+                statistics::statistics(ui, context)
+            });
         });
     });
 }
 
-/// A section with rows of two columns.
-fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
-    plain_section(ui, title, |ui| {
-        egui::Grid::new(title)
-            .num_columns(2)
-            .spacing([10.0, 5.0])
-            .min_col_width(NAMES)
-            .show(ui, contents);
-    });
-}
-
-fn plain_section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
-    egui::CollapsingHeader::new(title)
-        .default_open(true)
-        .show_unindented(ui, contents);
-}
-
-/// The view mode and its comparison.
-fn shown(ui: &mut Ui, context: &mut PanelContext) {
-    let look = &mut context.session.view;
-    line(
-        ui,
-        ("View mode", "What is computed for each camera ray"),
-        &mut look.settings.integrator,
-        &look.scene_settings.integrator,
-        |ui, value| choice(ui, "integrator", &INTEGRATORS, value),
-    );
-    layer(ui, &mut context.session.view);
-    compare::compare(ui, context);
-}
-
-/// The layer of a path-traced picture; of a classical one if a key has chosen it.
-fn layer(ui: &mut Ui, look: &mut ViewSettings) {
-    let integrator = look.settings.integrator;
-    let is_layered = integrator.entry().has_layers;
-    if !is_layered || integrator != Integrator::Path && look.layer == PictureLayer::Beauty {
-        return;
-    }
-    let mut layer = look.layer;
+/// The settings that are used each day.
+fn everyday(ui: &mut Ui, look: &mut ViewSettings) {
+    view_mode::view_mode(ui, look);
+    exposure(ui, look);
+    samples(ui, look, |setting| setting.name == SAMPLES);
+    let usual = look.scene_tone.denoise;
+    let denoise = &mut look.tone.denoise;
     line(
         ui,
         (
-            "Layer",
-            "What is shown of the picture; numbers in false colours. The first layer other than the beauty starts \
-             the picture over",
+            "Denoise",
+            "Filters the noise, guided by albedo, normals and depth. Switched on for the first time, it \
+             starts the picture over",
         ),
-        &mut layer,
-        &PictureLayer::Beauty,
-        |ui, value| choice(ui, "layer", &LAYERS, value),
+        denoise,
+        &usual,
+        |ui, value| ui.checkbox(value, ""),
     );
-    if layer != look.layer {
-        look.show_layer(layer);
-    }
+    // Once the film has features, switching costs no samples.
+    look.settings.features |= *denoise;
 }
 
-fn samples(ui: &mut Ui, look: &mut ViewSettings) {
+fn exposure(ui: &mut Ui, look: &mut ViewSettings) {
+    line(
+        ui,
+        (
+            "Exposure",
+            "Exposure in stops, -64 to 64. Each stop doubles the brightness",
+        ),
+        &mut look.tone.exposure_ev,
+        &look.scene_tone.exposure_ev,
+        |ui, value| {
+            let stops = egui::DragValue::new(value).range(-64.0..=64.0).speed(0.02);
+            let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
+            ui.add_sized(size, stops.max_decimals(2).suffix(" EV"))
+        },
+    );
+}
+
+/// Rows of sampling, of which some depend on others.
+fn samples(ui: &mut Ui, look: &mut ViewSettings, is_meant: impl Fn(&Setting) -> bool) {
     let (samples, filter) = (look.settings.samples, look.settings.filter);
-    rows(ui, Section::Sampling, look);
+    rows(ui, look, Section::Sampling, is_meant);
     let chosen = look.settings.samples;
     if chosen != samples {
         look.settings.samples = samples;
@@ -111,16 +108,18 @@ fn samples(ui: &mut Ui, look: &mut ViewSettings) {
     }
 }
 
-fn rays(ui: &mut Ui, look: &mut ViewSettings) {
-    rows(ui, Section::Rays, look);
-}
-
-/// The rows of a section from the table of settings. Settings of paths are there for paths only.
-fn rows(ui: &mut Ui, section: Section, look: &mut ViewSettings) {
+/// Rows of a section from the table of settings. Settings of paths are there for paths only.
+fn rows(
+    ui: &mut Ui,
+    look: &mut ViewSettings,
+    section: Section,
+    is_meant: impl Fn(&Setting) -> bool,
+) {
     for setting in SETTINGS {
         if let Some(row) = &setting.row
             && row.section == section
             && (section == Section::Sampling || setting.applies(&look.settings))
+            && is_meant(setting)
         {
             let usual = usual(look);
             setting_rows::setting(ui, (setting, row), &mut look.settings, &usual);
@@ -153,19 +152,6 @@ fn developing(ui: &mut Ui, look: &mut ViewSettings) {
     );
     line(
         ui,
-        (
-            "Exposure",
-            "Exposure in stops, -64 to 64. Each stop doubles the brightness",
-        ),
-        &mut tone.exposure_ev,
-        &usual.exposure_ev,
-        |ui, value| {
-            let stops = egui::DragValue::new(value).range(-64.0..=64.0).speed(0.02);
-            ui.add(stops.max_decimals(2).suffix(" EV"))
-        },
-    );
-    line(
-        ui,
         ("Tone curve", "Maps radiance to display colours"),
         &mut tone.curve,
         &usual.curve,
@@ -178,17 +164,4 @@ fn developing(ui: &mut Ui, look: &mut ViewSettings) {
         &usual.transfer,
         |ui, value| choice(ui, "transfer", &TRANSFERS, value),
     );
-    line(
-        ui,
-        (
-            "Denoise",
-            "Filters the noise, guided by albedo, normals and depth. Switched on for the first time, it \
-             starts the picture over",
-        ),
-        &mut tone.denoise,
-        &usual.denoise,
-        |ui, value| ui.checkbox(value, ""),
-    );
-    // Once the film has features, switching costs no samples.
-    look.settings.features |= tone.denoise;
 }

@@ -1,11 +1,16 @@
 //! Rows of settings with a reset button, and titles of command-line values.
 
+use crate::ui::panels::row::row;
 use eframe::egui::{self, Response, RichText, Ui, WidgetInfo};
 use glimray_app::settings::{Row, Setting};
 use glimray_app::value_forms::Control;
 use glimray_app::value_names::ValueNames;
 use glimray_render::{Integrator, RenderSettings};
 use std::ops::RangeInclusive;
+
+/// Width of a reset button, and of the buttons that halve and double, with the space before them, in points.
+const RESET: f32 = 20.0;
+const HALVE_OR_DOUBLE: f32 = 64.0;
 
 /// The title of a command-line value: `side-by-side` becomes `Side by side`.
 pub fn title(name: &str) -> String {
@@ -58,17 +63,25 @@ fn control(ui: &mut Ui, setting: &Setting, row: &Row, settings: &mut RenderSetti
         Control::Switch(place) => ui.checkbox(place(settings), ""),
         Control::Count(place, range) => {
             let most = *range.end();
-            let response = number(ui, place(settings), range, row.speed, row.unit);
-            if setting.name == "samples" {
+            let has_buttons = setting.name == "samples";
+            let beside = if has_buttons { HALVE_OR_DOUBLE } else { 0.0 };
+            let width = ui.available_width() - beside;
+            let how = (range, row.speed, row.unit);
+            let response = wide_number(ui, place(settings), how, width);
+            if has_buttons {
                 halve_or_double(ui, place(settings), most);
             }
             response
         }
-        Control::Real(place, range) => number(ui, place(settings), range, row.speed, row.unit),
+        Control::Real(place, range) => {
+            let how = (range, row.speed, row.unit);
+            wide_number(ui, place(settings), how, ui.available_width())
+        }
         Control::Limit(place, range) => {
             let value = place(settings);
             let mut limit = value.unwrap_or_default();
-            let response = number(ui, &mut limit, 0.0..=*range.end(), row.speed, row.unit);
+            let how = (0.0..=*range.end(), row.speed, row.unit);
+            let response = wide_number(ui, &mut limit, how, ui.available_width());
             *value = Some(limit).filter(|limit| *limit > 0.0);
             response.on_hover_text("0 is no limit")
         }
@@ -96,7 +109,7 @@ fn halve_or_double(ui: &mut Ui, samples: &mut u32, most: u32) {
     }
 }
 
-/// A row of a two-column grid: a label, a widget, and a reset button while the value differs from `usual`.
+/// A row with a label, a widget, and a reset button while the value differs from `usual`.
 pub fn line<T: PartialEq + Clone>(
     ui: &mut Ui,
     (name, tip): (&str, &str),
@@ -104,14 +117,24 @@ pub fn line<T: PartialEq + Clone>(
     usual: &T,
     widget: impl FnOnce(&mut Ui, &mut T) -> Response,
 ) {
-    let label = ui.label(name).on_hover_text(tip);
-    ui.horizontal(|ui| {
-        widget(ui, value).labelled_by(label.id).on_hover_text(tip);
-        if value != usual && reset_button(ui, name).clicked() {
+    row(ui, (name, tip), |ui, label| {
+        let is_other = value != usual;
+        let beside = if is_other { RESET } else { 0.0 };
+        let width = (ui.available_width() - beside).max(0.0);
+        let size = egui::vec2(width, ui.spacing().interact_size.y);
+        let response = ui.allocate_ui(size, |ui| {
+            ui.spacing_mut().combo_width = ui.available_width();
+            widget(ui, value)
+        });
+        let response = match label {
+            Some(label) => response.inner.labelled_by(label),
+            None => response.inner,
+        };
+        response.on_hover_text(tip);
+        if is_other && reset_button(ui, name).clicked() {
             *value = usual.clone();
         }
     });
-    ui.end_row();
 }
 
 /// A button that resets to the scene's value.
@@ -149,6 +172,7 @@ fn choice_of<'a>(
 ) -> Response {
     egui::ComboBox::from_id_salt(id)
         .selected_text(title(chosen))
+        .truncate()
         .show_ui(ui, |ui| {
             for (name, help) in names {
                 ui.selectable_value(chosen, name, title(name))
@@ -166,12 +190,30 @@ pub fn number<T: egui::emath::Numeric>(
     speed: f64,
     suffix: &str,
 ) -> Response {
+    ui.add(drag(value, range, speed, suffix))
+}
+
+/// A number that takes this width.
+pub fn wide_number<T: egui::emath::Numeric>(
+    ui: &mut Ui,
+    value: &mut T,
+    (range, speed, suffix): (RangeInclusive<T>, f64, &str),
+    width: f32,
+) -> Response {
+    let size = egui::vec2(width, ui.spacing().interact_size.y);
+    ui.add_sized(size, drag(value, range, speed, suffix))
+}
+
+fn drag<'a, T: egui::emath::Numeric>(
+    value: &'a mut T,
+    range: RangeInclusive<T>,
+    speed: f64,
+    suffix: &str,
+) -> egui::DragValue<'a> {
     let decimals = if T::INTEGRAL { 0 } else { 5 };
-    ui.add(
-        egui::DragValue::new(value)
-            .range(range)
-            .speed(speed)
-            .max_decimals(decimals)
-            .suffix(suffix),
-    )
+    egui::DragValue::new(value)
+        .range(range)
+        .speed(speed)
+        .max_decimals(decimals)
+        .suffix(suffix)
 }

@@ -11,7 +11,11 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
     fields.heading("Background");
     let background = fields.scene.background.clone();
     if session.view.background.is_some() {
-        fields.note("The Render panel overrides the background.");
+        fields.note("Another background is shown for now.");
+        let button = fields.ui.button("Show the scene's background");
+        if button.on_hover_text("Ends “Next background”").clicked() {
+            session.view.background = None;
+        }
     }
     let tip = "What rays see when they hit no object.";
     let now = Kind::of(fields.scene);

@@ -1,16 +1,15 @@
 //! Rows with a label and a value. Every edit becomes a named change of the scene.
 
 use crate::model::objects::EditError;
-use crate::ui::overlay::COLORS;
 use crate::ui::panels::icon::{edge, named};
+use crate::ui::panels::row::{heading, row};
+use crate::ui::theme;
 use eframe::egui::{self, DragValue, Ui, UiBuilder, vec2};
 use glam::{DVec3, Vec3};
 use glimray_scene::{Scene, Target};
 
 /// Width of the letter of an axis.
 const AXIS: f32 = 8.0;
-/// Width of labels, in points.
-const LABEL: f32 = 84.0;
 /// Tooltip of animated properties.
 const DRIVEN: &str = "Animated: edit its keys in the scene file.";
 
@@ -48,6 +47,11 @@ impl Limits {
     pub const SIZE: Self = Self {
         least: 1e-9,
         ..Self::LENGTH
+    };
+    /// Positive lengths, and none at all.
+    pub const ENDLESS: Self = Self {
+        most: f64::INFINITY,
+        ..Self::SIZE
     };
     /// 0 or more.
     pub const AMOUNT: Self = Self {
@@ -164,24 +168,10 @@ impl<'a> Fields<'a> {
         let driver = self.driver.take();
         let mut targets = self.scene.tracks.iter().flat_map(|track| &track.targets);
         let is_driven = driver.is_some_and(|driver| targets.any(|target| *target == driver));
-        self.ui
-            .horizontal(|ui| {
-                let size = vec2(LABEL, ui.spacing().interact_size.y);
-                let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
-                let layout = egui::Layout::left_to_right(egui::Align::Center);
-                let mut labelled_by = None;
-                if !label.is_empty() {
-                    let builder = UiBuilder::new().max_rect(rect).layout(layout);
-                    ui.scope_builder(builder, |ui| {
-                        let label = ui.add(egui::Label::new(label).truncate());
-                        labelled_by = Some(label.id);
-                        label.on_hover_text(tip);
-                    });
-                }
-                ui.add_enabled_ui(!is_driven, |ui| content(ui, labelled_by))
-                    .inner
-            })
-            .inner
+        row(self.ui, (label, tip), |ui, labelled_by| {
+            ui.add_enabled_ui(!is_driven, |ui| content(ui, labelled_by))
+                .inner
+        })
     }
 
     /// A row with a number.
@@ -221,13 +211,14 @@ impl<'a> Fields<'a> {
         self.row((label, tip), |ui, _| {
             ui.spacing_mut().item_spacing.x = 2.0;
             let width = (ui.available_width() - 10.0) / 3.0 - AXIS;
+            let colors = theme::axes(ui.visuals());
             let mut changed = None;
             for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
                 let size = vec2(AXIS, ui.spacing().interact_size.y);
                 let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
                 let font = egui::TextStyle::Small.resolve(ui.style());
                 let (center, letter) = (egui::Align2::CENTER_CENTER, name.to_uppercase());
-                (ui.painter()).text(rect.center(), center, letter, font, COLORS[axis]);
+                (ui.painter()).text(rect.center(), center, letter, font, colors[axis]);
                 let name = format!("{label} {name}");
                 if let Some(now) = drag(ui, Name::Own(&name), tip, value[axis], limits, width) {
                     changed.get_or_insert(value)[axis] = now;
@@ -358,8 +349,7 @@ impl<'a> Fields<'a> {
 
     /// A heading.
     pub fn heading(&mut self, text: &str) {
-        self.ui.add_space(6.0);
-        self.ui.strong(text);
+        heading(self.ui, text);
     }
 
     /// A note.
@@ -382,9 +372,17 @@ fn drag(ui: &mut Ui, name: Name, tip: &str, value: f64, limits: Limits, width: f
         .range(limits.least..=limits.most)
         .clamp_existing_to_range(false)
         .custom_formatter(|value, _| shown(value))
+        .custom_parser(parsed)
         .update_while_editing(false)
         .suffix(limits.unit);
-    let response = ui.add_sized([width, ui.spacing().interact_size.y], widget);
+    let size = vec2(width.max(0.0), ui.spacing().interact_size.y);
+    let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+    // A long number does not widen its column.
+    let layout = egui::Layout::centered_and_justified(egui::Direction::TopDown);
+    let mut cell = ui.new_child(UiBuilder::new().max_rect(rect).layout(layout));
+    cell.set_clip_rect(rect.intersect(ui.clip_rect()));
+    cell.spacing_mut().button_padding.x = 2.0;
+    let response = cell.add(widget);
     let response = match name {
         Name::Own(name) => {
             named(&response, name);
@@ -396,8 +394,17 @@ fn drag(ui: &mut Ui, name: Name, tip: &str, value: f64, limits: Limits, width: f
     let response = response.on_hover_text(tip).on_disabled_hover_text(DRIVEN);
     // Unedited text must not round the number.
     let is_meant = response.dragged() || shown(value) != shown(now);
-    (response.changed() && is_meant && now.is_finite())
-        .then(|| now.clamp(limits.least, limits.most))
+    let is_possible = now.is_finite() || now == f64::INFINITY && limits.most == f64::INFINITY;
+    (response.changed() && is_meant && is_possible).then(|| now.clamp(limits.least, limits.most))
+}
+
+/// Reads a number as egui does, and "∞" or "none" as infinity.
+fn parsed(text: &str) -> Option<f64> {
+    let text: String = text.split_whitespace().collect();
+    match text.as_str() {
+        "∞" | "none" => Some(f64::INFINITY),
+        number => number.replace('−', "-").parse().ok(),
+    }
 }
 
 /// Formats a number with few digits.
@@ -405,6 +412,7 @@ pub fn shown(value: f64) -> String {
     let size = value.abs();
     let text = match size {
         0.0 => return "0".into(),
+        _ if value.is_infinite() => return "∞".into(),
         _ if !(1e-3..1e6).contains(&size) => return format!("{value:.2e}"),
         _ if size >= 1000.0 => format!("{value:.1}"),
         _ if size >= 100.0 => format!("{value:.2}"),

@@ -68,8 +68,9 @@ pub fn glass(fields: &mut Fields, index: usize) {
     let tip = "The colour that white light has after the attenuation distance, 0 to 1.";
     let label = ("Attenuation colour", tip);
     bounded(fields, index, label, None, |m| &mut m.attenuation_color);
-    let tip = "The length that gives light in the volume its attenuation colour. Infinite in a clear volume.";
-    let (label, limits) = (("Attenuation distance", tip), Limits::SIZE);
+    let tip =
+        "The length that gives light in the volume its attenuation colour. ∞ in a clear volume.";
+    let (label, limits) = (("Attenuation distance", tip), Limits::ENDLESS);
     number(
         fields,
         index,

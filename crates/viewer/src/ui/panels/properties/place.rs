@@ -50,8 +50,11 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
             );
         }
     }
+    // The scale of a sphere is its radius, which has a row of its own.
+    let is_sphere = matches!(id, Id::Object(ObjectRef::Shape(index))
+        if matches!(fields.scene.shapes[index].geometry, Geometry::Sphere { .. }));
     match free.scale {
-        Scaling::Uneven => {
+        Scaling::Uneven if !is_sphere => {
             let tip =
                 "Factors along the object's own axes. Negative factors mirror; 0 is not allowed.";
             let limits = Limits::LENGTH;
@@ -66,7 +69,7 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
                 fields.change("scale", asked(Transform { scale, ..shown }));
             }
         }
-        Scaling::Even | Scaling::None => {}
+        Scaling::Uneven | Scaling::Even | Scaling::None => {}
     }
     if !free.translate && !free.rotate && free.scale == Scaling::None {
         fields.note("Its position is animated. Edit its keys or its parent node.");

@@ -6,12 +6,13 @@ use crate::model::gallery::{Still, StillId};
 use crate::model::view_settings::{Comparison, GAIN, MAX_GAIN, Sharing, Source};
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
+use crate::ui::panels::row::row;
 use crate::ui::panels::setting_rows::{line, title};
 use eframe::egui::{self, Ui};
 use glimray_app::value_names::INTEGRATORS;
 
-/// Width of the second picture's name, in points: a button stands beside it.
-const SECOND: f32 = 92.0;
+/// Width of the button beside the second picture's name, in points.
+const BESIDE: f32 = 68.0;
 
 /// The picture without denoising.
 const RAW: &str = "Without denoising";
@@ -88,7 +89,8 @@ fn set_gain(ui: &mut Ui, context: &mut PanelContext, mut gain: f32) {
     let tip = "Factor on the difference of the displayed colours, 1 to 100";
     line(ui, ("Gain", tip), &mut gain, &GAIN, |ui, gain| {
         let value = egui::DragValue::new(gain).range(1.0..=MAX_GAIN);
-        ui.add(value.speed(0.1).max_decimals(1).suffix(" ×"))
+        let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
+        ui.add_sized(size, value.speed(0.1).max_decimals(1).suffix(" ×"))
     });
     if let Some(comparison) = &mut context.session.view.comparison {
         comparison.sharing = Sharing::Difference(gain);
@@ -99,7 +101,6 @@ fn set_gain(ui: &mut Ui, context: &mut PanelContext, mut gain: f32) {
 fn second(ui: &mut Ui, context: &mut PanelContext, comparison: Comparison) {
     let swap = with_key(context, "Swap comparison sides", Action::SwapSides);
     let tip = "A view mode of the scene, the picture without denoising, a snapshot or a reference picture";
-    let label = ui.label("Compared with").on_hover_text(tip);
     let session = &mut *context.session;
     let chosen = match comparison.source {
         Source::Integrator(integrator) => title(INTEGRATORS.name(&integrator)),
@@ -110,10 +111,10 @@ fn second(ui: &mut Ui, context: &mut PanelContext, comparison: Comparison) {
         Source::Raw => RAW.to_owned(),
     };
     let mut source = comparison.source;
-    ui.horizontal(|ui| {
-        egui::ComboBox::from_id_salt("second")
+    row(ui, ("Compared with", tip), |ui, label| {
+        let list = egui::ComboBox::from_id_salt("second")
             .selected_text(chosen)
-            .width(SECOND)
+            .width(ui.available_width() - BESIDE)
             .truncate()
             .show_ui(ui, |ui| {
                 for (word, help, integrator) in INTEGRATORS.all() {
@@ -132,10 +133,11 @@ fn second(ui: &mut Ui, context: &mut PanelContext, comparison: Comparison) {
                     ui.selectable_value(&mut source, Source::Still(still.id), &still.name)
                         .on_hover_text(told(still));
                 }
-            })
-            .response
-            .labelled_by(label.id)
-            .on_hover_text(session.still().map_or(tip.to_owned(), told));
+            });
+        if let Some(label) = label {
+            let tip = session.still().map_or(tip.to_owned(), told);
+            list.response.labelled_by(label).on_hover_text(tip);
+        }
         match comparison.source {
             Source::Integrator(_) => {
                 if ui.button("Swap").on_hover_text(swap).clicked() {
@@ -147,7 +149,6 @@ fn second(ui: &mut Ui, context: &mut PanelContext, comparison: Comparison) {
             Source::Raw => {}
         }
     });
-    ui.end_row();
     if source != comparison.source {
         context.session.view.compare_with(source);
     }
@@ -179,27 +180,27 @@ fn size(ui: &mut Ui, context: &mut PanelContext) {
         return;
     }
     let (width, height) = size;
-    ui.label("");
-    let button = ui.button(format!("Render at {width}×{height}"));
     let tip = "The other picture is scaled to the height of this one. Render this one at its size instead";
-    if button.on_hover_text(tip).clicked() {
+    let is_wished = row(ui, ("", tip), |ui, _| {
+        let button = ui.button(format!("Render at {width}×{height}"));
+        button.on_hover_text(tip).clicked()
+    });
+    if is_wished {
         context.session.view.fits = false;
         context.session.view.settings.size = size;
     }
-    ui.end_row();
 }
 
 /// The buttons that add stills.
 fn stills(ui: &mut Ui, context: &mut PanelContext) {
     let (keep, open) = (Action::KeepSnapshot, Action::OpenReference);
-    (ui.label("Add picture")).on_hover_text("Keep or open a picture to compare with");
-    ui.horizontal(|ui| {
-        for (text, action) in [("Snapshot", keep), ("Reference…", open)] {
+    let tip = "Keep or open a picture to compare with";
+    row(ui, ("Comparison picture", tip), |ui, _| {
+        for (text, action) in [("Snapshot", keep), ("Open…", open)] {
             let tip = with_key(context, action.description(), action);
             if ui.button(text).on_hover_text(tip).clicked() {
                 context.session.clicked.push(action);
             }
         }
     });
-    ui.end_row();
 }

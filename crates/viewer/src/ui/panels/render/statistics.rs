@@ -2,10 +2,14 @@
 
 use crate::model::bindings::Action;
 use crate::ui::context::PanelContext;
+use crate::ui::panels::row::row;
 use crate::worker::progressive_image::PictureSlot;
 use crate::worker::progressive_image::{Progress, Shown};
 use eframe::egui::{self, Ui};
 use glimray_scene::bytes::size;
+
+/// Width of the button that pauses and continues, in points.
+const PAUSE: f32 = 66.0;
 
 /// The progress bar, and the buttons that control rendering.
 pub fn progress(ui: &mut Ui, context: &mut PanelContext) {
@@ -28,20 +32,25 @@ pub fn progress(ui: &mut Ui, context: &mut PanelContext) {
         .on_hover_text("Fraction of the target samples that are done");
     let key = |action| context.session.preferences.bindings.label(action);
     let (pause_key, restart_key) = (key(Action::PauseRender), key(Action::RestartRender));
-    ui.horizontal(|ui| {
+    let has_scene = context.session.scene().is_some();
+    ui.horizontal_wrapped(|ui| {
         let paused = context.session.view.paused;
         let (name, tip) = match paused {
             true => ("Continue", "Resume rendering"),
             false => ("Pause", "Pause rendering"),
         };
-        if (ui.button(name))
+        // Both names have the same room, so that the other buttons stay where they are.
+        let pause = egui::Button::new(name).min_size(egui::vec2(PAUSE, 0.0));
+        if ui
+            .add_enabled(has_scene, pause)
             .on_hover_text(format!("{tip} ({pause_key})"))
             .clicked()
         {
             context.session.view.paused = !paused;
         }
         let tip = format!("Restart rendering ({restart_key})");
-        if ui.button("Restart").on_hover_text(tip).clicked() {
+        let restart = ui.add_enabled(has_scene, egui::Button::new("Restart"));
+        if restart.on_hover_text(tip).clicked() {
             context.session.restart();
         }
         let keep = ui.add_enabled(
@@ -60,7 +69,7 @@ pub fn progress(ui: &mut Ui, context: &mut PanelContext) {
 fn state(progress: &Progress, paused: bool) -> String {
     let (samples, target) = (progress.samples_so_far(), progress.target);
     match (progress.is_done, paused) {
-        (true, _) if !progress.is_coarse => format!("Done: {target} samples"),
+        (true, _) if !progress.is_coarse => format!("Done: {}", samples_of(u64::from(*target))),
         (_, true) => format!("Paused at {samples} of {target} samples"),
         _ if progress.is_coarse => "Preview".into(),
         _ => format!("{samples} of {target} samples"),
@@ -73,9 +82,17 @@ pub fn statistics(ui: &mut Ui, context: &mut PanelContext) {
         return;
     };
     for (name, tip, value) in rows(&shown, context.session.time_left.seconds()) {
-        ui.label(name).on_hover_text(tip);
-        ui.label(value).on_hover_text(tip);
-        ui.end_row();
+        row(ui, (name, tip), |ui, _| {
+            ui.add(egui::Label::new(value).wrap()).on_hover_text(tip);
+        });
+    }
+}
+
+/// A number of samples in words.
+fn samples_of(count: u64) -> String {
+    match count {
+        1 => "1 sample".to_owned(),
+        count => format!("{count} samples"),
     }
 }
 
@@ -134,14 +151,14 @@ fn rows(shown: &Shown, left: Option<f64>) -> Vec<(&'static str, &'static str, St
         rows.push((
             "Dropped",
             "Samples that were not finite, or brighter than 10^12, and are left out",
-            format!("{} samples", stats.nonfinite_samples),
+            samples_of(stats.nonfinite_samples),
         ));
     }
     if stats.cut_off_trees > 0 {
         rows.push((
             "Cut off",
             "Samples with too many rays or more than 4 nested dielectric volumes. Lower the depth, raise the minimum throughput, or nest fewer volumes",
-            format!("{} samples", stats.cut_off_trees),
+            samples_of(stats.cut_off_trees),
         ));
     }
     rows
