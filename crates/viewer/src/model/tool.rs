@@ -1,7 +1,8 @@
 //! The tools of the mouse in the picture, in one table.
 //!
 //! A new tool is a row here. The compiler then asks for its behaviour in `actions/tools.rs` and for its overlay in
-//! `ui/tools.rs`; its command, its shortcuts, its menu entry and its button follow from the row.
+//! `ui/tools.rs`; its command, its shortcuts, its menu entry and its button follow from the row, and its sign is asked for in
+//! `ui/panels/sign.rs`.
 
 use super::region;
 use glam::DVec3;
@@ -19,8 +20,6 @@ pub struct ToolEntry {
     pub shortcuts: [&'static str; 3],
     /// The menu that it is in.
     pub menu: ToolMenu,
-    /// The label of its button in the toolbar; `None` without a button.
-    pub button: Option<&'static str>,
     /// Whether it shows handles at the selection.
     pub has_handles: bool,
 }
@@ -63,7 +62,6 @@ tools! {
         description: "Select tool: click an object to select it",
         shortcuts: ["C", "C", "Q"],
         menu: ToolMenu::Edit,
-        button: Some("Select"),
         has_handles: false,
     }
     /// Handles move the selection.
@@ -73,7 +71,6 @@ tools! {
         description: "Move tool: drag a handle to move the selection",
         shortcuts: ["G", "G", "W"],
         menu: ToolMenu::Edit,
-        button: Some("Move"),
         has_handles: true,
     }
     /// Handles rotate the selection.
@@ -83,7 +80,6 @@ tools! {
         description: "Rotate tool: drag a ring to rotate the selection",
         shortcuts: ["R", "R", "E"],
         menu: ToolMenu::Edit,
-        button: Some("Rotate"),
         has_handles: true,
     }
     /// Handles scale the selection.
@@ -93,7 +89,6 @@ tools! {
         description: "Scale tool: drag a handle to scale the selection",
         shortcuts: ["Z", "S", "R"],
         menu: ToolMenu::Edit,
-        button: Some("Scale"),
         has_handles: true,
     }
     /// A click shows the rays of the pixel under the cursor.
@@ -103,7 +98,6 @@ tools! {
         description: "Ray inspector: click a pixel to show its rays",
         shortcuts: ["I", "I", "I"],
         menu: ToolMenu::Edit,
-        button: None,
         has_handles: false,
     }
     /// Two clicks measure the distance between two points.
@@ -113,7 +107,6 @@ tools! {
         description: "Measure tool: click two points to show their distance",
         shortcuts: ["Alt+M", "Alt+M", "Alt+M"],
         menu: ToolMenu::Edit,
-        button: None,
         has_handles: false,
     }
     /// A drag selects the render region.
@@ -123,7 +116,6 @@ tools! {
         description: "Render a region, or clear it",
         shortcuts: ["B", "Ctrl+B", "B"],
         menu: ToolMenu::Render,
-        button: None,
         has_handles: false,
     }
 }

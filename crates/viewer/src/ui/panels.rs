@@ -14,6 +14,7 @@ pub(super) mod rays;
 pub(super) mod render;
 mod row;
 mod setting_rows;
+mod sign;
 mod status;
 mod time;
 

@@ -191,7 +191,7 @@ impl eframe::App for Viewer {
         tabs::show(ui, &mut self.layout, &mut context);
         shield::show(ui.ctx(), context.session);
         dialogs::show(ui, &mut context, &mut self.layout);
-        panels::messages(ui, &mut context);
+        panels::messages(ui, &mut context, &self.layout);
         focus_ring::show(ui.ctx());
         self.fallbacks.update(ui.ctx(), context.session);
         self.textures.end();

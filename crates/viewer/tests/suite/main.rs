@@ -43,6 +43,7 @@ mod replay;
 mod sheets;
 mod support;
 mod time;
+mod toolbar;
 mod tools;
 
 /// Paths in tests start at the root of the repository.

@@ -10,7 +10,7 @@ const FIRST: [(Action, &str); 6] = [
     (Action::Orbit, "Orbit"),
     (Action::Pan, "Pan"),
     (Action::Zoom, "Zoom"),
-    (Action::SetPivot, "Set the pivot under the cursor"),
+    (Action::SetPivot, "Set the pivot"),
     (Action::FrameAll, "Frame the whole scene"),
     (Action::Help, "Show keyboard shortcuts"),
 ];
@@ -21,28 +21,30 @@ pub fn show(ctx: &egui::Context, session: &mut Session) -> bool {
     let opens = egui::Window::new("First steps")
         .collapsible(false)
         .resizable(false)
-        .anchor(Align2::CENTER_BOTTOM, [0.0, -64.0])
+        .anchor(Align2::LEFT_BOTTOM, [8.0, -36.0])
         .show(ctx, |ui| {
             Grid::new("first")
                 .num_columns(2)
-                .spacing([24.0, 4.0])
+                .spacing([12.0, 4.0])
                 .show(ui, |ui| {
                     for (action, what) in FIRST {
-                        let label = session.preferences.bindings.label(action);
-                        if !label.is_empty() {
+                        let triggers = session.preferences.bindings.triggers(action);
+                        // One way is enough to begin with, and leaves the picture free.
+                        if let Some(trigger) = triggers.first() {
+                            let label = trigger.label(cfg!(target_os = "macos"));
                             ui.label(RichText::new(label).strong());
                             ui.label(what);
                             ui.end_row();
                         }
                     }
                     ui.label(RichText::new("Drop a file").strong());
-                    ui.label("Open a scene, a model or an environment image");
+                    ui.label("Open a scene or a model");
                     ui.end_row();
                 });
             ui.add_space(4.0);
             ui.horizontal(|ui| {
                 stays = !ui.button("Got it").clicked();
-                ui.button("Blender or Maya controls…")
+                ui.button("Blender, Maya…")
                     .on_hover_text("Choose the shortcuts of Blender or Maya")
                     .clicked()
             })

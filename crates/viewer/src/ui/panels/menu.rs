@@ -18,52 +18,38 @@ use eframe::egui::{self, Button, RichText, Ui};
 pub fn menu(ui: &mut Ui, context: &mut PanelContext, layout: &mut Layout) {
     egui::Panel::top("menu").show(ui, |ui| {
         egui::MenuBar::new().ui(ui, |ui| {
-            ui.menu_button("File", |ui| {
-                file(&mut Menu {
-                    ui,
-                    context,
-                    layout,
-                })
-            });
-            ui.menu_button("Edit", |ui| {
-                edit(&mut Menu {
-                    ui,
-                    context,
-                    layout,
-                })
-            });
-            ui.menu_button("Add", |ui| add::entries(ui, context.session));
-            ui.menu_button("View", |ui| {
-                view(&mut Menu {
-                    ui,
-                    context,
-                    layout,
-                })
-            });
-            ui.menu_button("Render", |ui| {
-                render(&mut Menu {
-                    ui,
-                    context,
-                    layout,
-                })
-            });
-            ui.menu_button("Window", |ui| {
-                window(&mut Menu {
-                    ui,
-                    context,
-                    layout,
-                })
-            });
-            ui.menu_button("Help", |ui| {
-                help(&mut Menu {
-                    ui,
-                    context,
-                    layout,
-                })
-            });
+            let menus: [(&str, fn(&mut Menu)); 7] = [
+                ("File", file),
+                ("Edit", edit),
+                ("Add", |menu| add::entries(menu.ui, menu.context.session)),
+                ("View", view),
+                ("Render", render),
+                ("Window", window),
+                ("Help", help),
+            ];
+            for (title, entries) in menus {
+                ui.menu_button(title, |ui| {
+                    scrolled(ui, |ui| {
+                        entries(&mut Menu {
+                            ui,
+                            context,
+                            layout,
+                        })
+                    })
+                });
+            }
         });
     });
     crate::ui::panels::broken::broken(ui, context);
+}
+
+/// A menu that scrolls where the window is too low for it.
+fn scrolled(ui: &mut Ui, entries: impl FnOnce(&mut Ui)) {
+    let height = ui.ctx().content_rect().max.y - ui.cursor().min.y - 16.0;
+    egui::ScrollArea::vertical()
+        .min_scrolled_height(height)
+        .max_height(height)
+        .show(ui, entries);
 }
 
 /// The context of a menu.

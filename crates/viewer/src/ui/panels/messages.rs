@@ -2,6 +2,7 @@
 
 use crate::actions::lighting;
 use crate::model::messages::Remedy;
+use crate::state::layout::{Layout, Panel};
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use eframe::egui::{self, Align2, Area, Frame, Id, RichText};
@@ -10,7 +11,7 @@ use eframe::egui::{self, Align2, Area, Frame, Id, RichText};
 const WIDTH: f32 = 380.0;
 
 /// Draws the visible messages above everything else.
-pub fn messages(ui: &mut egui::Ui, context: &mut PanelContext) {
+pub fn messages(ui: &mut egui::Ui, context: &mut PanelContext, layout: &Layout) {
     let messages = context.session.messages.current();
     if messages.is_empty() || context.session.files.is_posing() {
         return;
@@ -18,8 +19,11 @@ pub fn messages(ui: &mut egui::Ui, context: &mut PanelContext) {
     if let Some(time) = context.session.messages.next_change() {
         ui.ctx().request_repaint_after(time);
     }
+    // In the picture they hide neither fields nor the histogram.
+    let room = (layout.rect(Panel::Picture)).unwrap_or(ui.ctx().content_rect());
     Area::new(Id::unique("notices"))
-        .anchor(Align2::RIGHT_BOTTOM, [-12.0, -36.0])
+        .pivot(Align2::RIGHT_BOTTOM)
+        .fixed_pos(room.right_bottom() - egui::vec2(12.0, 36.0))
         .order(egui::Order::Foreground)
         .accessible_name("Notices")
         .show(ui.ctx(), |ui| {

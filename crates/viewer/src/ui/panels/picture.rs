@@ -4,18 +4,22 @@ mod caption;
 mod checker;
 mod compare;
 mod framing;
+mod gizmo;
 mod legend;
 pub mod loading;
 mod menu;
 mod start;
+mod toolbar;
 mod values;
 
 use crate::actions::region;
 use crate::actions::tools;
 use crate::model::camera::CameraController;
+use crate::model::tool::Tool;
 use crate::model::view_settings::{Comparison, Sharing};
 use crate::model::viewport::Viewport;
 use crate::state::cursor::REST;
+use crate::state::session::Session;
 use crate::ui::context::PanelContext;
 use crate::ui::{self, overlay};
 use crate::worker::progressive_image::PictureSlot;
@@ -88,10 +92,16 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
         }
     }
     context.session.viewport = Some(viewports[0]);
-    compare::overlay(ui, context, space, viewports);
+    let room = toolbar::room(context.session, space);
+    compare::overlay(ui, context, (space, room), viewports);
     if context.session.shows_overlays {
         legends(ui, context, space, viewports);
         frames(ui, context, space, viewports);
+    }
+    cursor(context.session, &response);
+    if toolbar::is_shown(context.session, space) {
+        gizmo::gizmo(ui, context.session, room);
+        toolbar::toolbar(ui, context.session, space);
     }
     if is_scaled && context.session.until_fitted().is_none() && !context.session.files.is_posing() {
         scaled(ui, context, space);
@@ -99,6 +109,14 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     loading::loading(ui, context, space);
     if context.session.is_empty() {
         start::start(ui, context.session, space);
+    }
+}
+
+/// Tools that pick a point have a cross as their cursor.
+fn cursor(session: &Session, response: &egui::Response) {
+    let is_taken = session.editing.grip.is_some() || session.drag.is_some();
+    if response.hovered() && !is_taken && matches!(session.tool, Tool::Inspect | Tool::Measure) {
+        response.ctx.set_cursor_icon(egui::CursorIcon::Crosshair);
     }
 }
 
@@ -155,9 +173,9 @@ fn frames(ui: &egui::Ui, context: &PanelContext, space: Rect, viewports: [Viewpo
     }
     let painter = ui.painter_at(space);
     let size = session.view.scene_settings.size;
-    framing::framing(&painter, viewports[0], size);
+    framing::framing(ui, &painter, viewports[0], size);
     if viewports[0] != viewports[1] {
-        framing::framing(&painter, viewports[1], size);
+        framing::framing(ui, &painter, viewports[1], size);
     }
 }
 

@@ -9,13 +9,10 @@ mod material_rows;
 mod metallic_roughness;
 mod place;
 
-use crate::model::bindings::Action;
 use crate::model::objects;
 use crate::model::objects::Id;
-use crate::model::tool::Tool;
-use crate::state::session::Session;
 use crate::ui::context::PanelContext;
-use crate::ui::panels::icon;
+use crate::ui::panels::{icon, row};
 use eframe::egui::{self, vec2};
 use fields::{Change, Fields};
 use glimray_scene::ObjectRef;
@@ -28,10 +25,7 @@ pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {
     };
     let mut changes: Vec<Change> = Vec::new();
     egui::Frame::new().inner_margin(6).show(ui, |ui| {
-        toolbar(ui, session);
-        ui.separator();
-        let area = egui::ScrollArea::both().auto_shrink(false);
-        area.show(ui, |ui| {
+        row::scrolled(ui, |ui| {
             let selection = session
                 .selection
                 .filter(|id| objects::is_there(&scene, *id));
@@ -79,54 +73,4 @@ pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {
             false => session.change(&name, apply),
         };
     }
-}
-
-/// Tools, undo and redo.
-fn toolbar(ui: &mut egui::Ui, session: &mut Session) {
-    let bindings = session.preferences.bindings.clone();
-    let tip = |action: Action| {
-        let keys: Vec<_> = (bindings.triggers(action).iter())
-            .map(ToString::to_string)
-            .collect();
-        match keys.is_empty() {
-            true => action.description().to_owned(),
-            false => format!("{} ({})", action.description(), keys.join(", ")),
-        }
-    };
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = 3.0;
-        ui.spacing_mut().button_padding.x = 5.0;
-        for &tool in Tool::ALL {
-            let Some(text) = tool.entry().button else {
-                continue;
-            };
-            let button = ui.selectable_label(session.tool == tool, text);
-            if button.on_hover_text(tip(Action::Tool(tool))).clicked() {
-                session.tool = tool;
-            }
-        }
-        let (undo, redo) = match &session.document {
-            Some(document) => (
-                document.undo_name().map(str::to_owned),
-                document.redo_name().map(str::to_owned),
-            ),
-            None => (None, None),
-        };
-        for (action, text, sign, name) in [
-            (Action::Undo, "Undo", "↺", undo),
-            (Action::Redo, "Redo", "↻", redo),
-        ] {
-            let button = ui.add_enabled(name.is_some(), egui::Button::new(sign));
-            icon::named(&button, text);
-            let told = match &name {
-                Some(name) => format!("{text} {name}"),
-                None => format!("Nothing to {}", text.to_lowercase()),
-            };
-            let keys = tip(action);
-            let button = button.on_hover_text(format!("{told}\n{keys}"));
-            if button.on_disabled_hover_text(told).clicked() {
-                session.clicked.push(action);
-            }
-        }
-    });
 }

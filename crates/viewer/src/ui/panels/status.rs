@@ -1,5 +1,6 @@
 //! The status bar.
 
+use crate::model::tool::Tool;
 use crate::state::cursor::Surface;
 use crate::ui::context::PanelContext;
 use crate::ui::panels::jobs;
@@ -36,6 +37,7 @@ pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
             let samples = progress.samples_so_far();
             ui.label(format!("{samples} of {} samples", progress.target))
                 .on_hover_text("Samples per pixel so far, and the target");
+            tool(ui, context);
             cursor(ui, context);
             if !context.session.shows_statistics {
                 return;
@@ -67,6 +69,16 @@ pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
             });
         });
     });
+}
+
+/// The active tool, unless it is the usual one.
+fn tool(ui: &mut egui::Ui, context: &PanelContext) {
+    let tool = context.session.tool;
+    if tool != Tool::default() {
+        ui.separator();
+        ui.label(tool.entry().title)
+            .on_hover_text(tool.entry().description);
+    }
 }
 
 /// The pixel under the cursor: its position, its colour and what it shows.

@@ -81,7 +81,7 @@ fn clip(sharing: Sharing, space: Rect, viewport: Viewport) -> Rect {
 pub fn overlay(
     ui: &mut egui::Ui,
     context: &mut PanelContext,
-    space: Rect,
+    (space, room): (Rect, Rect),
     viewports: [Viewport; 2],
 ) {
     let names = [
@@ -95,7 +95,13 @@ pub fn overlay(
     let corners = match &mut comparison.sharing {
         Sharing::Difference(gain) => {
             let gain = *gain;
-            difference(ui, &painter, context, (names, gain), viewports[0].rect);
+            difference(
+                ui,
+                &painter,
+                context,
+                (names, gain),
+                viewports[0].rect.intersect(room),
+            );
             return;
         }
         Sharing::Wipe(share) => {
@@ -103,13 +109,14 @@ pub fn overlay(
             let y_range = rect.y_range();
             let line = Rect::from_x_y_ranges(viewports[0].rect.x_range(), y_range);
             wipe(ui, &painter, share, line);
+            let rect = rect.intersect(room);
             [rect.left_top(), rect.right_top()]
         }
         Sharing::SideBySide => {
             let middle = space.center_top();
             let line = [middle, space.center_bottom()];
             painter.line_segment(line, Stroke::new(1.0, Color32::from_gray(128)));
-            viewports.map(|viewport| viewport.rect.intersect(space).left_top())
+            viewports.map(|viewport| viewport.rect.intersect(room).left_top())
         }
     };
     let is_wipe = matches!(comparison.sharing, Sharing::Wipe(_));

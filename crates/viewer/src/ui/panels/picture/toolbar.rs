@@ -1,0 +1,213 @@
+//! The tools along the left edge of the picture, and its view mode, overlays, comparison, region and camera along the
+//! upper one.
+
+use crate::model::bindings::Action;
+use crate::model::document::Document;
+use crate::model::tool::{Tool, ToolMenu};
+use crate::model::view_settings::{GAIN, Sharing};
+use crate::state::session::Session;
+use crate::ui::panels::render::view_mode;
+use crate::ui::panels::sign::{SIDE, Sign, button};
+use eframe::egui::{self, Frame, Margin, Popup, Rect, Sense, Ui, UiBuilder, Vec2, pos2, vec2};
+
+/// Width of the bar on the left and height of the upper one, with the space around them, in points.
+const BAR: f32 = 40.0;
+/// Smallest picture that has bars, in points.
+const LEAST: Vec2 = vec2(300.0, 300.0);
+/// Distance from the edges of the picture, in points.
+const MARGIN: f32 = 6.0;
+
+/// Whether the bars are shown in a picture of this size.
+pub fn is_shown(session: &Session, space: Rect) -> bool {
+    session.shows_overlays
+        && !session.files.is_posing()
+        && session.scene().is_some()
+        && space.size().min(LEAST) == LEAST
+}
+
+/// The part of the picture that the bars leave free.
+pub fn room(session: &Session, space: Rect) -> Rect {
+    match is_shown(session, space) {
+        true => Rect::from_min_max(space.min + Vec2::splat(BAR), space.max),
+        false => space,
+    }
+}
+
+/// Draws both bars.
+pub fn toolbar(ui: &mut Ui, session: &mut Session, space: Rect) {
+    if !is_shown(session, space) {
+        return;
+    }
+    let corner = space.min + Vec2::splat(MARGIN);
+    let upper = Rect::from_min_max(corner, pos2(space.max.x - MARGIN, corner.y));
+    bar(ui, upper, |ui| ui.horizontal(|ui| view(ui, session)).inner);
+    let left = Rect::from_min_max(
+        corner + vec2(0.0, BAR),
+        pos2(corner.x + BAR, space.max.y - MARGIN),
+    );
+    bar(ui, left, |ui| tools(ui, session));
+}
+
+/// A bar over the picture, which takes the clicks between its buttons.
+fn bar(ui: &mut Ui, rect: Rect, contents: impl FnOnce(&mut Ui)) {
+    let builder = UiBuilder::new()
+        .max_rect(rect)
+        .layout(egui::Layout::top_down(egui::Align::Min));
+    ui.scope_builder(builder, |ui| {
+        let fill = ui.visuals().panel_fill.gamma_multiply(0.92);
+        let frame = Frame::new().fill(fill).corner_radius(6.0);
+        frame.inner_margin(Margin::same(2)).show(ui, |ui| {
+            let sensed = UiBuilder::new().sense(Sense::CLICK | Sense::DRAG);
+            ui.scope_builder(sensed, |ui| {
+                ui.spacing_mut().item_spacing = Vec2::splat(2.0);
+                contents(ui);
+            });
+        });
+    });
+}
+
+/// What a command does and its shortcut.
+fn tip(session: &Session, action: Action) -> String {
+    let keys: Vec<_> = (session.preferences.bindings.triggers(action).iter())
+        .map(ToString::to_string)
+        .collect();
+    match keys.is_empty() {
+        true => action.description().to_owned(),
+        false => format!("{} ({})", action.description(), keys.join(", ")),
+    }
+}
+
+fn tools(ui: &mut Ui, session: &mut Session) {
+    for &tool in Tool::ALL {
+        if tool.entry().menu == ToolMenu::Edit {
+            let is_active = session.tool == tool;
+            let title = tool.entry().title;
+            let response = button(ui, Sign::Tool(tool), title, is_active, true);
+            if response
+                .on_hover_text(tip(session, Action::Tool(tool)))
+                .clicked()
+            {
+                // The shortcut of such a tool may start a movement.
+                match tool.entry().has_handles {
+                    true => session.tool = tool,
+                    false => session.clicked.push(Action::Tool(tool)),
+                }
+            }
+        }
+    }
+    ui.add_space(4.0);
+    let document = session.document.as_ref();
+    let undo = document.and_then(Document::undo_name).map(str::to_owned);
+    let redo = document.and_then(Document::redo_name).map(str::to_owned);
+    for (action, sign, text, name) in [
+        (Action::Undo, Sign::Undo, "Undo", undo),
+        (Action::Redo, Sign::Redo, "Redo", redo),
+    ] {
+        let response = button(ui, sign, text, false, name.is_some());
+        let told = match name {
+            Some(name) => format!("{text} {name}"),
+            None => format!("Nothing to {}", text.to_lowercase()),
+        };
+        let response = response.on_disabled_hover_text(&told);
+        let keys = tip(session, action);
+        if response.on_hover_text(format!("{told}\n{keys}")).clicked() {
+            session.clicked.push(action);
+        }
+    }
+}
+
+fn view(ui: &mut Ui, session: &mut Session) {
+    // As high as the other buttons.
+    ui.spacing_mut().interact_size.y = SIDE;
+    let mut shown = view_mode::shown(&session.view);
+    let menu = ui.menu_button(format!("{} ⏷", view_mode::name(shown)), |ui| {
+        let height = ui.ctx().content_rect().height() - 120.0;
+        egui::ScrollArea::vertical()
+            .min_scrolled_height(height)
+            .max_height(height)
+            .show(ui, |ui| view_mode::list(ui, &mut shown));
+    });
+    menu.response.on_hover_text("What is shown");
+    view_mode::show(&mut session.view, shown);
+    let response = button(ui, Sign::Overlays, "Overlays", true, true);
+    if response
+        .on_hover_text(tip(session, Action::ToggleOverlays))
+        .clicked()
+    {
+        session.clicked.push(Action::ToggleOverlays);
+        let key = session.preferences.bindings.label(Action::ToggleOverlays);
+        let how = match key.is_empty() {
+            true => "Window › Overlays shows them again".to_owned(),
+            false => format!("{key} shows them again"),
+        };
+        session
+            .messages
+            .notify(format!("Overlays are hidden. {how}"));
+    }
+    compare(ui, session);
+    let region = Action::Tool(Tool::Region);
+    let is_active = session.tool == Tool::Region || session.view.region.is_some();
+    let response = button(
+        ui,
+        Sign::Tool(Tool::Region),
+        "Render region",
+        is_active,
+        true,
+    );
+    if response.on_hover_text(tip(session, region)).clicked() {
+        session.clicked.push(region);
+    }
+    camera(ui, session);
+}
+
+fn compare(ui: &mut Ui, session: &mut Session) {
+    let sharing = session.view.comparison.map(|comparison| comparison.sharing);
+    let response = button(ui, Sign::Compare, "Comparison", sharing.is_some(), true);
+    let response = response.on_hover_text("Show a second picture");
+    let mut chosen = None;
+    Popup::menu(&response).show(|ui| {
+        let is_wipe = matches!(sharing, Some(Sharing::Wipe(_)));
+        let is_difference = matches!(sharing, Some(Sharing::Difference(_)));
+        for (is_so, text, way) in [
+            (sharing.is_none(), "Off", None),
+            (is_wipe, "Split wipe", Some(Sharing::Wipe(0.5))),
+            (
+                sharing == Some(Sharing::SideBySide),
+                "Side by side",
+                Some(Sharing::SideBySide),
+            ),
+            (is_difference, "Difference", Some(Sharing::Difference(GAIN))),
+        ] {
+            if ui.selectable_label(is_so, text).clicked() && !is_so {
+                chosen = Some(way);
+            }
+        }
+    });
+    match chosen {
+        Some(Some(sharing)) => session.view.compare(sharing),
+        Some(None) => session.view.comparison = None,
+        None => {}
+    }
+}
+
+fn camera(ui: &mut Ui, session: &mut Session) {
+    let response = button(ui, Sign::Camera, "Camera", false, true);
+    let response = response.on_hover_text("Views of the scene");
+    let mut chosen = None;
+    Popup::menu(&response).show(|ui| {
+        for (text, action) in [
+            ("Scene camera", Action::Home),
+            ("Frame all", Action::FrameAll),
+            ("Frame selection", Action::FrameSelection),
+            ("Perspective or orthographic", Action::ToggleOrthographic),
+            ("Bookmark view", Action::SaveCamera),
+        ] {
+            let key = session.preferences.bindings.label(action);
+            let entry = ui.add(egui::Button::new(text).shortcut_text(key));
+            if entry.on_hover_text(action.description()).clicked() {
+                chosen = Some(action);
+            }
+        }
+    });
+    session.clicked.extend(chosen);
+}
