@@ -132,7 +132,7 @@ impl Session {
     }
 
     fn is_to_fit(&self) -> bool {
-        let goes_on = !self.view.paused && self.files.pending.waiting.is_empty();
+        let goes_on = !self.view.paused && self.files.jobs.waiting().is_none();
         self.is_scaled_to_room() && goes_on
     }
 

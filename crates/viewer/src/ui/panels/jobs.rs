@@ -3,7 +3,7 @@
 use crate::state::dialogs::Dialog;
 use crate::state::jobs::{Job, JobState};
 use crate::ui::context::PanelContext;
-use crate::ui::panels::render::{remaining, seconds};
+use crate::ui::panels::render::seconds;
 use crate::worker::progressive_image::PictureSlot;
 use eframe::egui::{Button, Ui};
 
@@ -37,7 +37,7 @@ pub fn progress(job: &Job, context: &PanelContext) -> (f32, String) {
         JobState::Waiting(_) => {
             let shown = context.shown(PictureSlot::Main).map(|shown| shown.progress);
             let share = shown.as_ref().map_or(0.0, |progress| progress.share);
-            let left = shown.as_ref().and_then(remaining);
+            let left = context.session.time_left.seconds();
             (share, "when the picture is finished".to_owned(), left)
         }
         JobState::Running => {

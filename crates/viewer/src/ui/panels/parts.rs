@@ -63,6 +63,6 @@ pub fn camera(ui: &mut Ui, session: &mut Session) {
             .accessible_name("Camera");
     });
     if let Some(index) = chosen.filter(|_| chosen != now) {
-        cameras::go(session, &own[index].camera);
+        cameras::go(session, own[index]);
     }
 }

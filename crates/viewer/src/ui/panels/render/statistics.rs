@@ -69,7 +69,7 @@ pub fn progress(ui: &mut Ui, context: &mut PanelContext) {
 fn state(progress: &Progress, paused: bool) -> String {
     let (samples, target) = (progress.samples_so_far(), progress.target);
     match (progress.is_done, paused) {
-        (true, _) if !progress.is_coarse => format!("Done: {}", samples_of(u64::from(*target))),
+        (true, _) if !progress.is_coarse => format!("Done: {}", samples_of(u64::from(target))),
         (_, true) => format!("Paused at {samples} of {target} samples"),
         _ if progress.is_coarse => "Preview".into(),
         _ => format!("{samples} of {target} samples"),
