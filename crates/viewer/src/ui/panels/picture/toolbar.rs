@@ -13,7 +13,7 @@ use eframe::egui::{self, Frame, Margin, Popup, Rect, Sense, Ui, UiBuilder, Vec2,
 /// Width of the bar on the left and height of the upper one, with the space around them, in points.
 const BAR: f32 = 40.0;
 /// Smallest picture that has bars, in points.
-const LEAST: Vec2 = vec2(300.0, 300.0);
+const LEAST: Vec2 = vec2(270.0, 300.0);
 /// Distance from the edges of the picture, in points.
 const MARGIN: f32 = 6.0;
 
