@@ -104,7 +104,7 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
         toolbar::toolbar(ui, context.session, space);
     }
     if is_scaled && context.session.until_fitted().is_none() && !context.session.files.is_posing() {
-        scaled(ui, context, space);
+        scaled(ui, context, room);
     }
     loading::loading(ui, context, space);
     if context.session.is_empty() {

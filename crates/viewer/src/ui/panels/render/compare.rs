@@ -196,11 +196,13 @@ fn stills(ui: &mut Ui, context: &mut PanelContext) {
     let (keep, open) = (Action::KeepSnapshot, Action::OpenReference);
     let tip = "Keep or open a picture to compare with";
     row(ui, ("Comparison picture", tip), |ui, _| {
-        for (text, action) in [("Snapshot", keep), ("Open…", open)] {
-            let tip = with_key(context, action.description(), action);
-            if ui.button(text).on_hover_text(tip).clicked() {
-                context.session.clicked.push(action);
+        ui.horizontal_wrapped(|ui| {
+            for (text, action) in [("Snapshot", keep), ("Open…", open)] {
+                let tip = with_key(context, action.description(), action);
+                if ui.button(text).on_hover_text(tip).clicked() {
+                    context.session.clicked.push(action);
+                }
             }
-        }
+        });
     });
 }
