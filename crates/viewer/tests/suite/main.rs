@@ -40,6 +40,7 @@ mod progress;
 mod rays;
 mod reference;
 mod replay;
+mod section;
 mod sheets;
 mod support;
 mod time;

@@ -12,7 +12,7 @@ enum View {
     /// The scene's own camera, which may have changed since.
     Home,
     /// A camera in world space, and the distance of its pivot if that is not `look_at`.
-    At(Camera, Option<f64>),
+    At(Box<Camera>, Option<f64>),
 }
 
 /// The views before and after the current one. A gesture is a drag, a turn of the wheel or a flight until the camera rests, or
@@ -87,6 +87,6 @@ impl CameraController {
         let reach = visited
             .filter(|known| self.is_at(known, &self.goal))
             .and_then(|known| known.reach);
-        View::At(self.destination(), reach)
+        View::At(Box::new(self.destination()), reach)
     }
 }

@@ -18,7 +18,8 @@ use eframe::egui::{self, Button, RichText, Ui};
 pub fn menu(ui: &mut Ui, context: &mut PanelContext, layout: &mut Layout) {
     egui::Panel::top("menu").show(ui, |ui| {
         egui::MenuBar::new().ui(ui, |ui| {
-            let menus: [(&str, fn(&mut Menu)); 7] = [
+            type Entries = fn(&mut Menu);
+            let menus: [(&str, Entries); 7] = [
                 ("File", file),
                 ("Edit", edit),
                 ("Add", |menu| add::entries(menu.ui, menu.context.session)),

@@ -8,6 +8,7 @@ mod material;
 mod material_rows;
 mod metallic_roughness;
 mod place;
+mod section;
 
 use crate::model::objects;
 use crate::model::objects::Id;

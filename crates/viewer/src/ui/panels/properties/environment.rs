@@ -2,6 +2,7 @@
 
 use crate::state::session::Session;
 use crate::ui::panels::properties::fields::{Fields, Limits};
+use crate::ui::panels::properties::section;
 use glam::Vec3;
 use glimray_scene::{Background, Origin, Scene, Shadows, sky};
 
@@ -81,6 +82,7 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
     fields.choice(("Shadows", tip), shadows, &options, |scene, to| {
         scene.shadows = to;
     });
+    section::show(fields, session);
     fields.heading("Camera");
     let is_home = session
         .controller
