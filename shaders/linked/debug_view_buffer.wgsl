@@ -23,7 +23,7 @@ fn debug_view(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 
 fn view(batch: dispatch__Batch, ray: tracing__Ray) -> vec3f {
 	let before = loops__nodes_visited + loops__primitives_tested;
-	let hit = section_walk__closest_hit(ray);
+	let hit = section_walk__closest_hit(ray, batch.camera_media);
 	if (bindings__VIEW == types__VIEW_HEAT) {
 		return vec3f(f32(loops__nodes_visited + loops__primitives_tested - before));
 	}
@@ -1004,13 +1004,13 @@ const section_walk__DONE: u32 = 2u;
 
 var<private> section_walk__crossing: section_walk__Crossing;
 
-const section_walk__MAX_SURFACES: u32 = 256u;
+const section_walk__MAX_SURFACES: u32 = 32u;
 
-fn section_walk__closest_hit(ray: tracing__Ray) -> tracing__Hit {
-	return section_walk__followed(section_walk__walk_from(ray, false), traverse__NO_LIMIT).hit;
+fn section_walk__closest_hit(ray: tracing__Ray, media: vec4u) -> tracing__Hit {
+	return section_walk__followed(section_walk__walk_from(ray, false, media), traverse__NO_LIMIT).hit;
 }
 
-fn section_walk__walk_from(ray: tracing__Ray, any: bool) -> traverse__Walk {
+fn section_walk__walk_from(ray: tracing__Ray, any: bool, media: vec4u) -> traverse__Walk {
 	if (!bindings__HAS_SECTION) {
 		return traverse__walk_of(ray, any);
 	}
@@ -1020,19 +1020,22 @@ fn section_walk__walk_from(ray: tracing__Ray, any: bool) -> traverse__Walk {
 	let rate = dot(bindings__frame.section, ray.direction);
 	let is_toward = height * rate < 0.0;
 	let way = select(0.0, -height / select(1.0, rate, is_toward), is_toward);
+	let reach = numeric__max_component(abs(ray.origin)) + way + abs(bindings__frame.section_offset);
+	let slack = min_f32(way, 16.0 * numeric__ROUNDING * reach / max_f32(abs(rate), 0.001));
 	if (height > 0.0 && !is_toward) {
 		kept.t_max = min_f32(ray.t_max, 0.0);
 	}
 	else if (height > 0.0) {
 		section_walk__crossing.enters = way < ray.t_max;
-		section_walk__crossing.shift = way;
-		kept.origin += way * ray.direction;
-		kept.t_max -= way;
+		section_walk__crossing.shift = way - slack;
+		section_walk__crossing.way = slack;
+		kept.origin += section_walk__crossing.shift * ray.direction;
+		kept.t_max -= section_walk__crossing.shift;
 	}
 	else if (rate > 0.0 && way < ray.t_max) {
-		section_walk__crossing.leaves = true;
+		section_walk__crossing.leaves = section_walk__any_of(media);
 		section_walk__crossing.way = way;
-		kept.t_max = way;
+		kept.t_max = min_f32(ray.t_max, way + slack);
 	}
 	return traverse__walk_of(kept, any);
 }
@@ -1054,17 +1057,22 @@ fn section_walk__followed(before: traverse__Walk, rounds: u32) -> traverse__Walk
 	return walk;
 }
 
+fn section_walk__any_of(media: vec4u) -> bool {
+	return bindings__HAS_REFRACTION && any(media != vec4u(types__NONE));
+}
+
 fn section_walk__searched(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	var hit = walk.hit;
 	var is_found = false;
 	var goes_on = false;
 	if (section_walk__crossing.stage == section_walk__AHEAD) {
-		goes_on = section_walk__crossing.enters || (bindings__HAS_REFRACTION && section_walk__crossing.leaves && hit.primitive == types__NONE);
+		goes_on = section_walk__crossing.enters || (section_walk__crossing.leaves && hit.primitive == types__NONE);
 		section_walk__crossing.stage = section_walk__BEHIND;
 		section_walk__crossing.hit = hit;
 		section_walk__crossing.runner_up = primitive__runner_up;
-		walk.ray = tracing__Ray(walk.ray.origin + section_walk__crossing.way * walk.ray.direction, camera__T_FAR, walk.ray.direction, types__NONE, types__NO_INSTANCE);
+		let start = walk.ray.origin + select(section_walk__crossing.way, 0.0, section_walk__crossing.enters) * walk.ray.direction;
+		walk.ray = tracing__Ray(start, camera__T_FAR, walk.ray.direction, types__NONE, types__NO_INSTANCE);
 	}
 	else if (section_walk__crossing.stage == section_walk__BEHIND && hit.primitive != types__NONE) {
 		let crossed = section_walk__crossed_at(walk.ray, hit);
@@ -1072,7 +1080,6 @@ fn section_walk__searched(before: traverse__Walk) -> traverse__Walk {
 		section_walk__crossing.entered = section_walk__after(section_walk__crossing.entered, crossed);
 		section_walk__crossing.surfaces += 1u;
 		goes_on = !is_found && section_walk__crossing.surfaces < section_walk__MAX_SURFACES;
-		loops__cut_off |= !is_found && !goes_on;
 		primitive__passed = hit;
 	}
 	if (goes_on) {
@@ -1146,7 +1153,6 @@ fn section_walk__after(before: section_walk__Entered, crossed: section_walk__Cro
 		}
 	}
 	else if ((crossed.solid & types__SHAPE) == 0u) {
-		loops__cut_off |= before.count >= section_walk__MOST_ENTERED;
 		entered.solids[min(before.count, section_walk__MOST_ENTERED - 1u)] = crossed.solid;
 		entered.count = min(before.count + 1u, section_walk__MOST_ENTERED);
 	}

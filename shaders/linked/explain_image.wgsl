@@ -10,12 +10,12 @@ fn explain(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 		var state = ray_stack__camera_state(batch, dispatch__sample_ray(batch, pixel, key, probe.sample));
 		var radiance = vec3f(0.0);
 		loop {
-			let hit = section_walk__closest_hit(state.ray);
+			let hit = section_walk__closest_hit(state.ray, state.media);
 			dispatch__count_hit(state.kind, hit);
 			record__open_ray(state.ray, hit, state.kind, state.throughput, state.media);
 			var vertex: tree_vertex__Vertex;
 			if (hit.primitive == types__NONE) {
-				let seen = tree_vertex__missed(batch, state);
+				let seen = tree_vertex__missed(batch, state, hit.t);
 				radiance += seen;
 				record__record_miss(seen);
 			}
@@ -1228,7 +1228,7 @@ fn ray_stack__camera_state(batch: dispatch__Batch, ray: tracing__Ray) -> ray_sta
 	if (bindings__HAS_FOOTPRINTS) {
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
-	return ray_states__RayState(ray, vec3f(1.0), batch.camera_media, 0u, types__RAY_PRIMARY, 1u, cone);
+	return ray_states__RayState(ray, vec3f(1.0), section__camera_media(batch, ray), 0u, types__RAY_PRIMARY, 1u, cone);
 }
 
 fn ray_stack__next_ray(batch: dispatch__Batch, reflected: ray_states__RayState, refracted: ray_states__RayState) -> ray_states__RayState {
@@ -1626,6 +1626,74 @@ fn rows__texel(row: u32) -> vec2u {
 	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
 }
 
+const section__CAP: f32 = -1.0;
+
+fn section__is_cut(p: vec3f) -> bool {
+	return bindings__HAS_SECTION && dot(bindings__frame.section, p) > bindings__frame.section_offset;
+}
+
+fn section__uncut(p: vec3f, arriving: shading__Incident) -> shading__Incident {
+	var kept = arriving;
+	if (section__is_cut(p + arriving.distance * arriving.direction)) {
+		kept.radiance = vec3f(0.0);
+	}
+	return kept;
+}
+
+fn section__camera_media(batch: dispatch__Batch, ray: tracing__Ray) -> vec4u {
+	return select(batch.camera_media, vec4u(types__NONE), vec4<bool>(section__is_cut(ray.origin)));
+}
+
+fn section__is_cap(hit: tracing__Hit) -> bool {
+	return bindings__HAS_SECTION && hit.b2 == section__CAP;
+}
+
+fn section__closed_mesh_of(triangle: u32) -> u32 {
+	if (bindings__frame.solid_count == 0u) {
+		return types__NONE;
+	}
+	let vertex = fetch__load_triangle(triangle).i0;
+	var low = 0u;
+	var high = bindings__frame.solid_count - 1u;
+	loop {
+		let middle = (low + high + 1u) / 2u;
+		let is_before = section__load_solid(middle).x <= vertex;
+		low = select(low, middle, is_before);
+		high = select(max(middle, 1u) - 1u, high, is_before);
+		continuing {
+		
+			break if low >= high;
+		}
+	}
+	loops__cut_off |= low < high;
+	let range = section__load_solid(low);
+	return select(types__NONE, low, range.x <= vertex && vertex < range.y);
+}
+
+fn section__is_closed(shape: types__PackedShape) -> bool {
+	return shape.kind != types__SHAPE_PLANE && shape.kind != types__SHAPE_DISC && shape.kind != types__SHAPE_RECTANGLE && (shape.kind != types__SHAPE_CONE || (shape.flags & types__SHAPE_CAPPED) != 0u);
+}
+
+fn section__load_solid(index: u32) -> vec2u {
+	return rows__node_row(bindings__frame.solid_row + index).xy;
+}
+
+fn section__cap_surface(ray: tracing__Ray, local: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
+	var index = 0u;
+	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+		index = fetch__load_shape(hit.primitive & ~types__SHAPE).material;
+	}
+	else {
+		index = fetch__load_vertex(fetch__load_triangle(hit.primitive).i0).material;
+	}
+	let material = material__load_material(index);
+	let ng = bindings__frame.section;
+	let reached = ray.origin + hit.t * ray.direction;
+	let p = reached - (dot(ng, reached) - bindings__frame.section_offset) * ng;
+	let side = dot(ng, ray.direction);
+	return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, side)), ng, offset__plane_error(p, bindings__frame.section_offset * ng), types__NONE, side <= 0.0, vec2f(0.0), vec2f(0.0), index, material.phong, 2246822507u * (index + 1u), local.origin + hit.t * local.direction, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), true);
+}
+
 const filter__PI: f32 = 3.14159265;
 
 const filter__SIGMA: f32 = 0.5;
@@ -1869,13 +1937,13 @@ const section_walk__DONE: u32 = 2u;
 
 var<private> section_walk__crossing: section_walk__Crossing;
 
-const section_walk__MAX_SURFACES: u32 = 256u;
+const section_walk__MAX_SURFACES: u32 = 32u;
 
-fn section_walk__closest_hit(ray: tracing__Ray) -> tracing__Hit {
-	return section_walk__followed(section_walk__walk_from(ray, false), traverse__NO_LIMIT).hit;
+fn section_walk__closest_hit(ray: tracing__Ray, media: vec4u) -> tracing__Hit {
+	return section_walk__followed(section_walk__walk_from(ray, false, media), traverse__NO_LIMIT).hit;
 }
 
-fn section_walk__walk_from(ray: tracing__Ray, any: bool) -> traverse__Walk {
+fn section_walk__walk_from(ray: tracing__Ray, any: bool, media: vec4u) -> traverse__Walk {
 	if (!bindings__HAS_SECTION) {
 		return traverse__walk_of(ray, any);
 	}
@@ -1885,19 +1953,22 @@ fn section_walk__walk_from(ray: tracing__Ray, any: bool) -> traverse__Walk {
 	let rate = dot(bindings__frame.section, ray.direction);
 	let is_toward = height * rate < 0.0;
 	let way = select(0.0, -height / select(1.0, rate, is_toward), is_toward);
+	let reach = numeric__max_component(abs(ray.origin)) + way + abs(bindings__frame.section_offset);
+	let slack = min_f32(way, 16.0 * numeric__ROUNDING * reach / max_f32(abs(rate), 0.001));
 	if (height > 0.0 && !is_toward) {
 		kept.t_max = min_f32(ray.t_max, 0.0);
 	}
 	else if (height > 0.0) {
 		section_walk__crossing.enters = way < ray.t_max;
-		section_walk__crossing.shift = way;
-		kept.origin += way * ray.direction;
-		kept.t_max -= way;
+		section_walk__crossing.shift = way - slack;
+		section_walk__crossing.way = slack;
+		kept.origin += section_walk__crossing.shift * ray.direction;
+		kept.t_max -= section_walk__crossing.shift;
 	}
 	else if (rate > 0.0 && way < ray.t_max) {
-		section_walk__crossing.leaves = true;
+		section_walk__crossing.leaves = section_walk__any_of(media);
 		section_walk__crossing.way = way;
-		kept.t_max = way;
+		kept.t_max = min_f32(ray.t_max, way + slack);
 	}
 	return traverse__walk_of(kept, any);
 }
@@ -1919,17 +1990,22 @@ fn section_walk__followed(before: traverse__Walk, rounds: u32) -> traverse__Walk
 	return walk;
 }
 
+fn section_walk__any_of(media: vec4u) -> bool {
+	return bindings__HAS_REFRACTION && any(media != vec4u(types__NONE));
+}
+
 fn section_walk__searched(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	var hit = walk.hit;
 	var is_found = false;
 	var goes_on = false;
 	if (section_walk__crossing.stage == section_walk__AHEAD) {
-		goes_on = section_walk__crossing.enters || (bindings__HAS_REFRACTION && section_walk__crossing.leaves && hit.primitive == types__NONE);
+		goes_on = section_walk__crossing.enters || (section_walk__crossing.leaves && hit.primitive == types__NONE);
 		section_walk__crossing.stage = section_walk__BEHIND;
 		section_walk__crossing.hit = hit;
 		section_walk__crossing.runner_up = primitive__runner_up;
-		walk.ray = tracing__Ray(walk.ray.origin + section_walk__crossing.way * walk.ray.direction, camera__T_FAR, walk.ray.direction, types__NONE, types__NO_INSTANCE);
+		let start = walk.ray.origin + select(section_walk__crossing.way, 0.0, section_walk__crossing.enters) * walk.ray.direction;
+		walk.ray = tracing__Ray(start, camera__T_FAR, walk.ray.direction, types__NONE, types__NO_INSTANCE);
 	}
 	else if (section_walk__crossing.stage == section_walk__BEHIND && hit.primitive != types__NONE) {
 		let crossed = section_walk__crossed_at(walk.ray, hit);
@@ -1937,7 +2013,6 @@ fn section_walk__searched(before: traverse__Walk) -> traverse__Walk {
 		section_walk__crossing.entered = section_walk__after(section_walk__crossing.entered, crossed);
 		section_walk__crossing.surfaces += 1u;
 		goes_on = !is_found && section_walk__crossing.surfaces < section_walk__MAX_SURFACES;
-		loops__cut_off |= !is_found && !goes_on;
 		primitive__passed = hit;
 	}
 	if (goes_on) {
@@ -2011,7 +2086,6 @@ fn section_walk__after(before: section_walk__Entered, crossed: section_walk__Cro
 		}
 	}
 	else if ((crossed.solid & types__SHAPE) == 0u) {
-		loops__cut_off |= before.count >= section_walk__MOST_ENTERED;
 		entered.solids[min(before.count, section_walk__MOST_ENTERED - 1u)] = crossed.solid;
 		entered.count = min(before.count + 1u, section_walk__MOST_ENTERED);
 	}
@@ -3273,70 +3347,6 @@ fn offset__mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriving: tracing_
 	return select(p - back * arriving.direction, at_most, back > 0.5 * distance);
 }
 
-const section__CAP: f32 = -1.0;
-
-fn section__is_cut(p: vec3f) -> bool {
-	return bindings__HAS_SECTION && dot(bindings__frame.section, p) > bindings__frame.section_offset;
-}
-
-fn section__uncut(p: vec3f, arriving: shading__Incident) -> shading__Incident {
-	var kept = arriving;
-	if (section__is_cut(p + arriving.distance * arriving.direction)) {
-		kept.radiance = vec3f(0.0);
-	}
-	return kept;
-}
-
-fn section__is_cap(hit: tracing__Hit) -> bool {
-	return bindings__HAS_SECTION && hit.b2 == section__CAP;
-}
-
-fn section__closed_mesh_of(triangle: u32) -> u32 {
-	if (bindings__frame.solid_count == 0u) {
-		return types__NONE;
-	}
-	let vertex = fetch__load_triangle(triangle).i0;
-	var low = 0u;
-	var high = bindings__frame.solid_count - 1u;
-	loop {
-		let middle = (low + high + 1u) / 2u;
-		let is_before = section__load_solid(middle).x <= vertex;
-		low = select(low, middle, is_before);
-		high = select(max(middle, 1u) - 1u, high, is_before);
-		continuing {
-		
-			break if low >= high;
-		}
-	}
-	loops__cut_off |= low < high;
-	let range = section__load_solid(low);
-	return select(types__NONE, low, range.x <= vertex && vertex < range.y);
-}
-
-fn section__is_closed(shape: types__PackedShape) -> bool {
-	return shape.kind != types__SHAPE_PLANE && shape.kind != types__SHAPE_DISC && shape.kind != types__SHAPE_RECTANGLE && (shape.kind != types__SHAPE_CONE || (shape.flags & types__SHAPE_CAPPED) != 0u);
-}
-
-fn section__load_solid(index: u32) -> vec2u {
-	return rows__node_row(bindings__frame.solid_row + index).xy;
-}
-
-fn section__cap_surface(ray: tracing__Ray, local: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
-	var index = 0u;
-	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
-		index = fetch__load_shape(hit.primitive & ~types__SHAPE).material;
-	}
-	else {
-		index = fetch__load_vertex(fetch__load_triangle(hit.primitive).i0).material;
-	}
-	let material = material__load_material(index);
-	let ng = bindings__frame.section;
-	let reached = ray.origin + hit.t * ray.direction;
-	let p = reached - (dot(ng, reached) - bindings__frame.section_offset) * ng;
-	let side = dot(ng, ray.direction);
-	return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, side)), ng, offset__plane_error(p, bindings__frame.section_offset * ng), types__NONE, side <= 0.0, vec2f(0.0), vec2f(0.0), index, material.phong, 2246822507u * (index + 1u), local.origin + hit.t * local.direction, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), true);
-}
-
 fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
 	var hit = start;
 	var index = fetch__first_plane;
@@ -3490,10 +3500,10 @@ fn tree_vertex__vertex_at(batch: dispatch__Batch, state: ray_states__RayState, h
 	return tree_vertex__Vertex(receiver, contact.hit, event.arriving, ambient, emission, event.reflected, event.refracted);
 }
 
-fn tree_vertex__missed(batch: dispatch__Batch, state: ray_states__RayState) -> vec3f {
+fn tree_vertex__missed(batch: dispatch__Batch, state: ray_states__RayState, way: f32) -> vec3f {
 	var throughput = state.throughput;
 	if (bindings__HAS_REFRACTION) {
-		throughput *= medium__transmittance(medium__medium_of(medium__dominant(state.media)), state.ray.t_max);
+		throughput *= medium__transmittance(medium__medium_of(medium__dominant(state.media)), way);
 	}
 	let seen = throughput * background__background(batch, state.ray.direction);
 	if (tree_vertex__is_first(state)) {
@@ -4295,7 +4305,19 @@ fn texture__texture_optics(surface: shading__Surface) -> mat3x3f {
 		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
 	}
 	let indices = material__load_texture_indices(surface.material);
-	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
+	var factors = texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
+	if (bindings__HAS_SECTION && surface.is_cap) {
+		factors[1] *= texture__unmasked(indices.y >> 16u, surface);
+		factors[2] *= texture__unmasked(indices.z >> 16u, surface);
+	}
+	return factors;
+}
+
+fn texture__unmasked(index: u32, surface: shading__Surface) -> f32 {
+	if (index == types__NO_TEXTURE) {
+		return 1.0;
+	}
+	return select(1.0, 0.0, texture__is_bare(material__load_texture(index), surface));
 }
 
 fn texture__texture_factors(wanted: vec3u, surface: shading__Surface) -> mat3x3f {
@@ -4480,18 +4502,20 @@ fn layers__layers_at(surface: shading__Surface, optics: shading__Optics) -> laye
 		var rest = own.slots;
 		loop {
 			let slot = firstTrailingBit(rest | 2147483648u);
-			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
+			let texture = material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u));
+			let value = texture__texture_value(texture, surface);
+			let shown = select(1.0, 0.0, texture__is_bare(texture, surface));
 			let share = saturate_vec4f(value);
 			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
 			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
 			own.roughness *= select(1.0, share.y, is_both || slot == types__SLOT_ROUGHNESS);
-			own.metallic *= select(1.0, share.z, is_both || slot == types__SLOT_METALLIC);
+			own.metallic *= select(1.0, shown * share.z, is_both || slot == types__SLOT_METALLIC);
 			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, share.w, slot == types__SLOT_F90);
 			own.f90 *= select(1.0, share.w, slot == types__SLOT_F90);
-			own.transmission *= select(1.0, share.x, slot == types__SLOT_TRANSMISSION);
-			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
+			own.transmission *= select(1.0, shown * share.x, slot == types__SLOT_TRANSMISSION);
+			transmit *= select(vec3f(1.0), shown * value.xyz, slot == types__SLOT_TRANSMISSION);
 			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
-			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			glow *= select(vec3f(1.0), shown * value.xyz, slot == types__SLOT_EMISSION);
 			if (bindings__HAS_ANISOTROPY) {
 				own.anisotropy *= select(1.0, share.z, slot == types__SLOT_ANISOTROPY);
 				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);
@@ -5075,7 +5099,7 @@ fn shadow__light_through(ray: tracing__Ray, media: vec4u) -> vec3f {
 	var passage = shadow__passage_of(ray, media);
 	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
 		loop {
-			let hit = section_walk__closest_hit(passage.ray);
+			let hit = section_walk__closest_hit(passage.ray, passage.media);
 			if (shadow__may_pass(hit)) {
 				let contact = contact__contact_at(passage.ray, hit, shadow__NO_WIDTH);
 				passage = shadow__crossed(passage, hit, contact, coverage__coverage_at(contact.surface));
@@ -5091,7 +5115,7 @@ fn shadow__light_through(ray: tracing__Ray, media: vec4u) -> vec3f {
 		loops__cut_off |= passage.ray.t_max >= 0.0;
 	}
 	else {
-		passage = shadow__arrived(passage, section_walk__followed(section_walk__walk_from(ray, !record__RECORDS), traverse__NO_LIMIT).hit);
+		passage = shadow__arrived(passage, section_walk__followed(section_walk__walk_from(ray, !record__RECORDS, media), traverse__NO_LIMIT).hit);
 	}
 	shadow__count_shadow(passage.through);
 	return passage.through;

@@ -1297,7 +1297,7 @@ fn path__path_along(batch: dispatch__Batch, ray: tracing__Ray, pixel: vec2u, sam
 		cone = footprint__camera_cone(batch, ray.direction);
 	}
 	let eye = ray.origin - dispatch__way_to_near(batch, ray.direction) * ray.direction;
-	return path__Path(ray, vec3f(0.0), vec3f(1.0), batch.camera_media, 0u, 0u, types__RAY_PRIMARY, eye, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(ray_states__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
+	return path__Path(ray, vec3f(0.0), vec3f(1.0), section__camera_media(batch, ray), 0u, 0u, types__RAY_PRIMARY, eye, vec3f(0.0), 0.0, cone, key, index, path__ALL_CHANNELS, shadow__Passage(ray_states__DEAD, vec4u(types__NONE), vec3f(0.0), 0u), vec3f(0.0), 0u, false);
 }
 
 fn path__is_going(path: path__Path) -> bool {
@@ -1311,11 +1311,13 @@ fn path__is_to_lamp(path: path__Path) -> bool {
 fn path__next_walk(path: path__Path) -> traverse__Walk {
 	var ray = path.ray;
 	var any = false;
+	var media = path.media;
 	if (path__is_to_lamp(path)) {
 		ray = path.lamp.ray;
+		media = path.lamp.media;
 		any = !(record__RECORDS || bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS));
 	}
-	return section_walk__walk_from(ray, any);
+	return section_walk__walk_from(ray, any, media);
 }
 
 fn path__lit(before: path__Path, left: shadow__Passage) -> path__Path {
@@ -1834,6 +1836,74 @@ fn rows__texel_word(place: vec2u, layer: u32) -> u32 {
 	return textureLoad(rows__texels, place, layer, 0).x;
 }
 
+const section__CAP: f32 = -1.0;
+
+fn section__is_cut(p: vec3f) -> bool {
+	return bindings__HAS_SECTION && dot(bindings__frame.section, p) > bindings__frame.section_offset;
+}
+
+fn section__uncut(p: vec3f, arriving: shading__Incident) -> shading__Incident {
+	var kept = arriving;
+	if (section__is_cut(p + arriving.distance * arriving.direction)) {
+		kept.radiance = vec3f(0.0);
+	}
+	return kept;
+}
+
+fn section__camera_media(batch: dispatch__Batch, ray: tracing__Ray) -> vec4u {
+	return select(batch.camera_media, vec4u(types__NONE), vec4<bool>(section__is_cut(ray.origin)));
+}
+
+fn section__is_cap(hit: tracing__Hit) -> bool {
+	return bindings__HAS_SECTION && hit.b2 == section__CAP;
+}
+
+fn section__closed_mesh_of(triangle: u32) -> u32 {
+	if (bindings__frame.solid_count == 0u) {
+		return types__NONE;
+	}
+	let vertex = fetch__load_triangle(triangle).i0;
+	var low = 0u;
+	var high = bindings__frame.solid_count - 1u;
+	loop {
+		let middle = (low + high + 1u) / 2u;
+		let is_before = section__load_solid(middle).x <= vertex;
+		low = select(low, middle, is_before);
+		high = select(max(middle, 1u) - 1u, high, is_before);
+		continuing {
+		
+			break if low >= high;
+		}
+	}
+	loops__cut_off |= low < high;
+	let range = section__load_solid(low);
+	return select(types__NONE, low, range.x <= vertex && vertex < range.y);
+}
+
+fn section__is_closed(shape: types__PackedShape) -> bool {
+	return shape.kind != types__SHAPE_PLANE && shape.kind != types__SHAPE_DISC && shape.kind != types__SHAPE_RECTANGLE && (shape.kind != types__SHAPE_CONE || (shape.flags & types__SHAPE_CAPPED) != 0u);
+}
+
+fn section__load_solid(index: u32) -> vec2u {
+	return rows__node_row(bindings__frame.solid_row + index).xy;
+}
+
+fn section__cap_surface(ray: tracing__Ray, local: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
+	var index = 0u;
+	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+		index = fetch__load_shape(hit.primitive & ~types__SHAPE).material;
+	}
+	else {
+		index = fetch__load_vertex(fetch__load_triangle(hit.primitive).i0).material;
+	}
+	let material = material__load_material(index);
+	let ng = bindings__frame.section;
+	let reached = ray.origin + hit.t * ray.direction;
+	let p = reached - (dot(ng, reached) - bindings__frame.section_offset) * ng;
+	let side = dot(ng, ray.direction);
+	return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, side)), ng, offset__plane_error(p, bindings__frame.section_offset * ng), types__NONE, side <= 0.0, vec2f(0.0), vec2f(0.0), index, material.phong, 2246822507u * (index + 1u), local.origin + hit.t * local.direction, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), true);
+}
+
 const ray_states__DEAD: tracing__Ray = tracing__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
 
 const filter__PI: f32 = 3.14159265;
@@ -2041,9 +2111,9 @@ const section_walk__DONE: u32 = 2u;
 
 var<private> section_walk__crossing: section_walk__Crossing;
 
-const section_walk__MAX_SURFACES: u32 = 256u;
+const section_walk__MAX_SURFACES: u32 = 32u;
 
-fn section_walk__walk_from(ray: tracing__Ray, any: bool) -> traverse__Walk {
+fn section_walk__walk_from(ray: tracing__Ray, any: bool, media: vec4u) -> traverse__Walk {
 	if (!bindings__HAS_SECTION) {
 		return traverse__walk_of(ray, any);
 	}
@@ -2053,19 +2123,22 @@ fn section_walk__walk_from(ray: tracing__Ray, any: bool) -> traverse__Walk {
 	let rate = dot(bindings__frame.section, ray.direction);
 	let is_toward = height * rate < 0.0;
 	let way = select(0.0, -height / select(1.0, rate, is_toward), is_toward);
+	let reach = numeric__max_component(abs(ray.origin)) + way + abs(bindings__frame.section_offset);
+	let slack = min_f32(way, 16.0 * numeric__ROUNDING * reach / max_f32(abs(rate), 0.001));
 	if (height > 0.0 && !is_toward) {
 		kept.t_max = min_f32(ray.t_max, 0.0);
 	}
 	else if (height > 0.0) {
 		section_walk__crossing.enters = way < ray.t_max;
-		section_walk__crossing.shift = way;
-		kept.origin += way * ray.direction;
-		kept.t_max -= way;
+		section_walk__crossing.shift = way - slack;
+		section_walk__crossing.way = slack;
+		kept.origin += section_walk__crossing.shift * ray.direction;
+		kept.t_max -= section_walk__crossing.shift;
 	}
 	else if (rate > 0.0 && way < ray.t_max) {
-		section_walk__crossing.leaves = true;
+		section_walk__crossing.leaves = section_walk__any_of(media);
 		section_walk__crossing.way = way;
-		kept.t_max = way;
+		kept.t_max = min_f32(ray.t_max, way + slack);
 	}
 	return traverse__walk_of(kept, any);
 }
@@ -2087,17 +2160,22 @@ fn section_walk__followed(before: traverse__Walk, rounds: u32) -> traverse__Walk
 	return walk;
 }
 
+fn section_walk__any_of(media: vec4u) -> bool {
+	return bindings__HAS_REFRACTION && any(media != vec4u(types__NONE));
+}
+
 fn section_walk__searched(before: traverse__Walk) -> traverse__Walk {
 	var walk = before;
 	var hit = walk.hit;
 	var is_found = false;
 	var goes_on = false;
 	if (section_walk__crossing.stage == section_walk__AHEAD) {
-		goes_on = section_walk__crossing.enters || (bindings__HAS_REFRACTION && section_walk__crossing.leaves && hit.primitive == types__NONE);
+		goes_on = section_walk__crossing.enters || (section_walk__crossing.leaves && hit.primitive == types__NONE);
 		section_walk__crossing.stage = section_walk__BEHIND;
 		section_walk__crossing.hit = hit;
 		section_walk__crossing.runner_up = primitive__runner_up;
-		walk.ray = tracing__Ray(walk.ray.origin + section_walk__crossing.way * walk.ray.direction, camera__T_FAR, walk.ray.direction, types__NONE, types__NO_INSTANCE);
+		let start = walk.ray.origin + select(section_walk__crossing.way, 0.0, section_walk__crossing.enters) * walk.ray.direction;
+		walk.ray = tracing__Ray(start, camera__T_FAR, walk.ray.direction, types__NONE, types__NO_INSTANCE);
 	}
 	else if (section_walk__crossing.stage == section_walk__BEHIND && hit.primitive != types__NONE) {
 		let crossed = section_walk__crossed_at(walk.ray, hit);
@@ -2105,7 +2183,6 @@ fn section_walk__searched(before: traverse__Walk) -> traverse__Walk {
 		section_walk__crossing.entered = section_walk__after(section_walk__crossing.entered, crossed);
 		section_walk__crossing.surfaces += 1u;
 		goes_on = !is_found && section_walk__crossing.surfaces < section_walk__MAX_SURFACES;
-		loops__cut_off |= !is_found && !goes_on;
 		primitive__passed = hit;
 	}
 	if (goes_on) {
@@ -2179,7 +2256,6 @@ fn section_walk__after(before: section_walk__Entered, crossed: section_walk__Cro
 		}
 	}
 	else if ((crossed.solid & types__SHAPE) == 0u) {
-		loops__cut_off |= before.count >= section_walk__MOST_ENTERED;
 		entered.solids[min(before.count, section_walk__MOST_ENTERED - 1u)] = crossed.solid;
 		entered.count = min(before.count + 1u, section_walk__MOST_ENTERED);
 	}
@@ -3346,70 +3422,6 @@ fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) ->
 	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
 }
 
-const section__CAP: f32 = -1.0;
-
-fn section__is_cut(p: vec3f) -> bool {
-	return bindings__HAS_SECTION && dot(bindings__frame.section, p) > bindings__frame.section_offset;
-}
-
-fn section__uncut(p: vec3f, arriving: shading__Incident) -> shading__Incident {
-	var kept = arriving;
-	if (section__is_cut(p + arriving.distance * arriving.direction)) {
-		kept.radiance = vec3f(0.0);
-	}
-	return kept;
-}
-
-fn section__is_cap(hit: tracing__Hit) -> bool {
-	return bindings__HAS_SECTION && hit.b2 == section__CAP;
-}
-
-fn section__closed_mesh_of(triangle: u32) -> u32 {
-	if (bindings__frame.solid_count == 0u) {
-		return types__NONE;
-	}
-	let vertex = fetch__load_triangle(triangle).i0;
-	var low = 0u;
-	var high = bindings__frame.solid_count - 1u;
-	loop {
-		let middle = (low + high + 1u) / 2u;
-		let is_before = section__load_solid(middle).x <= vertex;
-		low = select(low, middle, is_before);
-		high = select(max(middle, 1u) - 1u, high, is_before);
-		continuing {
-		
-			break if low >= high;
-		}
-	}
-	loops__cut_off |= low < high;
-	let range = section__load_solid(low);
-	return select(types__NONE, low, range.x <= vertex && vertex < range.y);
-}
-
-fn section__is_closed(shape: types__PackedShape) -> bool {
-	return shape.kind != types__SHAPE_PLANE && shape.kind != types__SHAPE_DISC && shape.kind != types__SHAPE_RECTANGLE && (shape.kind != types__SHAPE_CONE || (shape.flags & types__SHAPE_CAPPED) != 0u);
-}
-
-fn section__load_solid(index: u32) -> vec2u {
-	return rows__node_row(bindings__frame.solid_row + index).xy;
-}
-
-fn section__cap_surface(ray: tracing__Ray, local: tracing__Ray, hit: tracing__Hit) -> shading__Surface {
-	var index = 0u;
-	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
-		index = fetch__load_shape(hit.primitive & ~types__SHAPE).material;
-	}
-	else {
-		index = fetch__load_vertex(fetch__load_triangle(hit.primitive).i0).material;
-	}
-	let material = material__load_material(index);
-	let ng = bindings__frame.section;
-	let reached = ray.origin + hit.t * ray.direction;
-	let p = reached - (dot(ng, reached) - bindings__frame.section_offset) * ng;
-	let side = dot(ng, ray.direction);
-	return shading__Surface(p, select(ng, -ng, material__must_flip(material.flags, 1.0, side)), ng, offset__plane_error(p, bindings__frame.section_offset * ng), types__NONE, side <= 0.0, vec2f(0.0), vec2f(0.0), index, material.phong, 2246822507u * (index + 1u), local.origin + hit.t * local.direction, types__NO_INSTANCE, footprint__NO_FOOTPRINT, 0.0, vec4f(), vec3f(), vec4f(1.0), true);
-}
-
 fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hit {
 	var hit = start;
 	var index = fetch__first_plane;
@@ -4535,7 +4547,19 @@ fn texture__texture_optics(surface: shading__Surface) -> mat3x3f {
 		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
 	}
 	let indices = material__load_texture_indices(surface.material);
-	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
+	var factors = texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
+	if (bindings__HAS_SECTION && surface.is_cap) {
+		factors[1] *= texture__unmasked(indices.y >> 16u, surface);
+		factors[2] *= texture__unmasked(indices.z >> 16u, surface);
+	}
+	return factors;
+}
+
+fn texture__unmasked(index: u32, surface: shading__Surface) -> f32 {
+	if (index == types__NO_TEXTURE) {
+		return 1.0;
+	}
+	return select(1.0, 0.0, texture__is_bare(material__load_texture(index), surface));
 }
 
 fn texture__texture_factors(wanted: vec3u, surface: shading__Surface) -> mat3x3f {
@@ -4720,18 +4744,20 @@ fn layers__layers_at(surface: shading__Surface, optics: shading__Optics) -> laye
 		var rest = own.slots;
 		loop {
 			let slot = firstTrailingBit(rest | 2147483648u);
-			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
+			let texture = material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u));
+			let value = texture__texture_value(texture, surface);
+			let shown = select(1.0, 0.0, texture__is_bare(texture, surface));
 			let share = saturate_vec4f(value);
 			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
 			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
 			own.roughness *= select(1.0, share.y, is_both || slot == types__SLOT_ROUGHNESS);
-			own.metallic *= select(1.0, share.z, is_both || slot == types__SLOT_METALLIC);
+			own.metallic *= select(1.0, shown * share.z, is_both || slot == types__SLOT_METALLIC);
 			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, share.w, slot == types__SLOT_F90);
 			own.f90 *= select(1.0, share.w, slot == types__SLOT_F90);
-			own.transmission *= select(1.0, share.x, slot == types__SLOT_TRANSMISSION);
-			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
+			own.transmission *= select(1.0, shown * share.x, slot == types__SLOT_TRANSMISSION);
+			transmit *= select(vec3f(1.0), shown * value.xyz, slot == types__SLOT_TRANSMISSION);
 			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
-			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			glow *= select(vec3f(1.0), shown * value.xyz, slot == types__SLOT_EMISSION);
 			if (bindings__HAS_ANISOTROPY) {
 				own.anisotropy *= select(1.0, share.z, slot == types__SLOT_ANISOTROPY);
 				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);

@@ -53,7 +53,7 @@ fn traced(batch: dispatch__Batch, before: Trees, keys: vec4u, sample: u32) -> Tr
 		if (state.ray.t_max >= 0.0) {
 			dispatch__count_hit(state.kind, hit);
 			if (hit.primitive == types__NONE) {
-				radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + tree_vertex__missed(batch, state));
+				radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + tree_vertex__missed(batch, state, state.ray.t_max));
 			}
 			else {
 				vertex = tree_vertex__vertex_at(batch, state, hit, keys[k], sample);
@@ -3487,10 +3487,10 @@ fn tree_vertex__vertex_at(batch: dispatch__Batch, state: ray_states__RayState, h
 	return tree_vertex__Vertex(receiver, contact.hit, event.arriving, ambient, emission, event.reflected, event.refracted);
 }
 
-fn tree_vertex__missed(batch: dispatch__Batch, state: ray_states__RayState) -> vec3f {
+fn tree_vertex__missed(batch: dispatch__Batch, state: ray_states__RayState, way: f32) -> vec3f {
 	var throughput = state.throughput;
 	if (bindings__HAS_REFRACTION) {
-		throughput *= medium__transmittance(medium__medium_of(medium__dominant(state.media)), state.ray.t_max);
+		throughput *= medium__transmittance(medium__medium_of(medium__dominant(state.media)), way);
 	}
 	let seen = throughput * background__background(batch, state.ray.direction);
 	if (tree_vertex__is_first(state)) {
@@ -4324,7 +4324,19 @@ fn texture__texture_optics(surface: shading__Surface) -> mat3x3f {
 		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
 	}
 	let indices = material__load_texture_indices(surface.material);
-	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
+	var factors = texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
+	if (bindings__HAS_SECTION && surface.is_cap) {
+		factors[1] *= texture__unmasked(indices.y >> 16u, surface);
+		factors[2] *= texture__unmasked(indices.z >> 16u, surface);
+	}
+	return factors;
+}
+
+fn texture__unmasked(index: u32, surface: shading__Surface) -> f32 {
+	if (index == types__NO_TEXTURE) {
+		return 1.0;
+	}
+	return select(1.0, 0.0, texture__is_bare(material__load_texture(index), surface));
 }
 
 fn texture__texture_factors(wanted: vec3u, surface: shading__Surface) -> mat3x3f {
@@ -4509,18 +4521,20 @@ fn layers__layers_at(surface: shading__Surface, optics: shading__Optics) -> laye
 		var rest = own.slots;
 		loop {
 			let slot = firstTrailingBit(rest | 2147483648u);
-			let value = texture__texture_value(material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u)), surface);
+			let texture = material__load_texture(select(0u, layers__texture_in(own, slot), rest != 0u));
+			let value = texture__texture_value(texture, surface);
+			let shown = select(1.0, 0.0, texture__is_bare(texture, surface));
 			let share = saturate_vec4f(value);
 			own.base *= select(vec3f(1.0), value.xyz, slot == types__SLOT_BASE);
 			let is_both = slot == types__SLOT_METALLIC_ROUGHNESS;
 			own.roughness *= select(1.0, share.y, is_both || slot == types__SLOT_ROUGHNESS);
-			own.metallic *= select(1.0, share.z, is_both || slot == types__SLOT_METALLIC);
+			own.metallic *= select(1.0, shown * share.z, is_both || slot == types__SLOT_METALLIC);
 			own.f0 *= select(vec3f(1.0), value.xyz, slot == types__SLOT_F0) * select(1.0, share.w, slot == types__SLOT_F90);
 			own.f90 *= select(1.0, share.w, slot == types__SLOT_F90);
-			own.transmission *= select(1.0, share.x, slot == types__SLOT_TRANSMISSION);
-			transmit *= select(vec3f(1.0), value.xyz, slot == types__SLOT_TRANSMISSION);
+			own.transmission *= select(1.0, shown * share.x, slot == types__SLOT_TRANSMISSION);
+			transmit *= select(vec3f(1.0), shown * value.xyz, slot == types__SLOT_TRANSMISSION);
 			reflect *= select(vec3f(1.0), value.xyz, slot == types__SLOT_REFLECT);
-			glow *= select(vec3f(1.0), value.xyz, slot == types__SLOT_EMISSION);
+			glow *= select(vec3f(1.0), shown * value.xyz, slot == types__SLOT_EMISSION);
 			if (bindings__HAS_ANISOTROPY) {
 				own.anisotropy *= select(1.0, share.z, slot == types__SLOT_ANISOTROPY);
 				along = select(along, 2.0 * value.xy - 1.0, slot == types__SLOT_ANISOTROPY);

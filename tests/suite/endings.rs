@@ -221,9 +221,9 @@ fn what_does_not_fit_into_a_memory_limit_exits_7() {
             "error: too big for the memory",
         ),
         // The size of this file is not known beforehand.
-        (62_000, "inspect names.toml", "do not fit into memory"),
+        (68_000, "inspect names.toml", "do not fit into memory"),
         // The memory it needs is not known either; the message is Rust's own.
-        (80_000, "inspect names.toml", "memory allocation of"),
+        (88_000, "inspect names.toml", "memory allocation of"),
     ] {
         let run = shell(&workspace, &format!("ulimit -v {limit}; exec $G {line}"));
         let says_so = run.code == Some(7) && run.stderr.contains(words);

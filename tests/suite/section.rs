@@ -169,6 +169,74 @@ fn a_closed_mesh_has_a_face_where_it_is_cut_and_an_open_one_is_hollow() {
 }
 
 #[test]
+fn a_sheet_with_two_faces_is_no_solid() {
+    let mut sheet = Mesh::default();
+    for side in [1.0, -1.0] {
+        let first = sheet.positions.len() as u32;
+        for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
+            sheet.positions.push(vec3(x, y, 0.0));
+            sheet.normals.push(Vec3::Z * side);
+            sheet.materials.push(0);
+        }
+        let corners = if side > 0.0 { [1, 2] } else { [2, 1] };
+        let triangle = |a: u32, b: u32| [first, first + a, first + b];
+        let shift = |[a, b]: [u32; 2]| triangle(a, b);
+        sheet
+            .triangles
+            .extend([shift(corners), shift(corners.map(|i| i + 1))]);
+    }
+    let mut scene = scene(Material::default(), false);
+    scene.add_mesh(sheet, DAffine3::from_scale(DVec3::splat(0.75)));
+    scene.section = above(0.5);
+    let depths = check_depths("a sheet", &scene, |x, y| {
+        let far = x.abs().max(y.abs());
+        match (far - 0.75).abs() < 0.02 {
+            true => None,
+            false if far < 0.75 => Some(AWAY),
+            false => Some(0.0),
+        }
+    });
+    assert_none([depths]);
+}
+
+#[test]
+fn a_surface_in_the_plane_is_kept_and_leaves_no_speckles() {
+    let mut scene = scene(Material::default(), false);
+    scene.cameras[0].look_from += dvec3(0.3, 0.2, 0.0);
+    scene.cameras[0].look_at += dvec3(0.3, 0.2, 0.0);
+    scene.add_mesh(cube(true), DAffine3::from_scale(DVec3::splat(0.75)));
+    scene.section = above(0.75);
+    let depths = check_depths("a lid", &scene, |x, y| {
+        let far = (x + 0.3).abs().max((y + 0.2).abs());
+        match (far - 0.75).abs() < 0.02 {
+            true => None,
+            false if far < 0.75 => Some(AWAY - 0.75),
+            false => Some(0.0),
+        }
+    });
+    assert_none([depths]);
+}
+
+#[test]
+fn hundreds_of_open_surfaces_behind_the_plane_are_no_failure() {
+    let mut scene = scene(Material::default(), false);
+    for k in 0..400 {
+        let z = -f64::from(k) / 100.0;
+        scene.add_mesh(
+            crate::reference::scenes::quad(1.0, 0),
+            DAffine3::from_translation(z * DVec3::Z)
+                * DAffine3::from_rotation_x(std::f64::consts::FRAC_PI_2),
+        );
+    }
+    scene.section = above(0.5);
+    let image = render(&scene, &with(Integrator::Depth, 1)).0;
+    let (.., color) = pixels(&image)
+        .nth((SIDE * SIDE / 2 + SIDE / 2) as usize)
+        .expect("a pixel");
+    assert!((f64::from(color[0]) - AWAY).abs() < 1e-4, "{color:?}");
+}
+
+#[test]
 fn instances_and_the_search_without_trees_give_the_same_picture() {
     let mut scene = scene(Material::default(), false);
     scene.add_mesh(cube(false), DAffine3::from_scale(DVec3::splat(0.5)));

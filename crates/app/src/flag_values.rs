@@ -28,17 +28,20 @@ pub fn background(text: &str) -> Result<BackgroundChoice, String> {
     }
 }
 
-/// `X,Y,Z,OFFSET` or `none`. The first three are a direction of any length, along which the offset is measured.
+/// `X,Y,Z,OFFSET`, a plane with the normal (x, y, z) of any length, of the points p with p·(x, y, z) = offset; or `none`.
 pub fn section(text: &str) -> Result<SectionChoice, String> {
     if text == "none" {
         return Ok(SectionChoice(None));
     }
     let part = |part: &str| within(part, -MAX_COORDINATE, MAX_COORDINATE, "every number");
     let [x, y, z, offset] = list(text, "X,Y,Z,OFFSET or none", part)?;
-    let normal = match DVec3::new(x, y, z) {
+    let (normal, offset) = match DVec3::new(x, y, z) {
         // A direction that is already normalised keeps all its digits.
-        unit if (unit.length_squared() - 1.0).abs() <= 8.0 * f64::EPSILON => unit,
-        any => (any.try_normalize()).ok_or("the direction cannot be 0,0,0")?,
+        unit if (unit.length_squared() - 1.0).abs() <= 8.0 * f64::EPSILON => (unit, offset),
+        any => {
+            let unit = any.try_normalize().ok_or("the direction cannot be 0,0,0")?;
+            (unit, offset / any.length())
+        }
     };
     Ok(SectionChoice(Some(Section { normal, offset })))
 }

@@ -8,6 +8,7 @@ use crate::job::Job;
 use crate::report::Draft;
 use glimray_app::clock::Clock;
 use glimray_app::error::AppError;
+use glimray_app::overrides::SectionChoice;
 use glimray_scene::{self as scene, Background, Scene, Turntable};
 use std::time::Instant;
 
@@ -54,6 +55,9 @@ fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Resul
     let mut scene = turned(scene, turn, frames / turn.fps, size)?;
     if let Some(background) = turn.background {
         scene.background = Background::Color(background);
+    }
+    if let Some(SectionChoice(section)) = turn.section {
+        scene.section = section;
     }
     let flags = MotionFlags {
         fps: Some(turn.fps),

@@ -139,7 +139,7 @@ impl Desktop {
     fn finished(&self, place: [u16; 4]) -> Vec<u8> {
         let is_finished = |_: &[u8]| {
             let bar = self.screenshot(BAR_END);
-            colors(&bar) == 1 && bar[0] > 100 && !self.is_at_work()
+            colors(&bar) == 1 && bar[0] > 80 && !self.is_at_work()
         };
         self.unchanged("a finished picture", place, 20, is_finished)
     }
@@ -406,7 +406,7 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
 const SEARCH: [u16; 4] = [6, 52, 240, 26];
 const LINES: [u16; 4] = [6, 104, 240, 280];
 const SETTINGS: [u16; 4] = [1000, 110, 270, 450];
-const BESIDE: [u16; 4] = [275, 602, 40, 10];
+const BESIDE: [u16; 4] = [292, 602, 40, 10];
 
 #[test]
 fn after_a_click_on_a_line_letters_are_text_and_a_quick_drag_takes_a_border() {
@@ -440,7 +440,7 @@ fn after_a_click_on_a_line_letters_are_text_and_a_quick_drag_takes_a_border() {
         colors(&desktop.screenshot(BESIDE)) > 2,
         "there is no picture"
     );
-    let quick = "mousemove 264 500 mousedown 1 mousemove 340 500 mouseup 1";
+    let quick = "mousemove 280 500 mousedown 1 mousemove 360 500 mouseup 1";
     desktop.xdotool(&quick.split(' ').collect::<Vec<_>>());
     wait_for("the panel over what was the picture", || {
         (colors(&desktop.screenshot(BESIDE)) <= 2).then_some(())

@@ -10,8 +10,8 @@ use super::{
     tlas::Tlas,
 };
 use crate::layout::{
-    CAMERA_ROWS, CLUSTER_ROWS, INSTANCE_ROWS, KEY_ROWS, LIGHT_RECTANGLE, LIGHT_ROWS, MOVING,
-    NODE_ROWS, NONE, PackedCamera, PackedEmitter, PackedFrame, PackedLight, PackedMaterial,
+    CAMERA_ROWS, CLUSTER_ROWS, INSTANCE_ROWS, KEY_ROWS, LIGHT_RECTANGLE, LIGHT_ROWS, MATERIAL_THIN,
+    MOVING, NODE_ROWS, NONE, PackedCamera, PackedEmitter, PackedFrame, PackedLight, PackedMaterial,
     PackedTexture, SHAPE,
 };
 use bytemuck::{bytes_of, cast_slice};
@@ -166,7 +166,10 @@ impl PackedScene {
         let emitter_row = camera_row + CAMERA_ROWS * camera_key_rows;
         let cluster_row = emitter_row + (emitters.rows.len() + emitters.glows.len()) as u32;
         let solids = match first.section {
-            Some(_) => self.trees.solids(),
+            Some(_) => {
+                let flags = |material: u32| lit[material as usize].flags;
+                (self.trees).solids(|material| flags(material) & MATERIAL_THIN != 0)
+            }
             None => Vec::new(),
         };
         let start = start(&first.camera);

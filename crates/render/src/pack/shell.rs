@@ -62,20 +62,30 @@ impl Shell {
 }
 
 /// Whether the triangles of a mesh enclose a volume: along each edge as many of them run in one direction as in the other.
-/// Vertices at the same position are one, as along seams of texture coordinates.
+/// Vertices at the same position are one, as along seams of texture coordinates. A sheet of which each triangle has a twin for
+/// the other side encloses nothing.
 pub fn is_closed(mesh: &Mesh) -> bool {
     let same = welded(mesh);
-    let mut balance: HashMap<(usize, usize), i32> = HashMap::new();
-    for triangle in &mesh.triangles {
-        let [a, b, c] = triangle.map(|i| same[i as usize]);
-        for (from, to) in [(a, b), (b, c), (c, a)] {
-            if from != to {
-                let edge = (from.min(to), from.max(to));
-                *balance.entry(edge).or_default() += if from < to { 1 } else { -1 };
-            }
-        }
-    }
-    !balance.is_empty() && balance.values().all(|&count| count == 0)
+    let triangles = || (mesh.triangles.iter()).map(|t| t.map(|i| same[i as usize]));
+    let mut faces: Vec<_> = triangles()
+        .map(|mut triangle| {
+            triangle.sort_unstable();
+            triangle
+        })
+        .filter(|[a, b, c]| a != b && b != c)
+        .collect();
+    faces.sort_unstable();
+    let mut edges: Vec<_> = triangles()
+        .flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)])
+        .filter(|(from, to)| from != to)
+        .map(|(from, to)| (from.min(to), from.max(to), from < to))
+        .collect();
+    edges.sort_unstable();
+    let is_balanced = (edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1))).all(|edge| {
+        let forward = edge.iter().filter(|(.., is_forward)| *is_forward).count();
+        2 * forward == edge.len()
+    });
+    !edges.is_empty() && is_balanced && faces.windows(2).all(|pair| pair[0] != pair[1])
 }
 
 /// For each vertex the first one at the same position.

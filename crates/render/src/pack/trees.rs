@@ -240,13 +240,14 @@ impl Trees {
         self.own().map(|tree| &*tree.mesh).chain(joint)
     }
 
-    /// The vertices of each closed mesh, in ascending order: the first, and the one after the last.
-    pub fn solids(&self) -> Vec<[u32; 4]> {
+    /// The vertices of each closed mesh that is no thin wall, in ascending order: the first, and the one after the last.
+    pub fn solids(&self, is_thin: impl Fn(u32) -> bool) -> Vec<[u32; 4]> {
         let mut end = 0;
         let ranges = self.meshes().map(|mesh| {
             let first = end;
             end += mesh.mesh.positions.len() as u32;
-            mesh.is_closed().then_some([first, end, 0, 0])
+            let is_wall = mesh.mesh.materials.first().is_some_and(|&it| is_thin(it));
+            (!is_wall && mesh.is_closed()).then_some([first, end, 0, 0])
         });
         ranges.flatten().collect()
     }

@@ -1,5 +1,6 @@
 //! Adding things to the scene: surfaces, lights, cameras and models.
 
+use crate::actions::dialogs;
 use crate::actions::files::{NO_DIALOG, short};
 use crate::actions::modal;
 use crate::model::adding::{self, Addition, Spot};
@@ -102,6 +103,10 @@ pub fn update(session: &mut Session) {
         }
         Some(Reply::Cancelled) | None => {}
     }
+    // A model that is read meanwhile waits until the hand is free.
+    if is_in_hand(session) {
+        return;
+    }
     let Some((path, receiver)) = &session.files.model else {
         return;
     };
@@ -121,6 +126,12 @@ pub fn update(session: &mut Session) {
             session.messages.warn(why);
         }
     }
+}
+
+/// Whether something is dragged or follows the pointer, which another change would end.
+fn is_in_hand(session: &Session) -> bool {
+    let editing = &session.editing;
+    session.drag.is_some() || editing.grip.is_some() || editing.modal.is_some()
 }
 
 /// Adds a model under a node of its own, so that it stands at the pivot with a good size.
@@ -145,7 +156,7 @@ fn merge(session: &mut Session, path: &Path, model: Scene) {
             false => 1.0,
         };
         scene.nodes[node].scale = DVec3::splat(factor);
-        // Its lowest point is where a plane is added.
+        // The lowest point is where a plane is added.
         let foot = min.midpoint(max) - spot.up * (max - min).dot(spot.up.abs()) / 2.0;
         scene.nodes[node].translation = spot.pivot - spot.up * spot.size - foot * factor;
         Ok(Id::Node(node))
@@ -162,5 +173,10 @@ fn merge(session: &mut Session, path: &Path, model: Scene) {
         let text = "Parts of the model are missing or were repaired: see the end of the outline";
         session.messages.warn(text.to_owned());
     }
-    modal::place_new(session);
+    // The keys of a field or a dialog are not those of a move.
+    let is_typing = session.editing.renaming.is_some() || session.dialogs.had_keyboard;
+    let is_asking = dialogs::is_asking(session) || session.dialogs.bindings.awaits();
+    if !is_typing && !is_asking {
+        modal::place_new(session);
+    }
 }

@@ -295,7 +295,7 @@ fn leave(session: &mut Session) {
         return;
     }
     if session.tool == Tool::Select {
-        session.selection = None;
+        session.select(Vec::new());
     }
     session.tool = Tool::Select;
 }

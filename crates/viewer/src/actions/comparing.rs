@@ -70,11 +70,11 @@ pub fn kept(session: &mut Session, snapshot: Snapshot) {
     session.messages.notify(told);
 }
 
-/// Shows the kept picture in place of the present one, or the present one again: the one that was compared with last, or
-/// else the last one that was kept.
+/// Shows the kept picture in place of the present one, or the present one and its comparison again: the one that was compared
+/// with last, or else the last one that was kept.
 pub fn flip(session: &mut Session) {
     match flipped(session) {
-        Some(_) => session.view.comparison = None,
+        Some(_) => session.view.comparison = session.unflipped.take(),
         None => {
             let proposed = session
                 .view
@@ -117,6 +117,9 @@ fn show(session: &mut Session, still: Option<StillId>) {
             .notify("No picture is kept yet. Keep a snapshot first");
         return;
     };
+    if flipped(session).is_none() {
+        session.unflipped = session.view.comparison;
+    }
     let source = Source::Still(id);
     session.view.proposed = Some(source);
     // A wipe whose line is at the left edge.
@@ -131,6 +134,7 @@ fn show(session: &mut Session, still: Option<StillId>) {
 /// Forgets a still and ends its comparison.
 pub fn remove(session: &mut Session, still: StillId) {
     session.view.forget(still);
+    (session.unflipped).take_if(|before| before.source == Source::Still(still));
     session.comparing.gallery.remove(still);
 }
 
@@ -168,6 +172,9 @@ pub fn open_reference(session: &mut Session, path: PathBuf) {
 
 /// Takes replies of the file dialog and pictures that have been read.
 pub fn update(session: &mut Session) {
+    if flipped(session).is_none() {
+        session.unflipped = None;
+    }
     match file_dialog::take_reply(&mut session.comparing.asked) {
         Some(Reply::Chosen(path)) => open_reference(session, path),
         Some(Reply::Unavailable) => {

@@ -14,10 +14,7 @@ pub fn take_keys(session: &mut Session, ctx: &egui::Context) -> bool {
     if session.editing.is_asking() || session.dialogs.bindings.awaits() {
         return true;
     }
-    let files = &session.files;
-    let is_typing =
-        files.typed.is_some() || files.typed_model.is_some() || session.comparing.typed.is_some();
-    if files.undecided.is_some() || files.saving.is_some() || is_typing {
+    if is_asking(session) {
         if is_escape {
             close_uppermost(session);
         }
@@ -26,10 +23,22 @@ pub fn take_keys(session: &mut Session, ctx: &egui::Context) -> bool {
     is_escape && session.dialogs.had_keyboard
 }
 
+/// Whether a dialog is open that waits for an answer.
+pub fn is_asking(session: &Session) -> bool {
+    let files = &session.files;
+    let is_typing =
+        files.typed.is_some() || files.typed_model.is_some() || session.comparing.typed.is_some();
+    let is_saving = files.saving.is_some() || files.film.is_some();
+    session.editing.is_asking() || files.undecided.is_some() || is_saving || is_typing
+}
+
 /// Closes the uppermost dialog. Returns whether there was one.
 pub fn close_uppermost(session: &mut Session) -> bool {
     let files = &mut session.files;
-    if files.undecided.take().is_some() || files.saving.take().is_some() {
+    if files.undecided.take().is_some() {
+        return true;
+    }
+    if files.film.take().is_some() || files.saving.take().is_some() {
         return true;
     }
     if files.typed.take().is_some() || files.typed_model.take().is_some() {

@@ -17,9 +17,10 @@ pub fn keys(session: &mut Session, ctx: &egui::Context) -> bool {
     }
     let take = |key| ctx.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key));
     let steps = take(Key::ArrowDown) as isize - take(Key::ArrowUp) as isize;
-    if steps != 0 {
-        let next = session.editing.listing.step(session.selection, steps);
-        session.selection = next.or(session.selection);
+    if steps != 0
+        && let Some(next) = session.editing.listing.step(session.selection, steps)
+    {
+        session.select(vec![next]);
     }
     true
 }
@@ -62,9 +63,12 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
         }
         session.editing.home = camera;
         if (session.selection).is_some_and(|id| !objects::is_there(&scene, id)) {
-            session.selection = None;
+            session.select(Vec::new());
         }
     }
+    // A camera that was left is not to be focused by a later click.
+    let selection = session.selection;
+    (session.tool_state.focuses).take_if(|index| selection != Some(Id::Camera(*index)));
     // Visits every vertex, so it is postponed while something is dragged.
     if session.editing.owes_bounds && !session.is_moving() {
         session.editing.owes_bounds = false;
@@ -94,7 +98,7 @@ pub fn revert(session: &mut Session) {
         return;
     }
     document.revert();
-    session.selection = None;
+    session.select(Vec::new());
     session.moved();
     session
         .messages
@@ -127,7 +131,7 @@ fn step(session: &mut Session, again: bool) {
     let after = document.scene().clone();
     let mut found = match (done.is_some(), is_other) {
         (false, _) => selected,
-        // What came back is selected unless something else is.
+        // Things that came back are selected unless something else is.
         (true, _) if selected.is_empty() => document.selected().to_vec(),
         (true, true) => Vec::new(),
         (true, false) => objects::same(&before, &after, &selected),
@@ -240,7 +244,7 @@ impl Session {
 
     /// Frames something; a camera is looked through.
     pub fn frame(&mut self, id: Id) {
-        self.selection = Some(id);
+        self.select(vec![id]);
         let (width, height) = self.picture_size();
         let aspect = f64::from(width) / f64::from(height.max(1));
         let bounds = self.selection_bounds();

@@ -69,10 +69,13 @@ pub fn intend(session: &mut Session, intent: Intent) {
 pub fn go_on(session: &mut Session, intent: Intent) {
     session.files.undecided = None;
     match intent {
-        Intent::Open(path) => session.open(path),
+        Intent::Open(path) => {
+            take_back_choice(session);
+            session.open(path);
+        }
         Intent::New => show_without_file(session, Session::show_new),
         // The scene that is being opened replaces it.
-        Intent::Reload | Intent::ReloadChanged if session.is_opening() => {}
+        Intent::Reload | Intent::ReloadChanged | Intent::Choose(..) if session.is_opening() => {}
         Intent::Reload | Intent::ReloadChanged => {
             if session.files.have_changed() {
                 session.editing.forget_written();
@@ -82,6 +85,7 @@ pub fn go_on(session: &mut Session, intent: Intent) {
         }
         Intent::Choose(part, name) => {
             let options = &mut session.request.import;
+            (session.files.before_choice).get_or_insert_with(|| options.clone());
             match part {
                 Part::Clip => options.clip = name,
                 Part::Variant => options.variant = name,
@@ -99,6 +103,27 @@ pub fn go_on(session: &mut Session, intent: Intent) {
     }
 }
 
+/// Restores what was chosen of the scene that stays, because the file was not read with another choice.
+fn take_back_choice(session: &mut Session) {
+    if let Some(before) = session.files.before_choice.take() {
+        session.request.import = before;
+    }
+}
+
+/// Drops what belongs to the scene before, because another one is shown: pictures that wait for it, dialogs about it,
+/// and files that are read for it.
+fn left(session: &mut Session) {
+    pictures::abandon(session);
+    let files = &mut session.files;
+    files.saving = None;
+    files.film = None;
+    files.typed_model = None;
+    files.asked_model = None;
+    files.model = None;
+    files.environment = None;
+    session.picture_menu = None;
+}
+
 /// Opens a scene, a folder of scenes, or an environment image.
 pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
     dropped::open(session, paths);
@@ -107,6 +132,7 @@ pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
 /// Stops loading. The current scene stays; without one the window is empty.
 pub fn cancel_loading(session: &mut Session) {
     if let Some(path) = session.cancel_loading() {
+        take_back_choice(session);
         session.files.candidates.clear();
         session.files.notice = None;
         let text = format!("Cancelled loading {}", short(&path));
@@ -125,8 +151,10 @@ fn show_without_file(
 ) {
     // A scene that is still loading would replace it.
     session.cancel_loading();
+    take_back_choice(session);
     match show(session) {
         Ok(()) => {
+            left(session);
             session.path = None;
             session.files.broken = None;
             session.files.is_gone = false;
@@ -260,9 +288,10 @@ pub fn loaded(session: &mut Session, opened: Opened) {
         Ok(()) => {
             session.preferences.opened(&path);
             session.files.candidates.clear();
+            session.files.before_choice = None;
             if !again {
                 session.editing.forget_written();
-                pictures::abandon(session);
+                left(session);
             }
             if let Some(notice) = session.files.notice.take() {
                 session.messages.notify(notice);
@@ -281,6 +310,7 @@ pub fn loaded(session: &mut Session, opened: Opened) {
             return;
         }
         Err(trouble) => {
+            take_back_choice(session);
             session.files.notice = None;
             session.files.broken = Some(Broken {
                 path: path.clone(),
@@ -303,6 +333,7 @@ pub fn saved(session: &mut Session, files: Vec<PathBuf>) {
     session.original = session.scene().cloned();
     session.request.overrides.camera = CameraOverrides::default();
     forget_parts(&mut session.request.import);
+    session.files.before_choice = None;
     session.path = files.last().cloned();
     session.files.broken = None;
     session.files.is_gone = false;

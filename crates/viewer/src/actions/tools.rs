@@ -252,13 +252,14 @@ pub fn picked(session: &mut Session, purpose: Purpose, hit: Option<(DVec3, Optio
         }
         (Purpose::FocusOf(index), Some((point, _))) => focus(session, index, point),
         (Purpose::Select, hit) => {
-            session.selection = hit.and_then(|(_, object)| object).map(Id::Object);
+            let object = hit.and_then(|(_, object)| object).map(Id::Object);
+            session.select(object.into_iter().collect());
         }
         (Purpose::Menu, hit) => {
             let object = hit.and_then(|(_, object)| object).map(Id::Object);
             // A menu of one of several that are selected is about all of them.
             if let Some(id) = object.filter(|id| !session.is_selected(*id)) {
-                session.selection = Some(id);
+                session.select(vec![id]);
             }
             if let Some(menu) = &mut session.picture_menu {
                 menu.point = hit.map(|(point, _)| point);

@@ -55,7 +55,9 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
         if controller.advance(seconds) || controller.is_moving() {
             session.last_motion = now;
         }
-        let rests = !controller.is_moving() && session.drag.is_none();
+        // Other widgets than the picture move the camera by drags too.
+        let is_held = ctx.input(|input| input.pointer.any_down());
+        let rests = !controller.is_moving() && session.drag.is_none() && !is_held;
         session.camera_history.note(controller, rests);
     }
 }

@@ -91,7 +91,7 @@ impl Addition {
         Self::SphereLight,
     ];
 
-    /// Its label in menus, and its name in the scene.
+    /// The label in menus, and the name in the scene.
     pub fn title(self) -> &'static str {
         match self {
             Self::Sphere => "Sphere",

@@ -26,7 +26,7 @@ pub struct Document {
     undone: Vec<Step>,
     /// While the last step is still being dragged: [`Document::drag`] extends it.
     dragged: Option<Dragged>,
-    /// What is selected, so that undo can select it again.
+    /// The selection, so that undo can select it again.
     selected: Arc<[Id]>,
     max_bytes: usize,
 }
@@ -162,7 +162,7 @@ impl Document {
         }
     }
 
-    /// What was selected when the scene was last as it is now, after [`Document::undo`] or [`Document::redo`].
+    /// The selection when the scene was last as it is now, after [`Document::undo`] or [`Document::redo`].
     pub fn selected(&self) -> &[Id] {
         &self.selected
     }

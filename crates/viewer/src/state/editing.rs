@@ -43,7 +43,7 @@ pub struct Editing {
     pub(crate) home: Option<Camera>,
     /// Whether bounds must still be updated.
     pub(crate) owes_bounds: bool,
-    /// What the last check for light was of: the scene, the integrator, and the background of the view.
+    /// The subject of the last check for light: the scene, the integrator, and the background of the view.
     pub(crate) lit: Option<(Arc<Scene>, Integrator, Option<Background>)>,
     /// The warning that the scene has no light, while it applies.
     pub(crate) darkness: Option<&'static str>,

@@ -9,7 +9,7 @@ use crate::state::target::Target;
 use crate::worker::still::Still;
 use eframe::egui::ColorImage;
 use glimray_app::inputs::Inputs;
-use glimray_io::import::ImportError;
+use glimray_io::import::{ImportError, Options};
 use glimray_io::output::Format;
 use glimray_scene::image::ScreenImage;
 use glimray_scene::{Picture, Scene};
@@ -49,6 +49,8 @@ pub struct Files {
     pub(crate) asked_model: Option<Receiver<Reply>>,
     /// The model to add that is being read.
     pub(crate) model: Option<(PathBuf, Receiver<Result<Scene, ImportError>>)>,
+    /// The options of the scene that is shown, while it is read again with another choice of a part.
+    pub(crate) before_choice: Option<Options>,
     /// Scenes to try next if one cannot be read, and the message if one can.
     pub(crate) candidates: VecDeque<PathBuf>,
     pub(crate) notice: Option<String>,

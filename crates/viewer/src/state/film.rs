@@ -2,6 +2,8 @@
 
 use crate::model::file_dialog::Reply;
 use crate::worker::film::Video;
+use crate::worker::free_name;
+use glimray_app::clock;
 use glimray_app::inputs::Inputs;
 use glimray_app::sequence::pattern::Pattern;
 use glimray_app::sequence::{Files, frames_folder};
@@ -51,18 +53,34 @@ impl FilmFormat {
 pub struct FilmTarget {
     /// The frames.
     pub files: Files,
+    /// Number of the first frame.
+    pub first: u32,
     /// The video; `None` if the frames are the film.
     pub video: Option<Video>,
+}
+
+/// A range of frames that follows the frame rate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scaled {
+    /// The range as it was chosen, and the frame rate then.
+    from: [u32; 2],
+    fps: f64,
+    /// The range that it became.
+    to: [u32; 2],
 }
 
 /// The state of the dialog for a film.
 pub struct FilmDialog {
     /// The typed path.
     pub path: String,
+    /// The path that was proposed, which no file has.
+    pub(crate) proposed: String,
     /// The motion.
     pub motion: FilmMotion,
     /// Numbers of the first and the last frame of the scene's animation.
     pub range: [u32; 2],
+    /// How the range came from another one; `None` if the frame rate has not changed.
+    pub(crate) scaled: Option<Scaled>,
     /// Duration of a turn.
     pub seconds: f64,
     /// Whether the scene appears to turn clockwise, seen from above.
@@ -79,7 +97,7 @@ pub struct FilmDialog {
     pub loops: bool,
     /// Quality of videos and JPEG frames, 1 to 100.
     pub quality: u8,
-    /// Whether the background of the frames is transparent.
+    /// Whether the background of the frames is transparent, as of the last frame of the window.
     pub(crate) has_opacity: bool,
     /// Whether the name field has not been focused yet.
     pub is_new: bool,
@@ -107,16 +125,64 @@ impl FilmDialog {
         PathBuf::from(self.path.trim())
     }
 
-    /// Gives the path the ending of a format that is offered.
-    pub fn set_ending(&mut self, ending: &str) {
+    /// Number of the last frame of an animation of `duration` seconds.
+    pub fn last_frame(&self, duration: f64) -> u32 {
+        clock::last_frame(duration, self.fps, self.loops).min(MAX_FRAME)
+    }
+
+    /// Changes the frame rate, above 0. The range keeps its times, and ends with the animation of `duration` seconds if
+    /// it did before.
+    pub fn set_fps(&mut self, fps: f64, duration: f64) {
+        let before = self.scaled.filter(|scaled| scaled.to == self.range);
+        // Always from what was chosen, so that rounding does not add up.
+        let (from, at) = before.map_or((self.range, self.fps), |scaled| (scaled.from, scaled.fps));
+        let ends = from[1] == clock::last_frame(duration, at, self.loops).min(MAX_FRAME);
+        self.fps = fps;
+        self.range = from.map(|frame| {
+            let frame = (f64::from(frame) / at * fps).round();
+            frame.min(MAX_FRAME.into()) as u32
+        });
+        if ends {
+            self.range[1] = self.last_frame(duration);
+        }
+        self.scaled = Some(Scaled {
+            from,
+            fps: at,
+            to: self.range,
+        });
+    }
+
+    /// Number of the first frame.
+    fn first_frame(&self) -> u32 {
+        match self.motion {
+            FilmMotion::Animation => self.range[0],
+            FilmMotion::Turntable => 0,
+        }
+    }
+
+    /// Gives the path the ending of a format that is offered. A path that was proposed becomes one that no film has;
+    /// `is_reserved` tells which ones will be written.
+    pub fn set_ending(&mut self, ending: &str, is_reserved: impl Fn(&Path) -> bool) {
+        let is_proposed = self.path == self.proposed;
         let path = self.typed();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let known = FilmFormat::OFFERED.iter().map(|(.., known)| *known);
         let stem = (known.clone().find_map(|known| name.strip_suffix(known)))
             .or_else(|| name.rsplit_once('.').map(|(stem, _)| stem))
             .unwrap_or(&name);
-        let path = path.with_file_name(format!("{stem}{ending}"));
-        self.path = path.to_string_lossy().into_owned();
+        let named = |stem: &str| path.with_file_name(format!("{stem}{ending}"));
+        let first = self.first_frame();
+        let stem = match is_proposed {
+            true => free_stem(stem, |stem| {
+                let path = named(stem);
+                is_reserved(&path) || exists(&path, first)
+            }),
+            false => stem.to_owned(),
+        };
+        self.path = named(&stem).to_string_lossy().into_owned();
+        if is_proposed {
+            self.proposed = self.path.clone();
+        }
     }
 
     /// The files, or why they cannot be written.
@@ -156,7 +222,11 @@ impl FilmDialog {
                 if self.has_opacity && !format.has_opacity() {
                     return Err(NO_OPACITY.to_owned());
                 }
-                Ok(FilmTarget { files, video: None })
+                Ok(FilmTarget {
+                    files,
+                    first: self.first_frame(),
+                    video: None,
+                })
             }
         }
     }
@@ -176,6 +246,7 @@ impl FilmDialog {
         let files = Files::of_video(&frames_folder(&path), self.quality);
         Ok(FilmTarget {
             files,
+            first: self.first_frame(),
             video: Some(Video {
                 path,
                 format,
@@ -184,11 +255,37 @@ impl FilmDialog {
         })
     }
 
-    /// Whether replacing an existing video must be confirmed.
+    /// Whether replacing an existing video, or existing frames, must be confirmed. A file dialog confirms videos only, as
+    /// it does not know the names of frames.
     pub fn must_ask(&self, target: &FilmTarget) -> bool {
-        (target.video.as_ref())
-            .is_some_and(|video| video.options.clobber && self.agreed.as_ref() != Some(&video.path))
+        match &target.video {
+            Some(video) => video.options.clobber && self.agreed.as_ref() != Some(&video.path),
+            None => target.files.pattern.path(target.first).exists(),
+        }
     }
+}
+
+/// Whether a film of this name would replace a file: the video, or the frame of the number `first`.
+fn exists(path: &Path, first: u32) -> bool {
+    match FilmFormat::of(path) {
+        Some(FilmFormat::Frames(_)) => {
+            Pattern::parse(path).is_ok_and(|pattern| pattern.path(first).exists())
+        }
+        Some(FilmFormat::Video(_)) | None => path.exists(),
+    }
+}
+
+/// `stem`, or if it is taken, the next one that is free.
+fn free_stem(stem: &str, is_taken: impl Fn(&str) -> bool) -> String {
+    // With an ending, so that no dot of the stem is taken for one.
+    let bare = |path: &Path| {
+        let stem = path.file_stem().unwrap_or_default();
+        stem.to_string_lossy().into_owned()
+    };
+    let free = free_name::free(PathBuf::from(format!("{stem}.mp4")), |path| {
+        is_taken(&bare(path))
+    });
+    bare(&free)
 }
 
 /// Why a film with a transparent background cannot be written.

@@ -41,7 +41,7 @@ pub struct Job {
     /// The progress, and the way to cancel the job.
     pub control: JobControl,
     receiver: Option<Receiver<JobOutcome>>,
-    /// The film that it renders; `None` for a picture.
+    /// The film that it renders; `None` for a picture, and once the film is written, as it holds a whole scene.
     film: Option<Arc<FilmRequest>>,
 }
 
@@ -238,6 +238,7 @@ impl Jobs {
                 Err(TryRecvError::Empty) => continue,
                 Ok(Ok(Some(Written { path, message }))) => {
                     job.path = path;
+                    job.film = None;
                     tell(Ok(message));
                     JobState::Done
                 }

@@ -16,7 +16,7 @@ use crate::model::preferences::{Preferences, Store};
 use crate::model::recording::InputRecording;
 use crate::model::refinement::Refinement;
 use crate::model::tool::{Tool, ToolState};
-use crate::model::view_settings::ViewSettings;
+use crate::model::view_settings::{Comparison, ViewSettings};
 use crate::model::viewport::{PixelZoom, Viewport};
 use crate::state::answer::Answer;
 use crate::state::comparing::Comparing;
@@ -103,6 +103,8 @@ pub struct Session {
     pub shows_path: bool,
     /// The stills to compare with.
     pub comparing: Comparing,
+    /// The comparison that a flip to a kept picture has replaced.
+    pub(crate) unflipped: Option<Comparison>,
     /// The histogram of the picture.
     pub histogram: HistogramView,
     /// The time until the picture is done.
@@ -181,6 +183,7 @@ impl Session {
             shows_overlays: true,
             shows_path: true,
             comparing: Comparing::default(),
+            unflipped: None,
             histogram: HistogramView::default(),
             time_left: TimeLeft::default(),
             pixel_values: PixelValues::default(),

@@ -105,7 +105,7 @@ pub fn overlay(
             .as_ref()
             .is_some_and(|m| m.is_confirmed)
     {
-        // It is confirmed before it began.
+        // A move that is confirmed before it began.
         session.editing.modal = None;
     }
     let Some((mut grip, last)) = session.editing.grip.take() else {

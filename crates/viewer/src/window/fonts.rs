@@ -94,6 +94,12 @@ impl Names {
             text.extend(scene.nodes.iter().map(|it| it.name.as_str()));
             text.extend(scene.cameras.iter().map(|it| it.name.as_str()));
             text.extend(scene.meshes.iter().map(|it| it.name.as_str()));
+            text.extend(scene.instances.iter().map(|it| it.name.as_str()));
+            text.extend(scene.shapes.iter().map(|it| it.name.as_str()));
+            text.extend(scene.lights.iter().map(|it| it.name.as_str()));
+            text.extend(scene.clips.iter().map(|it| it.name.as_str()));
+            text.extend(scene.variants.iter().map(String::as_str));
+            text.extend(scene.alternatives.iter().map(String::as_str));
         }
         text.chars().filter(|letter| *letter > '\u{24f}').collect()
     }

@@ -81,6 +81,8 @@ pub fn render(
     request: &FilmRequest,
     control: &JobControl,
 ) -> Result<Option<PathBuf>, AppError> {
+    // Whoever cancels from here on waits for this thread, which will hold the lock of the folder.
+    control.begin();
     if control.is_cancelled() {
         return Ok(None);
     }

@@ -24,7 +24,9 @@ pub struct JobProgress {
     pub share: f64,
     /// The current step for people, such as `frame 3 of 24`; empty if there is only one.
     pub step: String,
-    /// When work began, and the share that was finished before.
+    /// Whether a thread works on it.
+    has_begun: bool,
+    /// When the share was published first, and the share that was finished before.
     began: Option<(Instant, f64)>,
 }
 
@@ -39,9 +41,15 @@ impl JobControl {
         self.0.is_cancelled.load(Ordering::Relaxed)
     }
 
+    /// Tells that a thread works on the job from now on, which will send the outcome.
+    pub fn begin(&self) {
+        self.lock().has_begun = true;
+    }
+
     /// Publishes the finished share, in 0..=1. The time left is measured from the first call.
     pub fn report(&self, share: f64) {
         let mut progress = self.lock();
+        progress.has_begun = true;
         progress
             .began
             .get_or_insert_with(|| (Instant::now(), share));
@@ -66,7 +74,7 @@ impl JobControl {
 impl JobProgress {
     /// Whether work has begun.
     pub fn has_begun(&self) -> bool {
-        self.began.is_some()
+        self.has_begun
     }
 
     /// Estimated seconds left; `None` until there is something to estimate from.

@@ -321,6 +321,34 @@ fn a_full_gallery_refuses_another_snapshot() {
 }
 
 #[test]
+fn a_comparison_comes_back_after_a_flip_to_a_kept_picture() {
+    use glimray::render::Integrator;
+    let (_folder, mut window) = balls();
+    keep(&mut window);
+    let normals = Source::Integrator(Integrator::Normals);
+    window.session().view.compare_with(normals);
+    compare(&mut window, Sharing::SideBySide);
+    let before = window.session().view.comparison;
+    assert_eq!(before.map(|it| it.source), Some(normals));
+    window.harness.key_press(Key::F6);
+    window.settle();
+    assert!(window.session().still().is_some(), "it is not flipped");
+    window.harness.key_press(Key::F6);
+    window.settle();
+    assert_eq!(window.session().view.comparison, before);
+    // One that has ended meanwhile does not come back.
+    window.harness.key_press(Key::F6);
+    window.settle();
+    window.session().view.comparison = None;
+    window.settle();
+    for _ in 0..2 {
+        window.harness.key_press(Key::F6);
+        window.settle();
+    }
+    assert_eq!(window.session().view.comparison, None);
+}
+
+#[test]
 fn the_histogram_tells_what_is_clipped_and_is_measured_once() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = plain(folder.path(), "[1, 1, 1]");

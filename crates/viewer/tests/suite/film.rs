@@ -4,6 +4,10 @@ use crate::harness::Window;
 use crate::support::{PATIENCE, ROOT};
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
+use glimray::render::Integrator;
+use glimray::scene::{Backdrop, ObjectRef};
+use glimray_viewer::actions::files::{self, film};
+use glimray_viewer::model::objects::Id;
 use glimray_viewer::state::film::FilmDialog;
 use glimray_viewer::state::jobs::JobState;
 use std::fs;
@@ -224,4 +228,148 @@ fn a_film_without_numbers_or_folder_is_refused_in_words() {
     let session = place.window.session();
     let dialog = session.files.film.as_ref().expect("a dialog");
     assert_eq!(dialog.typed(), path("film_%04d.png"));
+}
+
+#[test]
+fn numbered_frames_that_exist_are_neither_proposed_nor_replaced_unasked() {
+    let mut place = Place::open("orbits.toml");
+    let path = |name: &str| place.folder.path().join(name);
+    let (taken, free) = (path("film_1_0000.png"), path("film_2_%04d.png"));
+    fs::write(&taken, "mine").expect("a file");
+    let typed = path("film_1_%04d.png");
+    (place.window.harness).key_press_modifiers(Modifiers::COMMAND, Key::F12);
+    place.window.harness.run_steps(2);
+    {
+        let mut session = place.window.session();
+        let dialog = session.files.film.as_mut().expect("a dialog");
+        // Typed, so that only the question keeps the frames.
+        dialog.path = typed.display().to_string();
+        let asks = |dialog: &FilmDialog| {
+            let target = dialog.target().expect("a target");
+            dialog.must_ask(&target)
+        };
+        assert!(asks(dialog), "frames are replaced unasked");
+        dialog.range[0] = 1;
+        assert!(!asks(dialog), "nothing is replaced");
+        dialog.range[0] = 0;
+        dialog.path = free.display().to_string();
+        assert!(!asks(dialog), "the name is free");
+    }
+    // A scene of that folder proposes the next name.
+    let scene = place.path("film.toml");
+    fs::copy(format!("{ROOT}/assets/scenes/orbits.toml"), &scene).expect("a file");
+    files::open(&mut place.window.session(), vec![scene]);
+    place.window.settle();
+    film::open(&mut place.window.session());
+    place.window.harness.run_steps(2);
+    place.click("PNG frames");
+    let session = place.window.session();
+    let dialog = session.files.film.as_ref().expect("a dialog");
+    assert_eq!(dialog.typed(), free);
+}
+
+#[test]
+fn keys_under_the_dialog_do_nothing_but_escape_closes_it() {
+    let mut place = Place::open("spheres_and_triangles.scene");
+    let ball = Id::Object(ObjectRef::Shape(0));
+    place.window.session().select(vec![ball]);
+    let before = place.window.session().scene().cloned();
+    (place.window.harness).key_press_modifiers(Modifiers::COMMAND, Key::F12);
+    place.window.harness.run_steps(3);
+    // A click beside the field leaves it.
+    (place.window.harness.ctx).memory_mut(|memory| {
+        if let Some(focused) = memory.focused() {
+            memory.surrender_focus(focused);
+        }
+    });
+    place.window.harness.run_steps(2);
+    place.window.harness.key_press(Key::Delete);
+    place.window.harness.run_steps(3);
+    let after = place.window.session().scene().cloned();
+    assert!(after == before, "the ball is deleted");
+    assert!(place.window.session().files.film.is_some());
+    place.window.harness.key_press(Key::Escape);
+    place.window.harness.run_steps(3);
+    assert!(place.window.session().files.film.is_none());
+}
+
+#[test]
+fn another_frame_rate_keeps_the_times_of_the_range() {
+    let place = Place::open("orbits.toml");
+    let mut session = place.window.session();
+    film::open(&mut session);
+    let duration = session.playback.duration();
+    let dialog = session.files.film.as_mut().expect("a dialog");
+    let (fps, whole) = (dialog.fps, dialog.range);
+    dialog.set_fps(2.5 * fps, duration);
+    assert_eq!(dialog.range, [0, dialog.last_frame(duration)]);
+    assert!(dialog.range[1] > 2 * whole[1], "{:?}", dialog.range);
+    // By way of a rate at which all is one frame.
+    dialog.set_fps(0.01, duration);
+    dialog.set_fps(fps, duration);
+    assert_eq!(dialog.range, whole);
+    dialog.range = [4, 10];
+    dialog.set_fps(0.01, duration);
+    dialog.set_fps(2.5 * fps, duration);
+    assert_eq!(dialog.range, [10, 25]);
+}
+
+#[test]
+fn a_background_that_becomes_transparent_is_noticed_while_the_dialog_is_open() {
+    let mut place = Place::open("orbits.toml");
+    (place.window.harness).key_press_modifiers(Modifiers::COMMAND, Key::F12);
+    place.window.harness.run_steps(2);
+    let refusal = |place: &Place| {
+        let session = place.window.session();
+        let dialog = session.files.film.as_ref().expect("a dialog");
+        dialog.target().err()
+    };
+    let path = place.path("film.mp4").display().to_string();
+    (place.window.session().files.film.as_mut())
+        .expect("a dialog")
+        .path = path;
+    assert_eq!(refusal(&place), None);
+    {
+        let mut session = place.window.session();
+        session.view.settings.backdrop = Backdrop::Transparent;
+        session.view.settings.integrator = Integrator::Path;
+    }
+    place.window.harness.run_steps(2);
+    let why = refusal(&place).unwrap_or_default();
+    assert!(why.contains("transparent"), "{why}");
+}
+
+#[test]
+fn a_model_without_a_camera_is_filmed_as_the_command_line_shows_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let model = folder.path().join("plank.obj");
+    let text = "v -5 0 0\nv 5 0 0\nv 5 1 0\nv -5 1 0\nf 1 2 3 4\n";
+    fs::write(&model, text).expect("a file");
+    let model = model.display().to_string();
+    let mut window = Window::open(&[&model, "--samples", "1"]);
+    window.settle();
+    assert!(window.session().is_fitted());
+    let mut place = Place { folder, window };
+    place.film("plank_%04d.png", |dialog| {
+        (dialog.seconds, dialog.fps) = (0.5, 4.0);
+    });
+    place.wait("the film is done", |place| place.state() == JobState::Done);
+    let still = place.path("still.png");
+    let name = still.to_str().expect("a name");
+    glimray(&[
+        "render",
+        &model,
+        "--size",
+        "32x24",
+        "--samples",
+        "2",
+        "-o",
+        name,
+    ]);
+    let still = image::open(&still).expect("a picture").into_rgb8();
+    let first = image::open(place.path("plank_0000.png"));
+    let first = first.expect("a frame").into_rgb8();
+    let differences = first.as_raw().iter().zip(still.as_raw());
+    let far = differences.filter(|(a, b)| a.abs_diff(**b) > 8).count();
+    assert!(far <= first.as_raw().len() / 100, "{far} values differ");
 }

@@ -153,7 +153,7 @@ fn the_inspector_puts_back_the_layout_that_it_found() {
     window.harness.key_press(Key::Escape);
     window.settle();
     assert_eq!(rects(&window), before);
-    // What was opened meanwhile stays open.
+    // A panel that was opened meanwhile stays open.
     window.harness.key_press(Key::I);
     window.settle();
     window.harness.key_press(Key::O);

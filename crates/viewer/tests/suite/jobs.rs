@@ -4,8 +4,19 @@ use crate::harness::Window;
 use crate::support::PATIENCE;
 use eframe::egui::{self, Key};
 use egui_kittest::kittest::{Queryable, by};
+use glimray_app::clock::Clock;
+use glimray_app::sequence::Files;
+use glimray_app::sequence::pattern::Pattern;
+use glimray_io::output::Format;
+use glimray_render::{ExecutionPolicy, RenderSettings};
+use glimray_scene::{Scene, Shutter};
+use glimray_viewer::actions::files::{self, film, pictures};
+use glimray_viewer::state::files::Intent;
+use glimray_viewer::state::jobs::{JobState, Jobs, Written};
+use glimray_viewer::worker::film::FilmRequest;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
@@ -163,6 +174,70 @@ fn the_list_of_jobs_has_what_runs_and_what_is_done() {
     assert!(place.has("cancelled: "));
     place.click("Clear list");
     assert!(place.has("No jobs yet"));
+}
+
+#[test]
+fn what_waits_for_a_picture_ends_with_its_scene() {
+    let place = Place::open();
+    for is_new in [false, true] {
+        let mut session = place.window.session();
+        session.view.paused = true;
+        pictures::open(&mut session, false);
+        let dialog = session.files.saving.as_mut().expect("a dialog");
+        dialog.path = place.path("wait.png").display().to_string();
+        pictures::save(&mut session, true);
+        assert!(session.files.jobs.waiting().is_some());
+        pictures::open(&mut session, false);
+        film::open(&mut session);
+        assert!(session.files.saving.is_some() && session.files.film.is_some());
+        match is_new {
+            true => files::go_on(&mut session, Intent::New),
+            false => files::open_built_in(&mut session),
+        }
+        let job = session.files.jobs.all().last().expect("a job");
+        assert!(matches!(job.state, JobState::Failed(_)), "{:?}", job.state);
+        assert!(session.files.saving.is_none() && session.files.film.is_none());
+    }
+}
+
+#[test]
+fn a_film_that_is_written_is_forgotten_and_one_that_has_begun_is_not_ended_at_once() {
+    let place = Place::open();
+    let pattern = Pattern::parse(&place.path("film_%04d.png")).expect("a pattern");
+    let film = |scene: &Arc<Scene>| FilmRequest {
+        scene: scene.clone(),
+        clock: Clock {
+            fps: 24.0,
+            shutter: Shutter::default(),
+            end: None,
+        },
+        first: 0,
+        count: 1,
+        settings: RenderSettings::default(),
+        tone: place.window.session().view.tone,
+        policy: ExecutionPolicy::default(),
+        files: Files::new(pattern.clone(), Format::Png, 90),
+        video: None,
+    };
+    let mut jobs = Jobs::default();
+    let scene = Arc::new(Scene::default());
+    let begun = jobs.begin_film(Arc::new(film(&scene)));
+    begun.control.begin();
+    assert_eq!(begun.control.progress().seconds_left(), None);
+    jobs.cancel(begun.id);
+    assert_eq!(jobs.all()[0].state, JobState::Running, "its thread goes on");
+    begun.sender.send(Ok(None)).expect("a job");
+    jobs.update(|_| ());
+    assert!(jobs.all()[0].can_resume() && Arc::strong_count(&scene) == 2);
+    let again = jobs.run(begun.id);
+    let written = Written {
+        path: place.path("film_%04d.png"),
+        message: String::new(),
+    };
+    again.sender.send(Ok(Some(written))).expect("a job");
+    jobs.update(|_| ());
+    assert_eq!(jobs.all()[0].state, JobState::Done);
+    assert_eq!(Arc::strong_count(&scene), 1, "the scene is kept");
 }
 
 #[test]

@@ -4,7 +4,7 @@ mod many;
 mod student;
 mod walk;
 
-use super::edit::{BLUE, RED, file, on_screen, open, scene};
+use super::edit::{BLUE, RED, file, on_screen, open, perform, scene};
 use super::focus::{click_at, type_text};
 use crate::harness::Window;
 use eframe::egui::{Key, Modifiers, PointerButton, Pos2, Role, vec2};
@@ -13,9 +13,12 @@ use glam::{DVec3, dvec3};
 use glimray::import;
 use glimray::render::{Integrator, Tone};
 use glimray::scene::{Background, Geometry, LightKind, ObjectRef, Origin, Scene};
-use glimray_viewer::model::bindings::Preset;
+use glimray_viewer::actions::{adding, files};
+use glimray_viewer::model::bindings::{Action, Preset};
 use glimray_viewer::model::objects::{self, Id};
-use std::path::Path;
+use glimray_viewer::state::files::Intent;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// A new scene in a window of a small picture.
 pub(super) fn new_scene() -> (tempfile::TempDir, Window) {
@@ -361,6 +364,58 @@ fn a_model_from_a_file_stands_where_a_plane_would_be() {
     assert!(scene(&window).nodes.is_empty());
 }
 
+/// A model of one triangle in a file.
+fn sail(folder: &Path) -> PathBuf {
+    let path = folder.join("sail.obj");
+    std::fs::write(&path, "v 0 0 0\nv 3 0 0\nv 0 4 0\nf 1 2 3\n").expect("a file");
+    path
+}
+
+#[test]
+fn a_model_that_is_read_while_something_is_moved_waits_for_that() {
+    let (folder, mut window) = new_scene();
+    choose(&mut window, "Add", "Plane");
+    window.harness.run_steps(3);
+    assert!(window.session().editing.modal.is_some());
+    adding::add_model(&mut window.session(), sail(folder.path()));
+    for _ in 0..40 {
+        window.harness.step();
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let is_added = |window: &Window| !scene(window).nodes.is_empty();
+    assert_eq!((is_added(&window), undo_count(&window)), (false, 1));
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    window.settle();
+    assert_eq!((is_added(&window), undo_count(&window)), (true, 2));
+    assert!(window.session().editing.modal.is_some(), "it is not placed");
+}
+
+#[test]
+fn a_model_that_is_read_while_a_name_is_typed_takes_no_keys() {
+    let (folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.session().files.typed = Some(String::new());
+    window.harness.run_steps(3);
+    adding::add_model(&mut window.session(), sail(folder.path()));
+    window.settle();
+    assert!(!scene(&window).nodes.is_empty(), "it is not added");
+    assert!(window.session().editing.modal.is_none());
+}
+
+#[test]
+fn a_model_that_is_read_when_another_scene_is_shown_is_not_added_there() {
+    let (folder, path) = file();
+    let mut window = open(&path, "64x48");
+    {
+        let mut session = window.session();
+        adding::add_model(&mut session, sail(folder.path()));
+        files::go_on(&mut session, Intent::New);
+    }
+    window.settle();
+    assert_eq!(window.session().title(), "untitled");
+    assert_eq!((scene(&window).nodes.len(), undo_count(&window)), (0, 0));
+}
+
 #[test]
 fn a_copy_follows_the_pointer_and_the_click_that_places_it_selects_nothing_else() {
     let (_folder, path) = file();
@@ -520,6 +575,85 @@ fn the_handle_of_several_is_in_their_middle_and_each_has_its_box() {
     }
 }
 
+#[test]
+fn several_that_were_left_are_not_selected_again_with_one_of_them() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "400x300");
+    let both = |window: &mut Window| {
+        click_row(window, "sphere 1 (red)");
+        also(window, "sphere 2 (blue)");
+        assert_eq!(selected(window), [BLUE, RED]);
+    };
+    let click_blue = |window: &mut Window| {
+        let at = on_screen(window, dvec3(1.0, 0.0, 0.0));
+        click_at(window, at, PointerButton::Primary);
+        window.settle();
+    };
+    both(&mut window);
+    click_blue(&mut window);
+    assert_eq!(selected(&window), [BLUE], "by a click in the picture");
+    both(&mut window);
+    perform(&mut window, Action::SelectNothing);
+    assert!(selected(&window).is_empty());
+    click_blue(&mut window);
+    assert_eq!(selected(&window), [BLUE], "after nothing was selected");
+    both(&mut window);
+    window.session().begin_rename();
+    press(&mut window, Modifiers::COMMAND, Key::N);
+    window.settle();
+    let session = window.session();
+    assert_eq!(session.title(), "untitled");
+    assert_eq!(session.editing.group, None, "in another scene");
+    assert_eq!(session.editing.renaming, None);
+}
+
+#[test]
+fn a_focus_by_click_ends_when_its_camera_is_left() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    {
+        let mut session = window.session();
+        session.selection = Some(Id::Camera(0));
+        session.tool_state.focuses = Some(0);
+    }
+    window.settle();
+    assert_eq!(window.session().tool_state.focuses, Some(0));
+    click_row(&mut window, "sphere 1 (red)");
+    window.settle();
+    assert_eq!(window.session().tool_state.focuses, None);
+}
+
+#[test]
+fn a_new_scene_is_not_taken_for_the_demo() {
+    let (_folder, mut window) = new_scene();
+    let bookmarks = |window: &Window| {
+        let views = files::cameras::all(&window.session());
+        views.iter().filter(|view| view.is_bookmark).count()
+    };
+    let is_told = |window: &Window, text: &str| {
+        let session = window.session();
+        let messages = session.messages.all();
+        messages.iter().any(|message| message.text.contains(text))
+    };
+    perform(&mut window, Action::SaveCamera);
+    assert_eq!(bookmarks(&window), 1);
+    perform(&mut window, Action::CopyCamera);
+    let text = "The new scene has no file yet. Save it first.";
+    assert!(is_told(&window, text), "it is copied");
+    perform(&mut window, Action::OpenNext);
+    assert!(is_told(&window, "The new scene is not in a folder yet"));
+    perform(&mut window, Action::SavePicture);
+    let saving = window.session().files.saving.take();
+    let name = saving.expect("a dialog").path;
+    assert!(name.contains("untitled_"), "{name}");
+    files::open_built_in(&mut window.session());
+    window.settle();
+    assert_eq!(bookmarks(&window), 0, "the demo has another's bookmark");
+    press(&mut window, Modifiers::COMMAND, Key::N);
+    window.settle();
+    assert_eq!(bookmarks(&window), 0, "another new scene has it");
+}
+
 /// A ball without light.
 const DARK: &str = "[camera]\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\n\n\
                     [[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n";
@@ -561,7 +695,7 @@ fn a_scene_without_light_says_so_with_ways_out() {
             "{way}: without it, it is dark again"
         );
     }
-    // What has light is not warned of.
+    // A scene with light is not warned of.
     let (_folder, path) = file();
     let mut window = open(&path, "64x48");
     assert!(!has_message(&window, warning));
@@ -569,6 +703,40 @@ fn a_scene_without_light_says_so_with_ways_out() {
     press(&mut window, Modifiers::COMMAND, Key::N);
     window.settle();
     assert!(!has_message(&window, "light"));
+}
+
+#[test]
+fn each_scene_without_light_is_warned_of_once() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let paths = ["one.toml", "two.toml"].map(|name| folder.path().join(name));
+    for path in &paths {
+        std::fs::write(path, DARK).expect("a file");
+    }
+    let warning = "The scene has no light, so its surfaces are black.";
+    let dismiss = |window: &Window| {
+        let messages = window.session().messages.current();
+        let mut texts = messages.into_iter().map(|message| message.text);
+        let text = texts.find(|text| text.contains(warning));
+        (window.session().messages).dismiss(&text.expect("a warning"));
+    };
+    let mut window = open(&paths[0], "64x48");
+    dismiss(&window);
+    for path in &paths {
+        files::open(&mut window.session(), vec![path.clone()]);
+        window.settle();
+        assert!(has_message(&window, warning), "{path:?}");
+    }
+    // Reloading a scene is no reason to repeat the warning.
+    dismiss(&window);
+    press(&mut window, Modifiers::NONE, Key::F5);
+    window.settle();
+    assert!(!has_message(&window, warning), "after reloading");
+    files::open(&mut window.session(), vec![paths[0].clone()]);
+    window.settle();
+    assert!(has_message(&window, warning));
+    press(&mut window, Modifiers::COMMAND, Key::N);
+    window.settle();
+    assert!(!has_message(&window, warning), "of a scene that was left");
 }
 
 #[test]

@@ -664,3 +664,29 @@ fn the_upward_axis_is_the_one_that_a_camera_is_level_to() {
     let turn = (heading(turned) - heading(forward(&camera))).rem_euclid(2.0 * PI);
     assert!((turn - 3.0 * FRAC_PI_2).abs() < 1e-9, "{turn}");
 }
+
+#[test]
+fn the_view_from_the_side_that_a_direction_points_to_looks_against_it() {
+    let ways = [
+        DVec3::X,
+        DVec3::NEG_X,
+        DVec3::Y,
+        DVec3::NEG_Y,
+        DVec3::Z,
+        DVec3::NEG_Z,
+    ];
+    for axis in ways {
+        for way in ways {
+            let mut rig = rig(&camera());
+            rig.set_up_axis(axis);
+            let side = rig.side_towards(way);
+            rig.look_from(side);
+            near(forward(&settled(rig)), -way, 1e-6);
+        }
+    }
+    let mut rig = rig(&camera());
+    rig.set_up_axis(DVec3::Z);
+    assert_eq!(rig.side_towards(DVec3::Z), Side::Top);
+    assert_eq!(rig.side_towards(DVec3::NEG_Y), Side::Front);
+    assert_eq!(rig.side_towards(dvec3(0.9, 0.3, 0.3)), Side::Right);
+}

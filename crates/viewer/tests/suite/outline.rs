@@ -168,7 +168,7 @@ fn several_lines_are_deleted_hidden_and_duplicated_in_one_step() {
     click_with(&mut window, NAMES[1], Modifiers::SHIFT);
     assert_eq!(window.session().selected(), [ball(1), ball(0)]);
     perform(&mut window, Action::Delete);
-    // Its number stays.
+    // The number stays.
     let mut third = before.shapes[2].clone();
     third.name = "sphere 3".to_owned();
     assert_eq!(scene(&window).shapes, [third]);

@@ -3,6 +3,9 @@
 use crate::harness::Window;
 use eframe::egui::Role;
 use egui_kittest::kittest::Queryable;
+use glimray_viewer::actions::files::parts;
+use glimray_viewer::actions::saving;
+use glimray_viewer::state::files::Part;
 use std::fs;
 use tempfile::TempDir;
 
@@ -137,4 +140,29 @@ fn what_was_chosen_in_one_file_is_not_looked_for_in_the_next() {
     window.settle();
     assert_eq!(window.session().title(), "next.obj");
     assert_eq!(window.session().files.broken, None);
+}
+
+#[test]
+fn a_choice_with_which_the_file_cannot_be_read_is_taken_back() {
+    let (folder, mut window) = open();
+    let path = folder.path().join("model.gltf");
+    fs::write(&path, "{").expect("a file");
+    parts::choose(&mut window.session(), Part::Clip, Some(1));
+    window.settle();
+    assert!(window.session().files.broken.is_some());
+    let clips = parts::choices(&window.session(), Part::Clip);
+    assert_eq!(clips.expect("several clips").chosen, None);
+    assert_eq!(window.session().playback.duration(), 1.0);
+}
+
+#[test]
+fn a_model_that_was_saved_as_a_scene_has_nothing_to_choose() {
+    let (folder, mut window) = open();
+    let path = folder.path().join("saved.toml");
+    let has_choices = |window: &Window, part| parts::choices(&window.session(), part).is_some();
+    let all = [Part::Clip, Part::Variant, Part::Scene];
+    assert!(all.iter().all(|part| has_choices(&window, *part)));
+    saving::write(&mut window.session(), &path).expect("a file");
+    window.settle();
+    assert!(!all.iter().any(|part| has_choices(&window, *part)));
 }

@@ -1,4 +1,4 @@
-//! What the camera turns around, and what views along an axis show.
+//! The point that the camera turns around, and views along an axis.
 
 use crate::harness::Window;
 use eframe::egui::{self, Key, Modifiers, PointerButton};

@@ -174,6 +174,51 @@ fn a_click_on_an_end_of_the_axes_looks_along_it_and_a_drag_orbits() {
     assert_eq!(window.session().selection, None);
 }
 
+#[test]
+fn with_z_up_the_upper_end_of_the_axes_is_the_view_from_above() {
+    let (_folder, path) = file();
+    let text = std::fs::read_to_string(&path).expect("a scene");
+    let from = "look_from = [0, 0, 8]";
+    let turned = text.replace(from, "look_from = [0, -8, 0]\nup = [0, 0, 1]");
+    std::fs::write(&path, turned).expect("a file");
+    let mut window = open(&path, "400x300");
+    let top = button(&window, "Top view").center();
+    let front = button(&window, "Front view").center();
+    assert!(top.y < front.y - 20.0, "{top} is not above {front}");
+    for (name, expected) in [
+        ("Top view", DVec3::NEG_Z),
+        ("Right view", DVec3::NEG_X),
+        ("Front view", DVec3::Y),
+    ] {
+        click(&mut window, name);
+        let found = direction(&window);
+        assert!(found.dot(expected) > 0.999, "{name}: {found}");
+    }
+}
+
+#[test]
+fn a_drag_at_the_axes_is_one_step_of_the_camera() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "400x300");
+    let before = window.camera();
+    let from = button(&window, "Front view").center();
+    window.harness.hover_at(from);
+    window.harness.step();
+    window.harness.drag_at(from);
+    window.harness.step();
+    let to = from + vec2(24.0, 8.0);
+    for share in [0.25, 0.5, 0.75, 1.0] {
+        window.harness.hover_at(from + share * (to - from));
+        window.harness.step();
+    }
+    window.harness.drop_at(to);
+    window.settle();
+    assert_ne!(window.camera(), before);
+    (window.harness).key_press_modifiers(Modifiers::ALT, Key::Z);
+    window.settle();
+    assert_eq!(window.camera(), before, "the drag is more than one step");
+}
+
 /// Fields with these names.
 fn fields(window: &Window, names: &[&str]) -> Vec<Rect> {
     let found = |name: &&str| {

@@ -5,6 +5,7 @@ use crate::model::command_line;
 use crate::model::command_line::Shown;
 use crate::model::preferences::SavedCamera;
 use crate::state::session::Session;
+use crate::state::session::opening::UNTITLED;
 use crate::worker::progressive_image::PictureSlot;
 use eframe::egui;
 use glimray_scene::Camera;
@@ -17,7 +18,8 @@ const DEMO_FILE: &str = "showcase.toml";
 
 /// The key of the current scene's bookmarks.
 pub fn key(session: &Session) -> PathBuf {
-    session.path.clone().unwrap_or_else(|| DEMO.into())
+    let without_file = if session.is_untitled { UNTITLED } else { DEMO };
+    session.path.clone().unwrap_or_else(|| without_file.into())
 }
 
 /// A camera of the scene or a bookmark.
@@ -176,6 +178,10 @@ pub fn copy(session: &mut Session, ctx: &egui::Context) {
         return;
     };
     let path = session.path.clone();
+    if path.is_none() && session.is_untitled {
+        (session.messages).notify("The new scene has no file yet. Save it first.");
+        return;
+    }
     let shown = Shown {
         path: path.as_deref().unwrap_or(Path::new(DEMO_FILE)),
         options: &session.request.import,
@@ -221,7 +227,7 @@ pub fn paste(session: &mut Session, text: &str) {
     };
     let is_other = |path: &PathBuf| match &session.path {
         Some(own) => path.file_name() != own.file_name(),
-        None => path != Path::new(DEMO_FILE),
+        None => session.is_untitled || path != Path::new(DEMO_FILE),
     };
     let notice = match pasted.path.filter(is_other) {
         Some(path) => format!("Pasted the camera of {}", short(&path)),

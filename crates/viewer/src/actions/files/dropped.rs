@@ -65,7 +65,11 @@ fn kind(path: &Path) -> String {
 /// Opens the scene `places` further in the folder; unreadable scenes are skipped.
 pub fn step(session: &mut Session, places: isize) {
     let Some(path) = session.path.clone() else {
-        session.messages.notify("The demo scene is not in a folder");
+        let told = match session.is_untitled {
+            true => "The new scene is not in a folder yet. Save it first",
+            false => "The demo scene is not in a folder",
+        };
+        session.messages.notify(told);
         return;
     };
     let folder = match path.parent() {

@@ -31,10 +31,13 @@ pub fn open(session: &mut Session) {
     let (width, height) = session.view.scene_settings.size;
     let settings = (session.view).settings_at((width, height), session.view.settings.integrator);
     let path = pictures::free_name(session, ".mp4");
+    let path = path.to_string_lossy().into_owned();
     session.files.film = Some(FilmDialog {
-        path: path.to_string_lossy().into_owned(),
+        proposed: path.clone(),
+        path,
         motion,
         range: [0, session.playback.last_frame().min(MAX_FRAME)],
+        scaled: None,
         seconds: TURN,
         clockwise: false,
         fps: session.playback.clock.fps,
@@ -49,6 +52,14 @@ pub fn open(session: &mut Session) {
         agreed: None,
         asked: None,
     });
+}
+
+/// Whether the background of frames is transparent with the settings that the window has now.
+pub fn has_opacity(session: &Session) -> bool {
+    let settings = &session.view.settings;
+    (session.view)
+        .settings_at(settings.size, settings.integrator)
+        .has_opacity()
 }
 
 /// Opens a file dialog for the name.
@@ -135,7 +146,7 @@ fn work(session: &mut Session, request: Arc<FilmRequest>, job: JobBegun) {
 /// The film of a dialog: the view, its background and its settings as the window has them now.
 fn request(session: &Session, dialog: &FilmDialog, target: FilmTarget) -> Option<FilmRequest> {
     let integrator = session.view.settings.integrator;
-    let shown = session.render_request(integrator)?;
+    let shown = pictures::request_of_file(session, integrator)?;
     let [width, height] = dialog.size;
     let mut view = session.view.clone();
     view.settings = view.settings_at((width, height), integrator);
@@ -166,7 +177,8 @@ fn request(session: &Session, dialog: &FilmDialog, target: FilmTarget) -> Option
     let first = match dialog.motion {
         FilmMotion::Animation => {
             // All of an animation ends where it ends, as that of the command line.
-            if dialog.range == [0, session.playback.last_frame()] && !dialog.loops {
+            let last = dialog.last_frame(session.playback.duration());
+            if dialog.range == [0, last] && !dialog.loops {
                 clock.end = filmed.begins_again_at();
             }
             if let Some(camera) = shown.camera {
@@ -179,13 +191,9 @@ fn request(session: &Session, dialog: &FilmDialog, target: FilmTarget) -> Option
             // A whole number of frames, so that the step from the last to the first equals all other steps.
             let seconds = f64::from(count) / dialog.fps;
             let around = (controller.pivot(), controller.up_axis());
-            scene::orbit(
-                &mut filmed,
-                &controller.camera(),
-                around,
-                seconds,
-                dialog.clockwise,
-            );
+            let camera =
+                (shown.camera).unwrap_or_else(|| shown.scene.frame(session.playback.time).camera);
+            scene::orbit(&mut filmed, &camera, around, seconds, dialog.clockwise);
             0
         }
     };

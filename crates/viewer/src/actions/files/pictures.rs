@@ -1,7 +1,6 @@
 //! Saves the picture to a file, as `glimray render` would.
 
 use crate::actions::files::{NO_DIALOG, short};
-use crate::model::camera::CameraController;
 use crate::model::file_dialog::{self, PICTURES, Reply, Request};
 use crate::state::answer::Answer;
 use crate::state::files::Captured;
@@ -12,11 +11,12 @@ use crate::state::session::Session;
 use crate::state::target::Target;
 use crate::worker::free_name;
 use crate::worker::progressive_image::{FrameRenderer, PictureSlot};
+use crate::worker::request::RenderRequest;
 use crate::worker::still::{self, Still};
 use eframe::egui;
 use glimray_app::advice;
 use glimray_io::output::SaveOptions;
-use glimray_render::Tone;
+use glimray_render::{Integrator, Tone};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::Sender;
 
@@ -42,7 +42,12 @@ pub fn open(session: &mut Session, overlays: bool) {
 /// The scene's name with the lowest number that no file has and no job will write, in the folder of the last picture.
 pub(super) fn free_name(session: &Session, ending: &str) -> PathBuf {
     let scene = session.path.as_deref();
-    let stem = scene.and_then(Path::file_stem).unwrap_or("demo".as_ref());
+    let unnamed = if session.is_untitled {
+        "untitled"
+    } else {
+        "demo"
+    };
+    let stem = scene.and_then(Path::file_stem).unwrap_or(unnamed.as_ref());
     let folder = (session.files.pending.folder.as_deref())
         .or(scene.and_then(Path::parent))
         .unwrap_or(Path::new(""));
@@ -124,17 +129,27 @@ pub fn size_of(session: &Session, size: SaveSize) -> Option<(u32, u32)> {
     (wanted != session.picture_size()).then_some(wanted)
 }
 
+/// The request for what is rendered for a file alone, with the camera after all motion has ended; without one where
+/// that is the scene's own.
+pub(super) fn request_of_file(session: &Session, integrator: Integrator) -> Option<RenderRequest> {
+    let request = session.render_request(integrator)?;
+    let controller = session.controller.as_ref()?;
+    let camera = controller.destination();
+    // A camera that frames a model in the window does so in no picture of another size.
+    let is_home = controller.is_home() || session.home_camera().as_ref() == Some(&camera);
+    Some(RenderRequest {
+        camera: (!is_home).then_some(camera),
+        ..request
+    })
+}
+
 /// Renders the picture at another size on a thread of its own, and writes it.
 fn render(session: &mut Session, mut target: Target, size: (u32, u32)) {
     let integrator = session.view.settings.integrator;
-    let Some(mut request) = session.render_request(integrator) else {
+    let Some(mut request) = request_of_file(session, integrator) else {
         return;
     };
     request.settings = session.view.settings_at(size, integrator);
-    if (session.controller.as_ref()).is_some_and(CameraController::is_home) {
-        // A camera that frames a model in the window does so in no picture of another size.
-        request.camera = None;
-    }
     target.opacity = request.settings.has_opacity();
     let linear = (session.request.overrides.tone).tone(&request.scene.output, integrator, true);
     let tone = tone_of(&target, request.tone, linear);

@@ -101,10 +101,13 @@ pub fn command(session: &Session, sample: Option<u32>) -> Result<CommandLine, St
         return Err("Cannot copy the command: no pixel is inspected. Click one first.".into());
     };
     let Some(path) = &session.path else {
-        return Err(
-            "Cannot copy the command: the demo scene has no file. Open a scene, or save this one."
-                .into(),
-        );
+        let why = match session.is_untitled {
+            true => "Cannot copy the command: the new scene has no file yet. Save it first.",
+            false => {
+                "Cannot copy the command: the demo scene has no file. Open a scene, or save this one."
+            }
+        };
+        return Err(why.into());
     };
     let settings = RenderSettings {
         integrator: inspected.tree.integrator,
@@ -118,7 +121,7 @@ pub fn command(session: &Session, sample: Option<u32>) -> Result<CommandLine, St
         scene,
         camera: &camera,
         background: background.unwrap_or(&scene.background),
-        section: scene.section,
+        section: inspected.request.scene.section,
         settings: &settings,
         tone: session.view.tone,
         time: playback.time,

@@ -73,6 +73,20 @@ impl CameraController {
         self.clear = true;
     }
 
+    /// The side from which [`CameraController::look_from`] looks against `way`, a direction in world space.
+    pub fn side_towards(&self, way: DVec3) -> Side {
+        let level = self.upright.level(way);
+        let size = level.abs();
+        let (most, sides) = if size.y >= size.x && size.y >= size.z {
+            (level.y, [Side::Top, Side::Bottom])
+        } else if size.x >= size.z {
+            (level.x, [Side::Right, Side::Left])
+        } else {
+            (level.z, [Side::Front, Side::Back])
+        };
+        sides[usize::from(most < 0.0)]
+    }
+
     /// Toggles between perspective and orthographic. The size of objects at the pivot is preserved.
     pub fn toggle_orthographic(&mut self) {
         let tangent = self.tangent();

@@ -116,6 +116,11 @@ impl Upright {
         })
     }
 
+    /// A direction of the world in the space with +Y up.
+    pub(super) fn level(&self, way: DVec3) -> DVec3 {
+        self.world_from_level.inverse() * way
+    }
+
     /// The camera's axes in world space: right, up and back.
     pub fn orientation(&self, pose: &Pose) -> DMat3 {
         DMat3::from_quat(self.world_from_level) * level_orientation(pose.yaw, pose.pitch, pose.roll)

@@ -95,7 +95,7 @@ pub struct Labels {
 }
 
 impl Labels {
-    /// Those of a scene.
+    /// The names in a scene.
     pub fn of(scene: &Scene) -> Self {
         let meshes = scene.instances.iter();
         let meshes = meshes.map(|it| kind_of_mesh(&scene.meshes[it.mesh].name).to_owned());

@@ -7,8 +7,8 @@ use glam::{DAffine3, DMat3, DVec3};
 use glimray_scene::{ObjectRef, Scene};
 use std::collections::BTreeSet;
 
-/// What is moved with a selection: all of it that has a place, less what another part of it carries. `ids` may contain what
-/// is no longer there.
+/// The parts of a selection that are moved with it: all that have a place, less those that another part carries. `ids` may
+/// contain some that are no longer there.
 pub fn movable(scene: &Scene, ids: &[Id]) -> Vec<Id> {
     let all: BTreeSet<Id> = ids.iter().copied().collect();
     let is_carried = |id: Id| {

@@ -3,6 +3,7 @@
 use crate::model::camera::{CameraController, CameraHistory};
 use crate::model::document::Document;
 use crate::model::loader::{Imported, Loader, Trouble};
+use crate::model::messages::sentence;
 use crate::model::playback::Playback;
 use crate::model::refinement::{Refined, Refinement};
 use crate::model::tool::ToolState;
@@ -20,13 +21,16 @@ use glimray_io::import::Options;
 use glimray_render::RenderSettings;
 use glimray_render::pack::PackedScene;
 use glimray_scene::{Camera, Scene};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
 /// Least samples per pixel that the window aims at where the scene does not set them: the picture refines
 /// while it is watched, so more cost nothing.
 const SAMPLES: u32 = 64;
+
+/// The key of bookmarks of a new scene, until it is saved. No file has this name.
+pub(crate) const UNTITLED: &str = "/glimray untitled/";
 
 /// Samples per pixel that the window aims at for a scene. A count equal to the scene's default counts as
 /// not set, as it does when the scene is saved.
@@ -123,6 +127,11 @@ impl Session {
         self.forget_scene_overrides();
         self.show(new_scene::scene()?)?;
         self.is_untitled = true;
+        // Bookmarks of the last new scene are not for this one.
+        let key = Path::new(UNTITLED);
+        for camera in self.preferences.cameras_of(key).to_vec() {
+            self.preferences.remove_camera(key, &camera.name);
+        }
         Ok(())
     }
 
@@ -148,7 +157,13 @@ impl Session {
             scene.bounds(),
             (scene.cameras.get(scene.camera_index)).is_none_or(Camera::has_aim),
         );
-        self.selection = None;
+        self.select(Vec::new());
+        let editing = &mut self.editing;
+        (editing.renaming, editing.grip, editing.modal) = (None, None, None);
+        editing.lit = None;
+        if let Some(warning) = editing.darkness.take() {
+            self.messages.dismiss(&sentence(warning));
+        }
         self.histogram.forget();
         self.tool_state = ToolState::default();
         let inspector = std::mem::take(&mut self.inspector);
@@ -307,7 +322,11 @@ impl Session {
         let (look, playback) = (self.view.clone(), self.playback.clone());
         let document = self.document.clone();
         let history = std::mem::take(&mut self.camera_history);
-        self.show(scene)?;
+        // A warning that was read does not come back while it applies.
+        let darkness = self.editing.darkness.take();
+        let shown = self.show(scene);
+        self.editing.darkness = darkness;
+        shown?;
         self.camera_history = history;
         let clock = self.playback.clock;
         self.playback = playback;

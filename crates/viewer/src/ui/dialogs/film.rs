@@ -2,6 +2,7 @@
 
 use crate::actions::files::film;
 use crate::state::film::{FilmDialog, FilmFormat, FilmMotion, MAX_FRAME};
+use crate::state::jobs::Jobs;
 use crate::state::session::Session;
 use crate::ui::panels::render::seconds;
 use eframe::egui::{self, Button, DragValue, Grid, Key, TextEdit, Ui, vec2};
@@ -18,11 +19,15 @@ enum Wish {
 
 /// Draws the dialog for a film, if it is open.
 pub fn show(ctx: &egui::Context, session: &mut Session) {
-    let is_animated = session.playback.duration() > 0.0;
-    let last = session.playback.last_frame().min(MAX_FRAME);
-    let Some(dialog) = &mut session.files.film else {
+    let duration = session.playback.duration();
+    let is_animated = duration > 0.0;
+    // A dialog does not lock the panels, where the background may change.
+    let has_opacity = film::has_opacity(session);
+    let files = &mut session.files;
+    let (Some(dialog), jobs) = (&mut files.film, &files.jobs) else {
         return;
     };
+    dialog.has_opacity = has_opacity;
     let mut wish = None;
     let stays = crate::ui::dialogs::window(ctx, "Film", vec2(460.0, 330.0), |ui| {
         wish = name(ui, dialog);
@@ -32,7 +37,7 @@ pub fn show(ctx: &egui::Context, session: &mut Session) {
             .spacing([12.0, 6.0])
             .show(ui, |ui| {
                 ui.label("Format");
-                ui.horizontal(|ui| formats(ui, dialog));
+                ui.horizontal(|ui| formats(ui, dialog, jobs));
                 ui.end_row();
                 ui.label("Motion");
                 ui.horizontal(|ui| {
@@ -46,15 +51,18 @@ pub fn show(ctx: &egui::Context, session: &mut Session) {
                         .on_hover_text("The camera goes once round the pivot of this view");
                 });
                 ui.end_row();
+                let last = dialog.last_frame(duration);
                 extent(ui, dialog, last);
                 ui.end_row();
                 ui.label("Frame rate");
                 ui.horizontal(|ui| {
-                    let rate = DragValue::new(&mut dialog.fps)
-                        .range(0.01..=1000.0)
-                        .speed(0.1);
+                    let mut fps = dialog.fps;
+                    let rate = DragValue::new(&mut fps).range(0.01..=1000.0).speed(0.1);
                     ui.add(rate.suffix(" frames/s"))
                         .accessible_name("Frame rate");
+                    if fps != dialog.fps {
+                        dialog.set_fps(fps, duration);
+                    }
                     let length = f64::from(dialog.count()) / dialog.fps;
                     ui.weak(format!("{} frames, {}", dialog.count(), seconds(length)));
                 });
@@ -82,7 +90,10 @@ pub fn show(ctx: &egui::Context, session: &mut Session) {
                 ui.colored_label(ui.visuals().error_fg_color, why);
             }
             Ok(target) if dialog.must_ask(target) => {
-                let text = "A file with this name exists and will be replaced.";
+                let text = match target.video {
+                    Some(_) => "A file with this name exists and will be replaced.",
+                    None => "Frames with this name exist. Those of another film will be replaced.",
+                };
                 ui.colored_label(ui.visuals().warn_fg_color, text);
             }
             Ok(_) => {}
@@ -132,11 +143,11 @@ fn name(ui: &mut Ui, dialog: &mut FilmDialog) -> Option<Wish> {
 }
 
 /// The formats that are offered; each changes the ending of the name.
-fn formats(ui: &mut Ui, dialog: &mut FilmDialog) {
+fn formats(ui: &mut Ui, dialog: &mut FilmDialog, jobs: &Jobs) {
     let now = FilmFormat::of(&dialog.typed());
     for (format, title, ending) in FilmFormat::OFFERED {
         if ui.radio(now == Some(format), title).clicked() {
-            dialog.set_ending(ending);
+            dialog.set_ending(ending, |path| jobs.is_reserved(path));
         }
     }
 }

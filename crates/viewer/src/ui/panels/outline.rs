@@ -364,7 +364,7 @@ fn grant(session: &mut Session, wish: Wish) {
         }
         Wish::Show(id, visible) => session.set_visible(id, visible),
         Wish::Rename(id) => {
-            session.selection = Some(id);
+            session.select(vec![id]);
             session.begin_rename();
         }
         Wish::Renamed(id, name) => {

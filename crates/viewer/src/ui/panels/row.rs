@@ -18,7 +18,7 @@ const ABOVE: f32 = 8.0;
 /// Width of the triangle that folds a section, in points.
 const TRIANGLE: f32 = 10.0;
 
-/// What a panel contains, with scroll bars where it is too high, or too narrow for the grid.
+/// The contents of a panel, with scroll bars where it is too high, or too narrow for the grid.
 pub fn scrolled(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         ui.set_min_width(LEAST);

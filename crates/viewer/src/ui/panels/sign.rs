@@ -7,7 +7,7 @@ use eframe::egui::{self, Button, Color32, Painter, Pos2, Response, Role, Shape, 
 const HALF: f32 = 8.0;
 pub const SIDE: f32 = 28.0;
 
-/// What a button does.
+/// The effect of a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// Activates a tool.

@@ -1,6 +1,7 @@
 //! The axes of the world in a corner of the picture. A click on an end looks along that axis; a drag orbits.
 
 use crate::model::bindings::Action;
+use crate::model::camera::Side;
 use crate::state::session::Session;
 use crate::ui::overlay::COLORS;
 use eframe::egui::{
@@ -18,21 +19,22 @@ const CORNER: Vec2 = vec2(-44.0, 44.0);
 struct End {
     axis: usize,
     is_positive: bool,
+    /// The direction in world space.
+    way: DVec3,
     at: Pos2,
     /// Towards the eye.
     depth: f64,
 }
 
-impl End {
-    fn action(&self) -> Action {
-        match (self.axis, self.is_positive) {
-            (0, true) => Action::ViewRight,
-            (0, false) => Action::ViewLeft,
-            (1, true) => Action::ViewTop,
-            (1, false) => Action::ViewBottom,
-            (_, true) => Action::ViewFront,
-            (_, false) => Action::ViewBack,
-        }
+/// The command that looks from a side.
+fn action(side: Side) -> Action {
+    match side {
+        Side::Front => Action::ViewFront,
+        Side::Back => Action::ViewBack,
+        Side::Right => Action::ViewRight,
+        Side::Left => Action::ViewLeft,
+        Side::Top => Action::ViewTop,
+        Side::Bottom => Action::ViewBottom,
     }
 }
 
@@ -55,10 +57,17 @@ pub fn gizmo(ui: &mut Ui, session: &mut Session, room: Rect) {
     ends.sort_by(|a, b| a.depth.total_cmp(&b.depth));
     orbit(session, &whole, around);
     for end in &ends {
-        let action = end.action();
+        let Some(controller) = &session.controller else {
+            return;
+        };
+        let action = action(controller.side_towards(end.way));
         let rect = Rect::from_center_size(end.at, Vec2::splat(2.0 * END));
         let name = action.description();
-        let response = ui.interact(rect, id.with(name), Sense::click_and_drag());
+        let response = ui.interact(
+            rect,
+            id.with((end.axis, end.is_positive)),
+            Sense::click_and_drag(),
+        );
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
         orbit(session, &response, around);
         draw(&painter, end, middle, response.hovered());
@@ -74,6 +83,9 @@ pub fn gizmo(ui: &mut Ui, session: &mut Session, room: Rect) {
 }
 
 fn orbit(session: &mut Session, response: &Response, around: Rect) {
+    if response.drag_started() {
+        session.camera_history.end_gesture();
+    }
     let moved = response.drag_delta();
     if response.dragged()
         && moved != Vec2::ZERO
@@ -98,6 +110,7 @@ fn ends(camera: &Camera, middle: Pos2) -> Vec<End> {
             End {
                 axis,
                 is_positive: sign > 0.0,
+                way,
                 at: middle + LENGTH * shift,
                 depth: -way.dot(forward),
             }

@@ -57,8 +57,8 @@ fn entries(ui: &mut Ui, session: &mut Session, menu: &PictureMenu) {
     let text = Button::new("Material");
     let tip = "Show the material of the object in the properties";
     let shows_material = ui.add_enabled(material.is_some(), text).on_hover_text(tip);
-    if shows_material.clicked() {
-        session.selection = material;
+    if let (true, Some(id)) = (shows_material.clicked(), material) {
+        session.select(vec![id]);
     }
     command(ui, session, (is_there, "Hide"), Action::ToggleVisible);
     ui.separator();

@@ -66,7 +66,7 @@ fn bar(ui: &mut Ui, rect: Rect, contents: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// What a command does and its shortcut.
+/// The effect of a command and its shortcut.
 fn tip(session: &Session, action: Action) -> String {
     let keys: Vec<_> = (session.preferences.bindings.triggers(action).iter())
         .map(ToString::to_string)

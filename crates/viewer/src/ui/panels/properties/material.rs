@@ -259,7 +259,7 @@ pub fn of_object(fields: &mut Fields, session: &mut Session, object: ObjectRef) 
                 .on_hover_text("Select this material")
                 .clicked()
             {
-                session.selection = Some(Id::Material(index));
+                session.select(vec![Id::Material(index)]);
             }
         });
     }

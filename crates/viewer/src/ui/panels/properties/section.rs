@@ -1,5 +1,6 @@
 //! The section plane of the scene.
 
+use crate::model::objects;
 use crate::state::session::Session;
 use crate::ui::panels::properties::fields::{Fields, Limits};
 use glam::DVec3;
@@ -10,11 +11,9 @@ pub fn show(fields: &mut Fields, session: &Session) {
     fields.heading("Section plane");
     let section = fields.scene.section;
     let toward_camera = toward_camera(session);
-    let (min, max) = session.subject().unwrap_or_default();
-    let middle = (min + max) / 2.0;
     let tip = "Cut away what lies before a plane through the middle of the scene. Closed solids get a face there.";
     fields.toggle(("Cut open", tip), section.is_some(), move |scene, to| {
-        scene.section = to.then(|| through(middle, nearest_axis(toward_camera)));
+        scene.section = to.then(|| through(middle(scene), nearest_axis(toward_camera)));
     });
     let Some(Section { normal, offset }) = section else {
         return;
@@ -24,14 +23,17 @@ pub fn show(fields: &mut Fields, session: &Session) {
         change(scene, |section| section.offset = to);
     });
     let tip = "Direction towards what is cut away.";
-    let foot = middle + (offset - normal.dot(middle)) * normal;
     fields.vector(
         ("Direction", tip),
         normal,
         Limits::LENGTH,
         move |scene, to| {
             if let Some(normal) = to.try_normalize() {
-                change(scene, |section| *section = through(foot, normal));
+                let middle = middle(scene);
+                change(scene, |section| {
+                    let height = section.offset - section.normal.dot(middle);
+                    *section = through(middle + height * section.normal, normal);
+                });
             }
         },
     );
@@ -39,7 +41,7 @@ pub fn show(fields: &mut Fields, session: &Session) {
     let button = fields.ui.button("Face the camera").on_hover_text(tip);
     if button.clicked() {
         fields.change("section plane", move |scene| {
-            change(scene, |section| *section = through(middle, toward_camera));
+            scene.section = Some(through(middle(scene), toward_camera));
             Ok(())
         });
     }
@@ -49,6 +51,12 @@ fn change(scene: &mut Scene, change: impl FnOnce(&mut Section)) {
     if let Some(section) = &mut scene.section {
         change(section);
     }
+}
+
+/// The middle of what can be seen.
+fn middle(scene: &Scene) -> DVec3 {
+    let (min, max) = objects::subject(scene).unwrap_or_default();
+    min.midpoint(max)
 }
 
 fn through(point: DVec3, normal: DVec3) -> Section {

@@ -7,7 +7,7 @@ use glimray_app::layers::{LAYERS, PictureLayer};
 use glimray_app::value_names::INTEGRATORS;
 use glimray_render::{Integrator, Shows};
 
-/// What a picture shows.
+/// A way to show the scene.
 type View = (Integrator, PictureLayer);
 
 /// The row with the list.
@@ -27,7 +27,7 @@ pub fn view_mode(ui: &mut Ui, look: &mut ViewSettings) {
     show(look, view);
 }
 
-/// What is shown now.
+/// The way that is chosen now.
 pub fn shown(look: &ViewSettings) -> View {
     let integrator = look.settings.integrator;
     match integrator.entry().has_layers {
