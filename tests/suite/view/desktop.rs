@@ -582,7 +582,12 @@ fn pictures_of_the_window_for_the_readme() {
 
     // The Select tool, the golden ball, the Move tool and the tab of the Render panel. Buttons, because a key that
     // is pressed before the ball is selected does something else.
-    for [x, y] in [["28", "440"], ["740", "330"], ["75", "440"], ["889", "37"]] {
+    for [x, y] in [
+        ["302", "110"],
+        ["740", "330"],
+        ["302", "141"],
+        ["889", "37"],
+    ] {
         click(x, y);
         desktop.calm(WINDOW);
     }
