@@ -69,8 +69,8 @@ pub use options::{Axis, Baking, Environment, EnvironmentSource, Ground, Options,
 pub use picture::smaller_pictures;
 pub use picture::{Pixels, pixels};
 pub use resolver::{FileError, Memory, Resolver};
-#[cfg(not(target_arch = "wasm32"))]
 pub use stage::{framed_camera, is_framed};
+#[cfg(not(target_arch = "wasm32"))]
 pub use step::Step;
 #[cfg(feature = "archive")]
 pub use zipped::SCENE_MEMBER;

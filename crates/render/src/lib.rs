@@ -12,6 +12,7 @@
 //! let scene = Scene {
 //!     materials: vec![bright.into()],
 //!     shapes: vec![Shape {
+//!         name: String::new(),
 //!         geometry: Geometry::Sphere { center: DVec3::ZERO, radius: 1.0 },
 //!         material: 0,
 //!         node: None,
