@@ -273,6 +273,20 @@ impl Bindings {
         self.label_on(action, cfg!(target_os = "macos"))
     }
 
+    /// The first trigger of a command as text, as menus show it; empty if it has none.
+    pub fn shortcut(&self, action: Action) -> String {
+        let first = self.triggers(action).first();
+        first.map_or_else(String::new, |it| it.label(cfg!(target_os = "macos")))
+    }
+
+    /// A tooltip with the triggers of a command, such as `Delete the selection (Delete)`.
+    pub fn tip(&self, text: &str, action: Action) -> String {
+        match self.label(action) {
+            keys if keys.is_empty() => text.to_owned(),
+            keys => format!("{text} ({keys})"),
+        }
+    }
+
     fn label_on(&self, action: Action, mac: bool) -> String {
         let triggers = self.triggers(action).iter();
         let labels: Vec<_> = triggers.map(|trigger| trigger.label(mac)).collect();

@@ -79,10 +79,8 @@ impl Menu<'_, '_> {
     }
 
     fn button(&mut self, enabled: bool, button: Button, action: A) {
-        let bindings = &self.context.session.preferences.bindings;
-        let mac = cfg!(target_os = "macos");
-        let key = bindings.triggers(action).first().map(|t| t.label(mac));
-        let button = button.shortcut_text(key.unwrap_or_default());
+        let keys = self.context.session.preferences.bindings.shortcut(action);
+        let button = button.shortcut_text(keys);
         let response = self.ui.add_enabled(enabled, button);
         if response.on_hover_text(action.description()).clicked() {
             self.ui.close();

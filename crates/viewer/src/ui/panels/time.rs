@@ -17,15 +17,8 @@ const MAX_SHUTTER: f64 = 16.0;
 
 /// Draws the timeline and its controls.
 pub fn time(ui: &mut Ui, context: &mut PanelContext) {
-    let keys = |action| {
-        let label = context.session.preferences.bindings.label(action);
-        let does = action.description();
-        if label.is_empty() {
-            does.to_owned()
-        } else {
-            format!("{does} ({label})")
-        }
-    };
+    let bindings = &context.session.preferences.bindings;
+    let keys = |action: Action| bindings.tip(action.description(), action);
     let tips = [
         Action::FirstFrame,
         Action::StepBack,

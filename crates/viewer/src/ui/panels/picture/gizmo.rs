@@ -71,11 +71,7 @@ pub fn gizmo(ui: &mut Ui, session: &mut Session, room: Rect) {
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
         orbit(session, &response, around);
         draw(&painter, end, middle, response.hovered());
-        let key = session.preferences.bindings.label(action);
-        let tip = match key.is_empty() {
-            true => name.to_owned(),
-            false => format!("{name} ({key})"),
-        };
+        let tip = session.preferences.bindings.tip(name, action);
         if response.on_hover_text(tip).clicked() {
             session.clicked.push(action);
         }

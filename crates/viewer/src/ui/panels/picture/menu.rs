@@ -92,9 +92,7 @@ fn entry(
     (enabled, text): (bool, &str),
     action: Action,
 ) -> Response {
-    let mac = cfg!(target_os = "macos");
-    let keys = session.preferences.bindings.triggers(action).first();
-    let keys = keys.map(|trigger| trigger.label(mac)).unwrap_or_default();
+    let keys = session.preferences.bindings.shortcut(action);
     ui.add_enabled(enabled, Button::new(text).shortcut_text(keys))
         .on_hover_text(action.description())
         .accessible_name(text)

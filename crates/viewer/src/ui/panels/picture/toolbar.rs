@@ -68,13 +68,7 @@ fn bar(ui: &mut Ui, rect: Rect, contents: impl FnOnce(&mut Ui)) {
 
 /// The effect of a command and its shortcut.
 fn tip(session: &Session, action: Action) -> String {
-    let keys: Vec<_> = (session.preferences.bindings.triggers(action).iter())
-        .map(ToString::to_string)
-        .collect();
-    match keys.is_empty() {
-        true => action.description().to_owned(),
-        false => format!("{} ({})", action.description(), keys.join(", ")),
-    }
+    (session.preferences.bindings).tip(action.description(), action)
 }
 
 fn tools(ui: &mut Ui, session: &mut Session) {

@@ -32,10 +32,7 @@ pub fn compare(ui: &mut Ui, context: &mut PanelContext) {
 
 /// A tooltip with the shortcut of a command.
 fn with_key(context: &PanelContext, tip: &str, action: Action) -> String {
-    match context.session.preferences.bindings.label(action) {
-        key if key.is_empty() => tip.to_owned(),
-        key => format!("{tip} ({key})"),
-    }
+    context.session.preferences.bindings.tip(tip, action)
 }
 
 fn layout(ui: &mut Ui, context: &mut PanelContext) {

@@ -30,27 +30,27 @@ pub fn progress(ui: &mut Ui, context: &mut PanelContext) {
     let bar = egui::ProgressBar::new(share as f32).text(text);
     ui.add(bar)
         .on_hover_text("Fraction of the target samples that are done");
-    let key = |action| context.session.preferences.bindings.label(action);
-    let (pause_key, restart_key) = (key(Action::PauseRender), key(Action::RestartRender));
+    let bindings = &context.session.preferences.bindings;
+    let with_pause = match context.session.view.paused {
+        true => bindings.tip("Resume rendering", Action::PauseRender),
+        false => bindings.tip("Pause rendering", Action::PauseRender),
+    };
+    let with_restart = bindings.tip("Restart rendering", Action::RestartRender);
     let has_scene = context.session.scene().is_some();
     ui.horizontal_wrapped(|ui| {
         let paused = context.session.view.paused;
-        let (name, tip) = match paused {
-            true => ("Continue", "Resume rendering"),
-            false => ("Pause", "Pause rendering"),
-        };
+        let name = if paused { "Continue" } else { "Pause" };
         // Both names have the same room, so that the other buttons stay where they are.
         let pause = egui::Button::new(name).min_size(egui::vec2(PAUSE, 0.0));
         if ui
             .add_enabled(has_scene, pause)
-            .on_hover_text(format!("{tip} ({pause_key})"))
+            .on_hover_text(with_pause)
             .clicked()
         {
             context.session.view.paused = !paused;
         }
-        let tip = format!("Restart rendering ({restart_key})");
         let restart = ui.add_enabled(has_scene, egui::Button::new("Restart"));
-        if restart.on_hover_text(tip).clicked() {
+        if restart.on_hover_text(with_restart).clicked() {
             context.session.restart();
         }
         let keep = ui.add_enabled(
