@@ -16,7 +16,7 @@ pub(super) struct Names {
     pub lights: Vec<String>,
     /// Whether an animation refers to it, by index of the light.
     pub animated_lights: Vec<bool>,
-    /// Those of objects.
+    /// The names of objects.
     pub objects: ObjectNames,
 }
 

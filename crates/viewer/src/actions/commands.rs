@@ -260,7 +260,7 @@ fn view(session: &mut Session, side: Side) {
 
 /// Frames a box in world space.
 fn frame(session: &mut Session, bounds: Option<(DVec3, DVec3)>) {
-    let aspect = aspect(session);
+    let aspect = session.aspect();
     if let Some(bounds) = bounds {
         camera(session, |it| it.frame(bounds, aspect));
     }
@@ -268,17 +268,11 @@ fn frame(session: &mut Session, bounds: Option<(DVec3, DVec3)>) {
 
 /// Frames the whole scene from a direction in which no lamp hides it.
 fn frame_all(session: &mut Session) {
-    let (aspect, time) = (aspect(session), session.playback.time);
+    let (aspect, time) = (session.aspect(), session.playback.time);
     let lights = session.scene().map(|scene| scene.frame(time).lights);
     if let (Some(bounds), Some(lights)) = (session.subject(), lights) {
         camera(session, |it| it.frame_past(bounds, aspect, &lights));
     }
-}
-
-/// Width of the picture over its height.
-fn aspect(session: &Session) -> f64 {
-    let (width, height) = session.picture_size();
-    f64::from(width) / f64::from(height.max(1))
 }
 
 /// Escape closes the uppermost dialog, else it cancels a drag or a focus by click, else it leaves the tool, else it clears the

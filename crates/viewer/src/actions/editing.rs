@@ -245,8 +245,7 @@ impl Session {
     /// Frames something; a camera is looked through.
     pub fn frame(&mut self, id: Id) {
         self.select(vec![id]);
-        let (width, height) = self.picture_size();
-        let aspect = f64::from(width) / f64::from(height.max(1));
+        let aspect = self.aspect();
         let bounds = self.selection_bounds();
         let (Some(controller), Some(document)) = (&mut self.controller, &self.document) else {
             return;

@@ -301,6 +301,12 @@ impl Session {
             .size
     }
 
+    /// Width of the picture over its height.
+    pub fn aspect(&self) -> f64 {
+        let (width, height) = self.picture_size();
+        f64::from(width) / f64::from(height.max(1))
+    }
+
     /// Status text of a window without a picture.
     pub fn waiting_for(&self) -> String {
         match &self.loader {
