@@ -208,6 +208,15 @@ impl SceneFormat {
         self.takes == Takes::Everything
     }
 
+    /// Whether a scene, a clip or a variant of its files can be chosen.
+    pub fn has_choices(&self) -> bool {
+        self.takes(Takes::Choices)
+    }
+
+    fn takes(&self, option: Takes) -> bool {
+        self.takes == option || self.is_archive()
+    }
+
     /// The error for a scene file that could not be read.
     pub(super) fn unreadable(&self, path: &Path, error: &FileError) -> ImportError {
         match paths::unreadable(path, error, self.max_bytes) {
@@ -245,8 +254,7 @@ impl SceneFormat {
     fn check(&self, path: &Path, options: &Options) -> Result<(), ImportError> {
         let refuse =
             |what, why: &str, todo| Err(ImportError::Malformed(fault(what, path, why, todo)));
-        let takes = |option| self.takes == option || self.is_archive();
-        if !options.overrides.is_empty() && !takes(Takes::Overrides) {
+        if !options.overrides.is_empty() && !self.takes(Takes::Overrides) {
             let why = "only native scenes (.toml) have keys to set";
             return refuse("override refused", why, "Leave out the overrides");
         }
@@ -255,7 +263,7 @@ impl SceneFormat {
             ("clip", options.clip.is_some()),
             ("variant", options.variant.is_some()),
         ] {
-            if is_given && !takes(Takes::Choices) {
+            if is_given && !self.has_choices() {
                 let why = format!("only glTF models have a {what} to choose");
                 return refuse("choice refused", &why, "Leave out the choice");
             }

@@ -1,9 +1,9 @@
 //! Parts of a model's file of which one is shown: a clip, a variant of the materials, a scene.
 
 use crate::actions::files::intend;
-use crate::model::file_dialog::ends_in;
 use crate::state::files::{Intent, Part};
 use crate::state::session::Session;
+use glimray_io::import::SceneFormat;
 
 /// The choices among a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,8 +48,8 @@ pub fn choose(session: &mut Session, part: Part, index: Option<usize>) {
 /// Names in the file, some of them empty. A scene that was saved in another format keeps the names of its model, but
 /// its file has no such choice.
 fn known(session: &Session, part: Part) -> Vec<String> {
-    let path = session.path.as_deref();
-    let has_parts = path.is_some_and(|path| ends_in(path, &["gltf", "glb", "zip"]));
+    let format = session.path.as_deref().and_then(SceneFormat::of);
+    let has_parts = format.is_some_and(SceneFormat::has_choices);
     let Some(scene) = session.original.as_ref().filter(|_| has_parts) else {
         return Vec::new();
     };

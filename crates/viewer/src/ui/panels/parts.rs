@@ -12,22 +12,10 @@ pub fn part(ui: &mut Ui, session: &mut Session, part: Part) {
     };
     let own = part.left_to_the_file();
     let now = choices.chosen.map_or(own, |index| &choices.names[index]);
-    let mut chosen = choices.chosen;
-    ui.horizontal(|ui| {
-        ui.label(part.title());
-        ComboBox::from_id_salt(part.title())
-            .selected_text(now)
-            .truncate()
-            .show_ui(ui, |ui| {
-                ui.selectable_value(&mut chosen, None, own);
-                for (index, name) in choices.names.iter().enumerate() {
-                    ui.selectable_value(&mut chosen, Some(index), name);
-                }
-            })
-            .response
-            .on_hover_text(part.tip())
-            .accessible_name(part.title());
-    });
+    let names = choices.names.iter().map(String::as_str);
+    let options = [(None, own)].into_iter().chain(numbered(names));
+    let label = (part.title(), part.tip());
+    let chosen = choice(ui, label, now, choices.chosen, options);
     if chosen != choices.chosen {
         parts::choose(session, part, chosen);
     }
@@ -47,22 +35,43 @@ pub fn camera(ui: &mut Ui, session: &mut Session) {
     let now = own
         .iter()
         .position(|view| Some(&view.camera) == destination.as_ref());
-    let mut chosen = now;
-    ui.horizontal(|ui| {
-        ui.label("Camera");
-        ComboBox::from_id_salt("Camera")
-            .selected_text(now.map_or("Free view", |index| &own[index].name))
-            .truncate()
-            .show_ui(ui, |ui| {
-                for (index, view) in own.iter().enumerate() {
-                    ui.selectable_value(&mut chosen, Some(index), &view.name);
-                }
-            })
-            .response
-            .on_hover_text("Look through a camera of the scene")
-            .accessible_name("Camera");
-    });
+    let shown = now.map_or("Free view", |index| &own[index].name);
+    let options = numbered(own.iter().map(|view| view.name.as_str()));
+    let label = ("Camera", "Look through a camera of the scene");
+    let chosen = choice(ui, label, shown, now, options);
     if let Some(index) = chosen.filter(|_| chosen != now) {
         cameras::go(session, own[index]);
     }
+}
+
+/// Options by their index.
+fn numbered<'a>(
+    names: impl Iterator<Item = &'a str>,
+) -> impl Iterator<Item = (Option<usize>, &'a str)> {
+    names.enumerate().map(|(index, name)| (Some(index), name))
+}
+
+/// Draws a choice with a label and a tooltip, which shows `now`. Returns the chosen option.
+fn choice<'a>(
+    ui: &mut Ui,
+    (title, tip): (&str, &str),
+    now: &str,
+    mut chosen: Option<usize>,
+    options: impl Iterator<Item = (Option<usize>, &'a str)>,
+) -> Option<usize> {
+    ui.horizontal(|ui| {
+        ui.label(title);
+        ComboBox::from_id_salt(title)
+            .selected_text(now)
+            .truncate()
+            .show_ui(ui, |ui| {
+                for (option, name) in options {
+                    ui.selectable_value(&mut chosen, option, name);
+                }
+            })
+            .response
+            .on_hover_text(tip)
+            .accessible_name(title);
+    });
+    chosen
 }
