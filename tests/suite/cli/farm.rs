@@ -229,7 +229,7 @@ fn results_of_another_farm_are_noticed() {
             "is not what was rendered",
         ),
         (
-            workspace.read("f0/parts/00000/frame_00001.png"),
+            workspace.read("f0/parts/00001/frame_00002.png"),
             "is not what was rendered",
         ),
         (own[..own.len() / 2].to_vec(), "is not what was rendered"),
