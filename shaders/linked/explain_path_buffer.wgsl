@@ -147,9 +147,9 @@ override bindings__TRIANGLE_TEST: u32 = 0u;
 
 override bindings__HAS_TRIANGLES: bool = false;
 
-override bindings__TRIANGLES_APART: u32 = 0u;
+override bindings__TRIANGLES_OUTSIDE_TREE: u32 = 0u;
 
-override bindings__SHAPES_APART: bool = false;
+override bindings__SHAPES_OUTSIDE_TREE: bool = false;
 
 override bindings__HAS_SHAPES: bool = false;
 
@@ -2497,8 +2497,8 @@ fn primitive__keep_runner_up(hit: tracing__Hit, found: tracing__Hit, counts: boo
 }
 
 fn primitive__test_primitive(at: primitive__TraversalRay, primitive: u32) -> tracing__Candidate {
-	let has_triangles = bindings__HAS_TRIANGLES && bindings__TRIANGLES_APART == 0u;
-	let has_shapes = bindings__HAS_SHAPES && !bindings__SHAPES_APART;
+	let has_triangles = bindings__HAS_TRIANGLES && bindings__TRIANGLES_OUTSIDE_TREE == 0u;
+	let has_shapes = bindings__HAS_SHAPES && !bindings__SHAPES_OUTSIDE_TREE;
 	var candidate = tracing__Candidate(false, 0.0, 0.0, 0.0);
 	if (has_triangles && (!has_shapes || (primitive & types__SHAPE) == 0u)) {
 		candidate = primitive__test_triangle(at.ray, deforming__triangle_now(primitive, at.keys), at.shear);
@@ -3448,17 +3448,17 @@ fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hi
 }
 
 fn exhaustive__hit_apart(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
-	if (bindings__TRIANGLES_APART > 0u) {
+	if (bindings__TRIANGLES_OUTSIDE_TREE > 0u) {
 		return exhaustive__hit_triangles(at, start);
 	}
-	if (bindings__SHAPES_APART) {
+	if (bindings__SHAPES_OUTSIDE_TREE) {
 		return exhaustive__hit_shapes(at, start);
 	}
 	return start;
 }
 
 fn exhaustive__apart_count() -> u32 {
-	return bindings__TRIANGLES_APART + select(0u, fetch__first_plane, bindings__SHAPES_APART);
+	return bindings__TRIANGLES_OUTSIDE_TREE + select(0u, fetch__first_plane, bindings__SHAPES_OUTSIDE_TREE);
 }
 
 fn exhaustive__hit_triangles(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
@@ -3468,10 +3468,10 @@ fn exhaustive__hit_triangles(at: primitive__TraversalRay, start: tracing__Hit) -
 		hit = primitive__closer_of(at, hit, primitive__test_triangle(at.ray, fetch__load_triangle(index), at.shear), index);
 		continuing {
 			index += 1u;
-			break if index >= bindings__TRIANGLES_APART;
+			break if index >= bindings__TRIANGLES_OUTSIDE_TREE;
 		}
 	}
-	loops__cut_off |= index < bindings__TRIANGLES_APART;
+	loops__cut_off |= index < bindings__TRIANGLES_OUTSIDE_TREE;
 	return hit;
 }
 
@@ -3492,10 +3492,10 @@ fn exhaustive__hit_shapes(at: primitive__TraversalRay, start: tracing__Hit) -> t
 fn exhaustive__hit_everything(ray: tracing__Ray, shear: triangle_watertight__Shear, start: tracing__Hit) -> tracing__Hit {
 	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE, deforming__NO_KEYS);
 	var hit = start;
-	if (bindings__HAS_TRIANGLES && bindings__TRIANGLES_APART == 0u) {
+	if (bindings__HAS_TRIANGLES && bindings__TRIANGLES_OUTSIDE_TREE == 0u) {
 		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
 	}
-	if (bindings__HAS_SHAPES && !bindings__SHAPES_APART) {
+	if (bindings__HAS_SHAPES && !bindings__SHAPES_OUTSIDE_TREE) {
 		hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
 	}
 	if (bindings__HAS_INSTANCES) {

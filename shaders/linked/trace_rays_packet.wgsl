@@ -150,9 +150,9 @@ override bindings__TRIANGLE_TEST: u32 = 0u;
 
 override bindings__HAS_TRIANGLES: bool = false;
 
-override bindings__TRIANGLES_APART: u32 = 0u;
+override bindings__TRIANGLES_OUTSIDE_TREE: u32 = 0u;
 
-override bindings__SHAPES_APART: bool = false;
+override bindings__SHAPES_OUTSIDE_TREE: bool = false;
 
 override bindings__HAS_SHAPES: bool = false;
 
@@ -631,7 +631,7 @@ fn walk__walk(ray0: tracing__Ray, ray1: tracing__Ray, ray2: tracing__Ray, ray3: 
 				break if (current == traverse__EMPTY) | leaf__is_rare(current);
 			}
 		}
-		if (bindings__HAS_SHAPES && bindings__HAS_TRIANGLES && bindings__TRIANGLES_APART == 0u && !bindings__SHAPES_APART) {
+		if (bindings__HAS_SHAPES && bindings__HAS_TRIANGLES && bindings__TRIANGLES_OUTSIDE_TREE == 0u && !bindings__SHAPES_OUTSIDE_TREE) {
 			let next = leaf__after(current, shared_stack__top_of(stack));
 			if (leaf__is_rare(current)) {
 				hits = leaf__meet_rare(rays, hits, current);
@@ -810,17 +810,17 @@ fn exhaustive__hit_planes(ray: tracing__Ray, start: tracing__Hit) -> tracing__Hi
 }
 
 fn exhaustive__hit_apart(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
-	if (bindings__TRIANGLES_APART > 0u) {
+	if (bindings__TRIANGLES_OUTSIDE_TREE > 0u) {
 		return exhaustive__hit_triangles(at, start);
 	}
-	if (bindings__SHAPES_APART) {
+	if (bindings__SHAPES_OUTSIDE_TREE) {
 		return exhaustive__hit_shapes(at, start);
 	}
 	return start;
 }
 
 fn exhaustive__apart_count() -> u32 {
-	return bindings__TRIANGLES_APART + select(0u, fetch__first_plane, bindings__SHAPES_APART);
+	return bindings__TRIANGLES_OUTSIDE_TREE + select(0u, fetch__first_plane, bindings__SHAPES_OUTSIDE_TREE);
 }
 
 fn exhaustive__hit_triangles(at: primitive__TraversalRay, start: tracing__Hit) -> tracing__Hit {
@@ -830,10 +830,10 @@ fn exhaustive__hit_triangles(at: primitive__TraversalRay, start: tracing__Hit) -
 		hit = primitive__closer_of(at, hit, primitive__test_triangle(at.ray, fetch__load_triangle(index), at.shear), index);
 		continuing {
 			index += 1u;
-			break if index >= bindings__TRIANGLES_APART;
+			break if index >= bindings__TRIANGLES_OUTSIDE_TREE;
 		}
 	}
-	loops__cut_off |= index < bindings__TRIANGLES_APART;
+	loops__cut_off |= index < bindings__TRIANGLES_OUTSIDE_TREE;
 	return hit;
 }
 

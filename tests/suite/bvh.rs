@@ -10,7 +10,7 @@ use glimray::layout::{
     LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, PackedShape, SHAPE, SHAPE_BOX,
     SHAPE_CONE, SHAPE_RECTANGLE, STACK_SIZE,
 };
-use glimray::pack::{self, Apart, PackedScene};
+use glimray::pack::{self, OutsideTree, PackedScene};
 use glimray::render::{Integrator, RenderSettings, TriangleTest};
 use glimray::scene::{
     Background, CanonicalShape, Fresnel, Geometry, Material, Mesh, Phong, Scene, Shape,
@@ -836,9 +836,9 @@ fn what_is_in_no_tree_looks_as_what_is_in_one() {
         more.add_sphere(far, 0.01, 0);
         let corners = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| far + 0.01 * axis);
         more.add_mesh(lone_triangles([corners]), DAffine3::IDENTITY);
-        let apart = |scene| pack::scene(scene).expect("packed").features.apart;
-        assert_ne!(apart(&few), Apart::Nothing);
-        assert_eq!(apart(&more), Apart::Nothing);
+        let apart = |scene| pack::scene(scene).expect("packed").features.outside_tree;
+        assert_ne!(apart(&few), OutsideTree::Nothing);
+        assert_eq!(apart(&more), OutsideTree::Nothing);
         let integrators = [Integrator::Depth, Integrator::Normals, Integrator::Whitted];
         integrators.map(|integrator| {
             let of = |scene| {

@@ -512,7 +512,7 @@ fn with_everything_compiled_in(scene: &Scene, settings: &RenderSettings) -> Imag
 }
 
 /// The picture of a kernel that lacks a feature.
-fn without(scene: &Scene, feature: fn(&mut pack::Features) -> &mut bool) -> Image {
+fn without(scene: &Scene, feature: fn(&mut pack::SceneFeatures) -> &mut bool) -> Image {
     let mut packed = pack::scene(scene).expect("a packed scene");
     let is_on = feature(&mut packed.features);
     assert!(*is_on);
@@ -522,7 +522,7 @@ fn without(scene: &Scene, feature: fn(&mut pack::Features) -> &mut bool) -> Imag
 
 #[test]
 fn compiling_out_a_needed_feature_changes_the_picture() {
-    type Feature = fn(&mut pack::Features) -> &mut bool;
+    type Feature = fn(&mut pack::SceneFeatures) -> &mut bool;
     let features: [(usize, Feature); 5] = [
         (2, |features| &mut features.reflection),
         (3, |features| &mut features.refraction),
@@ -596,7 +596,7 @@ fn paths_do_not_depend_on_code_that_the_scene_does_not_need() {
         max_depth: 4,
         ..sized(32, 24)
     };
-    let picture = |scene: &Scene, change: fn(&mut pack::Features)| {
+    let picture = |scene: &Scene, change: fn(&mut pack::SceneFeatures)| {
         let mut packed = pack::scene(scene).expect("a packed scene");
         change(&mut packed.features);
         rendered(&Arc::new(packed), &[scene.frame(0.0)], &settings).0

@@ -5,7 +5,7 @@ use crate::reference::scenes::{self, Build};
 use crate::support::random::Random;
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, dvec3};
-use glimray::pack::{self, Apart};
+use glimray::pack::{self, OutsideTree};
 use glimray::render::{Coherence, ExecutionPolicy, Fetch, QueryHit, QueryRay, RayQuery, RayTest};
 use glimray::scene::{Geometry, Mesh, ObjectRef, Scene};
 use std::sync::Arc;
@@ -219,20 +219,20 @@ fn queries_find_what_a_search_through_all_primitives_finds() {
 fn a_few_primitives_among_many_of_another_kind_are_in_no_tree() {
     let apart = |scene: &Scene, most_baked| {
         let packed = pack::scene_with(scene, most_baked).expect("packed");
-        packed.features.apart
+        packed.features.outside_tree
     };
     let mut verdict = Verdict::on("what is apart");
     for (spheres, triangles, expected) in [
-        (40, 1, Apart::Triangles),
-        (40, 8, Apart::Triangles),
-        (2, 2, Apart::Triangles),
-        (40, 9, Apart::Nothing),
-        (0, 8, Apart::Nothing),
-        (0, 60, Apart::Nothing),
-        (40, 0, Apart::Nothing),
-        (1, 60, Apart::Shapes),
-        (4, 60, Apart::Shapes),
-        (5, 60, Apart::Nothing),
+        (40, 1, OutsideTree::Triangles),
+        (40, 8, OutsideTree::Triangles),
+        (2, 2, OutsideTree::Triangles),
+        (40, 9, OutsideTree::Nothing),
+        (0, 8, OutsideTree::Nothing),
+        (0, 60, OutsideTree::Nothing),
+        (40, 0, OutsideTree::Nothing),
+        (1, 60, OutsideTree::Shapes),
+        (4, 60, OutsideTree::Shapes),
+        (5, 60, OutsideTree::Nothing),
     ] {
         let found = apart(&few(spheres, triangles), usize::MAX);
         let name = format!("{spheres} spheres and {triangles} triangles");
@@ -243,8 +243,8 @@ fn a_few_primitives_among_many_of_another_kind_are_in_no_tree() {
     let mut beside_mesh = few(40, 8);
     let ball = scenes::ball(glam::UVec2::new(100, 50), 0);
     beside_mesh.add_mesh(ball, DAffine3::IDENTITY);
-    assert_eq!(apart(&beside_mesh, usize::MAX), Apart::Nothing);
-    assert_eq!(apart(&few_and_instanced(), 0), Apart::Shapes);
+    assert_eq!(apart(&beside_mesh, usize::MAX), OutsideTree::Nothing);
+    assert_eq!(apart(&few_and_instanced(), 0), OutsideTree::Shapes);
 }
 
 #[test]

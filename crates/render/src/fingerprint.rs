@@ -1,7 +1,7 @@
 //! Fingerprints: things with the same fingerprint are treated as equal.
 
 use super::{Integrator, TriangleTest};
-use crate::pack::{Features, PackedScene, PackedView};
+use crate::pack::{PackedScene, PackedView, SceneFeatures};
 use glimray_scene::{Antialias, Filter};
 use std::{fmt, ops::Range};
 use xxhash_rust::xxh3::Xxh3;
@@ -14,10 +14,10 @@ pub struct Fingerprint(pub u128);
 impl Fingerprint {
     /// The fingerprint of everything in a packed scene that affects a picture.
     pub fn of_scene(scene: &PackedScene) -> Self {
-        let Features {
+        let SceneFeatures {
             shape_kinds,
             // This follows from the triangles and shapes.
-            apart: _,
+            outside_tree: _,
             mixed_materials,
             reflection,
             refraction,

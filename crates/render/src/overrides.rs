@@ -15,7 +15,7 @@ use crate::{
         PackedTone, SHORT_STACK_SIZE, TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE,
         TRIANGLE_TEST_WATERTIGHT,
     },
-    pack::{Apart, PackedScene, PackedView},
+    pack::{OutsideTree, PackedScene, PackedView},
 };
 use glimray_scene::{Antialias, Backdrop, Filter};
 
@@ -183,12 +183,12 @@ overrides! {
         HAS_TRIANGLES: bool = !scene.triangles.is_empty();
         // The number of triangles if they are in no BVH, otherwise 0: rays are tested against them before they walk. A constant,
         // so that drivers unroll the loop.
-        TRIANGLES_APART: u32 = match features.apart {
-            Apart::Triangles => scene.triangles.len() as u32,
+        TRIANGLES_OUTSIDE_TREE: u32 = match features.outside_tree {
+            OutsideTree::Triangles => scene.triangles.len() as u32,
             _ => 0,
         };
         // Whether the bounded shapes are in no BVH.
-        SHAPES_APART: bool = features.apart == Apart::Shapes;
+        SHAPES_OUTSIDE_TREE: bool = features.outside_tree == OutsideTree::Shapes;
         HAS_SHAPES: bool = scene.bounded_shape_count() > 0;
         HAS_PLANES: bool = scene.plane_count > 0;
         // Whether there are more shapes than triangles in BVHs.
@@ -251,10 +251,10 @@ overrides! {
 
 /// Whether there are more shapes than triangles in BVHs.
 pub fn has_mostly_shapes(scene: &PackedScene) -> bool {
-    match scene.features.apart {
-        Apart::Triangles => true,
-        Apart::Shapes => false,
-        Apart::Nothing => scene.bounded_shape_count() as usize > scene.triangles.len(),
+    match scene.features.outside_tree {
+        OutsideTree::Triangles => true,
+        OutsideTree::Shapes => false,
+        OutsideTree::Nothing => scene.bounded_shape_count() as usize > scene.triangles.len(),
     }
 }
 

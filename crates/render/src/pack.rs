@@ -38,7 +38,7 @@ mod trees;
 mod triangle_pieces;
 
 pub use error::PackError;
-pub use features::{Apart, Features};
+pub use features::{OutsideTree, SceneFeatures};
 pub use frame::PackedView;
 pub use instance::MAX_BAKED;
 pub use mesh::DRAFT_FROM;
@@ -109,7 +109,7 @@ pub struct PackedScene {
     /// The first word with its `PICTURE_` bits, width and height of each picture.
     pub pictures: Vec<[u32; 3]>,
     /// The features that the scene uses; all others are compiled out.
-    pub features: Features,
+    pub features: SceneFeatures,
     /// From this many lamps and emissive triangles and shapes on, paths choose them from the light tree, unless they are one
     /// flat patch.
     pub tree_from: usize,
@@ -251,9 +251,9 @@ fn pack(
     (packed_pictures.iter()).for_each(|packed| texels.append(&packed.words));
     texels.append(&[albedo::words()].into_iter().chain(table).collect());
     let bounded = joint.shapes.iter().chain(&*instanced_shapes);
-    let features = Features {
+    let features = SceneFeatures {
         shape_kinds: bounded.fold(0, |kinds, shape| kinds | 1 << shape.kind),
-        apart: trees.joint.apart,
+        outside_tree: trees.joint.outside_tree,
         mixed_materials: trees.meshes().any(|mesh| mesh.mixes_materials),
         second_uvs: scene.meshes.iter().any(|mesh| !mesh.second_uvs.is_empty()),
         contact: media::may_touch(scene, &meshes),

@@ -3,7 +3,7 @@
 
 use super::{
     divided::Divided,
-    features::Apart,
+    features::OutsideTree,
     geometry::{self, Flat, PlacedMesh},
     nodes::{self, Children, Offsets},
     shape_pieces,
@@ -101,16 +101,21 @@ impl Blas {
     }
 
     /// One BLAS over several meshes and shapes, excluding those of the kind `apart`.
-    pub fn joint(flat: Flat, apart: Apart, stack_size: usize, offsets: Offsets) -> Self {
+    pub fn joint(
+        flat: Flat,
+        outside_tree: OutsideTree,
+        stack_size: usize,
+        offsets: Offsets,
+    ) -> Self {
         let corners = |triangle: u32| geometry::corners(&flat.triangles[triangle as usize]);
         let boxes = flat.triangles.iter().map(geometry::triangle_box);
-        let triangles = match apart {
-            Apart::Triangles => Divided::apart(flat.triangles.len()),
+        let triangles = match outside_tree {
+            OutsideTree::Triangles => Divided::apart(flat.triangles.len()),
             _ => triangle_pieces::divide_all(boxes.collect(), corners),
         };
         let boxes = flat.bounded.iter().map(|(_, bounds)| *bounds);
-        let shapes = match apart {
-            Apart::Shapes => Divided::apart(flat.bounded.len()),
+        let shapes = match outside_tree {
+            OutsideTree::Shapes => Divided::apart(flat.bounded.len()),
             _ => shape_pieces::divide_all(boxes.collect(), flat.pieces),
         };
         let bvh = build(&triangles, &shapes, stack_size);

@@ -2,7 +2,7 @@
 
 /// Bounded primitives that are in no BVH: all of a kind, of which there are a few among many of the other kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Apart {
+pub enum OutsideTree {
     /// None.
     #[default]
     Nothing,
@@ -14,11 +14,11 @@ pub enum Apart {
 
 /// The features of a scene that a kernel needs code for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Features {
+pub struct SceneFeatures {
     /// Bit k is set if there is a bounded shape of kind k.
     pub shape_kinds: u32,
     /// Primitive kind tested without a BVH.
-    pub apart: Apart,
+    pub outside_tree: OutsideTree,
     /// The corners of some triangle differ in material.
     pub mixed_materials: bool,
     /// Some material reflects, possibly only by total internal reflection, or has partly weighted local

@@ -1,7 +1,7 @@
 //! Merges static shapes and small static meshes into one BLAS; a few primitives stay outside it.
 
 use super::{
-    PackError, blas::Blas, features::Apart, geometry::Flat, instance::Plan, light,
+    PackError, blas::Blas, features::OutsideTree, geometry::Flat, instance::Plan, light,
     mesh::CachedMesh, nodes::Offsets,
 };
 use crate::layout::{PackedShape, SHAPE_TORUS};
@@ -20,7 +20,7 @@ pub struct Joint {
     pub input: JointInput,
     pub blas: Arc<Blas>,
     pub planes: Arc<[PackedShape]>,
-    pub apart: Apart,
+    pub outside_tree: OutsideTree,
 }
 
 /// The input that a [`Joint`] is built from.
@@ -90,7 +90,7 @@ impl JointInput {
     }
 
     /// Which kind of the packed primitives is in no BVH.
-    fn apart(&self, flat: &Flat) -> Apart {
+    fn outside_tree(&self, flat: &Flat) -> OutsideTree {
         let (triangles, shapes) = (flat.triangles.len(), flat.bounded.len());
         let few_triangles = self.has_all_triangles && triangles <= MOST_TRIANGLES;
         // Tori take too long to test each ray against.
@@ -98,9 +98,9 @@ impl JointInput {
         let few_shapes =
             self.has_all_shapes && shapes <= MOST_SHAPES && flat.bounded.iter().all(is_quick);
         match (few_triangles, few_shapes) {
-            (true, _) if triangles > 0 && shapes > 0 => Apart::Triangles,
-            (false, true) if shapes > 0 => Apart::Shapes,
-            _ => Apart::Nothing,
+            (true, _) if triangles > 0 && shapes > 0 => OutsideTree::Triangles,
+            (false, true) if shapes > 0 => OutsideTree::Shapes,
+            _ => OutsideTree::Nothing,
         }
     }
 }
@@ -115,11 +115,11 @@ impl Joint {
         for (geometry, material, id) in &input.shapes {
             flat.add_shape(geometry, *material, *id, Some(input.origin))?;
         }
-        let apart = input.apart(&flat);
+        let outside_tree = input.outside_tree(&flat);
         Ok(Self {
             planes: std::mem::take(&mut flat.planes).into(),
-            blas: Arc::new(Blas::joint(flat, apart, input.stack_size, offsets)),
-            apart,
+            blas: Arc::new(Blas::joint(flat, outside_tree, input.stack_size, offsets)),
+            outside_tree,
             input,
         })
     }

@@ -1,6 +1,6 @@
 //! Packs materials and textures.
 
-use super::{Features, PackError, layers, light};
+use super::{PackError, SceneFeatures, layers, light};
 use crate::layout::{
     MATERIAL_BLEND, MATERIAL_COLORED_EMISSION, MATERIAL_COLORED_GLASS, MATERIAL_COLORED_MIRROR,
     MATERIAL_COVERAGE, MATERIAL_FRESNEL, MATERIAL_MASK, MATERIAL_METALLIC_ROUGHNESS,
@@ -186,7 +186,7 @@ fn has_thin_material(scene: &Scene) -> bool {
 }
 
 /// The features used by materials, textures and pictures.
-pub fn features(scene: &Scene) -> Features {
+pub fn features(scene: &Scene) -> SceneFeatures {
     let mirrors = may_be_nonblack(scene, |m| m.classical().reflect, MaterialProperty::Reflect)
         .contains(&true);
     let refraction = may_transmit(scene).contains(&true);
@@ -196,7 +196,7 @@ pub fn features(scene: &Scene) -> Features {
     let first = priorities.next();
     let has_pattern = |is: fn(&Pattern) -> bool| scene.textures.iter().any(|it| is(&it.pattern));
     let has_texels = |is: fn(&Texels) -> bool| scene.pictures.iter().any(|it| is(&it.texels));
-    Features {
+    SceneFeatures {
         priorities: priorities.any(|other| Some(other) != first),
         // Refraction includes the code for thin materials.
         reflection: mirrors
@@ -248,7 +248,7 @@ pub fn features(scene: &Scene) -> Features {
             .any(|model| model.anisotropy > 0.0 && !model.unlit),
         normal_maps: (scene.materials.iter()).any(|material| material.textures.normal.is_some()),
         emission: emission || light::visible(scene).next().is_some(),
-        ..Features::default()
+        ..SceneFeatures::default()
     }
 }
 
