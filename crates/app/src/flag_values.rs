@@ -9,18 +9,27 @@ use glimray_scene::{Section, Shutter};
 pub const MAX_COORDINATE: f64 = 1e9;
 
 /// `X,Y,Z`, a point or a direction in scene units.
+///
+/// # Errors
+/// One line for the user: other than three numbers, or one out of range.
 pub fn vector(text: &str) -> Result<DVec3, String> {
     let part = |part: &str| within(part, -MAX_COORDINATE, MAX_COORDINATE, "every coordinate");
     list(text, "X,Y,Z", part).map(DVec3::from_array)
 }
 
 /// `R,G,B`, a linear radiance.
+///
+/// # Errors
+/// One line for the user: other than three numbers, or one out of 0 to 10⁶.
 pub fn color(text: &str) -> Result<Vec3, String> {
     let part = |part: &str| within(part, 0.0, 1e6_f32, "every channel");
     list(text, "R,G,B", part).map(Vec3::from_array)
 }
 
 /// `R,G,B` or `transparent`.
+///
+/// # Errors
+/// As [`color`].
 pub fn background(text: &str) -> Result<BackgroundChoice, String> {
     match text {
         "transparent" => Ok(BackgroundChoice::Transparent),
@@ -29,6 +38,9 @@ pub fn background(text: &str) -> Result<BackgroundChoice, String> {
 }
 
 /// `X,Y,Z,OFFSET`, a plane with the normal (x, y, z) of any length, of the points p with p·(x, y, z) = offset; or `none`.
+///
+/// # Errors
+/// One line for the user: other than four numbers, one out of range, or no direction.
 pub fn section(text: &str) -> Result<SectionChoice, String> {
     if text == "none" {
         return Ok(SectionChoice(None));
@@ -47,6 +59,9 @@ pub fn section(text: &str) -> Result<SectionChoice, String> {
 }
 
 /// `EV`, `auto`, or `auto+EV` and `auto-EV`.
+///
+/// # Errors
+/// One line for the user: another word, or stops out of -64 to 64.
 pub fn exposure(text: &str) -> Result<Exposure, String> {
     let stops = |text: &str| {
         let number = within(text, -64.0, 64.0, "it");
@@ -69,21 +84,33 @@ pub fn exposure(text: &str) -> Result<Exposure, String> {
 }
 
 /// A vertical field of view in degrees.
+///
+/// # Errors
+/// One line for the user: no number from 0.001 to 179.9.
 pub fn fov_y(text: &str) -> Result<f64, String> {
     within(text, 0.001, 179.9, "it")
 }
 
 /// The height of an orthographic view in scene units.
+///
+/// # Errors
+/// One line for the user: no number from 10⁻⁹ to [`MAX_COORDINATE`].
 pub fn orthographic(text: &str) -> Result<f64, String> {
     within(text, 1e-9, MAX_COORDINATE, "it")
 }
 
 /// Frames per second.
+///
+/// # Errors
+/// One line for the user: no number from 0.01 to 1000.
 pub fn fps(text: &str) -> Result<f64, String> {
     within(text, 0.01, 1000.0, "it")
 }
 
 /// A time in seconds.
+///
+/// # Errors
+/// One line for the user: no number from -10⁶ to 10⁶.
 pub fn time(text: &str) -> Result<f64, String> {
     within(text, -1e6, 1e6, "it")
 }
@@ -92,6 +119,9 @@ pub fn time(text: &str) -> Result<f64, String> {
 const MAX_SHUTTER: f64 = 16.0;
 
 /// `0.5`, `180deg` or `-0.25..0.25`.
+///
+/// # Errors
+/// One line for the user: times out of range, or a shutter that closes before it opens.
 pub fn shutter(text: &str) -> Result<Shutter, String> {
     if let Some((open, close)) = text.split_once("..") {
         let end = |text: &str| within(text, -MAX_SHUTTER, MAX_SHUTTER, "opening and closing");

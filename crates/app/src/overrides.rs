@@ -129,6 +129,9 @@ impl PictureOverrides {
 }
 
 /// Width and height of the output: those of the crop, if there is one.
+///
+/// # Errors
+/// The crop is not inside the picture.
 pub fn picture_size(settings: &RenderSettings) -> Result<(u32, u32), AppError> {
     let (width, height) = settings.size;
     match settings.crop {

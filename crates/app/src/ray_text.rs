@@ -14,6 +14,9 @@ use serde::Serialize;
 use std::fmt::{self, Write};
 
 /// The tree of every sample, their weighted sum, and the pixel.
+///
+/// # Errors
+/// None: a [`String`] takes any text.
 pub fn of(tree: &RayTree, (width, height): (u32, u32)) -> Result<String, fmt::Error> {
     let mut out = String::new();
     let [x, y] = tree.pixel;

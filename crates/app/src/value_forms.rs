@@ -169,6 +169,9 @@ pub const CROP: Written<Option<[u32; 4]>> =
 pub const OFFSET: Written<RayOffset> = Written(str::parse, |offset| Some(offset.to_string()));
 
 /// `X0,Y0,X1,Y1`, not empty.
+///
+/// # Errors
+/// One line for the user: other than four whole numbers, one out of range, or an empty rectangle.
 pub fn crop(text: &str) -> Result<[u32; 4], String> {
     let edges @ [x0, y0, x1, y1] = list(text, "X0,Y0,X1,Y1", |part| {
         within(part, 0, MAX_SIDE, "every edge")
@@ -181,6 +184,9 @@ pub fn crop(text: &str) -> Result<[u32; 4], String> {
 }
 
 /// `N` comma-separated values.
+///
+/// # Errors
+/// The error of the first part that is refused, or a line with both counts.
 pub fn list<T, const N: usize>(
     text: &str,
     shape: &str,
@@ -199,6 +205,9 @@ pub fn joined<T: ToString, const N: usize>(parts: [T; N]) -> String {
 }
 
 /// A number from `min` to `max`. NaN is out of every range.
+///
+/// # Errors
+/// One line for the user that begins with `what` and names the range.
 pub fn within<T>(text: &str, min: T, max: T, what: &str) -> Result<T, String>
 where
     T: FromStr + PartialOrd + Display,

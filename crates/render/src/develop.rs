@@ -119,6 +119,9 @@ impl<'a> Context<'a> {
 impl Renderer {
     /// Develops the samples so far to a picture, also before the render is done. Changing the tone requires no
     /// new rays.
+    ///
+    /// # Errors
+    /// The device failed, or there is no memory for the picture.
     pub async fn develop_async(&mut self, tone: &Tone) -> Result<Image, RenderError> {
         let start = Instant::now();
         let image = self.developed(tone).await?;

@@ -193,6 +193,9 @@ impl Cursor {
 impl Renderer {
     /// Checks the limits on memory and work, uploads the scene and compiles the kernels. Sizes and counts of
     /// the settings must be in their documented ranges.
+    ///
+    /// # Errors
+    /// The scene or the picture is above a limit, or the device failed.
     pub fn new(
         gpu: Gpu,
         scene: Arc<PackedScene>,

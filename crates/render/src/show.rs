@@ -153,6 +153,9 @@ impl Screen {
 
 impl Renderer {
     /// A black screen of the size of the picture or its crop.
+    ///
+    /// # Errors
+    /// The device has no memory for it.
     pub fn new_screen(&self) -> Result<Screen, RenderError> {
         let [.., width, height] = self.settings.region();
         let view = self

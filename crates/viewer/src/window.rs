@@ -28,6 +28,9 @@ const MAX_LOSSES: usize = 3;
 const RECENT: Duration = Duration::from_secs(600);
 
 /// Runs the window until the user closes it.
+///
+/// # Errors
+/// There is no display, or no device that can draw on it; or the device is lost again and again.
 pub fn run(session: Session, choice: &AdapterChoice) -> Result<(), AppError> {
     check_display()?;
     let session = Rc::new(RefCell::new(session));

@@ -7,6 +7,9 @@ use glimray_render::{
 use std::fmt::{self, Write};
 
 /// The rays of a sample.
+///
+/// # Errors
+/// None for a [`String`].
 pub fn write(out: &mut String, rays: &[TracedRay]) -> fmt::Result {
     let segments: Vec<_> = (rays.iter().enumerate())
         .filter(|(_, ray)| ray.shadow.is_none())

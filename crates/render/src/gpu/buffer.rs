@@ -25,6 +25,9 @@ impl Ledger {
     }
 
     /// Rejects a total above `limit` bytes, naming the largest entry.
+    ///
+    /// # Errors
+    /// [`GpuError::Budget`] if the total is above the limit.
     pub fn check(&self, limit: u64) -> Result<(), GpuError> {
         let need = self.total();
         if need <= limit {

@@ -65,12 +65,18 @@ impl PackedScene {
     }
 
     /// Packs a frame of the scene that this was packed from.
+    ///
+    /// # Errors
+    /// The frame does not fit the scene, or has values out of their ranges.
     pub fn frame(&self, frame: &Frame) -> Result<PackedView, PackError> {
         self.view(slice::from_ref(frame))
     }
 
     /// Packs the result of [`glimray_scene::Scene::motion_samples`] for the scene that this was packed from: at
     /// least one frame, evenly spaced over the shutter interval.
+    ///
+    /// # Errors
+    /// A frame does not fit the scene, or has values out of their ranges.
     pub fn view(&self, frames: &[Frame]) -> Result<PackedView, PackError> {
         self.view_from(None, frames)
     }

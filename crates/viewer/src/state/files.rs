@@ -272,6 +272,9 @@ impl Pending {
 
 impl SaveDialog {
     /// The target, or why it is invalid.
+    ///
+    /// # Errors
+    /// One line for the user.
     pub fn target(&self) -> Result<Target, String> {
         let path = PathBuf::from(self.path.trim());
         if path.as_os_str().is_empty() {

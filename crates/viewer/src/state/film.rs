@@ -186,6 +186,9 @@ impl FilmDialog {
     }
 
     /// The files, or why they cannot be written.
+    ///
+    /// # Errors
+    /// One line for the user.
     pub fn target(&self) -> Result<FilmTarget, String> {
         let path = self.typed();
         if path.as_os_str().is_empty() {

@@ -147,6 +147,9 @@ pub struct Session {
 
 impl Session {
     /// A session that is about to load its scene. `store` is the settings file.
+    ///
+    /// # Errors
+    /// The built-in scene cannot be made.
     pub fn new(request: ViewRequest, mut store: Store) -> Result<Self, AppError> {
         let (preferences, notes) = store.load();
         let mut messages = Messages::default();

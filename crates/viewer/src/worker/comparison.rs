@@ -93,6 +93,9 @@ impl Compared {
     }
 
     /// Develops the requested still, unless it is there already.
+    ///
+    /// # Errors
+    /// The device failed.
     pub fn set_request(&mut self, request: Option<&StillRequest>) -> Result<(), RenderError> {
         if self.request.as_ref() == request {
             return Ok(());
@@ -115,6 +118,9 @@ impl Compared {
 
     /// Updates the difference of the main picture and the second one, which is the still if there is one, or else given with
     /// the number of its presentations. `gain` is `None` if no difference is wanted.
+    ///
+    /// # Errors
+    /// The device failed.
     pub fn compare(
         &mut self,
         gain: Option<f32>,

@@ -176,6 +176,9 @@ impl ProgressiveImage {
 
     /// Adds samples for a slice of time and shows them. Those of a `paused` picture are only shown, once
     /// there are any.
+    ///
+    /// # Errors
+    /// The device failed or cannot render the scene.
     pub fn step(&mut self, paused: bool) -> Result<(), ImageError> {
         let started = Instant::now();
         let is_traced = self.renderer.as_ref().is_some_and(Renderer::is_done);

@@ -120,6 +120,9 @@ pub struct RenderThread<A: Send + 'static> {
 
 impl<A: Send + 'static> RenderThread<A> {
     /// Starts the thread. `wake` is called when something new can be drawn.
+    ///
+    /// # Errors
+    /// The system starts no thread.
     pub fn new(gpu: Gpu, wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
         let shared = Arc::new(Shared {
             state: Mutex::new(State {

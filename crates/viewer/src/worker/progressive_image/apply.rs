@@ -11,6 +11,9 @@ use std::sync::Arc;
 impl ProgressiveImage {
     /// Applies a request and keeps the results that are still valid. `prepared` saves the work of packing its
     /// scene.
+    ///
+    /// # Errors
+    /// The scene cannot be packed or rendered. The last picture stays.
     pub fn set_request(
         &mut self,
         request: Option<&RenderRequest>,

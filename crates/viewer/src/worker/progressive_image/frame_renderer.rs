@@ -35,6 +35,9 @@ pub struct FrameRenderer<'a> {
 
 impl FrameRenderer<'_> {
     /// The picture so far and its number of samples.
+    ///
+    /// # Errors
+    /// The device failed.
     pub fn image(&mut self, tone: &Tone) -> Result<(Image, u32), RenderError> {
         let samples = self.renderer.samples_done();
         Ok((self.renderer.develop(tone)?, samples))
