@@ -43,6 +43,7 @@ mod replay;
 mod section;
 mod sheets;
 mod support;
+mod tasks;
 mod time;
 mod toolbar;
 mod tools;

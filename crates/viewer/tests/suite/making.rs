@@ -1,7 +1,6 @@
 //! Making a scene by hand: new scenes, things that are added, and several that are moved as one. Only keys and the mouse.
 
 mod many;
-mod student;
 mod walk;
 
 use super::edit::{BLUE, RED, file, on_screen, open, perform, scene};
@@ -60,7 +59,7 @@ fn click_which(window: &mut Window, label: &str, is_row: bool) {
 }
 
 /// Clicks what is called so with Ctrl, which adds it to the selection.
-fn also(window: &mut Window, label: &str) {
+pub(super) fn also(window: &mut Window, label: &str) {
     let node = window.harness.get_by_label(label);
     node.click_modifiers(Modifiers::COMMAND);
     window.settle();
@@ -73,7 +72,7 @@ pub(super) fn choose(window: &mut Window, menu: &str, entry: &str) {
     click(window, entry);
 }
 
-fn middle(window: &Window) -> Pos2 {
+pub(super) fn middle(window: &Window) -> Pos2 {
     window.session().viewport.expect("a picture").rect.center()
 }
 
@@ -178,7 +177,7 @@ const ADDITIONS: [&str; 17] = [
     "Camera",
 ];
 
-fn save_as(window: &mut Window, path: &Path) {
+pub(super) fn save_as(window: &mut Window, path: &Path) {
     press(window, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     press(window, Modifiers::COMMAND, Key::A);
     type_text(window, path.to_str().expect("a path in UTF-8"));
@@ -455,7 +454,7 @@ fn a_copy_follows_the_pointer_and_the_click_that_places_it_selects_nothing_else(
     );
 }
 
-fn center_of(scene: &Scene, shape: usize) -> DVec3 {
+pub(super) fn center_of(scene: &Scene, shape: usize) -> DVec3 {
     match scene.shapes[shape].geometry {
         Geometry::Sphere { center, .. } => center,
         _ => panic!("not a sphere"),

@@ -1,8 +1,8 @@
 //! A student builds the scene of an exercise from nothing: a ground, two balls, a triangle and a lamp, with materials by
 //! Phong. Each key, click and number counts as a gesture.
 
-use super::{click, press, save_as};
 use crate::harness::Window;
+use crate::making::{click, press, save_as};
 use crate::reference::compare::{render, sized};
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
