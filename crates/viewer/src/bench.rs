@@ -176,6 +176,7 @@ impl Stage {
             shutter_interval: (0.0, 0.0),
             tone: Tone::LINEAR,
             layer: glimray_app::layers::PictureLayer::Beauty,
+            denoises_previews: false,
         });
         thread.submit(requests.clone());
         Ok(Self {

@@ -58,6 +58,8 @@ pub struct Preferences {
     pub ui_scale: f32,
     /// Whether the hint of the first run was read.
     pub hint_seen: bool,
+    /// Whether path-traced previews are denoised, also where the picture is not.
+    pub denoises_previews: bool,
     /// Target samples per pixel of new scenes, 1 to 65536; `None` for the scene's own.
     pub samples: Option<u32>,
     /// Tone curve of new scenes; `None` for the scene's own.
@@ -99,6 +101,7 @@ impl Default for Preferences {
             maximized: false,
             layout: serde_json::Value::Null,
             hint_seen: false,
+            denoises_previews: true,
             samples: None,
             tone: None,
         }

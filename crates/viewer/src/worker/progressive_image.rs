@@ -196,9 +196,13 @@ impl ProgressiveImage {
             let share = renderer.progress();
             (self.report)(Stage::FirstSamples { share });
         }
+        let tone = Tone {
+            denoise: request.tone.denoise || self.is_coarse && request.denoises_coarse(),
+            ..request.tone
+        };
         let is_beauty = request.layer == PictureLayer::Beauty;
-        let is_direct = is_beauty && renderer.shows_directly(&request.tone);
-        let is_denoised = is_beauty && renderer.denoises(&request.tone);
+        let is_direct = is_beauty && renderer.shows_directly(&tone);
+        let is_denoised = is_beauty && renderer.denoises(&tone);
         let interval = match (is_denoised, is_direct) {
             (true, _) => DENOISED.max(DENOISED_PAUSE * self.look_time),
             (false, true) => pace::between_looks(&self.gpu),
@@ -231,7 +235,7 @@ impl ProgressiveImage {
                 screen.write(&self.gpu, &(&image).into())?;
                 None
             }
-            _ => renderer.show(&request.tone, screen)?,
+            _ => renderer.show(&tone, screen)?,
         };
         self.raw = match self.shows_raw && is_denoised && !self.is_coarse {
             true => {

@@ -2,7 +2,7 @@
 
 use glimray_app::layers::PictureLayer;
 use glimray_render::pack::PackedScene;
-use glimray_render::{ExecutionPolicy, RenderSettings, Tone};
+use glimray_render::{ExecutionPolicy, Integrator, RenderSettings, Tone};
 use glimray_scene::{Background, Camera, Scene};
 use std::sync::Arc;
 
@@ -27,6 +27,8 @@ pub struct RenderRequest {
     pub tone: Tone,
     /// The layer that is shown, if the film has layers.
     pub layer: PictureLayer,
+    /// Whether path-traced coarse pictures are denoised although the picture in full is not.
+    pub denoises_previews: bool,
 }
 
 impl PartialEq for RenderRequest {
@@ -36,10 +38,17 @@ impl PartialEq for RenderRequest {
             && self.policy == other.policy
             && self.tone == other.tone
             && self.layer == other.layer
+            && self.denoises_previews == other.denoises_previews
     }
 }
 
 impl RenderRequest {
+    /// Whether coarse pictures are denoised.
+    pub fn denoises_coarse(&self) -> bool {
+        let is_noisy = self.settings.integrator == Integrator::Path;
+        is_noisy && (self.tone.denoise || self.denoises_previews)
+    }
+
     /// Whether both show the same scene and view.
     pub fn shows_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene)

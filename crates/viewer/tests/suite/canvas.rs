@@ -46,6 +46,7 @@ impl Easel {
             policy: ExecutionPolicy::default(),
             tone: Tone::LINEAR,
             layer: glimray_app::layers::PictureLayer::Beauty,
+            denoises_previews: false,
         });
         let easel = Self {
             gpu,
@@ -440,6 +441,57 @@ fn the_coarse_picture_is_what_is_wanted_too_after_a_way_back() {
             "{what}: {near} from home, {far} before the way back"
         );
     }
+}
+
+#[test]
+fn previews_of_paths_are_nearer_to_the_picture_in_full_when_they_are_denoised() {
+    let scene = import::load("assets/scenes/cornell_box.toml".as_ref()).expect("a scene");
+    let settings = RenderSettings {
+        integrator: Integrator::Path,
+        ..stratified(2)
+    };
+    let error = |denoises: bool| {
+        let mut easel = Easel::new(&scene, settings.clone());
+        easel.settle();
+        let in_full = easel.shown().screen.expect("a screen");
+        easel.requests.coarse = true;
+        easel.want(|request| {
+            request.denoises_previews = denoises;
+            request.restarts += 1;
+        });
+        easel.settle();
+        let shown = easel.shown();
+        assert!(shown.progress.is_coarse);
+        let coarse = pixels::on(&shown.under.expect("a preview"), &easel.gpu);
+        let (converged, _) = render(
+            &scene,
+            &RenderSettings {
+                size: coarse.size,
+                samples: 512,
+                ..settings.clone()
+            },
+        );
+        let of_pixel = |(shown, exact): (&[u8; 3], &[f32; 4])| -> f64 {
+            let off = |channel: usize| {
+                f64::from(shown[channel]) / 255.0 - f64::from(exact[channel].clamp(0.0, 1.0))
+            };
+            (0..3).map(|channel| off(channel).powi(2)).sum()
+        };
+        let pairs = coarse.rgb.iter().zip(&converged.pixels);
+        let mean = pairs.map(of_pixel).sum::<f64>() / coarse.rgb.len() as f64;
+        // The picture in full has no features and stays as it is.
+        easel.requests.coarse = false;
+        easel.want(|request| request.restarts += 1);
+        easel.settle();
+        let again = pixels::on(&easel.shown().screen.expect("a screen"), &easel.gpu);
+        again.assert_same(&pixels::on(&in_full, &easel.gpu), "the picture in full");
+        mean
+    };
+    let (raw, denoised) = (error(false), error(true));
+    assert!(
+        denoised < 0.5 * raw,
+        "{denoised}, and {raw} without denoising"
+    );
 }
 
 #[test]

@@ -104,6 +104,7 @@ fn request(scene: Arc<Scene>) -> RenderRequest {
         policy: ExecutionPolicy::default(),
         tone: Tone::LINEAR,
         layer: glimray_app::layers::PictureLayer::Beauty,
+        denoises_previews: false,
     }
 }
 

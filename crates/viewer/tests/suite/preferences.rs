@@ -42,6 +42,7 @@ fn changed(place: &Path) -> Preferences {
     it.theme = Theme::Light;
     it.ui_scale = 1.3;
     it.hint_seen = true;
+    it.denoises_previews = false;
     it.samples = Some(777);
     it.tone = Some(ToneCurve::Agx);
     it.window = Some([1234.5, 777.0]);

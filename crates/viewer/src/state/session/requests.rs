@@ -52,6 +52,7 @@ impl Session {
             policy: self.request.policy,
             tone: self.view.tone_of(integrator),
             layer: PictureLayer::Beauty,
+            denoises_previews: self.preferences.denoises_previews,
         })
     }
 
@@ -98,6 +99,7 @@ impl Session {
             policy: self.request.policy,
             tone: self.view.tone_of(integrator),
             layer: PictureLayer::Beauty,
+            denoises_previews: self.preferences.denoises_previews,
         })
     }
 }

@@ -147,6 +147,13 @@ fn defaults(ui: &mut egui::Ui, session: &mut Session) {
         }
     });
     ui.end_row();
+    let label = ui.label("Previews");
+    ui.checkbox(&mut preferences.denoises_previews, "Denoise")
+        .on_hover_text(
+            "Path-traced previews are denoised while the camera or the time moves, also where the picture is not",
+        )
+        .labelled_by(label.id);
+    ui.end_row();
     let label = ui.label("Tone curve");
     let name = |tone: Option<ToneCurve>| match tone {
         None => "From the scene",

@@ -208,7 +208,7 @@ impl ProgressiveImage {
         let has_tlas = (self.view.as_ref()).is_some_and(|before| before.shares_tlas(&view));
         self.trees_built += usize::from(packed.features.instances && !has_tlas);
         let settings = match divisor {
-            Some(divisor) => pace::coarse(&request.settings, divisor),
+            Some(divisor) => pace::coarse(request, divisor),
             None => request.settings.clone(),
         };
         let policy = pace::policy(&self.gpu, request.policy);

@@ -1,5 +1,6 @@
 //! Chooses the resolution of previews and the length of time slices.
 
+use crate::worker::request::RenderRequest;
 use glimray_render::gpu::Gpu;
 use glimray_render::{Antialias, ExecutionPolicy, RenderSettings, Slicing};
 use std::time::Duration;
@@ -132,7 +133,8 @@ pub fn pixels(settings: &RenderSettings) -> u64 {
 }
 
 /// A picture of one sample, with width and height divided.
-pub fn coarse(settings: &RenderSettings, divisor: u32) -> RenderSettings {
+pub fn coarse(request: &RenderRequest, divisor: u32) -> RenderSettings {
+    let settings = &request.settings;
     let smaller = |length: u32| length.div_ceil(divisor);
     let antialias = match settings.antialias {
         Antialias::Adaptive => Antialias::Stratified,
@@ -144,6 +146,7 @@ pub fn coarse(settings: &RenderSettings, divisor: u32) -> RenderSettings {
             .map(|[x0, y0, x1, y1]| [x0 / divisor, y0 / divisor, smaller(x1), smaller(y1)]),
         samples: 1,
         antialias,
+        features: settings.features || request.denoises_coarse(),
         ..settings.clone()
     }
 }
