@@ -176,7 +176,7 @@ impl Stage {
             shutter_interval: (0.0, 0.0),
             tone: Tone::LINEAR,
             layer: glimray_app::layers::PictureLayer::Beauty,
-            denoises_previews: false,
+            denoises_previews: true,
         });
         thread.submit(requests.clone());
         Ok(Self {
