@@ -5,6 +5,7 @@ mod animate;
 mod backgrounds;
 mod bench;
 mod bsdf;
+mod built_in;
 mod bvh;
 mod checkpoint;
 mod cli;

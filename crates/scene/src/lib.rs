@@ -37,6 +37,7 @@ mod animation;
 mod append;
 mod bounds;
 mod bsdf;
+mod built_in;
 pub mod bytes;
 mod classical;
 pub mod clock;
@@ -77,6 +78,7 @@ pub use animation::{
 };
 pub use bounds::corners;
 pub use bsdf::{Bsdf, Phong, PhongTextures};
+pub use built_in::{BuiltIn, BuiltInEntry};
 pub use classical::ClassicalMaps;
 pub use curve::Value;
 pub use deformation::{Deformation, Influences, Joint, MorphTarget, Pose, PosedMesh, Skin};
@@ -311,17 +313,25 @@ impl Scene {
         picture::fit(&mut self.pictures)
     }
 
-    /// Makes the background a sky, whose arguments are those of [`sky::picture`]. If it is a sky already, only its sun
-    /// moves: strength and rotation stay.
+    /// Makes the background a sky, whose arguments are those of [`sky::picture`]. Strength and rotation stay if it is a sky
+    /// or built in already.
     pub fn set_sky(&mut self, elevation: f64, azimuth: f64) {
-        let new = Arc::new(sky::picture(elevation, azimuth));
+        self.set_generated(sky::picture(elevation, azimuth));
+    }
+
+    /// Makes the background a built-in environment. Strength and rotation stay if it is a sky or built in already.
+    pub fn set_built_in(&mut self, environment: BuiltIn) {
+        self.set_generated(environment.picture());
+    }
+
+    fn set_generated(&mut self, picture: Picture) {
         match self.background {
-            Background::Picture { picture, .. }
-                if matches!(self.pictures[picture].origin, Origin::Sky { .. }) =>
+            Background::Picture { picture: index, .. }
+                if self.pictures[index].origin.is_generated() =>
             {
-                self.pictures[picture] = new;
+                self.pictures[index] = Arc::new(picture);
             }
-            _ => _ = self.set_environment(new),
+            _ => _ = self.set_environment(Arc::new(picture)),
         }
     }
 

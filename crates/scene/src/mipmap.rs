@@ -69,10 +69,10 @@ impl Picture {
             width: width as u32,
             height: height as u32,
             texels: light.stored(&self.texels, width * height, even, value),
-            // The sun of a sky is not in its texels.
-            origin: match self.origin {
-                Origin::Sky { .. } => self.origin.clone(),
-                _ => Origin::Texels,
+            // The sun of a sky is not in its texels, and a name stays a name.
+            origin: match self.origin.is_generated() {
+                true => self.origin.clone(),
+                false => Origin::Texels,
             },
         }
     }

@@ -1,5 +1,6 @@
 //! Images in memory.
 
+use super::BuiltIn;
 use glam::{DVec3, Vec3, Vec4};
 use std::sync::Arc;
 
@@ -49,6 +50,15 @@ pub enum Origin {
         /// Angle of the sun from −Z towards +X in radians.
         azimuth: f64,
     },
+    /// [`BuiltIn::picture`] of an environment without a sun.
+    BuiltIn(BuiltIn),
+}
+
+impl Origin {
+    /// Whether the picture is an environment that is computed from this alone.
+    pub fn is_generated(&self) -> bool {
+        matches!(self, Self::Sky { .. } | Self::BuiltIn(_))
+    }
 }
 
 /// The texels of a [`Picture`]: red, green, blue and alpha, each as precise as its file.

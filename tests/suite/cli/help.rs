@@ -31,7 +31,7 @@ fn help_documents_every_promised_flag_and_has_an_example() {
     let log = "--report --count-rays --progress --quiet -q --verbose -v";
     let output = "-o --output --format --quality --no-clobber";
     let picture = "--antialias --filter --filter-radius --light-samples --integrator --triangle-test --offset --no-bvh --exposure --tone --transfer \
-        --seed --crop --camera --fov-y --orthographic --look-from --look-at --up --background";
+        --seed --crop --camera --fov-y --orthographic --look-from --look-at --up --background --environment noon sunset overcast studio ring furnace";
     let reading = "--strict --set --allow-dir";
     let size = "--size --samples";
     let motion = "--fps --shutter";

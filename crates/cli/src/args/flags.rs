@@ -161,9 +161,10 @@ pub struct SceneFlags {
     /// [default: no limit; all pictures together take at most 2.75 GiB]
     #[arg(long, value_name = "PIXELS", allow_hyphen_values = true, value_parser = values::texture_limit)]
     pub texture_limit: Option<NonZero<u32>>,
-    /// Replace the background: an equirectangular picture (.hdr, .exr, .png, .jpg, .webp), or a clear sky with the sun
-    /// at this elevation, 0 to 90, and azimuth from -z towards +x, in degrees [default of sky: 45,-135]
-    #[arg(long, value_name = "FILE|sky[:ELEVATION[,AZIMUTH]]", value_parser = values::environment)]
+    /// Replace the background: an equirectangular picture (.hdr, .exr, .png, .jpg, .webp), a built-in environment, which
+    /// is noon, sunset, overcast, studio, ring or furnace, or a clear sky with the sun at this elevation, 0 to 90, and
+    /// azimuth from -z towards +x, in degrees [default of sky: 45,-135]
+    #[arg(long, value_name = "FILE|NAME|sky[:ELEVATION[,AZIMUTH]]", value_parser = values::environment)]
     pub environment: Option<import::EnvironmentSource>,
     /// Factor on the radiance of the background, 0 to 1e6
     #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = values::environment_strength)]

@@ -14,7 +14,7 @@ use glimray_io::output::Format;
 use glimray_io::output::video::VideoFormat;
 use glimray_render::gpu::Backend;
 use glimray_render::{Integrator, MAX_SIDE};
-use glimray_scene::sky;
+use glimray_scene::{BuiltIn, sky};
 use std::num::NonZero;
 use std::time::Duration;
 
@@ -140,7 +140,7 @@ pub fn angle(text: &str) -> Result<f64, String> {
     within(text, -1e6, 1e6, "it")
 }
 
-/// A file, or a sky with the place of its sun.
+/// A file, a built-in environment, or a sky with the place of its sun.
 pub fn environment(text: &str) -> Result<EnvironmentSource, String> {
     let place = match text.strip_prefix("sky") {
         Some("") => Some(""),
@@ -148,9 +148,19 @@ pub fn environment(text: &str) -> Result<EnvironmentSource, String> {
         None => None,
     };
     let Some(place) = place else {
-        return match text {
-            "" => Err("a file name or `sky` is expected".to_owned()),
-            _ => Ok(EnvironmentSource::File(text.into())),
+        return match BuiltIn::named(text) {
+            Some(environment) => Ok(EnvironmentSource::BuiltIn(environment)),
+            None if text.is_empty() => {
+                let names = BuiltIn::ALL
+                    .iter()
+                    .map(|it| format!("`{}`", it.entry().name));
+                let names: Vec<_> = names.collect();
+                Err(format!(
+                    "a file name or one of {} is expected",
+                    names.join(", ")
+                ))
+            }
+            None => Ok(EnvironmentSource::File(text.into())),
         };
     };
     let (elevation, azimuth) = place.split_once(',').unwrap_or((place, ""));

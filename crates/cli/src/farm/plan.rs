@@ -110,7 +110,7 @@ pub fn run(
     // The panorama has a path of its own and is copied beside the archive.
     let panorama = match &arguments.reading.environment {
         Some(EnvironmentSource::File(file)) => Some(file),
-        Some(EnvironmentSource::Sky { .. }) | None => None,
+        Some(EnvironmentSource::Sky { .. } | EnvironmentSource::BuiltIn(_)) | None => None,
     };
     let environment =
         (panorama.map(|file| archive::copy(file, "environment", &folder))).transpose()?;

@@ -3,11 +3,11 @@
 use super::pictures::Role;
 use super::{ExportError, Writer, exact};
 use crate::import::native::file::{
-    BackgroundTable, ColorOrBackground, NamedBackground, OutputTable, SkyTable, Spanned,
+    BackgroundTable, ColorOrBackground, OutputTable, SkyTable, Spanned,
 };
 use crate::import::native::values::{Angle, BackdropValue, Number, Size, differing};
 use glam::Vec3;
-use glimray_scene::{Background, Origin, OutputDefaults, Pattern, sky};
+use glimray_scene::{Background, BuiltIn, Origin, OutputDefaults, Pattern, sky};
 
 impl Writer<'_> {
     pub fn background(&mut self) -> Result<Option<Spanned<ColorOrBackground>>, ExportError> {
@@ -36,18 +36,15 @@ impl Writer<'_> {
                 self.environment(picture, table)?
             }
         };
-        let is_plain_sky = matches!(&table, BackgroundTable {
-            bottom: None,
-            top: None,
-            picture: None,
-            sky: Some(sky),
-            strength: None,
-            rotation_deg: None,
-            rotation: None,
-        } if sky.elevation_deg.is_none() && sky.azimuth_deg.is_none());
-        let background = match is_plain_sky {
-            true => ColorOrBackground::Name(NamedBackground::Sky),
-            false => ColorOrBackground::Table(Box::new(table)),
+        let background = match table {
+            BackgroundTable {
+                environment: Some(name),
+                strength: None,
+                rotation_deg: None,
+                rotation: None,
+                ..
+            } => ColorOrBackground::Name(name),
+            table => ColorOrBackground::Table(Box::new(table)),
         };
         Ok(Some(background.into()))
     }
@@ -64,12 +61,17 @@ impl Writer<'_> {
                 self.picture(picture, self.role(picture))?;
             }
         }
-        Ok(match self.scene.pictures[picture].origin {
-            Origin::Sky { elevation, azimuth } => BackgroundTable {
+        let shown = &self.scene.pictures[picture];
+        Ok(match (BuiltIn::of(shown), &shown.origin) {
+            (Some(environment), _) => BackgroundTable {
+                environment: Some(environment.into()),
+                ..table
+            },
+            (None, &Origin::Sky { elevation, azimuth }) => BackgroundTable {
                 sky: Some(sky(elevation, azimuth).into()),
                 ..table
             },
-            _ => BackgroundTable {
+            (None, _) => BackgroundTable {
                 picture: Some(self.picture(picture, Role::Color)?.into()),
                 ..table
             },

@@ -13,7 +13,7 @@ impl Environment {
     pub(super) fn file(&self) -> Option<&Path> {
         match &self.source {
             Some(EnvironmentSource::File(path)) => Some(path),
-            Some(EnvironmentSource::Sky { .. }) | None => None,
+            Some(EnvironmentSource::Sky { .. } | EnvironmentSource::BuiltIn(_)) | None => None,
         }
     }
 }
@@ -38,6 +38,7 @@ pub(super) fn apply(
             elevation_deg.to_radians(),
             azimuth_deg.to_radians(),
         )),
+        Some(EnvironmentSource::BuiltIn(environment)) => Some(environment.picture()),
         Some(EnvironmentSource::File(file)) => {
             let (picture, notes) = read(file, options, report)?;
             scene.skipped.extend(notes);

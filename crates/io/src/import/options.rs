@@ -1,7 +1,7 @@
 //! Options for importing a scene or model file.
 
 use glam::{DAffine3, DMat3, DVec3};
-use glimray_scene::LightTransport;
+use glimray_scene::{BuiltIn, LightTransport};
 use std::num::NonZero;
 use std::ops::Neg;
 use std::path::PathBuf;
@@ -78,6 +78,8 @@ pub enum EnvironmentSource {
         /// Angle of the sun from −Z towards +X in degrees.
         azimuth_deg: f64,
     },
+    /// A built-in environment.
+    BuiltIn(BuiltIn),
 }
 
 /// A coordinate axis.

@@ -104,6 +104,7 @@ pub fn copy(shown: &Shown) -> CommandLine {
     let environment = &shown.options.environment;
     let source = environment.source.as_ref().map(|source| match source {
         EnvironmentSource::File(path) => file(path),
+        EnvironmentSource::BuiltIn(environment) => environment.entry().name.to_owned(),
         EnvironmentSource::Sky {
             elevation_deg,
             azimuth_deg,

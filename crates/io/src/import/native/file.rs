@@ -46,7 +46,8 @@ use std::collections::BTreeMap;
 pub(crate) struct SceneFile {
     /// The image: size, samples and tone curve. Command-line flags override it.
     pub output: OutputTable,
-    /// The background: a colour, `{ bottom, top }`, `{ picture }`, "sky" or `{ sky }`; default black.
+    /// The background: a colour, `{ bottom, top }`, `{ picture }`, a built-in environment such as "sky" or "studio",
+    /// `{ environment }` or `{ sky }`; default black.
     pub background: Option<Spanned<ColorOrBackground>>,
     /// Ambient light, multiplied by the ambient coefficient of materials; default none.
     pub ambient: Option<Color>,

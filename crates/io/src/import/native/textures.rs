@@ -2,9 +2,9 @@
 
 use super::Texts;
 use super::file::{
-    BackgroundTable, ColorOrBackground, ColorOrTexture, DataMapTable, HeightMapTable,
-    NamedBackground, NoiseTable, NumberTable, PairTable, PictureOrFile, SceneFile, SkyTable,
-    SpaceName, Spanned, TextureTable, WrapModes, in_order,
+    BackgroundTable, ColorOrBackground, ColorOrTexture, DataMapTable, HeightMapTable, NoiseTable,
+    NumberTable, PairTable, PictureOrFile, SceneFile, SkyTable, SpaceName, Spanned, TextureTable,
+    WrapModes, in_order,
 };
 use super::values::or;
 use crate::import::error::ImportError;
@@ -14,7 +14,7 @@ use crate::import::source::quote;
 use crate::import::{Options, suggest};
 use glam::{DVec3, Vec3};
 use glimray_scene::{
-    Background, LARGEST_TEXEL, Minify, Pattern, Space, Texture, Transform, Wrap, sky,
+    Background, BuiltIn, LARGEST_TEXEL, Minify, Pattern, Space, Texture, Transform, Wrap, sky,
 };
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -170,28 +170,32 @@ impl<'a> Textures<'a> {
                 .texts
                 .malformed(background.span(), why.to_owned(), todo))
         };
-        let sky;
+        let named;
         let table: &BackgroundTable = match background.get_ref() {
             ColorOrBackground::Color(color) => return Ok(Background::Color(color.0)),
             ColorOrBackground::Table(table) => table,
-            ColorOrBackground::Name(NamedBackground::Sky) => {
-                sky = BackgroundTable {
-                    sky: Some(Spanned::new(background.span(), SkyTable::default())),
+            ColorOrBackground::Name(name) => {
+                named = BackgroundTable {
+                    environment: Some(*name),
                     ..BackgroundTable::default()
                 };
-                &sky
+                &named
             }
         };
         let only_for_pictures =
             table.strength.is_some() || table.rotation_deg.is_some() || table.rotation.is_some();
-        let has_picture = table.picture.is_some() || table.sky.is_some();
-        let has_both = table.picture.is_some() && table.sky.is_some();
-        match (table.bottom, table.top, has_picture) {
-            (Some(bottom), Some(top), false) if !only_for_pictures => Ok(Background::Gradient {
+        let has_source = [
+            table.picture.is_some(),
+            table.environment.is_some(),
+            table.sky.is_some(),
+        ];
+        let source_count = has_source.into_iter().filter(|has| *has).count();
+        match (table.bottom, table.top, source_count) {
+            (Some(bottom), Some(top), 0) if !only_for_pictures => Ok(Background::Gradient {
                 bottom: bottom.0,
                 top: top.0,
             }),
-            (None, None, true) if !has_both => {
+            (None, None, 1) => {
                 let strength = or(table.strength, 1.0);
                 if !(strength * LARGEST_TEXEL).is_finite() {
                     return refuse(
@@ -205,9 +209,12 @@ impl<'a> Textures<'a> {
                 }
                 let degrees = or(table.rotation_deg, 0.0);
                 let degrees = (degrees % 360.0).to_radians();
-                let picture = match &table.picture {
-                    Some(name) => self.picture(name.get_ref(), name.span(), Role::Environment)?,
-                    None => self.sky(table.sky.as_ref())?,
+                let picture = match (&table.picture, table.environment) {
+                    (Some(name), _) => {
+                        self.picture(name.get_ref(), name.span(), Role::Environment)?
+                    }
+                    (None, Some(name)) => self.pictures.add(BuiltIn::from(name).picture()),
+                    (None, None) => self.sky(table.sky.as_ref())?,
                 };
                 Ok(Background::Picture {
                     picture,
@@ -217,7 +224,7 @@ impl<'a> Textures<'a> {
             }
             _ => refuse(
                 "a background needs a colour, a gradient, a picture or a sky",
-                "Give it `bottom` and `top`, or `picture` or `sky` with `strength` and `rotation_deg`",
+                "Give it `bottom` and `top`, or `picture`, `environment` or `sky` with `strength` and `rotation_deg`",
             ),
         }
     }

@@ -296,6 +296,32 @@ fn a_sky_is_written_as_its_sun() {
     }
 }
 
+#[test]
+fn a_built_in_environment_is_written_by_its_name() {
+    use glimray::scene::{Background, BuiltIn};
+    for environment in BuiltIn::ALL {
+        let name = environment.entry().name;
+        for (strength, line) in [
+            (1.0, format!("background = \"{name}\"")),
+            (
+                2.5,
+                format!("background = {{ environment = \"{name}\", strength = 2.5 }}"),
+            ),
+        ] {
+            let mut scene = scene();
+            scene.set_built_in(*environment);
+            if let Background::Picture { strength: own, .. } = &mut scene.background {
+                *own = strength;
+            }
+            let export = export::native(&scene, "s", &|_, _| false).expect("an export");
+            let is_there = export.text.lines().any(|found| found == line);
+            assert!(is_there, "{line}: {}", export.text);
+            assert!(export.files.is_empty());
+            super::loss(&scene).unwrap_or_else(|lost| panic!("{lost}"));
+        }
+    }
+}
+
 /// The sky's texels lack the sun, so a picture is no way out.
 #[test]
 fn a_sky_at_radians_that_no_degrees_give_is_written_with_the_nearest() {

@@ -457,7 +457,7 @@ bad scene (a.toml:1:21): 1e39 is out of range: at most 3.4e38 is allowed. See `g
 bad scene (a.toml:1:21): invalid type: string "blue", expected a number. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): `blue` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): `#12345` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:14): invalid type: floating point `0.5`, expected a colour ([r, g, b] or "#rrggbb"), a gradient, a picture or "sky". See `glimray schema` for what is allowed.
+bad scene (a.toml:1:14): invalid type: floating point `0.5`, expected a colour ([r, g, b] or "#rrggbb"), a gradient, a picture or a built-in environment such as "sky". See `glimray schema` for what is allowed.
 bad scene (a.toml:1:1): unknown key `backgruond`, did you mean `background`? Allowed here: `output`, `background`, `ambient`, `shadows`, `section`, `staged`, `camera`, `cameras`, `textures`, `materials`, `meshes`, `nodes`, `groups`, `objects`, `lights`, `animation`.
 bad scene (a.toml:1:1): unknown key `zebra`. Allowed here: `output`, `background`, `ambient`, `shadows`, `section`, `staged`, `camera`, `cameras`, `textures`, `materials`, `meshes`, `nodes`, `groups`, `objects`, `lights`, `animation`.
 bad scene (a.toml:1:15): 0 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.

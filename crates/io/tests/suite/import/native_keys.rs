@@ -9,10 +9,11 @@ use serde_json::Value as Json;
 use std::collections::BTreeSet;
 use toml::{Table, Value};
 
-const FILES: [(&str, &str); 4] = [
+const FILES: [(&str, &str); 5] = [
     ("surfaces", include_str!("native_keys/surfaces.toml")),
     ("lights", include_str!("native_keys/lights.toml")),
     ("materials", include_str!("native_keys/materials.toml")),
+    ("environment", include_str!("native_keys/environment.toml")),
     ("sky", include_str!("native_keys/sky.toml")),
 ];
 

@@ -256,18 +256,18 @@ bad scene (a.toml:2:29): a named texture has its own pattern and transform. Put 
 bad scene (a.toml:2:17): `color` times the texture is out of range: at most 3.4e38 is allowed. Lower one of them.
 bad scene (a.toml:1:14): `skyy` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:22): the sun stands at most 90 degrees above the horizon, and not below it. Give it an `elevation_deg` from 0 to 90.
-bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture` or `sky` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture`, `environment` or `sky` with `strength` and `rotation_deg`.
 bad scene (a.toml:2:16): unknown key `texture`. Allowed here: `picture`, `strength`, `space`, `scale`, `rotate_deg`, `translate`, `pattern_from_space`.
 bad scene (a.toml:2:14): a map of numbers has its place by u and v. Leave out `space`.
 bad scene (a.toml:2:14): a surface has a normal map or a height map. Leave out one of them.
 bad scene (a.toml:1:1): a texture needs exactly one pattern. Give it one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
 bad scene (a.toml:2:1): unknown key `texture`. Allowed here: `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`, `pattern_from_space`.
 bad scene (a.toml:1:12): invalid type: integer `3`, expected a map. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture` or `sky` with `strength` and `rotation_deg`.
-bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture` or `sky` with `strength` and `rotation_deg`.
-bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture` or `sky` with `strength` and `rotation_deg`.
-bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture` or `sky` with `strength` and `rotation_deg`.
-bad scene (a.toml:1:16): unknown key `up`. Allowed here: `bottom`, `top`, `picture`, `sky`, `strength`, `rotation_deg`, `rotation`.
+bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture`, `environment` or `sky` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture`, `environment` or `sky` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture`, `environment` or `sky` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background needs a colour, a gradient, a picture or a sky. Give it `bottom` and `top`, or `picture`, `environment` or `sky` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:16): unknown key `up`. Allowed here: `bottom`, `top`, `picture`, `environment`, `sky`, `strength`, `rotation_deg`, `rotation`.
 picture refused (a.toml:1:26): `gone.hdr` does not exist. Check the name and the folder.
 bad scene (a.toml:1:49): -1 is not 0 or more. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): `strength` is out of range: at most 5e33 is allowed. Lower it.

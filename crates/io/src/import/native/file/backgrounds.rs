@@ -1,11 +1,12 @@
 //! The background of a native scene.
 
 use super::Spanned;
-use crate::import::native::values::{Angle, Color, NonNegative, Number, either};
+use crate::import::native::values::{Angle, Color, NonNegative, Number, either, words};
+use glimray_scene::BuiltIn;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The background: `bottom` and `top`, `picture`, or `sky`.
+/// The background: `bottom` and `top`, `picture`, `environment`, or `sky`.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BackgroundTable {
@@ -17,6 +18,8 @@ pub(crate) struct BackgroundTable {
     /// image-based backgrounds. Its centre lies in the direction -z, +x to the right of it, its upper
     /// edge straight up.
     pub picture: Option<Spanned<String>>,
+    /// Instead of a picture one of the built-in environments.
+    pub environment: Option<NamedBackground>,
     /// Instead of a picture the clear sky with a sun, of which this is the place.
     pub sky: Option<Spanned<SkyTable>>,
     /// Factor on the image; default 1.
@@ -37,17 +40,30 @@ pub(crate) struct SkyTable {
     pub azimuth_deg: Option<Angle>,
 }
 
-/// A background without numbers.
-#[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum NamedBackground {
-    /// The clear sky, with the sun at its default place.
-    Sky,
+words! {
+    /// A built-in environment, also for `--environment`. Those without a sun are grey, and their mean radiance over all
+    /// directions is 1.
+    NamedBackground for BuiltIn {
+        /// The clear sky, with the sun at its default place.
+        Sky,
+        /// The clear sky with the sun 70° above the horizon.
+        Noon,
+        /// The clear sky with the sun 4° above the horizon.
+        Sunset,
+        /// The overcast sky of the CIE, three times as bright at the zenith as at the horizon.
+        Overcast,
+        /// A dim room with a large softbox at the left behind the camera of a model, and a weaker one at the right.
+        Studio,
+        /// A dim room with a ring light round the camera of a model.
+        Ring,
+        /// A radiance of 1 from everywhere, in which a white diffuse body vanishes.
+        Furnace,
+    }
 }
 
 either! {
-    /// A colour, a gradient from bottom to top, an image, or "sky".
+    /// A colour, a gradient from bottom to top, an image, or a built-in environment such as "sky".
     ColorOrBackground { Color(Color), Table(Box<BackgroundTable>), Name(NamedBackground) },
-    "a colour ([r, g, b] or \"#rrggbb\"), a gradient, a picture or \"sky\"",
+    "a colour ([r, g, b] or \"#rrggbb\"), a gradient, a picture or a built-in environment such as \"sky\"",
     str: Color or Name, seq: Color, map: Table
 }
