@@ -21,3 +21,4 @@ pub mod selecting;
 pub mod settings;
 pub mod tools;
 pub mod update;
+pub mod walk;

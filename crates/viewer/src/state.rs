@@ -17,3 +17,4 @@ pub mod pixel_values;
 pub mod session;
 pub mod target;
 pub mod time_left;
+pub mod walk;

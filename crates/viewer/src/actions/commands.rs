@@ -1,7 +1,9 @@
 //! Dispatches all commands, whether from keys, menus or buttons.
 
 use crate::actions::keyboard::Keyboard;
-use crate::actions::{adding, comparing, dialogs, editing, files, modal, saving, selecting, tools};
+use crate::actions::{
+    adding, comparing, dialogs, editing, files, lighting, modal, saving, selecting, tools, walk,
+};
 use crate::model::bindings::Action;
 use crate::model::camera::{CameraController, CameraHistory, Flight, Side};
 use crate::model::preferences::Theme;
@@ -25,6 +27,9 @@ const EXPOSURE_STEP: f32 = 1.0 / 3.0;
 pub fn keys(session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
     for action in std::mem::take(&mut session.clicked) {
         perform(action, session, layout, ctx);
+    }
+    if walk::input(session, ctx) {
+        return;
     }
     let keyboard = Keyboard::of(session, ctx);
     let are_taken = session.editing.modal.is_none() && dialogs::take_keys(session, ctx);
@@ -103,6 +108,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::SetPivot | Action::FocusHere | Action::Select | Action::PictureMenu => {
             tools::pick_under_cursor(session, action, ctx);
         }
+        Action::Walk => walk::begin(session, ctx),
         Action::OrbitLeft => camera(session, |it| it.orbit_by(-TURN, 0.0)),
         Action::OrbitRight => camera(session, |it| it.orbit_by(TURN, 0.0)),
         Action::OrbitUp => camera(session, |it| it.orbit_by(0.0, -TURN)),

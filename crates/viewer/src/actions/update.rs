@@ -17,6 +17,7 @@ pub fn reopened(session: &mut Session) {
     session.picture_menu = None;
     inspector::reopened(session);
     session.drag = None;
+    session.walk = None;
     session.tool_state.region = None;
     session.editing.grip = None;
     session.editing.modal = None;
@@ -57,7 +58,8 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
         }
         // Other widgets than the picture move the camera by drags too.
         let is_held = ctx.input(|input| input.pointer.any_down());
-        let rests = !controller.is_moving() && session.drag.is_none() && !is_held;
+        let rests =
+            !controller.is_moving() && session.drag.is_none() && session.walk.is_none() && !is_held;
         session.camera_history.note(controller, rests);
     }
 }

@@ -29,6 +29,7 @@ use crate::state::inspector::Inspector;
 use crate::state::picture_menu::PictureMenu;
 use crate::state::pixel_values::PixelValues;
 use crate::state::time_left::TimeLeft;
+use crate::state::walk::Walk;
 use crate::worker::progressive_image::FrameRenderer;
 use crate::worker::render_thread::Question;
 use crate::worker::request::PreparedScene;
@@ -77,6 +78,8 @@ pub struct Session {
     pub controller: Option<CameraController>,
     /// The views that undo and redo of the camera lead to.
     pub camera_history: CameraHistory,
+    /// The walk through the scene that goes on.
+    pub walk: Option<Walk>,
     /// The active tool.
     pub tool: Tool,
     /// The state of tools.
@@ -173,6 +176,7 @@ impl Session {
             is_untitled: false,
             controller: None,
             camera_history: CameraHistory::default(),
+            walk: None,
             tool: Tool::default(),
             tool_state: ToolState::default(),
             picture_menu: None,

@@ -122,6 +122,7 @@ actions! {
         RollLeft "roll-left" Press "Roll left by 15°",
         RollRight "roll-right" Press "Roll right by 15°",
         Level "level" Press "Level horizon",
+        Walk "walk" Press "Walk with W, A, S, D, Q and E, and look with the mouse",
         FlyForward "fly-forward" Hold "Fly forward",
         FlyBack "fly-back" Hold "Fly backward",
         FlyLeft "fly-left" Hold "Fly left",

@@ -78,6 +78,7 @@ pub(super) const GLIMRAY: &str = "
     roll-left: Ctrl+Left
     roll-right: Ctrl+Right
     level: Shift+Home
+    walk: Shift+Backtick
     fly-forward: Hold W
     fly-back: Hold S
     fly-left: Hold A

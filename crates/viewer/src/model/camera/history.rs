@@ -66,6 +66,14 @@ impl CameraHistory {
         self.go(controller, view)
     }
 
+    /// Returns at once to the view that was the last one when `before` was cloned from this, and forgets those after it.
+    pub fn return_to(&mut self, before: Self, controller: &mut CameraController) {
+        let view = before.known.clone();
+        self.go(controller, view);
+        controller.arrive();
+        *self = before;
+    }
+
     fn go(&mut self, controller: &mut CameraController, view: Option<View>) -> bool {
         match &view {
             None => return false,

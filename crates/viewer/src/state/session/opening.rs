@@ -177,6 +177,7 @@ impl Session {
         self.fit_camera();
         self.owes_aim = !has_aim;
         self.camera_history = CameraHistory::default();
+        self.walk = None;
         self.controller = self.home_camera().map(|camera| match has_aim {
             true => CameraController::new(&camera, bounds),
             false => CameraController::without_aim(&camera, bounds),

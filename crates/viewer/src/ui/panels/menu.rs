@@ -212,6 +212,7 @@ fn view(menu: &mut Menu) {
     menu.entry("Reduce pixels", A::PixelZoomOut);
     menu.entry("Reset pixel zoom", A::PixelZoomReset);
     menu.entry("Level horizon", A::Level);
+    menu.entry("Walk", A::Walk);
     menu.entry("Undo camera movement", A::UndoView);
     menu.entry("Redo camera movement", A::RedoView);
     menu.line();
