@@ -19,6 +19,7 @@ pub mod region;
 pub mod saving;
 pub mod selecting;
 pub mod settings;
+mod surface;
 pub mod tools;
 pub mod update;
 pub mod walk;

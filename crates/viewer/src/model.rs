@@ -5,6 +5,7 @@ pub mod bindings;
 pub mod camera;
 pub mod command_line;
 pub mod document;
+pub mod environment;
 pub mod file_dialog;
 pub mod gallery;
 pub mod handles;

@@ -7,6 +7,7 @@ pub(crate) mod overlay;
 pub(crate) mod panels;
 pub(crate) mod region;
 pub(crate) mod shield;
+pub(crate) mod sun_dial;
 pub(crate) mod tabs;
 pub(crate) mod textures;
 pub(crate) mod theme;

@@ -96,6 +96,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         | Action::ZoomToCursor
         | Action::LookAround
         | Action::PixelZoom
+        | Action::TurnLight
         | Action::FlyForward
         | Action::FlyBack
         | Action::FlyLeft

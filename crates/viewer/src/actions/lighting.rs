@@ -1,9 +1,13 @@
-//! Warnings of scenes without light, and the ways out of them.
+//! Turning the light of the background, and warnings of scenes without light with the ways out of them.
 
 use crate::actions::adding;
 use crate::model::adding::Addition;
+use crate::model::bindings::Action;
+use crate::model::environment::BackgroundLight;
 use crate::model::messages::{Remedy, sentence};
+use crate::model::viewport::Viewport;
 use crate::state::session::Session;
+use eframe::egui::Vec2;
 use glimray_app::advice::UNLIT;
 use glimray_render::Integrator;
 use glimray_scene::sky::{SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG};
@@ -13,6 +17,37 @@ use std::sync::Arc;
 /// The warning for a scene that is lit by its background, in a classical picture.
 const CLASSICAL: &str = "the scene is lit by its environment alone, which only path tracing sees: the classical picture is \
                          dark. Switch to path tracing, or add a light.";
+
+/// Whether the light of the background is being turned by a drag in the picture.
+pub fn is_turning(session: &Session) -> bool {
+    (session.drag).is_some_and(|drag| drag.action == Action::TurnLight)
+}
+
+/// Begins to turn the light of the background, unless it comes from everywhere alike.
+pub fn begin_turn(session: &mut Session) {
+    let light = session.scene().and_then(|scene| BackgroundLight::of(scene));
+    if session.view.background.is_some() || light.is_none() {
+        session.drag = None;
+        session.messages.notify(match light {
+            Some(_) => "Another background is shown for now, which has no direction. Press Shift+B until it ends",
+            None => "The background has no direction. Choose a sky or another environment in Properties first",
+        });
+    }
+}
+
+/// Turns the light of the background by a drag of this many points since it began.
+pub fn turn(session: &mut Session, drag: Vec2, viewport: Viewport) {
+    let (drag, size) = (viewport.length(drag), viewport.extent());
+    let Some(light) = session.scene().and_then(|scene| BackgroundLight::of(scene)) else {
+        return;
+    };
+    session.drag_change(light.edit_name(), |scene| {
+        if let Some(light) = BackgroundLight::of(scene) {
+            light.dragged(drag, size).apply(scene);
+        }
+        Ok(())
+    });
+}
 
 /// Warns once the scene has no light in the picture that is shown, and takes the warning back when it has.
 pub fn update(session: &mut Session) {

@@ -70,8 +70,9 @@ pub fn key(session: &mut Session, event: &Event) -> bool {
     true
 }
 
-/// Cancels a drag or a modal transform.
+/// Cancels a drag of a handle or of the light, or a modal transform.
 pub fn cancel(session: &mut Session) {
+    session.drag = None;
     session.editing.grip = None;
     session.editing.modal = None;
     if let Some(document) = &mut session.document {

@@ -1,7 +1,8 @@
 //! The mouse in the picture: the active tool, and camera navigation.
 
 use crate::actions::editing::camera_in_world;
-use crate::actions::{inspector, modal};
+use crate::actions::surface::surface_at;
+use crate::actions::{inspector, lighting, modal};
 use crate::model::bindings::{Action, Drag};
 use crate::model::camera::CameraController;
 use crate::model::objects::Id;
@@ -11,10 +12,9 @@ use crate::state::answer::Answer;
 use crate::state::layout::Layout;
 use crate::state::picture_menu::PictureMenu;
 use crate::state::session::Session;
-use crate::worker::progressive_image::{FrameRenderer, Progress};
+use crate::worker::progressive_image::Progress;
 use eframe::egui::{self, LayerId, PointerButton, Pos2, Vec2};
 use glam::{DVec2, DVec3};
-use glimray_app::advice;
 use glimray_app::legend::number;
 use glimray_scene::ObjectRef;
 
@@ -50,14 +50,25 @@ pub fn is_active(session: &Session, tool: Tool) -> bool {
 pub fn navigate(session: &mut Session, response: &egui::Response, viewport: Viewport) {
     inspector::inspect_hovered(session, response, viewport);
     let ctx = &response.ctx;
-    let (modifiers, pointer) = ctx.input(|input| (input.modifiers, input.pointer.interact_pos()));
+    let (modifiers, pointer, pressed) = ctx.input(|input| {
+        let pointer = &input.pointer;
+        (
+            input.modifiers,
+            pointer.interact_pos(),
+            pointer.press_origin(),
+        )
+    });
     let bindings = session.preferences.bindings.clone();
     for button in BUTTONS {
         if response.drag_started_by(button)
-            && let (Some(from), Some(action)) = (pointer, bindings.drag(button, modifiers))
+            && let (Some(from), Some(action)) =
+                (pressed.or(pointer), bindings.drag(button, modifiers))
         {
             session.drag = Some(Drag { action, from });
             session.camera_history.end_gesture();
+            if action == Action::TurnLight {
+                lighting::begin_turn(session);
+            }
         }
         if response.double_clicked_by(button) {
             click(session, bindings.double_click(button, modifiers), pointer);
@@ -70,7 +81,9 @@ pub fn navigate(session: &mut Session, response: &egui::Response, viewport: View
     }
     if let (Some(drag), Some(to)) = (session.drag, pointer) {
         let from = to - response.drag_delta();
-        if from != to
+        if from != to && drag.action == Action::TurnLight {
+            lighting::turn(session, to - drag.from, viewport);
+        } else if from != to
             && let Some(controller) = &mut session.controller
         {
             move_camera(controller, drag, viewport, from, to);
@@ -215,21 +228,6 @@ pub fn aim(session: &mut Session, progress: &Progress) {
             answer => answer,
         }
     });
-}
-
-/// Finds the nearest surface in a pixel of the picture.
-fn surface_at(frame: &mut FrameRenderer, pixel: [u32; 2], purpose: Purpose) -> Answer {
-    match frame.renderer.explain(pixel, 0..1) {
-        Ok(tree) => {
-            let first = tree.samples.first().and_then(|sample| sample.rays.first());
-            let hit = first.and_then(|ray| ray.hit.as_ref());
-            Answer::Picked {
-                purpose,
-                hit: hit.map(|hit| (DVec3::from(hit.position), hit.object)),
-            }
-        }
-        Err(error) => Answer::Failed(advice::render(&error)),
-    }
 }
 
 /// Handles a pick: its point in world space and its object, or `None` for the background.

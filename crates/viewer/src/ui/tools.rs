@@ -1,19 +1,25 @@
 //! The overlays of the tools. The handles of the selection are in `overlay.rs`.
 
+use crate::actions::lighting;
+use crate::model::environment::BackgroundLight;
 use crate::model::handles::Eye;
 use crate::model::tool::Tool;
 use crate::model::viewport::Viewport;
 use crate::state::session::Session;
 use crate::ui::panels::rays;
-use crate::ui::world_painter::{SHADE, WorldPainter};
-use eframe::egui::{Color32, Painter, Stroke, StrokeKind, vec2};
+use crate::ui::sun_dial::SunDial;
+use crate::ui::world_painter::{SHADE, WorldPainter, inside};
+use eframe::egui::{Color32, Painter, Rect, Stroke, StrokeKind, Vec2, vec2};
 use glimray_app::legend::number;
 
+/// Radius of the map of the sky, in points.
+const DIAL: f32 = 34.0;
 /// The colour of measurements.
 const MEASURE: Color32 = Color32::from_rgb(255, 214, 64);
 
 /// Draws the overlay of the active tool.
 pub fn draw(painter: &Painter, session: &Session, viewport: Viewport) {
+    turned_light(painter, session, viewport);
     if !session.shows_overlays {
         return;
     }
@@ -26,6 +32,36 @@ pub fn draw(painter: &Painter, session: &Session, viewport: Viewport) {
         }
         Tool::Measure => measurement(painter, session, viewport),
         Tool::Select | Tool::Region | Tool::Move | Tool::Rotate | Tool::Scale => {}
+    }
+}
+
+/// While the light of the background is being turned, shows its numbers beside the pointer, and where the sun stands.
+fn turned_light(painter: &Painter, session: &Session, viewport: Viewport) {
+    let light = session.scene().and_then(|scene| BackgroundLight::of(scene));
+    let pointer = painter.ctx().pointer_latest_pos();
+    let (Some(light), Some(pointer), Some(camera)) = (light, pointer, session.camera()) else {
+        return;
+    };
+    if !lighting::is_turning(session) {
+        return;
+    }
+    let view = WorldPainter {
+        painter,
+        viewport,
+        eye: Eye {
+            camera: &camera,
+            size: viewport.extent(),
+        },
+    };
+    let text = view.text(pointer + vec2(18.0, -18.0), &light.label());
+    if let Some(sun) = light.sun_deg() {
+        let above = text.left_top() + vec2(DIAL, -DIAL - 6.0);
+        let place = Rect::from_center_size(above, Vec2::splat(2.0 * DIAL));
+        let dial = SunDial {
+            center: inside(place, painter.clip_rect()).center(),
+            radius: DIAL,
+        };
+        dial.paint(painter, sun, Some(view.eye.forward()));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::model::handles::Eye;
 use crate::model::viewport::Viewport;
-use eframe::egui::{self, Align2, Color32, FontId, Painter, Pos2, Stroke};
+use eframe::egui::{self, Align2, Color32, FontId, Painter, Pos2, Rect, Stroke};
 use glam::DVec3;
 
 /// The dark border of lines, which keeps them visible on a bright picture.
@@ -49,14 +49,24 @@ impl WorldPainter<'_> {
             .then_some(ends)
     }
 
-    /// Draws text with its lower left corner at a point of the screen.
-    pub fn text(&self, at: Pos2, text: &str) {
+    /// Draws text with its lower left corner at a point of the screen, or beside it where the picture ends. Returns its place.
+    pub fn text(&self, at: Pos2, text: &str) -> Rect {
         let font = FontId::proportional(14.0);
         let galley = (self.painter).layout_no_wrap(text.to_owned(), font, Color32::WHITE);
+        let margin = egui::vec2(6.0, 3.0);
         let rect = Align2::LEFT_BOTTOM.anchor_size(at, galley.size());
+        let rect = inside(rect.expand2(margin), self.painter.clip_rect());
         let back = Color32::from_black_alpha(190);
+        self.painter.rect_filled(rect, 4.0, back);
         self.painter
-            .rect_filled(rect.expand2(egui::vec2(6.0, 3.0)), 4.0, back);
-        self.painter.galley(rect.min, galley, Color32::WHITE);
+            .galley(rect.min + margin, galley, Color32::WHITE);
+        rect
     }
+}
+
+/// The rectangle moved so that it lies in `space`, if it is not larger.
+pub fn inside(rect: Rect, space: Rect) -> Rect {
+    let over = (rect.max - space.max).max(egui::Vec2::ZERO);
+    let rect = rect.translate(-over);
+    rect.translate((space.min - rect.min).max(egui::Vec2::ZERO))
 }

@@ -199,6 +199,7 @@ actions! {
     }
     Editing {
         Select "select" Press "Select the object under the cursor",
+        TurnLight "turn-light" Motion "Turn the environment; up and down move the sun of a sky",
         SnapHandles "snap-handles" Hold "Snap while dragging a handle",
         FineHandles "fine-handles" Hold "Drag a handle at a tenth of the speed",
         Add "add" Press "Add an object, a light, a camera or a model",

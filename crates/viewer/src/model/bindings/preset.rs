@@ -144,6 +144,7 @@ pub(super) const GLIMRAY: &str = "
     play-slower: Shift+Comma
     toggle-loop: L
     toggle-motion-blur: U
+    turn-light: Shift+Drag right
     select: Click left
     picture-menu: Click right
     snap-handles: Hold Ctrl

@@ -1,10 +1,18 @@
 //! The properties of the scene as a whole.
 
+use crate::model::bindings::Action;
+use crate::model::environment::BackgroundLight;
 use crate::state::session::Session;
 use crate::ui::panels::properties::fields::{Fields, Limits};
 use crate::ui::panels::properties::section;
+use crate::ui::panels::row::row;
+use crate::ui::sun_dial::SunDial;
+use eframe::egui::{self, Sense, WidgetInfo, vec2};
 use glam::Vec3;
-use glimray_scene::{Background, Origin, Scene, Shadows, sky};
+use glimray_scene::{Background, BuiltIn, Origin, Scene, Shadows};
+
+/// Radius of the map of the sky, in points.
+const DIAL: f32 = 40.0;
 
 /// Background, ambient light, shadows and the camera.
 pub fn show(fields: &mut Fields, session: &mut Session) {
@@ -20,11 +28,9 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
     }
     let tip = "What rays see when they hit no object.";
     let now = Kind::of(fields.scene);
-    let mut options = vec![
-        (Kind::Color, "Colour"),
-        (Kind::Gradient, "Gradient"),
-        (Kind::Sky, "Sky"),
-    ];
+    let mut options = vec![(Kind::Color, "Colour"), (Kind::Gradient, "Gradient")];
+    let built_in = BuiltIn::ALL.iter();
+    options.extend(built_in.map(|it| (Kind::BuiltIn(*it), it.entry().title)));
     if now == Kind::Picture {
         options.push((now, "Image"));
     }
@@ -52,7 +58,7 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
             strength,
             rotation,
         } => {
-            sun(fields, picture);
+            sun(fields, session, picture);
             let label = ("Strength", "Factor on the image, 0 or more.");
             fields.number(label, f64::from(strength), Limits::AMOUNT, |scene, to| {
                 if let Background::Picture { strength, .. } = &mut scene.background {
@@ -98,10 +104,11 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
 }
 
 /// Where the sun stands, if the picture is a sky.
-fn sun(fields: &mut Fields, picture: usize) {
+fn sun(fields: &mut Fields, session: &Session, picture: usize) {
     let Origin::Sky { elevation, azimuth } = fields.scene.pictures[picture].origin else {
         return;
     };
+    sun_dial(fields, session);
     let tip = "Height of the sun above the horizon in degrees, 0 to 90.";
     let limits = Limits {
         least: 0.0,
@@ -124,12 +131,49 @@ fn sun(fields: &mut Fields, picture: usize) {
     );
 }
 
+/// A map of the sky in which the sun can be dragged.
+fn sun_dial(fields: &mut Fields, session: &Session) {
+    let Some((light, sun)) =
+        BackgroundLight::of(fields.scene).and_then(|light| Some((light, light.sun_deg()?)))
+    else {
+        return;
+    };
+    let bindings = &session.preferences.bindings;
+    let tip = "The sky from above. Drag the sun; the middle is the zenith and the line is the way the camera looks. \
+               In the picture, drag to turn it";
+    let tip = bindings.tip(tip, Action::TurnLight);
+    let forward = session
+        .camera()
+        .map(|camera| camera.look_at - camera.look_from);
+    let moved = row(fields.ui, ("Sun", &tip), |ui, _| {
+        let size = vec2(2.0 * DIAL, 2.0 * DIAL + 4.0);
+        // The mouse only: the numbers are for keys.
+        let (rect, response) = ui.allocate_exact_size(size, Sense::CLICK | Sense::DRAG);
+        response.widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, "Map of the sky"));
+        let dial = SunDial {
+            center: rect.center(),
+            radius: DIAL,
+        };
+        dial.paint(ui.painter(), sun, forward);
+        let at = response.interact_pointer_pos();
+        let moved = response.dragged() || response.clicked();
+        response.on_hover_text(&tip);
+        at.filter(|_| moved).map(|at| dial.sun_deg(at))
+    });
+    if let Some(sun) = moved {
+        fields.change("sun", move |scene| {
+            light.with_sun(sun).apply(scene);
+            Ok(())
+        });
+    }
+}
+
 /// A kind of background.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Color,
     Gradient,
-    Sky,
+    BuiltIn(BuiltIn),
     Picture,
 }
 
@@ -138,10 +182,14 @@ impl Kind {
         match scene.background {
             Background::Color(_) => Self::Color,
             Background::Gradient { .. } => Self::Gradient,
-            Background::Picture { picture, .. } => match scene.pictures[picture].origin {
-                Origin::Sky { .. } => Self::Sky,
-                _ => Self::Picture,
-            },
+            Background::Picture { picture, .. } => {
+                let picture = &scene.pictures[picture];
+                match (BuiltIn::of(picture), &picture.origin) {
+                    (Some(environment), _) => Self::BuiltIn(environment),
+                    (None, Origin::Sky { .. }) => Self::BuiltIn(BuiltIn::Sky),
+                    (None, _) => Self::Picture,
+                }
+            }
         }
     }
 
@@ -155,10 +203,7 @@ impl Kind {
         match self {
             Self::Color => scene.background = Background::Color((bottom + top) * 0.5),
             Self::Gradient => scene.background = Background::Gradient { bottom, top },
-            Self::Sky => scene.set_sky(
-                sky::SUN_ELEVATION_DEG.to_radians(),
-                sky::SUN_AZIMUTH_DEG.to_radians(),
-            ),
+            Self::BuiltIn(environment) => scene.set_built_in(environment),
             // This kind is offered only if already chosen.
             Self::Picture => {}
         }
