@@ -288,7 +288,8 @@ fn leave(session: &mut Session) {
     if dialogs::close_uppermost(session) {
         return;
     }
-    if session.editing.grip.is_some() {
+    let is_held = session.editing.grip.is_some() || session.editing.lamp.is_some();
+    if is_held || lighting::is_turning(session) {
         modal::cancel(session);
         return;
     }

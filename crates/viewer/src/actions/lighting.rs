@@ -1,17 +1,22 @@
 //! Turning the light of the background, and warnings of scenes without light with the ways out of them.
 
 use crate::actions::adding;
+use crate::actions::surface::surface_at;
 use crate::model::adding::Addition;
 use crate::model::bindings::Action;
 use crate::model::environment::BackgroundLight;
+use crate::model::handles::lamp::{LampChange, LampPart, change_lamp};
 use crate::model::messages::{Remedy, sentence};
+use crate::model::objects::{self, Id};
+use crate::model::tool::Purpose;
 use crate::model::viewport::Viewport;
 use crate::state::session::Session;
 use eframe::egui::Vec2;
+use glam::DVec3;
 use glimray_app::advice::UNLIT;
 use glimray_render::Integrator;
 use glimray_scene::sky::{SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG};
-use glimray_scene::{Background, Scene};
+use glimray_scene::{Background, ObjectRef, Scene};
 use std::sync::Arc;
 
 /// The warning for a scene that is lit by its background, in a classical picture.
@@ -47,6 +52,49 @@ pub fn turn(session: &mut Session, drag: Vec2, viewport: Viewport) {
         }
         Ok(())
     });
+}
+
+/// Asks for the surface at which a lamp is to aim that was dropped over this pixel.
+pub fn aim_at_surface(session: &mut Session, light: usize, pixel: Option<[u32; 2]>) {
+    let (Some(pixel), Some(scene)) = (pixel, session.scene().cloned()) else {
+        return;
+    };
+    session.editing.aimed = Some((light, scene));
+    session.ask(move |frame| surface_at(frame, pixel, Purpose::AimLamp));
+}
+
+/// Aims the lamp that waits for it at a point in world space, as part of the drag that dropped it there. Over the background
+/// and over lamps it stays as it is, and so it does if the scene has changed meanwhile.
+pub fn aim_at(session: &mut Session, hit: Option<(DVec3, Option<ObjectRef>)>) {
+    let time = session.playback.time;
+    let (Some((light, dropped)), Some((point, object)), Some(document)) =
+        (session.editing.aimed.take(), hit, &mut session.document)
+    else {
+        return;
+    };
+    let is_lamp = matches!(object, Some(ObjectRef::Light(_)));
+    let id = Id::Object(ObjectRef::Light(light));
+    let place = objects::place(&dropped, id, time);
+    if is_lamp || !Arc::ptr_eq(document.scene(), &dropped) {
+        return;
+    }
+    let Some(way) = place.and_then(|place| (point - place.translation).try_normalize()) else {
+        return;
+    };
+    document.go_on();
+    let name = format!("aim {}", session.label(id));
+    session.drag_change(&name, |scene| {
+        change_lamp(
+            scene,
+            light,
+            LampPart::Aim,
+            LampChange::Direction(way),
+            time,
+        )
+    });
+    if let Some(document) = &mut session.document {
+        document.release();
+    }
 }
 
 /// Warns once the scene has no light in the picture that is shown, and takes the warning back when it has.

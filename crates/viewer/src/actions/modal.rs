@@ -74,6 +74,7 @@ pub fn key(session: &mut Session, event: &Event) -> bool {
 pub fn cancel(session: &mut Session) {
     session.drag = None;
     session.editing.grip = None;
+    session.editing.lamp = None;
     session.editing.modal = None;
     if let Some(document) = &mut session.document {
         document.cancel();

@@ -249,6 +249,7 @@ pub fn picked(session: &mut Session, purpose: Purpose, hit: Option<(DVec3, Optio
             }
         }
         (Purpose::FocusOf(index), Some((point, _))) => focus(session, index, point),
+        (Purpose::AimLamp, hit) => lighting::aim_at(session, hit),
         (Purpose::Select, hit) => {
             let object = hit.and_then(|(_, object)| object).map(Id::Object);
             session.select(object.into_iter().collect());

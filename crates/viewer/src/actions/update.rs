@@ -20,6 +20,7 @@ pub fn reopened(session: &mut Session) {
     session.walk = None;
     session.tool_state.region = None;
     session.editing.grip = None;
+    session.editing.lamp = None;
     session.editing.modal = None;
 }
 

@@ -3,6 +3,7 @@
 //! corner, y down.
 
 mod amounts;
+pub mod lamp;
 
 use crate::model::camera::{project, ray_through};
 use crate::model::objects::{Freedom, Scaling};

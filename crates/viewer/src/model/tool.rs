@@ -157,6 +157,8 @@ pub enum Purpose {
     Focus,
     /// Set the focus of the scene's camera with this index.
     FocusOf(usize),
+    /// Aim the lamp at it whose aim was dropped there.
+    AimLamp,
     /// Select it.
     Select,
     /// Measure the distance from or to it.

@@ -2,6 +2,7 @@
 
 use crate::model::file_dialog::Reply;
 use crate::model::handles::Grip;
+use crate::model::handles::lamp::LampGrip;
 use crate::model::listing::Listing;
 use crate::model::modal::Modal;
 use crate::model::objects::Id;
@@ -19,6 +20,10 @@ pub struct Editing {
     pub listing: Listing,
     /// The dragged handle and the last pointer position.
     pub grip: Option<(Grip, Pos2)>,
+    /// The dragged handle of a lamp and the last pointer position.
+    pub lamp: Option<(LampGrip, Pos2)>,
+    /// The lamp that waits for the surface at which it is to aim, and the scene in which it was dropped.
+    pub(crate) aimed: Option<(usize, Arc<Scene>)>,
     /// A modal transform, which holds the grip.
     pub modal: Option<Modal>,
     /// Where on the screen the menu of what can be added is.
@@ -59,6 +64,8 @@ impl Default for Editing {
         Self {
             listing: Listing::default(),
             grip: None,
+            lamp: None,
+            aimed: None,
             modal: None,
             adding_at: Pos2::ZERO,
             renaming: None,

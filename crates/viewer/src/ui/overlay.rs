@@ -1,5 +1,7 @@
 //! Editing overlays of the picture: the outline of the selection and its handles.
 
+mod lamp;
+
 use crate::actions::editing;
 use crate::model::bindings::Action;
 use crate::model::handles::{Eye, Grip, Handles, Part};
@@ -12,7 +14,7 @@ use crate::state::session::Session;
 use crate::ui::world_painter::{SHADE, WorldPainter};
 use eframe::egui::{self, Color32, Painter, Pos2, Shape, Stroke};
 use glam::{DAffine3, DVec3};
-use glimray_scene::{Camera, Frame, Geometry, LightKind, ObjectRef, Scene, corners};
+use glimray_scene::{Camera, Frame, Geometry, ObjectRef, Scene, corners};
 
 /// Length of handles, and the distance for hit testing, in points.
 const LENGTH: f32 = 84.0;
@@ -59,7 +61,10 @@ pub fn overlay(
         viewport,
         eye,
     };
-    view.lines(&outlines(session, &scene, &selected, time), SELECTED);
+    view.lines(&outlines(session, &scene, &selected, &view), SELECTED);
+    if lamp::handles(session, &scene, &selected, response, &view) {
+        return true;
+    }
     let moved = objects::movable(&scene, &selected);
     let tool = session.tool;
     let common = objects::common_place(&scene, &moved, time);
@@ -155,7 +160,7 @@ pub fn overlay(
         {
             Some(typed) => view.text(at, &format!("{}   [{typed}]", dragged.label)),
             None => view.text(at, &dragged.label),
-        }
+        };
     }
     ctx.set_cursor_icon(egui::CursorIcon::Grabbing);
     draw_handles(&view, &shown, Some(grip.part));
@@ -180,6 +185,7 @@ pub fn overlay(
 /// Ends drags without a selection.
 fn let_go(session: &mut Session) {
     session.editing.grip = None;
+    session.editing.lamp = None;
     session.editing.modal = None;
 }
 
@@ -256,11 +262,16 @@ fn draw_handle(view: &WorldPainter, handles: &Handles, part: Part, is_hot: bool)
 }
 
 /// The outlines of what is selected, in world space; one box around all if they are too many to tell apart.
-fn outlines(session: &mut Session, scene: &Scene, ids: &[Id], time: f64) -> Vec<[DVec3; 2]> {
-    let frame = scene.frame(time);
+fn outlines(
+    session: &mut Session,
+    scene: &Scene,
+    ids: &[Id],
+    view: &WorldPainter,
+) -> Vec<[DVec3; 2]> {
+    let frame = scene.frame(session.playback.time);
     if ids.len() <= MOST_OUTLINES {
         return (ids.iter())
-            .flat_map(|id| edges(session, scene, &frame, *id))
+            .flat_map(|id| edges(session, scene, &frame, *id, view))
             .collect();
     }
     let places = ids
@@ -275,7 +286,13 @@ fn outlines(session: &mut Session, scene: &Scene, ids: &[Id], time: f64) -> Vec<
 }
 
 /// The outline of something, in world space.
-fn edges(session: &mut Session, scene: &Scene, frame: &Frame, id: Id) -> Vec<[DVec3; 2]> {
+fn edges(
+    session: &mut Session,
+    scene: &Scene,
+    frame: &Frame,
+    id: Id,
+    view: &WorldPainter,
+) -> Vec<[DVec3; 2]> {
     let place = objects::place_in(scene, frame, id);
     match (id, place) {
         (Id::Object(ObjectRef::Instance(index)), Some(place)) => {
@@ -299,7 +316,7 @@ fn edges(session: &mut Session, scene: &Scene, frame: &Frame, id: Id) -> Vec<[DV
         }
         (Id::Object(ObjectRef::Light(index)), Some(_)) => {
             frame.lights.get(index).map_or(Vec::new(), |light| {
-                lamp(&light.kind, eye_distance(session, &light.kind))
+                lamp::shown(session, view, light.kind).lines(view.eye)
             })
         }
         (Id::Node(_), Some(place)) => {
@@ -320,18 +337,6 @@ fn edges(session: &mut Session, scene: &Scene, frame: &Frame, id: Id) -> Vec<[DV
     }
 }
 
-/// A length that appears constant at any distance.
-fn eye_distance(session: &Session, kind: &LightKind) -> f64 {
-    let at = objects::of_light(kind).translation;
-    let distance = session
-        .camera()
-        .map(|camera| match camera.orthographic_height {
-            Some(height) => height,
-            None => camera.look_from.distance(at),
-        });
-    0.04 * distance.unwrap_or(1.0)
-}
-
 fn cuboid(bounds: (DVec3, DVec3), place: DAffine3) -> Vec<[DVec3; 2]> {
     let corners = corners(bounds).map(|corner| place.transform_point3(corner));
     let edges = (0..8).flat_map(|i| [1, 2, 4].map(|bit| (i, i | bit)));
@@ -339,38 +344,6 @@ fn cuboid(bounds: (DVec3, DVec3), place: DAffine3) -> Vec<[DVec3; 2]> {
         .filter(|(a, b)| a != b)
         .map(|(a, b): (usize, usize)| [corners[a], corners[b]])
         .collect()
-}
-
-/// The outline of a light: a star without extent, else its surface, and a line in its direction.
-fn lamp(kind: &LightKind, size: f64) -> Vec<[DVec3; 2]> {
-    let place = objects::of_light(kind);
-    let flat = (DVec3::new(-1.0, 0.0, -1.0), DVec3::new(1.0, 0.0, 1.0));
-    let at = place.translation;
-    let aim = |direction: DVec3, length: f64| [at, at + direction * length];
-    match *kind {
-        LightKind::Directional { .. } => Vec::new(),
-        LightKind::Point { .. } | LightKind::Spot { .. } => {
-            let mut lines: Vec<_> = (DVec3::AXES.into_iter())
-                .map(|axis| [at - axis * size, at + axis * size])
-                .collect();
-            if let LightKind::Spot { direction, .. } = *kind {
-                lines.push(aim(direction, 4.0 * size));
-            }
-            lines
-        }
-        LightKind::Rectangle { edge_u, edge_v, .. } => {
-            let mut lines = cuboid(flat, place);
-            let normal = edge_u.cross(edge_v).normalize_or(DVec3::Y);
-            lines.push(aim(normal, 2.0 * size));
-            lines
-        }
-        LightKind::Disc { normal, .. } => {
-            let mut lines = cuboid(flat, place);
-            lines.push(aim(normal, 2.0 * size));
-            lines
-        }
-        LightKind::Sphere { .. } => cuboid((DVec3::NEG_ONE, DVec3::ONE), place),
-    }
 }
 
 /// The frustum of a camera, a quarter as deep as its view distance, with aspect 3:2.
