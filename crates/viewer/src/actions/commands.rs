@@ -270,6 +270,16 @@ fn frame(session: &mut Session, bounds: Option<(DVec3, DVec3)>) {
     let aspect = session.aspect();
     if let Some(bounds) = bounds {
         camera(session, |it| it.frame(bounds, aspect));
+        see_past_lamps(session);
+    }
+}
+
+/// Looks past the lamps between the eye and the scene.
+fn see_past_lamps(session: &mut Session) {
+    let (aspect, time) = (session.aspect(), session.playback.time);
+    let lights = session.scene().map(|scene| scene.frame(time).lights);
+    if let (Some(subject), Some(lights)) = (session.subject(), lights) {
+        camera(session, |it| it.see_past(subject, aspect, &lights));
     }
 }
 
@@ -279,6 +289,7 @@ fn frame_all(session: &mut Session) {
     let lights = session.scene().map(|scene| scene.frame(time).lights);
     if let (Some(bounds), Some(lights)) = (session.subject(), lights) {
         camera(session, |it| it.frame_past(bounds, aspect, &lights));
+        see_past_lamps(session);
     }
 }
 

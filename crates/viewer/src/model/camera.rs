@@ -97,6 +97,8 @@ struct Known {
     pose: Pose,
     /// The distance of the pivot from a camera that aims at no point.
     reach: Option<f64>,
+    /// Whether the window has chosen its planes: it hides nothing that is to be seen.
+    is_clear: bool,
 }
 
 /// The viewing direction, of unit length.
@@ -110,6 +112,7 @@ impl Known {
             pose: upright.pose_with(camera, reach),
             camera: camera.clone(),
             reach,
+            is_clear: false,
         }
     }
 }
@@ -135,6 +138,7 @@ impl CameraController {
                 camera: camera.clone(),
                 pose,
                 reach: None,
+                is_clear: false,
             },
             visited: None,
             bounds,
@@ -198,12 +202,13 @@ impl CameraController {
         let Known {
             camera,
             pose: place,
+            is_clear,
             ..
         } = known;
         let projection = (camera.fov_y, camera.orthographic_height.is_some());
         pose == place
             && projection == (self.fov_y, self.orthographic)
-            && !(self.orthographic && self.clear)
+            && !(self.orthographic && self.clear && !is_clear)
             && camera.lens == self.lens
     }
 

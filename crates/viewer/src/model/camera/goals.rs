@@ -123,6 +123,7 @@ impl CameraController {
             camera: camera.clone(),
             pose,
             reach,
+            is_clear: false,
         });
     }
 

@@ -1,8 +1,8 @@
-//! Keeps lamps out of the way when the whole scene is framed: an area light in front of it would hide it.
+//! Keeps lamps out of the way when something is framed: an area light in front of the scene would hide it.
 
-use super::{CameraController, ray_through};
+use super::{CameraController, Known, forward, ray_through};
 use glam::{DVec2, DVec3};
-use glimray_scene::{Camera, Light, LightKind};
+use glimray_scene::{Camera, Light, LightKind, corners};
 use std::f64::consts::PI;
 
 /// Rays across and down the picture.
@@ -40,6 +40,32 @@ impl CameraController {
     }
 }
 
+impl CameraController {
+    /// Looks past the lamps that are nearer than all of `subject`, if they hide more than next to nothing of what is being gone
+    /// to: the camera sees from the front of the subject on, until it is moved. Its place and direction stay.
+    pub fn see_past(&mut self, subject: (DVec3, DVec3), aspect: f64, lights: &[Light]) {
+        let mut camera = self.destination();
+        let target = subject.0.midpoint(subject.1);
+        let before = hidden(&camera, aspect, target, lights);
+        let depths =
+            corners(subject).map(|corner| (corner - camera.look_from).dot(forward(&camera)));
+        // Rounding must not cut the front off.
+        let near = depths.into_iter().fold(f64::INFINITY, f64::min) * (1.0 - 1e-4);
+        if before <= LITTLE || near <= camera.clip.0 {
+            return;
+        }
+        camera.clip.0 = near;
+        if hidden(&camera, aspect, target, lights) < before {
+            self.visited = Some(Known {
+                camera,
+                pose: self.goal,
+                reach: None,
+                is_clear: true,
+            });
+        }
+    }
+}
+
 /// The share of the picture in which a lamp is nearer than `target`.
 fn hidden(camera: &Camera, aspect: f64, target: DVec3, lights: &[Light]) -> f64 {
     let lamps: Vec<_> = (lights.iter())
@@ -58,8 +84,9 @@ fn hidden(camera: &Camera, aspect: f64, target: DVec3, lights: &[Light]) -> f64 
         );
         let (from, along) = ray_through(camera, at, DVec2::new(aspect, 1.0));
         let depth = (target - from).dot(along);
+        let near = camera.clip.0 / along.dot(forward(camera));
         let mut distances = lamps.iter().filter_map(|lamp| distance(lamp, from, along));
-        distances.any(|distance| distance > 0.0 && distance < depth)
+        distances.any(|distance| distance > near && distance < depth)
     };
     f64::from((0..count).filter(is_hidden).count() as u32) / f64::from(count)
 }
