@@ -19,6 +19,7 @@ impl Session {
             Answer::Histogram(histogram) => self.histogram.set(histogram),
             Answer::PixelValues(pixels) => pixel_values::read(self, pixels),
             Answer::Snapshot(snapshot) => comparing::kept(self, *snapshot),
+            Answer::Bookmarked(scene, saved) => self.preferences.picture_camera(&scene, &saved),
             Answer::Nothing => {}
             Answer::Copied(image) => self.files.copied = Some(image),
             Answer::Picture(picture) => pictures::captured(self, *picture),

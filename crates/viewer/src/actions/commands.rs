@@ -58,6 +58,7 @@ pub fn keys(session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
         // During a flight, its keys do nothing else: Shift, which makes it faster, gives other commands to some.
         if !keyboard.passes(event)
             || modal::key(session, event)
+            || files::cameras::take_number(session, event)
             || was_flying && session.preferences.bindings.flies(event)
         {
             continue;
@@ -134,6 +135,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::Home => camera(session, CameraController::go_home),
         Action::UndoView => step_view(session, CameraHistory::undo, "undo"),
         Action::RedoView => step_view(session, CameraHistory::redo, "redo"),
+        Action::Bookmarks => session.dialogs.toggle(Dialog::Cameras),
         Action::SaveCamera => files::cameras::bookmark(session),
         Action::NextCamera => files::cameras::step(session, 1),
         Action::PreviousCamera => files::cameras::step(session, -1),

@@ -3,8 +3,10 @@
 
 mod format;
 mod saved_camera;
+mod thumbnail;
 
 pub use saved_camera::SavedCamera;
+pub use thumbnail::{THUMBNAIL, Thumbnail};
 
 use crate::model::bindings::Bindings;
 use glimray_app::folders::{self, SETTINGS_VARIABLE};
@@ -146,6 +148,17 @@ impl Preferences {
         }
         let surplus = cameras.len().saturating_sub(MAX_CAMERAS);
         cameras.drain(..surplus);
+    }
+
+    /// Gives a picture to the bookmark of this name and camera, if a scene has it still.
+    pub fn picture_camera(&mut self, scene: &Path, saved: &SavedCamera) {
+        let cameras = self.cameras.get_mut(&whole(scene));
+        let mut cameras = cameras.into_iter().flatten();
+        let is_it =
+            |known: &&mut SavedCamera| known.name == saved.name && known.camera == saved.camera;
+        if let Some(known) = cameras.find(is_it) {
+            known.picture.clone_from(&saved.picture);
+        }
     }
 
     /// Copies the bookmarks of a scene that was saved under another name.

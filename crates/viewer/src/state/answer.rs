@@ -2,6 +2,7 @@
 
 use crate::model::gallery::Snapshot;
 use crate::model::histogram::Histogram;
+use crate::model::preferences::SavedCamera;
 use crate::model::tool::Purpose;
 use crate::state::cursor::Probe;
 use crate::state::files::Captured;
@@ -10,6 +11,7 @@ use crate::state::pixel_values::ReadPixels;
 use glam::DVec3;
 use glimray_scene::ObjectRef;
 use glimray_scene::image::ScreenImage;
+use std::path::PathBuf;
 
 /// The result of a question to the render thread.
 #[derive(Debug)]
@@ -33,6 +35,8 @@ pub enum Answer {
     PixelValues(Option<Box<ReadPixels>>),
     /// A snapshot of the picture.
     Snapshot(Box<Snapshot>),
+    /// A bookmark of the scene with this key, with its small picture.
+    Bookmarked(PathBuf, Box<SavedCamera>),
     /// No result.
     Nothing,
     /// The picture as the window shows it, for the clipboard.

@@ -2,6 +2,7 @@
 
 use crate::model::file_dialog::{FileDialogs, Reply};
 use crate::model::loader::Trouble;
+use crate::model::preferences::SavedCamera;
 use crate::model::watch::Watch;
 use crate::state::film::FilmDialog;
 use crate::state::jobs::{JobId, JobOutcome, Jobs};
@@ -35,6 +36,8 @@ pub struct Files {
     pub typed_model: Option<String>,
     /// The dialog for saving the picture.
     pub saving: Option<SaveDialog>,
+    /// The last bookmark, which waits for its small picture, and the key of its scene.
+    pub(crate) unpictured: Option<(PathBuf, SavedCamera)>,
     /// A picture for the clipboard.
     pub(crate) copied: Option<Box<ScreenImage>>,
     /// The dialog for a film.

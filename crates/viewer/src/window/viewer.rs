@@ -2,7 +2,7 @@
 
 use crate::actions::commands;
 use crate::actions::cursor;
-use crate::actions::files::pictures;
+use crate::actions::files::{cameras, pictures};
 use crate::actions::{settings, tools, update};
 use crate::model::tool::Tool;
 use crate::state::answer::Answer;
@@ -149,6 +149,7 @@ impl eframe::App for Viewer {
         pictures::finish(&mut session, progress.is_done);
         cursor::update(&mut session, &progress);
         tools::aim(&mut session, &progress);
+        cameras::picture(&mut session, &progress);
         let paused = session.view.paused;
         session.time_left.update(&progress, paused);
         session.set_spent(match progress.is_coarse {

@@ -31,8 +31,10 @@ fn saved(name: &str) -> SavedCamera {
                 blade_count: 5,
                 blade_rotation: -0.7,
             }),
+            clip: (0.25, f64::INFINITY),
             ..Camera::default()
         },
+        picture: Some(String::from("ffd8").try_into().expect("digits")),
     }
 }
 

@@ -3,11 +3,14 @@
 use crate::actions::files::short;
 use crate::model::command_line;
 use crate::model::command_line::Shown;
-use crate::model::preferences::SavedCamera;
+use crate::model::preferences::{SavedCamera, Thumbnail};
+use crate::state::answer::Answer;
+use crate::state::dialogs::Dialog;
 use crate::state::session::Session;
 use crate::state::session::opening::UNTITLED;
-use crate::worker::progressive_image::PictureSlot;
-use eframe::egui;
+use crate::worker::progressive_image::{PictureSlot, Progress};
+use eframe::egui::{self, Event, Key, Modifiers};
+use glimray_app::advice;
 use glimray_scene::Camera;
 use std::path::{Path, PathBuf};
 
@@ -31,6 +34,8 @@ pub struct View {
     pub camera: Camera,
     /// Whether it is a bookmark.
     pub is_bookmark: bool,
+    /// The small picture of a bookmark.
+    pub picture: Option<Thumbnail>,
     /// Whether it looks at a point: see [`Camera::has_aim`].
     pub has_aim: bool,
 }
@@ -52,6 +57,7 @@ pub fn all(session: &Session) -> Vec<View> {
             name,
             camera,
             is_bookmark: false,
+            picture: None,
             has_aim: scene.cameras[index].has_aim(),
         }
     });
@@ -61,16 +67,18 @@ pub fn all(session: &Session) -> Vec<View> {
         name: saved.name.clone(),
         camera: saved.camera.clone(),
         is_bookmark: true,
+        picture: saved.picture.clone(),
         has_aim: true,
     }));
     cameras
 }
 
-/// Bookmarks the current view under a free name.
+/// Bookmarks the current view, or the one that the camera is moving to, under a free name.
 pub fn bookmark(session: &mut Session) {
-    let Some(camera) = session.camera() else {
+    let Some(controller) = &session.controller else {
         return;
     };
+    let camera = controller.destination();
     let key = key(session);
     let names = session.preferences.cameras_of(&key).iter().map(|c| &c.name);
     let names: Vec<_> = names.cloned().collect();
@@ -80,9 +88,74 @@ pub fn bookmark(session: &mut Session) {
     }
     let name = format!("View {number}");
     session.messages.notify(format!("Bookmarked as {name}"));
-    session
-        .preferences
-        .save_camera(&key, SavedCamera { name, camera });
+    let saved = SavedCamera {
+        name,
+        camera,
+        picture: None,
+    };
+    session.preferences.save_camera(&key, saved.clone());
+    session.files.unpictured = Some((key, saved));
+}
+
+/// Asks for the small picture of the bookmark that was made last, as soon as its view has samples.
+pub fn picture(session: &mut Session, progress: &Progress) {
+    if progress.samples == 0 || progress.is_coarse || session.is_moving() {
+        return;
+    }
+    let bookmark = session.files.unpictured.take();
+    let camera = session.camera();
+    let Some((key, saved)) = bookmark.filter(|it| Some(&it.1.camera) == camera.as_ref()) else {
+        return;
+    };
+    session.ask(move |frame| match frame.screen_image() {
+        Ok(picture) => Answer::Bookmarked(
+            key,
+            Box::new(SavedCamera {
+                picture: picture.as_ref().and_then(Thumbnail::of),
+                ..saved
+            }),
+        ),
+        Err(error) => Answer::Failed(advice::render(&error)),
+    });
+}
+
+/// The keys of the first bookmarks while their dialog is open.
+pub const NUMBERS: [Key; 9] = [
+    Key::Num1,
+    Key::Num2,
+    Key::Num3,
+    Key::Num4,
+    Key::Num5,
+    Key::Num6,
+    Key::Num7,
+    Key::Num8,
+    Key::Num9,
+];
+
+/// Goes to a bookmark by its number, if their dialog is open. Returns whether the key is such a number.
+pub fn take_number(session: &mut Session, event: &Event) -> bool {
+    let &Event::Key {
+        key,
+        pressed: true,
+        modifiers: Modifiers::NONE,
+        ..
+    } = event
+    else {
+        return false;
+    };
+    let number = NUMBERS.iter().position(|known| *known == key);
+    let (Some(number), true) = (number, session.dialogs.is_open(Dialog::Cameras)) else {
+        return false;
+    };
+    let bookmark = all(session)
+        .into_iter()
+        .filter(|view| view.is_bookmark)
+        .nth(number);
+    match bookmark {
+        Some(view) => go(session, &view),
+        None => (session.messages).notify(format!("There is no bookmark {}", number + 1)),
+    }
+    true
 }
 
 /// Renames a bookmark if the name is free. Returns whether it is.

@@ -145,6 +145,7 @@ actions! {
         UndoView "undo-view" Press "Undo the last camera movement",
         RedoView "redo-view" Press "Redo a camera movement",
         SaveCamera "save-camera" Press "Bookmark view",
+        Bookmarks "bookmarks" Press "Show the bookmarked views",
         NextCamera "next-camera" Press "Next camera or bookmark",
         PreviousCamera "previous-camera" Press "Previous camera or bookmark",
         CopyCamera "copy-camera" Press "Copy the view as a command line",

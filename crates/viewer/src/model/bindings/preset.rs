@@ -99,6 +99,7 @@ pub(super) const GLIMRAY: &str = "
     undo-view: Alt+Z
     redo-view: Shift+Alt+Z
     save-camera: K
+    bookmarks: Ctrl+K
     next-camera: CloseBracket
     previous-camera: OpenBracket
     copy-camera: Ctrl+C

@@ -125,6 +125,12 @@ impl<'a> Flags<'a> {
             |name| Ok(name.to_owned()),
             |overrides| &mut overrides.camera.name,
         );
+        self.add(
+            "the planes between which the camera sees",
+            |picture| picture.camera.clip != wanted.clip,
+            [],
+            |_| None,
+        );
         // All three at once, because animated values must not remain.
         let [from, at, up] = place(wanted).map(|at| joined(at.to_array()));
         let flags = [("--look-from", &from), ("--look-at", &at), ("--up", &up)];

@@ -1,5 +1,6 @@
 //! Bookmarked views, stored without loss of precision.
 
+use super::Thumbnail;
 use glam::DVec3;
 use glimray_scene::{Camera, Lens};
 use serde::{Deserialize, Serialize};
@@ -13,6 +14,8 @@ pub struct SavedCamera {
     pub name: String,
     /// The camera in world space.
     pub camera: Camera,
+    /// A small picture of the view when it was bookmarked.
+    pub picture: Option<Thumbnail>,
 }
 
 /// A bookmark in the file. Angles are in radians, because degrees do not convert back exactly.
@@ -28,6 +31,11 @@ struct Entry {
     orthographic: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     lens: Option<LensEntry>,
+    /// The distances of the planes between which the camera sees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    clip: Option<(f64, f64)>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    picture: Option<Thumbnail>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -41,7 +49,11 @@ struct LensEntry {
 
 impl From<SavedCamera> for Entry {
     fn from(saved: SavedCamera) -> Self {
-        let SavedCamera { name, camera } = saved;
+        let SavedCamera {
+            name,
+            camera,
+            picture,
+        } = saved;
         Self {
             name,
             look_from: camera.look_from.to_array(),
@@ -55,6 +67,8 @@ impl From<SavedCamera> for Entry {
                 blades: lens.blade_count,
                 blade_rotation: lens.blade_rotation,
             }),
+            clip: (camera.clip != Camera::UNCLIPPED).then_some(camera.clip),
+            picture,
         }
     }
 }
@@ -77,6 +91,10 @@ impl TryFrom<Entry> for SavedCamera {
         if !entry.orthographic.is_none_or(is_size) {
             return Err("`orthographic` must be above 0");
         }
+        let clip = entry.clip.unwrap_or(Camera::UNCLIPPED);
+        if !(clip.0 >= 0.0 && clip.0 < clip.1) {
+            return Err("`clip` must be two distances of at least 0, the nearer one first");
+        }
         let lens = entry.lens.map(|lens| Lens {
             radius: lens.radius,
             focus_distance: lens.focus_distance,
@@ -95,8 +113,10 @@ impl TryFrom<Entry> for SavedCamera {
                 fov_y: entry.fov_y,
                 orthographic_height: entry.orthographic,
                 lens,
+                clip,
                 ..Camera::default()
             },
+            picture: entry.picture,
         })
     }
 }

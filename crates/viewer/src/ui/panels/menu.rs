@@ -233,10 +233,7 @@ fn view(menu: &mut Menu) {
         menu.entry("Bookmark view", A::SaveCamera);
         menu.entry("Next camera", A::NextCamera);
         menu.entry("Previous camera", A::PreviousCamera);
-        if menu.ui.button("Manage bookmarks…").clicked() {
-            menu.ui.close();
-            menu.context.session.dialogs.open(Dialog::Cameras);
-        }
+        menu.entry("Bookmarks…", A::Bookmarks);
     });
     menu.ui.menu_button("Animation", |ui| {
         let mut menu = Menu {
