@@ -19,6 +19,7 @@ mod histogram;
 mod jobs;
 mod layers;
 mod lens;
+mod lighting;
 mod loading;
 mod look;
 mod looks;
@@ -47,6 +48,7 @@ mod tasks;
 mod time;
 mod toolbar;
 mod tools;
+mod walking;
 
 /// Paths in tests start at the root of the repository.
 #[ctor::ctor]
