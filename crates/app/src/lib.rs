@@ -6,6 +6,7 @@ pub mod clock;
 pub mod console;
 pub mod error;
 pub mod flag_values;
+pub mod flip;
 pub mod folders;
 pub mod inputs;
 pub mod layer_picture;

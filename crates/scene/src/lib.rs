@@ -95,7 +95,7 @@ pub use output::{
 };
 pub use picture::{
     LARGEST_TEXEL, LUMINANCE, MAX_PICTURE_BYTES, Origin, Picture, SrgbCurve, Texels,
-    linear_from_srgb,
+    linear_from_srgb, srgb_from_linear,
 };
 pub use picture::{SMALLEST_TEXEL, fit, scale_of};
 pub use section::Section;

@@ -242,6 +242,15 @@ impl SrgbCurve {
     }
 }
 
+/// The sRGB transfer function, IEC 61966-2-1.
+pub fn srgb_from_linear(linear: f32) -> f32 {
+    if linear <= 0.003_130_8 {
+        linear * 12.92
+    } else {
+        1.055 * linear.powf(1.0 / 2.4) - 0.055
+    }
+}
+
 /// The inverse of the sRGB transfer function, IEC 61966-2-1.
 pub fn linear_from_srgb(value: f64) -> f64 {
     if value <= 0.04045 {

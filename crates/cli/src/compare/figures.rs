@@ -1,18 +1,16 @@
 //! Difference metrics of two pictures of equal size.
 //!
-//! RMSE and PSNR are computed over all channels of all pixels, with a peak of 1. FLIP is the mean of
-//! Andersson et al., "FLIP: A Difference Evaluator for Alternating Images" (2020).
+//! RMSE and PSNR are computed over all channels of all pixels, with a peak of 1.
 
+use glimray_app::flip::Flip;
 use glimray_app::picture_file::Picture;
-
-/// Largest picture for FLIP, in pixels; larger ones would need gigabytes of memory.
-pub const MAX_FLIP_PIXELS: usize = 1 << 24;
+use glimray_scene::srgb_from_linear;
 
 /// Difference metrics. One level is 1/255.
 pub struct Figures {
     /// Root mean square difference.
     pub rmse: f64,
-    /// The mean, 0 (equal) to 1; absent for very large pictures, and without the feature `flip`.
+    /// The mean of FLIP, 0 (equal) to 1; absent for very large pictures, and without the feature `flip`.
     pub flip: Option<f32>,
     /// Largest difference in any channel, in levels.
     pub max_levels: f64,
@@ -48,7 +46,7 @@ impl Figures {
         let width = a.image.width.max(1) as usize;
         Self {
             rmse: (square_sum / (pixel_count * channel_count) as f64).sqrt(),
-            flip: flip(a, b),
+            flip: Flip::new(a.size(), [a, b].map(display_levels)).map(|flip| flip.mean),
             max_levels: largest.0,
             max_at: [(largest.1 % width) as u32, (largest.1 / width) as u32],
             beyond_percent: 100.0 * beyond_count as f64 / pixel_count as f64,
@@ -76,42 +74,19 @@ fn levels(a: f32, b: f32, exact: bool) -> f64 {
     }
 }
 
-#[cfg(not(feature = "flip"))]
-fn flip(_: &Picture, _: &Picture) -> Option<f32> {
-    None
-}
-
-#[cfg(feature = "flip")]
-fn flip(a: &Picture, b: &Picture) -> Option<f32> {
-    if a.image.pixels.len() > MAX_FLIP_PIXELS {
-        return None;
-    }
-    let image = |picture: &Picture| {
-        let [width, height] = picture.size();
-        nv_flip::FlipImageRgb8::with_data(width, height, &display_levels(picture))
-    };
-    let error = nv_flip::flip(image(a), image(b), nv_flip::DEFAULT_PIXELS_PER_DEGREE);
-    Some(nv_flip::FlipPool::from_image(&error).mean())
-}
-
 /// The picture as 8-bit sRGB.
-#[cfg(feature = "flip")]
 fn display_levels(picture: &Picture) -> Vec<u8> {
     let pixels = picture.image.pixels.iter();
     let channels = pixels.flat_map(|&[r, g, b, _]| [r, g, b]);
     channels
         .map(|value| value.clamp(0.0, 1.0))
-        .map(|value| if picture.is_float { srgb(value) } else { value })
+        .map(|value| {
+            if picture.is_float {
+                srgb_from_linear(value)
+            } else {
+                value
+            }
+        })
         .map(|value| (value * 255.0).round() as u8)
         .collect()
-}
-
-/// The sRGB transfer function of IEC 61966-2-1.
-#[cfg(feature = "flip")]
-fn srgb(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 {
-        linear * 12.92
-    } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
-    }
 }

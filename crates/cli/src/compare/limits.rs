@@ -1,9 +1,10 @@
 //! How much pictures may differ.
 
-use super::figures::{Figures, MAX_FLIP_PIXELS};
+use super::figures::Figures;
 use super::rounded;
 use crate::args::CompareArgs;
 use glimray_app::error::AppError;
+use glimray_app::flip;
 
 /// Differences up to these count as equal.
 pub struct Limits {
@@ -62,8 +63,9 @@ impl Limits {
     pub fn check_flip(&self, figures: &Figures, [width, height]: [u32; 2]) -> Result<(), AppError> {
         match (self.flip, figures.flip) {
             (Some(_), None) => Err(AppError::TooBig(format!(
-                "too big for FLIP (--flip): the pictures have {width}×{height} pixels, and the limit is {MAX_FLIP_PIXELS} in \
-                 all. Compare smaller pictures, or use --tolerance and --max-share."
+                "too big for FLIP (--flip): the pictures have {width}×{height} pixels, and the limit is {} in \
+                 all. Compare smaller pictures, or use --tolerance and --max-share.",
+                flip::MAX_PIXELS
             ))),
             _ => Ok(()),
         }
