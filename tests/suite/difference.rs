@@ -1,6 +1,6 @@
 //! The difference of two images.
 
-use glimray::image::{Difference, Image, Placed, ScreenImage};
+use glimray::image::{Difference, Errors, Image, Placed, ScreenImage};
 
 const WHOLE: [f64; 4] = [0.0, 0.0, 1.0, 1.0];
 
@@ -101,4 +101,65 @@ fn values_beyond_the_screen_are_clamped_and_nan_is_black() {
     };
     let expected = [[0, 255, 0, 255], [0; 4]];
     assert_eq!(ScreenImage::from(&image).pixels, expected);
+}
+
+/// A row of opaque linear colours.
+fn linear(colors: &[[f32; 3]]) -> Image {
+    Image {
+        width: colors.len() as u32,
+        height: 1,
+        pixels: colors.iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect(),
+    }
+}
+
+#[test]
+fn relative_errors_are_those_of_a_calculation_by_hand() {
+    let first = linear(&[[0.5, 1.0, 0.0], [3.0, 3.0, 3.0]]);
+    let second = linear(&[[0.25, 1.0, 0.1], [1.0, 2.0, 4.0]]);
+    let whole = |image| Placed {
+        image,
+        edges: WHOLE,
+    };
+    // |0.5 − 0.25| / (0.25 + 0.01), 0, and 0.1 / (0.1 + 0.01); then 2 / 1.01, 1 / 2.01 and 1 / 4.01.
+    let relative = [
+        (0.25 / 0.26 + 0.1 / 0.11) / 3.0,
+        (2.0 / 1.01 + 1.0 / 2.01 + 1.0 / 4.01) / 3.0,
+    ];
+    // 0.25² / (0.25² + 0.01), 0, and 0.1² / (0.1² + 0.01); then 4 / 1.01, 1 / 4.01 and 1 / 16.01.
+    let squared = [
+        (0.0625 / 0.0725 + 0.01 / 0.02) / 3.0,
+        (4.0 / 1.01 + 1.0 / 4.01 + 1.0 / 16.01) / 3.0,
+    ];
+    for (found, expected) in [
+        (Errors::relative(whole(&first), whole(&second)), relative),
+        (
+            Errors::relative_squared(whole(&first), whole(&second)),
+            squared,
+        ),
+    ] {
+        for (error, expected) in found.errors.iter().zip(expected) {
+            let error = f64::from(error.expect("an error"));
+            assert!((error - expected).abs() < 1e-6, "{error} for {expected}");
+        }
+        let mean = (expected[0] + expected[1]) / 2.0_f64;
+        assert!((found.mean() - mean).abs() < 1e-6, "{}", found.mean());
+    }
+    let equal = Errors::relative(whole(&second), whole(&second));
+    assert_eq!(equal.errors, [Some(0.0); 2]);
+}
+
+#[test]
+fn pixels_that_are_not_opaque_have_no_error() {
+    let mut first = linear(&[[1.0; 3], [2.0; 3]]);
+    let second = linear(&[[4.0; 3], [1.0; 3]]);
+    first.pixels[0][3] = 0.5;
+    let place = |image| Placed {
+        image,
+        edges: WHOLE,
+    };
+    let found = Errors::relative_squared(place(&first), place(&second));
+    assert_eq!(found.errors[0], None);
+    assert!((found.mean() - 1.0 / 1.01).abs() < 1e-6, "{}", found.mean());
+    let painted = found.painted(|error| [error * 100.0, 7.0, 300.0]);
+    assert_eq!(painted.pixels, [[0, 0, 0, 255], [99, 7, 255, 255]]);
 }

@@ -1,8 +1,10 @@
-//! Finished images in memory, and their difference.
+//! Finished images in memory, and their differences.
 
 mod difference;
+mod errors;
 
-pub use difference::{Difference, Placed};
+pub use difference::{Difference, Pixels, Placed, pairs};
+pub use errors::{Errors, RELATIVE_EPSILON};
 
 /// A rectangle of pixels, as `glimray_io::output` writes it.
 #[derive(Clone, Debug, Default, PartialEq)]
