@@ -327,6 +327,9 @@ const SPOT: [u16; 4] = [600, 300, 64, 64];
 /// The right end of the progress bar: blue once the picture is done.
 const BAR_END: [u16; 4] = [1260, 65, 4, 1];
 
+/// Within the picture of a window of the usual size, where notices appear.
+const WITH_NOTICES: [u16; 4] = [420, 400, 550, 350];
+
 /// Within the picture, wherever panels are.
 const INSIDE: [u16; 4] = [420, 200, 300, 200];
 
@@ -476,6 +479,41 @@ fn a_lost_device_is_replaced_while_the_window_is_open() {
     assert_eq!(disturbed.wait(), Some(0));
 }
 
+/// A surface that is configured while work is submitted, or a picture that is drawn for another size, would be reported over the
+/// picture.
+#[test]
+fn a_window_that_is_resized_under_load_reports_no_fault() {
+    let Some(desktop) = Desktop::start() else {
+        return;
+    };
+    let settings = settings();
+    let scene = scene("cornell_box.toml");
+    let path = scene.to_str().expect("a name");
+    let arguments = [path, "--integrator", "path", "--samples", "1"];
+    let opened = desktop.open(&arguments, settings.path(), &[]);
+    let first = desktop.finished(WITH_NOTICES);
+    let sizes = [
+        [900, 700],
+        [1200, 640],
+        [760, 780],
+        [1280, 500],
+        [1000, 800],
+    ];
+    for [width, height] in sizes.into_iter().chain([[1280, 800]]) {
+        let (width, height) = (width.to_string(), height.to_string());
+        desktop.xdotool(&["windowsize", &opened.id, &width, &height]);
+        // Long enough for the first submissions at this size, and too short for the picture.
+        std::thread::sleep(Duration::from_millis(400));
+    }
+    let after = desktop.finished(WITH_NOTICES);
+    assert!(
+        !differ(&first, &after),
+        "something lies over the picture, or it is another one"
+    );
+    opened.key("ctrl+q");
+    assert_eq!(opened.wait(), Some(0));
+}
+
 /// lavapipe crashes when it draws with 512 bits. The shaders are compiled anew, for its cache does not distinguish
 /// widths.
 #[test]
@@ -623,6 +661,29 @@ fn without_a_display_one_line_points_to_render() {
     let said = String::from_utf8_lossy(&elsewhere.stderr);
     assert_eq!(elsewhere.status.code(), Some(5), "{said}");
     assert_eq!(said.lines().count(), 1, "{said}");
+}
+
+#[test]
+fn without_a_vulkan_driver_one_line_names_the_package_to_install() {
+    let Some(desktop) = Desktop::start() else {
+        return;
+    };
+    let settings = settings();
+    let output = desktop
+        .command(env!("CARGO_BIN_EXE_glimray"))
+        .arg("view")
+        .arg(scene("sphere.scene"))
+        .env("GLIMRAY_SETTINGS", settings.path())
+        .env("VK_DRIVER_FILES", "/nonexistent")
+        .output()
+        .expect("glimray");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(5), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(
+        said.contains("no Vulkan driver") && said.contains("mesa-vulkan-drivers"),
+        "{said}"
+    );
 }
 
 #[test]
