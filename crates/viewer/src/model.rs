@@ -7,6 +7,7 @@ pub mod command_line;
 pub mod document;
 pub mod environment;
 pub mod file_dialog;
+pub mod file_manager;
 pub mod gallery;
 pub mod handles;
 pub mod histogram;

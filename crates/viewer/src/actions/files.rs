@@ -7,6 +7,7 @@ pub mod film;
 pub mod parts;
 pub mod pictures;
 mod screenshot;
+pub mod show;
 
 use crate::model::file_dialog::{self, Reply, Request, ends_in};
 use crate::model::watch::Change;
@@ -205,6 +206,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     reload_changed(session, ctx);
     pictures::update(session, ctx);
     film::update(session);
+    show::update(session);
     screenshot::update(session, ctx);
     closing::close(session, ctx);
     name(session, ctx);

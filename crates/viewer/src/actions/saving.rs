@@ -80,11 +80,12 @@ pub fn write(session: &mut Session, path: &Path) -> Result<(), String> {
     session.editing.written = Some(path.to_owned());
     let beside = written.len() - 1;
     files::saved(session, written);
-    session.messages.notify(match beside {
+    let told = match beside {
         0 => format!("Saved {}", path.display()),
         1 => format!("Saved {} and one asset file", path.display()),
         _ => format!("Saved {} and {beside} asset files", path.display()),
-    });
+    };
+    session.messages.saved(told, path.to_owned());
     Ok(())
 }
 

@@ -1,5 +1,6 @@
 //! Messages of the window: shown for as long as it takes to read them, and kept in a list.
 
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// Minimum time on screen, and the extra time per character.
@@ -40,6 +41,8 @@ pub struct Message {
     pub is_trouble: bool,
     /// Ways out. With one, the message stays until it is dismissed.
     pub remedies: &'static [Remedy],
+    /// The file that it says was written.
+    pub file: Option<PathBuf>,
     /// When it was added.
     pub since: Instant,
     is_read: bool,
@@ -66,20 +69,31 @@ pub struct Messages {
 impl Messages {
     /// Adds a warning. A visible message with the same text is replaced.
     pub fn warn(&mut self, text: String) {
-        self.add(sentence(&text), true, &[]);
+        self.add(sentence(&text), true, &[], None);
     }
 
     /// Adds a warning that stays until it is dismissed, with ways out.
     pub fn offer(&mut self, text: &str, remedies: &'static [Remedy]) {
-        self.add(sentence(text), true, remedies);
+        self.add(sentence(text), true, remedies, None);
     }
 
     /// Adds a message that is not a warning.
     pub fn notify(&mut self, text: impl Into<String>) {
-        self.add(text.into(), false, &[]);
+        self.add(text.into(), false, &[], None);
     }
 
-    fn add(&mut self, text: String, is_trouble: bool, remedies: &'static [Remedy]) {
+    /// Says that a file was written.
+    pub fn saved(&mut self, text: String, file: PathBuf) {
+        self.add(text, false, &[], Some(file));
+    }
+
+    fn add(
+        &mut self,
+        text: String,
+        is_trouble: bool,
+        remedies: &'static [Remedy],
+        file: Option<PathBuf>,
+    ) {
         (self.messages).retain(|known| known.text != text || known.rest().is_none());
         if self.messages.len() == MOST {
             self.messages.remove(0);
@@ -88,6 +102,7 @@ impl Messages {
             text,
             is_trouble,
             remedies,
+            file,
             since: Instant::now(),
             is_read: false,
         });

@@ -1,6 +1,7 @@
 //! The state of files: open, watched, requested and being written.
 
 use crate::model::file_dialog::{FileDialogs, Reply};
+use crate::model::file_manager::FileManager;
 use crate::model::loader::Trouble;
 use crate::model::preferences::SavedCamera;
 use crate::model::watch::Watch;
@@ -28,6 +29,10 @@ pub type PictureRead = Result<(Arc<Picture>, Vec<String>), ImportError>;
 pub struct Files {
     /// The source of file dialogs.
     pub dialogs: FileDialogs,
+    /// The file manager.
+    pub manager: FileManager,
+    /// The pending outcome of the file manager.
+    pub(crate) shown_in_folder: Option<Receiver<Result<(), String>>>,
     /// The scene that could not be read.
     pub broken: Option<Broken>,
     /// The typed path of a file to open.
@@ -162,6 +167,7 @@ impl Files {
             || self.to_watch.is_some()
             || self.environment.is_some()
             || self.model.is_some()
+            || self.shown_in_folder.is_some()
             || self.pending.is_posing()
     }
 

@@ -228,18 +228,18 @@ impl Jobs {
         self.list.retain(Job::is_active);
     }
 
-    /// Takes the outcomes since the last call, and tells each: the message about a file, or an error.
-    pub fn update(&mut self, mut tell: impl FnMut(Result<String, String>)) {
+    /// Takes the outcomes since the last call, and tells each: a file that was written, or an error.
+    pub fn update(&mut self, mut tell: impl FnMut(Result<Written, String>)) {
         for job in &mut self.list {
             let Some(receiver) = &job.receiver else {
                 continue;
             };
             job.state = match receiver.try_recv() {
                 Err(TryRecvError::Empty) => continue,
-                Ok(Ok(Some(Written { path, message }))) => {
-                    job.path = path;
+                Ok(Ok(Some(written))) => {
+                    job.path.clone_from(&written.path);
                     job.film = None;
-                    tell(Ok(message));
+                    tell(Ok(written));
                     JobState::Done
                 }
                 Ok(Ok(None)) => JobState::Cancelled,

@@ -5,7 +5,7 @@ mod broken;
 mod icon;
 pub(super) mod jobs;
 mod menu;
-mod messages;
+pub(super) mod messages;
 mod outline;
 mod parts;
 mod picture;

@@ -10,7 +10,9 @@ use glimray_app::sequence::pattern::Pattern;
 use glimray_io::output::Format;
 use glimray_render::{ExecutionPolicy, RenderSettings};
 use glimray_scene::{Scene, Shutter};
-use glimray_viewer::actions::files::{self, film, pictures};
+use glimray_viewer::actions::files::{self, film, pictures, show};
+use glimray_viewer::model::file_manager::{self, FileManager};
+use glimray_viewer::state::dialogs::Dialog;
 use glimray_viewer::state::files::Intent;
 use glimray_viewer::state::jobs::{JobState, Jobs, Written};
 use glimray_viewer::worker::film::FilmRequest;
@@ -252,4 +254,62 @@ fn closing_asks_about_a_picture_that_is_being_rendered() {
     place.click("Close without saving it");
     place.window.settle();
     assert!(!place.path("one_1.png").exists());
+}
+
+#[test]
+fn a_saved_picture_is_shown_in_its_folder_from_its_message_and_from_the_list() {
+    let mut place = Place::open();
+    let (sender, shown) = std::sync::mpsc::channel();
+    let manager = FileManager::new(move |path: &Path| {
+        sender.send(path.to_owned()).expect("someone who waits");
+        match path.extension().is_some_and(|ending| ending == "png") {
+            true => Ok(()),
+            false => Err("There is no desktop.".to_owned()),
+        }
+    });
+    place.window.session().files.manager = manager;
+    let file = PathBuf::from(place.proposed());
+    let name = file
+        .file_name()
+        .expect("a name")
+        .to_string_lossy()
+        .into_owned();
+    place.click("Save");
+    place.window.settle();
+    place.click(&format!("Show in folder: {name}"));
+    let path = shown.recv_timeout(PATIENCE).expect("a file");
+    assert_eq!(path, file);
+    place.window.settle();
+    place.window.session().dialogs.open(Dialog::Jobs);
+    place.window.settle();
+    place.click(&format!("Show {name} in its folder"));
+    assert_eq!(shown.recv_timeout(PATIENCE), Ok(file.clone()));
+    place.window.session().dialogs.close(Dialog::Jobs);
+    place.window.settle();
+    assert!(!place.has_notice("desktop"));
+
+    // Without a desktop, there is one line. A file that is gone is not looked for.
+    let other = place.path("one.toml");
+    let ctx = place.window.harness.ctx.clone();
+    show::in_folder(&mut place.window.session(), &other, &ctx);
+    place.window.settle();
+    assert!(place.has_notice("There is no desktop."));
+    assert_eq!(shown.try_recv(), Ok(other));
+    fs::remove_file(&file).expect("a file");
+    show::in_folder(&mut place.window.session(), &file, &ctx);
+    place.window.settle();
+    assert!(place.has_notice("it does not exist any more"));
+    assert!(shown.try_recv().is_err());
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_file_manager_gets_the_address_of_a_file_and_else_its_folder() {
+    let found = file_manager::commands(Path::new("/a b/c,d%é.png"));
+    let programs: Vec<_> = found.iter().map(|(program, _)| *program).collect();
+    assert_eq!(programs, ["dbus-send", "xdg-open"]);
+    // RFC 3986: a space is %20, a comma %2C, a percent sign %25, and é is C3 A9 in UTF-8.
+    let items = "array:string:file:///a%20b/c%2Cd%25%C3%A9.png";
+    assert!(found[0].1.iter().any(|it| it == items), "{found:?}");
+    assert_eq!(found[1].1, ["/a b"]);
 }

@@ -336,7 +336,7 @@ pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
     pass_copied(session, ctx);
     let messages = &mut session.messages;
     session.files.jobs.update(|outcome| match outcome {
-        Ok(message) => messages.notify(message),
+        Ok(written) => messages.saved(written.message, written.path),
         Err(why) => messages.warn(why),
     });
 }

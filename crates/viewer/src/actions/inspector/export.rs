@@ -77,7 +77,7 @@ pub fn update(session: &mut Session) {
             ));
         }
         Some(Reply::Chosen(path)) => match write(&path, &export.text) {
-            Ok(notice) => session.messages.notify(notice),
+            Ok(notice) => session.messages.saved(notice, path),
             Err(why) => session.messages.warn(why),
         },
         Some(Reply::Unavailable) => session.messages.warn(NO_DIALOG.to_owned()),

@@ -1,15 +1,18 @@
 //! The list of jobs: files that are being rendered or written, and those that were.
 
-use crate::actions::files::film;
+use crate::actions::files::{film, show};
 use crate::state::jobs::{Job, JobId, JobState};
 use crate::ui::context::PanelContext;
 use crate::ui::panels::jobs::progress;
+use crate::ui::panels::messages::SHOW;
 use eframe::egui::{self, Label, ProgressBar, RichText, ScrollArea, Ui, vec2};
+use std::path::PathBuf;
 
 /// A button beside a job.
 enum Wish {
     Cancel(JobId),
     Resume(JobId),
+    Show(PathBuf),
 }
 
 /// Draws the dialog. Returns whether it stays open.
@@ -40,6 +43,7 @@ pub fn show(ctx: &egui::Context, context: &mut PanelContext) -> bool {
     match wish {
         Some(Wish::Cancel(id)) => jobs.cancel(id),
         Some(Wish::Resume(id)) => film::resume(context.session, id),
+        Some(Wish::Show(path)) => show::in_folder(context.session, &path, ctx),
         None => {}
     }
     stays
@@ -57,6 +61,13 @@ fn row(ui: &mut Ui, job: &Job, context: &PanelContext) -> Option<Wish> {
             let copy = ui.button("Copy path").on_hover_text("Copy the file's path");
             if copy.accessible_name(format!("Copy path: {name}")).clicked() {
                 ui.ctx().copy_text(job.path.display().to_string());
+            }
+            if job.state == JobState::Done {
+                let show = ui.button("Show in folder").on_hover_text(SHOW);
+                let label = format!("Show {name} in its folder");
+                if show.accessible_name(label).clicked() {
+                    wish = Some(Wish::Show(job.path.clone()));
+                }
             }
             if job.can_resume() {
                 let resume = ui

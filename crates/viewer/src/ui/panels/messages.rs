@@ -1,11 +1,17 @@
 //! Shows messages until they expire.
 
+use crate::actions::files::show;
 use crate::actions::lighting;
 use crate::model::messages::Remedy;
 use crate::state::layout::{Layout, Panel};
 use crate::state::session::Session;
 use crate::ui::context::PanelContext;
+use crate::worker::free_name::short;
 use eframe::egui::{self, Align2, Area, Frame, Id, RichText};
+use std::path::Path;
+
+/// The effect of the button that shows a file.
+pub const SHOW: &str = "Open the file manager with this file selected";
 
 /// Maximum width of a message, in points.
 const WIDTH: f32 = 380.0;
@@ -47,12 +53,24 @@ pub fn messages(ui: &mut egui::Ui, context: &mut PanelContext, layout: &Layout) 
                                 if !notice.remedies.is_empty() {
                                     remedies(ui, context.session, notice.remedies);
                                 }
+                                if let Some(file) = &notice.file {
+                                    show_in_folder(ui, context.session, file);
+                                }
                             });
                         });
                     });
                 });
             }
         });
+}
+
+/// The button that shows a file that was written.
+fn show_in_folder(ui: &mut egui::Ui, session: &mut Session, file: &Path) {
+    let button = ui.button("Show in folder").on_hover_text(SHOW);
+    let name = format!("Show in folder: {}", short(file));
+    if button.accessible_name(name).clicked() {
+        show::in_folder(session, file, ui.ctx());
+    }
 }
 
 /// The ways out of what a message reports.
